@@ -96,7 +96,7 @@ struct DriveScene
   DriveSource source = DriveSource::kNone;
   /** Constant pushing speed until `travel` is reached; NaN: use the insertion profile [m/s]. */
   double speed = std::numeric_limits<double>::quiet_NaN();
-  double travel = 0.0;              ///< insertion at which pushing at `speed` stops [m]
+  double travel = 0.0;              ///< how far `speed` pushes beyond initial_insertion [m]
   double initial_insertion = 0.0;   ///< wire beyond the introducer at the start [m]
   double initial_rotation = 0.0;    ///< added to the rotation at all times [rad]
   DriveProfile insertion;           ///< [m], added to initial_insertion
@@ -104,8 +104,10 @@ struct DriveScene
   double force_limit = 5.0;         ///< axial force at which the hand slips [N]
   double torque_limit = 0.05;       ///< torque at which the hand slips [N·m]
 
-  /** Commanded insertion [m] and rotation [rad] at time t [s]; zero where the source is kNone. */
+  /** Commanded insertion at time t [s]: initial_insertion + min(speed·t, travel), or + insertion.at(t) without a speed;
+   *  initial_insertion where the source is kNone [m]. */
   double insertionAt(double t) const;
+  /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone [rad]. */
   double rotationAt(double t) const;
 };
 
@@ -212,7 +214,10 @@ struct Scene
  *  @throws InputError naming file, key and remedy for an unknown key, a missing or impossible value, a missing file */
 Scene loadScene(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/** The same from the resolved text of a recording; @p origin names it in errors. */
-Scene parseScene(const std::string& yaml, const std::string& origin);
+/** The same from the resolved text of a recording; @p origin names it in errors, and relative paths are sought beside it. */
+Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides = {});
+
+/** The nodes that a scene needs, by executable name, in the order in which they are started. */
+std::vector<std::string> requiredNodes(const Scene& scene);
 
 }  // namespace endovascular_sim::session

@@ -1,0 +1,28 @@
+#pragma once
+
+namespace endovascular_sim::instrument
+{
+
+/** Stiffness of a cross-section. */
+struct Stiffness
+{
+  double bending = 0.0;    ///< EI [N·m²]
+  double torsional = 0.0;  ///< GJ [N·m²]
+  double axial = 0.0;      ///< EA [N]
+};
+
+/** Shear modulus G = E / (2 (1 + ν)) of an isotropic material [Pa].
+ *  @param young_modulus E [Pa]
+ *  @param poisson_ratio ν in (−1, 0.5] */
+double shearModulus(double young_modulus, double poisson_ratio);
+
+/** A solid round section: EI = E·π r⁴/4, GJ = G·π r⁴/2, EA = E·π r².
+ *  @param young_modulus E [Pa]
+ *  @param shear_modulus G [Pa]
+ *  @param radius r [m] */
+Stiffness solidSection(double young_modulus, double shear_modulus, double radius);
+
+/** The Young's modulus [Pa] that gives a solid section of this radius [m] the bending stiffness EI [N·m²]. */
+double equivalentYoungModulus(double bending_stiffness, double radius);
+
+}  // namespace endovascular_sim::instrument

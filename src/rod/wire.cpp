@@ -1,0 +1,25 @@
+#include "rod/wire.h"
+
+namespace endovascular_sim::rod
+{
+
+double Wire::length() const
+{
+  double sum = 0.0;
+  for (const Section& section : sections)
+    sum += section.length;
+  return sum;
+}
+
+double Wire::curvedTipLength() const
+{
+  std::size_t first = 0;
+  while (first < sections.size() && sections[first].rest_curvature.isZero(0.0))
+    ++first;
+  double sum = 0.0;
+  for (; first < sections.size(); ++first)
+    sum += sections[first].length;
+  return sum;
+}
+
+}  // namespace endovascular_sim::rod

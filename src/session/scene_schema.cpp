@@ -1,0 +1,235 @@
+#include "session/scene_schema.h"
+
+#include <cmath>
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+// Numbers of EndCondition, DriveSource, SamplingKind.
+const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
+const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
+const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
+
+// Lengths that differ by less than this were meant to be equal [m].
+constexpr double kSameLength = 1e-9;
+
+void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit)
+{
+  std::vector<std::vector<double>> rows;
+  for (const DriveProfile::Point& point : profile.points)
+    rows.push_back({point.time, point.value});
+  fields.rows("points", rows, 2, "s and " + unit);
+  profile.points.clear();
+  for (const std::vector<double>& row : rows)
+  {
+    if (fields.reading() && !profile.points.empty() && row[0] <= profile.points.back().time)
+      fields.refuse("points", "times must be increasing; each row is [time in s, value in " + unit + "]");
+    profile.points.push_back({row[0], row[1]});
+  }
+  fields.number("amplitude", profile.amplitude, unit, Range::any());
+  fields.number("frequency", profile.frequency, "Hz", Range::nonNegative());
+  fields.number("phase", profile.phase, "rad", Range::any());
+  if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
+    fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
+}
+
+bool isTrivial(const DriveProfile& profile)
+{
+  return profile.points.empty() && profile.amplitude == 0.0;
+}
+
+void visitSampling(SceneFields& fields, SamplingScene& sampling)
+{
+  fields.option("kind", sampling.kind, kSamplingKinds);
+  fields.integer("nodes", sampling.nodes, 3, 100000);
+  fields.number("min_edge", sampling.min_edge, "m", Range::positive());
+  fields.number("max_edge", sampling.max_edge, "m", Range::positive());
+  if (fields.reading() && sampling.min_edge > sampling.max_edge)
+    fields.refuse("min_edge", "is longer than max_edge; must be at most " + std::to_string(sampling.max_edge));
+}
+
+void visitRecord(SceneFields& fields, RecordScene& record)
+{
+  fields.number("pose_rate", record.pose_rate, "Hz", Range::positive());
+  fields.number("trajectory_rate", record.trajectory_rate, "Hz", Range::positive());
+}
+
+/** Bounds of a profile's value. */
+std::pair<double, double> bounds(const DriveProfile& profile)
+{
+  double low = profile.points.empty() ? 0.0 : profile.points.front().value;
+  double high = low;
+  for (const DriveProfile::Point& point : profile.points)
+  {
+    low = std::min(low, point.value);
+    high = std::max(high, point.value);
+  }
+  const double swing = std::abs(profile.amplitude);
+  return {low - swing, high + swing};
+}
+
+/** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer. */
+void checkInsertion(const SceneFields& fields, const Scene& scene)
+{
+  const DriveScene& drive = scene.drive;
+  const bool by_speed = !std::isnan(drive.speed);
+  const auto [low, high] = by_speed ? std::pair(0.0, drive.travel) : bounds(drive.insertion);
+  const double length = scene.instrument.wire.length();
+  const std::string key = by_speed ? "drive.travel" : "drive.insertion";
+  if (drive.initial_insertion + high > length + kSameLength)
+    fields.refuse(key, "pushes the wire " + std::to_string(drive.initial_insertion + high) + " m in, but it is " +
+                           std::to_string(length) + " m long; must be at most the wire's length");
+  if (drive.initial_insertion + low < -kSameLength)
+    fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
+}
+
+void checkScene(const SceneFields& fields, const Scene& scene)
+{
+  const bool held_twice = scene.introducer && scene.proximal_end != EndCondition::kFree;
+  if (held_twice)
+    fields.refuse("proximal_end",
+                  "the introducer holds the wire already; set introducer: false, or proximal_end: free");
+  if (scene.introducer)
+    checkInsertion(fields, scene);
+  if (scene.drive.source == DriveSource::kDevice && !scene.haptic_device)
+    fields.refuse("drive", "source is device, but haptic_device is not true; set haptic_device: true");
+  if (scene.duration < scene.solver.time_step)
+    fields.refuse("duration", "is shorter than one step; must be at least solver.time_step");
+  if (!scene.vessel || !scene.vessel->tube)
+    return;
+  for (const rod::Section& section : scene.instrument.wire.sections)
+    if (section.radius >= scene.vessel->tube->radius)
+      fields.refuse("vessel", "the tube is narrower than the wire; tube.radius must be greater than " +
+                                  std::to_string(section.radius) + " m");
+}
+
+}  // namespace
+
+void visitDrive(SceneFields& fields, DriveScene& drive)
+{
+  fields.option("source", drive.source, kDriveSources);
+  fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
+  const bool by_speed = !std::isnan(drive.speed);
+  if (by_speed)
+    fields.number("travel", drive.travel, "m", Range::nonNegative(), Need::kRequired);
+  else if (fields.has("travel"))
+    fields.refuse("travel", "has no meaning without speed; give speed in m/s, or remove it");
+  fields.number("initial_insertion", drive.initial_insertion, "m", Range::nonNegative());
+  fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
+  if (fields.reading() && by_speed && fields.has("insertion"))
+    fields.refuse("insertion", "given besides speed; keep one of the two");
+  if (!by_speed)
+    fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
+  fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
+  fields.number("force_limit", drive.force_limit, "N", Range::positive());
+  fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
+  const bool moves = by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation);
+  if (fields.reading() && drive.source == DriveSource::kNone && moves)
+    fields.refuse("source", "is none, but a motion is given; set source: script");
+}
+
+void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
+{
+  fields.vector3("gravity", loads.gravity, "m/s²");
+  fields.number("fluid_density", loads.fluid_density, "kg/m³", Range::nonNegative());
+  fields.number("drag_coefficient", loads.drag_coefficient, "1", Range::nonNegative());
+  fields.number("damping", loads.damping, "1/s", Range::nonNegative());
+  fields.list(
+      "point_loads", loads.point_loads.size(), [&loads](std::size_t size) { loads.point_loads.resize(size); },
+      [&loads, wire_length](SceneFields& load_fields, std::size_t k)
+      {
+        PointLoad& load = loads.point_loads[k];
+        if (load_fields.reading())
+          load.position = wire_length;
+        load_fields.number("position", load.position, "m", Range::nonNegative());
+        load_fields.vector3("force", load.force, "N");
+        load_fields.number("torque", load.torque, "N·m", Range::any());
+        load_fields.number("ramp_time", load.ramp_time, "s", Range::nonNegative());
+        if (!load_fields.reading())
+          return;
+        if (load.position > wire_length + kSameLength)
+          load_fields.refuse("position", "lies beyond the tip; must be at most the wire's length, " +
+                                             std::to_string(wire_length) + " m");
+        if (load.torque != 0.0 && load.position < wire_length - kSameLength)
+          load_fields.refuse("torque", "acts at the tip only; remove position, or torque");
+      });
+}
+
+void visitSolver(SceneFields& fields, SolverScene& solver)
+{
+  int scheme = 0;
+  fields.choice("scheme", scheme, {"kkt"});
+  fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
+  fields.integer("max_newton", solver.max_newton, 1, 1000);
+  fields.number("strain_tolerance", solver.strain_tolerance, "1", Range::positive());
+  fields.number("contact_stiffness", solver.contact_stiffness, "N/m", Range::positive());
+  fields.number("contact_margin", solver.contact_margin, "m", Range::positive());
+  fields.number("max_travel_per_substep", solver.max_travel_per_substep, "m", Range::positive());
+  fields.number("guide_length", solver.guide_length, "m", Range::nonNegative());
+}
+
+void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+{
+  const Range turn = Range::between(-M_PI, M_PI);
+  fields.number("rate", fluoroscopy.rate, "Hz", {0.0, 60.0, true, false});
+  fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
+  fields.number("primary_angle", fluoroscopy.primary_angle, "rad", turn);
+  fields.number("secondary_angle", fluoroscopy.secondary_angle, "rad", turn);
+  fields.number("source_to_detector", fluoroscopy.source_to_detector, "m", Range::positive());
+  fields.number("source_to_patient", fluoroscopy.source_to_patient, "m", Range::positive());
+  if (fields.reading() && fluoroscopy.source_to_patient >= fluoroscopy.source_to_detector)
+    fields.refuse("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
+  fields.number("detector_width", fluoroscopy.detector_width, "m", Range::positive());
+  if (fields.reading() ? fields.has("isocentre") : fluoroscopy.isocentre.has_value())
+  {
+    if (!fluoroscopy.isocentre)
+      fluoroscopy.isocentre = Eigen::Vector3d::Zero();
+    fields.vector3("isocentre", *fluoroscopy.isocentre, "m");
+  }
+  // The span of the attenuation tables.
+  fields.number("energy", fluoroscopy.energy, "keV", Range::between(30.0, 100.0));
+  fields.number("iodine", fluoroscopy.iodine, "mgI/ml", Range::between(0.0, 500.0));
+  fields.number("tissue_thickness", fluoroscopy.tissue_thickness, "m", Range::nonNegative());
+  fields.boolean("follow_tip", fluoroscopy.follow_tip);
+}
+
+void visitScene(SceneFields& fields, Scene& scene)
+{
+  fields.text("name", scene.name);
+  fields.bigInteger("seed", scene.seed);
+  fields.number("duration", scene.duration, "s", Range::positive());
+  if (fields.reading() ? fields.has("vessel") : scene.vessel.has_value())
+  {
+    if (!scene.vessel)
+      scene.vessel.emplace();
+    fields.map("vessel", [&scene](SceneFields& vessel) { visitVessel(vessel, *scene.vessel); });
+  }
+  fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
+  if (fields.reading() && !fields.has("instrument"))
+    fields.refuse("instrument", "missing; give a file, e.g. instrument: instruments/guidewire_035_j.yaml, or its keys");
+  fields.map("instrument", [&scene](SceneFields& wire) { visitInstrument(wire, scene.instrument); });
+  fields.map("drive", [&scene](SceneFields& drive) { visitDrive(drive, scene.drive); });
+  if (fields.reading())
+    scene.introducer = scene.drive.source != DriveSource::kNone;
+  fields.boolean("introducer", scene.introducer);
+  fields.option("proximal_end", scene.proximal_end, kEndConditions);
+  fields.option("distal_end", scene.distal_end, kEndConditions);
+  const double wire_length = scene.instrument.wire.length();
+  fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
+  fields.map("sampling", [&scene](SceneFields& sampling) { visitSampling(sampling, scene.sampling); });
+  fields.map("solver", [&scene](SceneFields& solver) { visitSolver(solver, scene.solver); });
+  if (fields.reading() ? fields.has("fluoroscopy") : scene.fluoroscopy.has_value())
+  {
+    if (!scene.fluoroscopy)
+      scene.fluoroscopy.emplace();
+    fields.map("fluoroscopy", [&scene](SceneFields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
+  }
+  fields.boolean("haptic_device", scene.haptic_device);
+  fields.map("record", [&scene](SceneFields& record) { visitRecord(record, scene.record); });
+  if (fields.reading())
+    checkScene(fields, scene);
+}
+
+}  // namespace endovascular_sim::session
