@@ -74,7 +74,7 @@ public:
   virtual void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
                     const std::function<void(SceneFields&, std::size_t)>& visit, Need need = Need::kOptional) = 0;
 
-  /** Throws InputError for @p key (empty: the map itself). */
+  /** Throws InputError for @p key, which may be a path below this map (empty: the map itself). */
   [[noreturn]] virtual void refuse(const std::string& key, const std::string& remedy) const = 0;
 
   void vector3(const std::string& key, Eigen::Vector3d& value, const std::string& unit, Need need = Need::kOptional)

@@ -168,12 +168,6 @@ const SceneNode* SceneReader::visit(const std::string& key, Need need, const std
   const SceneNode* found = node_ == nullptr ? nullptr : node_->find(key);
   if (found == nullptr && need == Need::kRequired)
   {
-    // A misspelt required key is better explained as such.
-    if (node_ != nullptr)
-      for (const auto& field : node_->fields)
-        if (field.first != key && editDistance(field.first, key) <= 2 &&
-            std::find(known_.begin(), known_.end(), field.first) == known_.end())
-          refuseNode(field.second, pathOf(field.first), "unknown key; did you mean \"" + key + "\"?");
     refuse(key, "missing; give " + expected);
   }
   return found;
@@ -232,7 +226,7 @@ void SceneReader::boolean(const std::string& key, bool& value)
   if (node == nullptr)
     return;
   if (node->kind != SceneNode::Kind::kScalar || (node->text != "true" && node->text != "false"))
-    refuseNode(*node, pathOf(key), "must be true or false");
+    refuseNode(*node, pathOf(key), "is \"" + node->text + "\"; must be true or false");
   value = node->text == "true";
 }
 
@@ -306,9 +300,28 @@ void SceneReader::list(const std::string& key, std::size_t /*size*/, const std::
 
 void SceneReader::refuse(const std::string& key, const std::string& remedy) const
 {
-  const SceneNode* field = node_ == nullptr || key.empty() ? nullptr : node_->find(key);
-  const SceneNode& place = field != nullptr ? *field : node_ != nullptr ? *node_ : parent_;
-  throw InputError(place.file, (key.empty() ? path_ : pathOf(key)) + place.place(), remedy);
+  refuseMisspelt();
+  // The key may be a path below this map: the place is the deepest value on it that exists.
+  const SceneNode* place = node_ == nullptr ? &parent_ : node_;
+  std::istringstream path(key);
+  for (std::string word; std::getline(path, word, '.');)
+    if (const SceneNode* next = place->find(word))
+      place = next;
+    else
+      break;
+  throw InputError(place->file, (key.empty() ? path_ : pathOf(key)) + place->place(), remedy);
+}
+
+void SceneReader::refuseMisspelt() const
+{
+  if (node_ == nullptr)
+    return;
+  const auto is_known = [this](const std::string& key)
+  { return std::find(known_.begin(), known_.end(), key) != known_.end(); };
+  for (const auto& [key, value] : node_->fields)
+    for (const std::string& known : known_)
+      if (!is_known(key) && editDistance(key, known) <= 2 && node_->find(known) == nullptr)
+        refuseNode(value, pathOf(key), "unknown key; did you mean \"" + known + "\"?");
 }
 
 }  // namespace endovascular_sim::session

@@ -94,15 +94,15 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   if (scene.introducer)
     checkInsertion(fields, scene);
   if (scene.drive.source == DriveSource::kDevice && !scene.haptic_device)
-    fields.refuse("drive", "source is device, but haptic_device is not true; set haptic_device: true");
+    fields.refuse("drive.source", "is device, but haptic_device is not true; set haptic_device: true");
   if (scene.duration < scene.solver.time_step)
     fields.refuse("duration", "is shorter than one step; must be at least solver.time_step");
   if (!scene.vessel || !scene.vessel->tube)
     return;
   for (const rod::Section& section : scene.instrument.wire.sections)
     if (section.radius >= scene.vessel->tube->radius)
-      fields.refuse("vessel", "the tube is narrower than the wire; tube.radius must be greater than " +
-                                  std::to_string(section.radius) + " m");
+      fields.refuse("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
+                                              std::to_string(section.radius) + " m");
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
   node.file = file;
   node.line = yaml.Mark().line + 1;
   if (depth > kMaxDepth)
-    throw InputError(file, path + node.place(), "nested too deeply; an anchor must not contain itself");
+    throw InputError(file, path.substr(0, path.find('.')) + node.place(),
+                     "nested too deeply; an anchor must not contain itself");
   switch (yaml.Type())
   {
     case YAML::NodeType::Undefined:

@@ -1,0 +1,48 @@
+#include "instrument/stiffness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace endovascular_sim::instrument
+{
+namespace
+{
+
+TEST(Stiffness, OfASolidSectionIsTheModulusTimesTheIntegralOverTheDisc)
+{
+  // Integrals of y² and r² over the disc by the midpoint rule in polar coordinates.
+  const double radius = 0.3;
+  double second_moment = 0.0;
+  double polar_moment = 0.0;
+  double area = 0.0;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+    {
+      const double r = (i + 0.5) * radius / n;
+      const double angle = (j + 0.5) * 2.0 * M_PI / n;
+      const double cell = r * (radius / n) * (2.0 * M_PI / n);
+      area += cell;
+      polar_moment += r * r * cell;
+      second_moment += std::pow(r * std::sin(angle), 2) * cell;
+    }
+  const Stiffness stiffness = solidSection(7.0, 5.0, radius);
+  EXPECT_NEAR(stiffness.bending, 7.0 * second_moment, 1e-5 * stiffness.bending);
+  EXPECT_NEAR(stiffness.torsional, 5.0 * polar_moment, 1e-5 * stiffness.torsional);
+  EXPECT_NEAR(stiffness.axial, 7.0 * area, 1e-5 * stiffness.axial);
+}
+
+TEST(Stiffness, OfAWireBendsByOnePlusPoissonMoreThanItTwists)
+{
+  const Stiffness stiffness = solidSection(80e9, shearModulus(80e9, 0.3), 4e-4);
+  EXPECT_NEAR(stiffness.bending / stiffness.torsional, 1.3, 1e-12);
+}
+
+TEST(Stiffness, ComesBackFromTheEquivalentModulus)
+{
+  EXPECT_NEAR(equivalentYoungModulus(solidSection(123e9, 1.0, 2e-4).bending, 2e-4), 123e9, 1.0);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::instrument
