@@ -1,5 +1,6 @@
 #include "haptics/rosserial_protocol.h"
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -35,9 +36,12 @@ Bytes encodeFrame(std::uint16_t id, const Bytes& payload)
   const std::size_t length = payload.size();
   if (length > 0xffff)
     throw std::length_error("a rosserial frame carries at most 65535 bytes");
-  Bytes bytes = {kSync, kVersion, low(length), high(length), complement(low(length) + high(length)), low(id), high(id)};
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
-  bytes.push_back(complement(std::accumulate(payload.begin(), payload.end(), unsigned{low(id)} + high(id))));
+  const Bytes header = {kSync,   kVersion, low(length), high(length), complement(low(length) + high(length)),
+                        low(id), high(id)};
+  Bytes bytes(length + kFrameOverhead);
+  std::copy(header.begin(), header.end(), bytes.begin());
+  std::copy(payload.begin(), payload.end(), bytes.begin() + kHeaderSize);
+  bytes.back() = complement(std::accumulate(payload.begin(), payload.end(), unsigned{low(id)} + high(id)));
   return bytes;
 }
 
