@@ -1,0 +1,221 @@
+# Shared part of `demo`: one session of the node graph, from a scene to a folder of results. Sourced by bash.
+
+launch_pid='' device_pid='' virtual_display_pid='' session_status=1
+
+# The scene's file, by name in config/scenes or by path.
+find_scene() {
+  local wanted=$1
+  if [ -f "$wanted" ]; then
+    printf '%s/%s\n' "$(cd "$(dirname "$wanted")" && pwd -P)" "$(basename "$wanted")"
+  elif [ -f "$repository/config/scenes/$wanted.yaml" ]; then
+    printf '%s\n' "$repository/config/scenes/$wanted.yaml"
+  else
+    {
+      echo "error: there is no scene '$wanted': neither a file of that path nor a name of config/scenes. The names there are:"
+      for file in "$repository"/config/scenes/*.yaml; do [ -f "$file" ] && echo "         $(basename "$file" .yaml)"; done
+    } >&2
+    exit 2
+  fi
+}
+
+# Chooses and makes the folder of results; never writes over an earlier session.
+prepare_results() {
+  local name
+  name=$(basename "$1" .yaml)
+  [ -n "$results" ] || results="$workspace/results/$name-$(date +%Y%m%d-%H%M%S)"
+  case "$results" in /*) ;; *) results="$PWD/$results" ;; esac
+  if [ -e "$results/session.bag" ] || [ -e "$results/report.json" ]; then
+    die "$results already holds a session: give another folder with --out, or remove that one"
+  fi
+  mkdir -p "$results" || die "the folder $results cannot be made: give another one with --out"
+  results=$(cd "$results" && pwd -P)
+}
+
+free_port() {
+  python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+}
+
+# The graph is alone on this machine: own master, own logs.
+ros_environment() {
+  ROS_MASTER_URI="http://localhost:$(free_port)"
+  ROS_HOME="$results/ros"
+  ROS_LOG_DIR="$results/log"
+  export ROS_MASTER_URI ROS_HOME ROS_LOG_DIR
+  mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
+}
+
+check_real_time() {
+  local limit
+  limit=$(ulimit -r)
+  if [ "$(id -u)" -eq 0 ] || [ "$limit" = unlimited ] || [ "$limit" -gt 0 ]; then
+    return
+  fi
+  warn "this account may not ask for real-time scheduling, so more steps than need be will be late. As root, once:"
+  printf '%s\n' "           echo '$(id -un) - rtprio 80' > /etc/security/limits.d/90-endovascular-sim.conf" \
+    "         then log in again." >&2
+}
+
+# Ends a process of ours: SIGINT, then, after the given seconds, SIGTERM and SIGKILL.
+end_process() {
+  local pid=$1 patience=$2 signal
+  for signal in INT TERM KILL; do
+    kill -0 "$pid" 2>/dev/null || break
+    kill "-$signal" "$pid" 2>/dev/null || break
+    local waited=0
+    while kill -0 "$pid" 2>/dev/null && [ $waited -lt $((patience * 10)) ]; do
+      sleep 0.1
+      waited=$((waited + 1))
+    done
+    patience=5
+  done
+  wait "$pid" 2>/dev/null || true
+}
+
+clean_up() {
+  trap '' INT TERM
+  [ -n "$launch_pid" ] && end_process "$launch_pid" 25
+  [ -n "$device_pid" ] && end_process "$device_pid" 3
+  [ -n "$virtual_display_pid" ] && end_process "$virtual_display_pid" 3
+  rm -f "${results:-/nonexistent}/device"
+  launch_pid='' device_pid='' virtual_display_pid=''
+}
+
+interrupted() {
+  echo
+  say "Interrupted: closing the recording and ending every node"
+  clean_up
+  session_interrupted=true
+}
+
+# Processes started in the background of a script ignore SIGINT; the nodes must be able to receive it.
+in_background() {
+  python3 -c 'import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+if sys.argv[1] == "own": os.setpgid(0, 0)
+os.execvp(sys.argv[2], sys.argv[2:])' "$@"
+}
+
+start_device() {
+  local arguments=(--link "$results/device" --scene "$scene_file" --out "$results/device_latency.json")
+  [ -n "$seconds" ] && arguments+=(--seconds "$seconds")
+  local override
+  for override in "${all_overrides[@]}"; do arguments+=(--set "$override"); done
+  if $keyboard; then
+    arguments+=(--keyboard)
+    exec 3<&0
+    in_background same rosrun endovascular_sim device_simulator "${arguments[@]}" <&3 &
+  else
+    in_background own rosrun endovascular_sim device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
+  fi
+  device_pid=$!
+  local waited=0
+  while [ ! -e "$results/device" ]; do
+    kill -0 "$device_pid" 2>/dev/null || { cat "$results/log/device.log" >&2; die "the device simulator ended at once"; }
+    [ $waited -ge 50 ] && die "the device simulator opened no line within 5 s (see $results/log/device.log)"
+    sleep 0.1
+    waited=$((waited + 1))
+  done
+}
+
+# Runs the graph until the scene's duration is over. Sets session_status.
+run_session() {
+  session_interrupted=false
+  all_overrides=("${overrides[@]}")
+  [ -n "$seconds" ] && all_overrides+=("duration=$seconds")
+  local check_arguments=() override
+  for override in "${all_overrides[@]}"; do check_arguments+=(--set "$override"); done
+
+  local nodes
+  nodes=$(rosrun endovascular_sim scene_check "$scene_file" "${check_arguments[@]}" --nodes) ||
+    die "the scene was refused (see above)"
+  mkdir -p "$results/log"
+  ros_environment
+  check_real_time
+  trap interrupted INT TERM
+  trap clean_up EXIT
+
+  local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results" stop_at_duration:=true)
+  local node
+  for node in vessel_server contact rod_dynamics fluoroscopy haptic_device session visualization; do
+    if grep -qx "$node" <<< "$nodes"; then arguments+=("$node:=true"); else arguments+=("$node:=false"); fi
+  done
+  local launch_file=sim.launch
+  if $with_rviz && ! $headless && [ -n "${DISPLAY:-}" ]; then launch_file=demo.launch; fi
+
+  say "Scene $scene_file"
+  note "nodes: $(tr '\n' ' ' <<< "$nodes")"
+  note "results: $results"
+  if grep -qx haptic_device <<< "$nodes"; then
+    start_device
+    arguments+=("device:=$results/device")
+  elif $keyboard; then
+    die "the scene starts no haptic device, so there is nothing to drive with the keyboard"
+  fi
+
+  local status=0
+  if $keyboard; then
+    in_background own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
+  else
+    in_background own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
+      > >(tee "$results/log/launch.log" | grep --line-buffered -E '\[session\]|WARN|ERROR|FATAL|error|died') 2>&1 &
+  fi
+  launch_pid=$!
+  while kill -0 "$launch_pid" 2>/dev/null; do
+    wait "$launch_pid" && status=0 || status=$?
+    $session_interrupted && break
+  done
+  clean_up
+  trap - EXIT INT TERM
+
+  if [ ! -s "$results/report.json" ]; then
+    printf '%s\n' "error: the session wrote no report; the last lines of the graph's log:" >&2
+    tail -n 20 "$results/log/launch.log" >&2
+    session_status=1
+  elif $session_interrupted; then
+    session_status=130
+  else
+    session_status=0
+  fi
+}
+
+# Pictures, plots and the closing words.
+after_session() {
+  [ -s "$results/report.json" ] || return 0
+  if $with_rviz; then
+    draw_rviz || { warn "rviz.png could not be drawn (see $results/log/rviz.log)"; }
+  fi
+  rosrun endovascular_sim plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
+    { cat "$results/log/plots.log" >&2; warn "the plots could not be drawn"; }
+  rosrun endovascular_sim session_summary.py "$results" || session_status=1
+}
+
+# Plays the bag into rviz on a virtual screen and keeps one picture of its end.
+draw_rviz() {
+  local display_file="$results/log/display" display waited=0
+  in_background own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
+  virtual_display_pid=$!
+  trap clean_up EXIT
+  trap interrupted INT TERM
+  while [ ! -s "$display_file" ] && [ $waited -lt 50 ]; do sleep 0.1; waited=$((waited + 1)); done
+  [ -s "$display_file" ] || return 1
+  display=":$(cat "$display_file")"
+  ros_environment
+  say "Drawing rviz from the recording, in software"
+  in_background own env DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
+    replay.launch "bag:=$results/session.bag" rate:=8 > "$results/log/rviz.log" 2>&1 &
+  launch_pid=$!
+  waited=0
+  # The player ends with the bag; rviz then gets a moment to draw the last state.
+  until grep -q 'player.*has finished cleanly' "$results/log/rviz.log"; do
+    kill -0 "$launch_pid" 2>/dev/null || break
+    [ $waited -lt 120 ] || break
+    sleep 1
+    waited=$((waited + 1))
+  done
+  sleep 2
+  DISPLAY="$display" import -window root "$results/rviz.png" 2>> "$results/log/rviz.log" || true
+  clean_up
+  trap - EXIT INT TERM
+  [ -s "$results/rviz.png" ]
+}

@@ -1,0 +1,19 @@
+#!/bin/bash
+# A path that catkin takes apart is refused at once, with the reason, before anything is installed or built.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+for name in 'my work' 'a;b' 'a$b' 'a"b' 'a:b' 'größe'; do
+  mkdir -p "$folder/$name/catkin_ws"
+  cp -r "$repository/catkin_ws/demo" "$repository/catkin_ws/test" "$repository/catkin_ws/lib" \
+    "$repository/catkin_ws/packages.txt" "$folder/$name/catkin_ws/"
+  for command in demo test; do
+    status=0
+    message=$("$folder/$name/catkin_ws/$command" 2>&1) || status=$?
+    [ "$status" -eq 2 ]
+    grep -q 'catkin cannot build or test there' <<< "$message"
+    grep -qF "$folder/$name" <<< "$message"
+    [ ! -e "$folder/$name/catkin_ws/build" ]
+  done
+done
