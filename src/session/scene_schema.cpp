@@ -10,7 +10,7 @@ namespace
 // Numbers of EndCondition, DriveSource, SamplingKind.
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
-const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
+const std::vector<std::string> kSamplingKinds = {"uniform"};
 
 // Lengths that differ by less than this were meant to be equal [m].
 constexpr double kSameLength = 1e-9;
@@ -44,10 +44,6 @@ void visitSampling(SceneFields& fields, SamplingScene& sampling)
 {
   fields.option("kind", sampling.kind, kSamplingKinds);
   fields.integer("nodes", sampling.nodes, 3, 100000);
-  fields.number("min_edge", sampling.min_edge, "m", Range::positive());
-  fields.number("max_edge", sampling.max_edge, "m", Range::positive());
-  if (fields.reading() && sampling.min_edge > sampling.max_edge)
-    fields.refuse("min_edge", "is longer than max_edge; must be at most " + std::to_string(sampling.max_edge));
 }
 
 void visitRecord(SceneFields& fields, RecordScene& record)
@@ -85,6 +81,17 @@ void checkInsertion(const SceneFields& fields, const Scene& scene)
     fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
 }
 
+/** Without an introducer the whole wire is there: all that the hand can do is turn its clamp. */
+void checkBenchDrive(const SceneFields& fields, const Scene& scene)
+{
+  const DriveScene& drive = scene.drive;
+  if (!std::isnan(drive.speed) || !isTrivial(drive.insertion) || drive.initial_insertion != 0.0)
+    fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
+                  "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
+  if (drive.source != DriveSource::kNone && scene.proximal_end != EndCondition::kClamped)
+    fields.refuse("proximal_end", "is not clamped, so that the drive has no hold; set proximal_end: clamped");
+}
+
 void checkScene(const SceneFields& fields, const Scene& scene)
 {
   const bool held_twice = scene.introducer && scene.proximal_end != EndCondition::kFree;
@@ -93,6 +100,8 @@ void checkScene(const SceneFields& fields, const Scene& scene)
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
   if (scene.introducer)
     checkInsertion(fields, scene);
+  else
+    checkBenchDrive(fields, scene);
   if (scene.drive.source == DriveSource::kDevice && !scene.haptic_device)
     fields.refuse("drive.source", "is device, but haptic_device is not true; set haptic_device: true");
   if (scene.duration < scene.solver.time_step)

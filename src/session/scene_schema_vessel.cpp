@@ -157,6 +157,8 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
     fields.vector3("up", entry.up, "1");
   }
   fields.number("offset", entry.offset, "m", Range::nonNegative());
+  if (fields.reading() && entry.offset != 0.0 && !at_end)
+    fields.refuse("offset", "belongs to a centreline end; move position instead");
 }
 
 }  // namespace endovascular_sim::session
