@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace endovascular_sim::fluoroscopy
+{
+
+/** Mass attenuation coefficients and densities, read from config/xray/attenuation.yaml. */
+class AttenuationTable
+{
+public:
+  /** Reads and checks a table.
+   *  @throws InputError naming file, key and remedy */
+  static AttenuationTable load(const std::string& file);
+
+  /** Linear attenuation coefficient μ = (μ/ρ)·ρ [1/m] of a material of the table.
+   *  @param energy photon energy [keV]
+   *  @throws InputError for an unknown material or an energy outside the table */
+  double linear(const std::string& material, double energy) const;
+
+  /** Linear attenuation coefficient [1/m] of blood with iodine: μ_blood + c·(μ/ρ)_iodine.
+   *  @param iodine concentration c [mgI/ml]
+   *  @param energy photon energy [keV] */
+  double contrast(double iodine, double energy) const;
+
+  /** Mass attenuation coefficient [m²/kg], linear between the table's points in log μ/ρ over log energy; between two
+   *  points with the same energy the table jumps (an absorption edge). */
+  double mass(const std::string& material, double energy) const;
+
+private:
+  struct Material
+  {
+    double density = 0.0;        ///< [kg/m³]
+    std::vector<double> energy;  ///< increasing, an edge stands twice [keV]
+    std::vector<double> mass;    ///< [m²/kg]
+  };
+
+  const Material& find(const std::string& material) const;
+
+  std::string file_;
+  std::map<std::string, Material> materials_;
+};
+
+}  // namespace endovascular_sim::fluoroscopy
