@@ -125,7 +125,7 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   if (is_tube)
   {
     if (!vessel.tube)
-      vessel.tube.emplace();
+      vessel.tube = VesselScene::Tube{};
     fields.map("tube", [&vessel](SceneFields& tube) { visitTube(tube, *vessel.tube); });
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);

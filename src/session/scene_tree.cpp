@@ -128,7 +128,7 @@ std::string SceneNode::place() const
 
 SceneNode parseSceneTree(const std::string& yaml, const std::string& origin)
 {
-  const SceneNode root = convert(parseYaml(yaml, origin, ""), origin, "", 0);
+  SceneNode root = convert(parseYaml(yaml, origin, ""), origin, "", 0);
   if (root.kind != SceneNode::Kind::kMap)
     throw InputError(origin, "line 1", "has no keys; expected `key: value` lines, see docs/SCENES.md");
   return root;
