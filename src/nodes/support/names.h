@@ -17,14 +17,18 @@ constexpr auto kXRaySourceFrame = "x_ray_source_optical";
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
 constexpr auto kGetVessel = "vessel/get";
+constexpr auto kVesselMarker = "vessel/marker";
 
 constexpr auto kRodState = "rod/state";
 constexpr auto kRodStateVisual = "rod/state_visual";
+constexpr auto kWireMarker = "wire/marker";
+constexpr auto kTipPathMarker = "wire/tip_path";
 constexpr auto kContactSet = "contact/set";
 constexpr auto kContactForces = "contact/forces";
 
 constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kSessionInfo = "session/info";
+constexpr auto kSessionStop = "session/stop";
 
 constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";
 constexpr auto kFluoroscopyImage = "fluoroscopy/image";

@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Prints what a session came to, from its folder of results, and writes report.html beside the rest.
+
+The exit code is 0 when the session is complete: steps were made, all of them are in the recording, nothing was lost.
+"""
+
+import argparse
+import glob
+import html
+import json
+import os
+import sys
+
+
+def read_json(path):
+    """The file's content, or nothing where there is no such file or it is not JSON."""
+    try:
+        with open(path) as stream:
+            return json.load(stream)
+    except (OSError, ValueError):
+        return None
+
+
+def number(value, form, unit="", scale=1.0):
+    """Text of a number that may be unknown."""
+    return form % (scale * value) + unit if isinstance(value, (int, float)) else "not known"
+
+
+def penetration(report):
+    """Worst surface penetration [m] that a node told in /diagnostics."""
+    for values in report.get("diagnostics", {}).values():
+        for key, value in values.items():
+            if "penetration" in key and isinstance(value, (int, float)):
+                return value
+    return None
+
+
+def summary_rows(report, device, folder):
+    """What is worth saying, as pairs of label and text."""
+    recording = report["recording"]
+    rows = [
+        ("scene", "%s, hash %s" % (report["scene"]["name"], report["scene"]["hash"])),
+        ("steps", "%d of %s ms, %s simulated" % (report["steps"], number(report["scene"]["dt"], "%g", "", 1e3),
+                                                 number(report["simulated_time"], "%.3f", " s"))),
+        ("steps on time", number(report["on_time_percent"], "%.2f", " %")),
+        ("real-time factor", number(report["real_time_factor"], "%.3f")),
+        ("wire inside", number(report["inserted_length"], "%.1f", " mm", 1e3)),
+        ("force at the hand, max", number(report["hand_force"]["max"], "%.3f", " N")),
+        ("contact force, max", number(report["contact_force"]["max"], "%.3f", " N")),
+        ("worst penetration", number(penetration(report), "%.3f", " mm", 1e3)),
+    ]
+    if device:
+        latency = device.get("latency_ms") or device.get("latency") or {}
+        rows.append(("device latency, median / p99", "%s / %s" % (
+            number(latency.get("median"), "%.2f", " ms"), number(latency.get("p99"), "%.2f", " ms"))))
+    pictures = len(glob.glob(os.path.join(folder, "fluoroscopy", "*.png")))
+    rows += [
+        ("fluoroscopy", "%d frames, %d kept as PNG" % (report["fluoroscopy"]["frames"], pictures)),
+        ("recording", "%s, %.1f MB, %d messages" % (os.path.basename(recording["file"]), recording["bytes"] / 1e6,
+                                                    recording["messages"])),
+    ]
+    return rows
+
+
+def problems(report):
+    """Why the session is not complete, and what could be better: (fatal, texts)."""
+    fatal, remarks = [], []
+    if report["steps"] == 0:
+        fatal.append("no step was made")
+    if report.get("error"):
+        fatal.append(report["error"])
+    if report["steps_missing_from_recording"] > 0:
+        fatal.append("%d steps are missing from the recording" % report["steps_missing_from_recording"])
+    if report["recording"]["error"]:
+        fatal.append("the recording ended early: " + report["recording"]["error"])
+    if report["recording"]["dropped"] > 0:
+        fatal.append("%d messages were lost: the disk was too slow" % report["recording"]["dropped"])
+    on_time = report["on_time_percent"]
+    if isinstance(on_time, (int, float)) and on_time < 99.0:
+        remarks.append("fewer than 99 % of the steps were on time: allow real-time scheduling (docs/INSTALL.md) "
+                       "and end other programs")
+    return fatal, remarks
+
+
+def write_html(report, rows, fatal, remarks, folder):
+    """One page with the numbers and every picture that is there."""
+    title = "Session of scene %s" % report["scene"]["name"]
+    lines = ["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><title>%s</title>' % html.escape(title),
+             "<style>body{font-family:sans-serif;max-width:70em;margin:2em auto}td{padding:.2em 1em .2em 0}"
+             "img{max-width:100%}</style></head><body>", "<h1>%s</h1>" % html.escape(title), "<table>"]
+    lines += ["<tr><td>%s</td><td>%s</td></tr>" % (html.escape(label), html.escape(text)) for label, text in rows]
+    lines.append("</table>")
+    lines += ["<p><strong>%s</strong></p>" % html.escape(text) for text in fatal]
+    lines += ["<p>%s</p>" % html.escape(text) for text in remarks]
+    pictures = [name for name in ("rviz.png", "forces.png", "tip_path.png") if os.path.isfile(os.path.join(folder, name))]
+    frames = sorted(glob.glob(os.path.join(folder, "fluoroscopy", "*.png")))
+    if frames:
+        pictures.append("fluoroscopy/" + os.path.basename(frames[-1]))
+    lines += ['<p><img src="%s" alt="%s"></p>' % (name, name) for name in pictures]
+    lines.append("</body></html>")
+    with open(os.path.join(folder, "report.html"), "w") as stream:
+        stream.write("\n".join(lines) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="folder of results that the session wrote")
+    arguments = parser.parse_args()
+    report = read_json(os.path.join(arguments.folder, "report.json"))
+    if report is None:
+        sys.exit("session_summary.py: %s: no report.json that can be read" % arguments.folder)
+    device = read_json(os.path.join(arguments.folder, "device_latency.json"))
+    rows = summary_rows(report, device, arguments.folder)
+    fatal, remarks = problems(report)
+    try:
+        write_html(report, rows, fatal, remarks, arguments.folder)
+    except OSError as error:
+        print("session_summary.py: %s" % error, file=sys.stderr)
+    print("== Summary")
+    for label, text in rows:
+        print("   %-30s %s" % (label, text))
+    print("   %-30s %s" % ("results", os.path.abspath(arguments.folder)))
+    for text in remarks:
+        print("warning: " + text)
+    for text in fatal:
+        print("error: " + text)
+    return 1 if fatal else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
