@@ -17,7 +17,7 @@ struct ForceLimits
   double torque = 0.05;       ///< [N·m]
   double force_rate = 500.0;  ///< [N/s]
   double torque_rate = 5.0;   ///< [N·m/s]
-  double ramp_time = 20e-3;   ///< from any force to zero after release() [s]
+  double ramp_time = 15e-3;   ///< from any force to zero after release() [s]
 };
 
 /** The last station before the hand: clamps, limits the rate of change, and takes the force away on any doubt.

@@ -55,6 +55,7 @@ class SampleTimes
 {
 public:
   void add(const HandMotion& command, std::uint32_t time);
+  void clear() { count_ = 0; }
   /** The device's time [us] of the newest sample with exactly this command, within the last 4096. */
   std::optional<std::uint32_t> find(const HandMotion& command) const;
 
