@@ -32,9 +32,9 @@ void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
     transform.linear() = rotationFromBody(fields);
     return;
   }
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> rows(3);
   for (int i = 0; i < 3; ++i)
-    rows.push_back({transform(i, 0), transform(i, 1), transform(i, 2)});
+    rows[static_cast<std::size_t>(i)] = {transform(i, 0), transform(i, 1), transform(i, 2)};
   fields.rows("rotation", rows, 3, "1");
   if (!fields.reading())
     return;
