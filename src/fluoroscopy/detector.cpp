@@ -8,9 +8,15 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kWindowLow = -0.1;   // optical depth shown white
-constexpr double kWindowHigh = 5.0;   // optical depth shown black
-constexpr double kWindowScale = 1.5;  // optical depth over which the curve bends
+constexpr double kWhite = -0.5;       // compressed optical depth
+constexpr double kBlack = 2.2;        // compressed optical depth
+constexpr double kCompression = 1.2;  // optical depth over which the vessel's range is compressed
+constexpr double kDarkest = 1e-30;    // keeps the logarithm finite
+
+double opticalDepth(double intensity)
+{
+  return -std::log(std::max(intensity, kDarkest));
+}
 
 }  // namespace
 
@@ -19,12 +25,12 @@ std::uint16_t Detector::signal(double intensity)
   return static_cast<std::uint16_t>(std::clamp(kBackgroundSignal * intensity + 0.5, 0.0, 65535.0));
 }
 
-std::uint8_t Detector::grey(double intensity)
+std::uint8_t Detector::grey(double background, double wire)
 {
-  static const double kRange = std::log1p((kWindowHigh - kWindowLow) / kWindowScale);
-  const double depth = std::clamp(-std::log(std::max(intensity, 1e-30)), kWindowLow, kWindowHigh);
-  const double level = std::log1p((depth - kWindowLow) / kWindowScale) / kRange;
-  return static_cast<std::uint8_t>(255.0 * (1.0 - level) + 0.5);
+  const double depth = opticalDepth(background);
+  const double compressed = depth > 0.0 ? kCompression * (1.0 - std::exp(-depth / kCompression)) : depth;
+  const double level = (kBlack - compressed - opticalDepth(wire)) / (kBlack - kWhite);
+  return static_cast<std::uint8_t>(255.0 * std::clamp(level, 0.0, 1.0) + 0.5);
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -48,7 +48,7 @@ void Fluoroscope::renderBackground()
     {
       background_[k] = std::exp(-slab * (geometry_.ray(column, row).norm() - 1.0) - vessel * background_[k]);
       background_frame_.raw[k] = Detector::signal(background_[k]);
-      background_frame_.image[k] = Detector::grey(background_[k]);
+      background_frame_.image[k] = Detector::grey(background_[k], 1.0);
     }
   background_valid_ = true;
 }
@@ -62,9 +62,8 @@ const Frame& Fluoroscope::render(const XRayWire& wire)
   for (std::size_t i = 0; i < shadow_.pixels.size(); ++i)
   {
     const std::size_t k = shadow_.pixels[i];
-    const double intensity = background_[k] * shadow_.transmission[i];
-    frame_.raw[k] = Detector::signal(intensity);
-    frame_.image[k] = Detector::grey(intensity);
+    frame_.raw[k] = Detector::signal(background_[k] * shadow_.transmission[i]);
+    frame_.image[k] = Detector::grey(background_[k], shadow_.transmission[i]);
   }
   return frame_;
 }
