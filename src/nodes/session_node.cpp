@@ -1,0 +1,60 @@
+#include <cstdlib>
+#include <ctime>
+#include <iomanip>
+#include <sstream>
+
+#include <ros/ros.h>
+
+#include "common/error.h"
+#include "nodes/support/scene_parameters.h"
+#include "nodes/support/session_recorder.h"
+
+namespace
+{
+
+using endovascular_sim::nodes::RecorderSettings;
+
+/** Folder below ROS_HOME for a session that was given none. */
+std::string defaultFolder(const std::string& scene_name)
+{
+  const char* ros_home = std::getenv("ROS_HOME");
+  const char* home = std::getenv("HOME");
+  std::ostringstream folder;
+  folder << (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros");
+  const std::time_t now = std::time(nullptr);
+  folder << "/endovascular_sim/" << scene_name << "-" << std::put_time(std::localtime(&now), "%Y%m%d-%H%M%S");
+  return folder.str();
+}
+
+RecorderSettings settingsFrom(const ros::NodeHandle& parameters, const std::string& scene_name)
+{
+  RecorderSettings settings;
+  settings.folder = parameters.param<std::string>("results", "");
+  if (settings.folder.empty())
+    settings.folder = defaultFolder(scene_name);
+  settings.stop_at_duration = parameters.param("stop_at_duration", settings.stop_at_duration);
+  settings.patience = parameters.param("patience", settings.patience);
+  settings.start_patience = parameters.param("start_patience", settings.start_patience);
+  settings.picture_interval = parameters.param("picture_interval", settings.picture_interval);
+  return settings;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "session");
+  ros::NodeHandle node;
+  try
+  {
+    const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
+    endovascular_sim::nodes::SessionRecorder recorder(node, scene, settingsFrom(ros::NodeHandle("~"), scene.name));
+    ros::spin();
+    return recorder.finish() ? 0 : 1;
+  }
+  catch (const endovascular_sim::InputError& error)
+  {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+}

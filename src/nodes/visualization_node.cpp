@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include <ros/ros.h>
+#include <visualization_msgs/Marker.h>
+
+#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "nodes/support/names.h"
+#include "session/tube_mesh.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kMarkerRate = 30.0;          ///< [Hz]; rviz stutters with more
+constexpr int kTubeSides = 8;                 ///< corners of the drawn wire's cross-section
+constexpr std::size_t kTipPathPoints = 2000;  ///< the path keeps its newest points
+constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two of them [m]
+constexpr double kTipPathWidth = 0.6e-3;      ///< [m]
+
+Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
+{
+  return {point.x, point.y, point.z};
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& vector)
+{
+  geometry_msgs::Point point;
+  point.x = vector.x();
+  point.y = vector.y();
+  point.z = vector.z();
+  return point;
+}
+
+/** A marker in the given frame, with a fixed name and id, so that every message replaces the one before. */
+visualization_msgs::Marker marker(const std_msgs::Header& header, const char* name, int type)
+{
+  visualization_msgs::Marker result;
+  result.header = header;
+  result.ns = name;
+  result.id = 0;
+  result.type = type;
+  result.action = visualization_msgs::Marker::ADD;
+  result.pose.orientation.w = 1.0;
+  result.scale.x = result.scale.y = result.scale.z = 1.0;
+  result.color.a = 1.0F;
+  return result;
+}
+
+/** Draws the wire, its tip's path and, from a recording, the vessel. */
+class Visualization
+{
+public:
+  explicit Visualization(ros::NodeHandle& node, const ros::NodeHandle& parameters)
+    : full_scale_(parameters.param("force_full_scale", 0.1)),
+      radius_scale_(parameters.param("radius_scale", 1.5)),
+      wire_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
+      tip_path_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true))
+  {
+    const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+    rod_ = node.subscribe(names::kRodStateVisual, 2, &Visualization::drawWire, this, no_delay);
+    if (parameters.param("draw_vessel", false))
+    {
+      vessel_marker_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
+      vessel_ = node.subscribe(names::kVesselMesh, 1, &Visualization::drawVessel, this, no_delay);
+    }
+  }
+
+private:
+  void drawWire(const RodStateVisual& state)
+  {
+    if (state.time < last_time_)
+      path_.clear();  // the session, or the recording, has begun again
+    else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
+      return;
+    last_time_ = state.time;
+    if (state.nodes.empty() || state.radius.size() != state.nodes.size())
+      return;
+
+    std::vector<Eigen::Vector3d> nodes(state.nodes.size());
+    std::transform(state.nodes.begin(), state.nodes.end(), nodes.begin(), toEigen);
+    const session::TubeMesh mesh = session::tubeMesh(nodes, state.radius, kTubeSides, radius_scale_);
+    visualization_msgs::Marker tube = marker(state.header, "wire", visualization_msgs::Marker::TRIANGLE_LIST);
+    tube.points.resize(mesh.corners.size());
+    std::transform(mesh.corners.begin(), mesh.corners.end(), tube.points.begin(), toPoint);
+    const std::vector<std_msgs::ColorRGBA> colours = nodeColours(state);
+    tube.colors.reserve(mesh.corners.size());
+    for (const std::size_t i : mesh.node_of_corner)
+      tube.colors.push_back(colours[i]);
+    // rviz refuses an empty triangle list: before the first edge there is nothing to show.
+    if (!tube.points.empty())
+      wire_.publish(tube);
+    drawTipPath(state.header, nodes.back());
+  }
+
+  std::vector<std_msgs::ColorRGBA> nodeColours(const RodStateVisual& state) const
+  {
+    std::vector<std_msgs::ColorRGBA> colours(state.nodes.size());
+    for (std::size_t i = 0; i < colours.size(); ++i)
+    {
+      double force = 0.0;
+      if (i < state.contact_force.size())
+        force = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
+      const session::Colour colour = session::forceColour(force, full_scale_);
+      colours[i].r = colour.red;
+      colours[i].g = colour.green;
+      colours[i].b = colour.blue;
+      colours[i].a = 1.0F;
+    }
+    return colours;
+  }
+
+  void drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
+  {
+    if (!path_.empty() && (toEigen(path_.back()) - tip).norm() < kTipPathSpacing)
+      return;
+    path_.push_back(toPoint(tip));
+    if (path_.size() > kTipPathPoints)
+      path_.pop_front();
+    if (path_.size() < 2)
+      return;
+    visualization_msgs::Marker line = marker(header, "tip_path", visualization_msgs::Marker::LINE_STRIP);
+    line.scale.x = kTipPathWidth;
+    line.color.r = 0.25F;
+    line.color.g = 0.65F;
+    line.color.b = 1.0F;
+    line.color.a = 0.8F;
+    line.points.assign(path_.begin(), path_.end());
+    tip_path_.publish(line);
+  }
+
+  void drawVessel(const VesselMesh& vessel)
+  {
+    visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
+    wall.color.r = 0.85F;
+    wall.color.g = 0.35F;
+    wall.color.b = 0.33F;
+    wall.color.a = 0.3F;
+    wall.points.reserve(3 * vessel.mesh.triangles.size());
+    for (const shape_msgs::MeshTriangle& triangle : vessel.mesh.triangles)
+      for (const std::uint32_t index : triangle.vertex_indices)
+        if (index < vessel.mesh.vertices.size())
+          wall.points.push_back(vessel.mesh.vertices[index]);
+    if (!wall.points.empty() && wall.points.size() % 3 == 0)
+      vessel_marker_.publish(wall);
+  }
+
+  double full_scale_;
+  double radius_scale_;
+  double last_time_ = -1.0;
+  std::deque<geometry_msgs::Point> path_;
+  ros::Publisher wire_;
+  ros::Publisher tip_path_;
+  ros::Publisher vessel_marker_;
+  ros::Subscriber rod_;
+  ros::Subscriber vessel_;
+};
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "visualization");
+  ros::NodeHandle node;
+  const endovascular_sim::nodes::Visualization visualization(node, ros::NodeHandle("~"));
+  ros::spin();
+  return 0;
+}
