@@ -1,0 +1,353 @@
+#include "contact/detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "contact/closest_point.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+constexpr double kSlack = 0.8e-3;          // m that a node may move before its candidates are collected again
+constexpr double kReflexAngle = M_PI / 180.0;  // edges that bulge less than this meet the wire's nodes only
+constexpr double kDeepest = 3e-3;          // m beyond a triangle's plane: further away it is another branch's wall
+constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
+constexpr double kSameNormal = 0.9995;     // cosine above which two features of a node count as one
+constexpr double kConeTolerance = 1e-12;   // m
+constexpr double kOnRidge = 1e-12;         // m
+constexpr double kEnd = 1e-3;              // of a wire's edge: closer to a node the node's own features stand
+constexpr double kFarthest = 30e-3;        // m: free distances are not looked for beyond it
+
+enum FeatureKind
+{
+  kFace = 0,
+  kEdge = 1,
+  kVertex = 2,
+};
+
+std::int64_t featureId(int index, FeatureKind kind) { return std::int64_t{3} * index + kind; }
+
+}  // namespace
+
+Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
+  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_marked_(wall_.edges.size(), 0)
+{
+}
+
+double Detector::signedDistance(const Eigen::Vector3d& point) const
+{
+  const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity());
+  const Eigen::Vector3i& corners = wall_.triangles[nearest.triangle];
+  const TrianglePoint closest = closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
+                                                       wall_.vertices[corners[2]]);
+  const Eigen::Vector3d& normal =
+      closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
+      : closest.edge >= 0 ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
+                          : wall_.normals[nearest.triangle];
+  return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
+}
+
+void Detector::refresh(Candidates& candidates, const Eigen::Vector3d& point, double radius)
+{
+  candidates.centre = point;
+  candidates.radius = radius;
+  candidates.triangles.clear();
+  candidates.reflex_edges.clear();
+  bvh_.collect(point, radius, candidates.triangles);
+  // Collected in the tree's order: sorted, so that results do not depend on where the list came from.
+  std::sort(candidates.triangles.begin(), candidates.triangles.end());
+  double nearest = radius;
+  std::size_t kept = 0;
+  for (int t : candidates.triangles)
+  {
+    const Eigen::Vector3i& corners = wall_.triangles[t];
+    const double distance = (closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
+                                                    wall_.vertices[corners[2]])
+                                 .point -
+                             point)
+                                .norm();
+    if (distance > radius)
+      continue;
+    nearest = std::min(nearest, distance);
+    candidates.triangles[kept++] = t;
+    for (int e : wall_.triangle_edges[t])
+      if (wall_.edges[e].reflex_angle > kReflexAngle && !edge_marked_[e])
+      {
+        edge_marked_[e] = 1;
+        candidates.reflex_edges.push_back(e);
+      }
+  }
+  candidates.triangles.resize(kept);
+  for (int e : candidates.reflex_edges)
+    edge_marked_[e] = 0;
+  std::sort(candidates.reflex_edges.begin(), candidates.reflex_edges.end());
+  if (kept > 0)
+  {
+    candidates.clear = nearest;
+    return;
+  }
+  // A free node: remember how far away the wall is, so that it is left alone for a while.
+  candidates.clear = bvh_.nearest(point, kFarthest).distance;
+  candidates.radius = std::max(radius, candidates.clear);
+}
+
+void Detector::detect(const Query& query, ContactSet& set)
+{
+  set.step = query.step;
+  set.substep = query.substep;
+  set.pass = query.pass;
+  set.vessel_version = vessel_version_;
+  set.first_edge = query.first_node;
+  set.features.clear();
+  const std::size_t n = query.nodes.size();
+  const std::size_t whole = static_cast<std::size_t>(query.first_node) + n;
+  if (candidates_.size() != whole)
+  {
+    candidates_.clear();
+    candidates_.resize(whole);
+  }
+  if (query.want_free_distance)
+  {
+    freeDistances(query, set);
+    return;
+  }
+  set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    double half = 0.0;
+    if (i > 0)
+      half = 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm();
+    if (i + 1 < n)
+      half = std::max(half, 0.5 * (query.nodes[i + 1] - query.nodes[i]).norm());
+    const double reach = query.radius[i] + query.margin + 1.05 * half;
+    Candidates& candidates = candidates_[query.first_node + i];
+    const double moved = (query.nodes[i] - candidates.centre).norm();
+    if (candidates.radius < 0.0 || moved + reach > candidates.radius)
+      refresh(candidates, query.nodes[i], reach + kSlack);
+    detectNode(query, i, reach, set.features);
+  }
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    detectEdge(query, i, set.features);
+}
+
+void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const
+{
+  for (std::size_t f = first; f < features.size(); ++f)
+    if (features[f].id == feature.id || features[f].normal.dot(feature.normal) > kSameNormal)
+    {
+      if (feature.gap < features[f].gap)
+        features[f] = feature;
+      return;
+    }
+  features.push_back(feature);
+}
+
+void Detector::detectNode(const Query& query, std::size_t index, double reach, std::vector<Feature>& features)
+{
+  const Eigen::Vector3d& point = query.nodes[index];
+  const Candidates& candidates = candidates_[query.first_node + index];
+  if (candidates.clear - (point - candidates.centre).norm() > reach)
+    return;
+  const double radius = query.radius[index];
+  const std::size_t first = features.size();
+  const bool last = index + 1 == query.nodes.size();
+  Feature outside_feature;
+  double outside_distance = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int t : candidates.triangles)
+  {
+    Feature feature;
+    double distance = 0.0;
+    bool outside = false;
+    const bool minimum = faceFeature(point, t, radius + query.margin, reach, feature, distance, outside);
+    if (distance >= 0.0)
+      nearest = std::min(nearest, distance);
+    if (!minimum)
+      continue;
+    feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
+    feature.parameter = last ? 1.0 : 0.0;
+    feature.gap -= radius;
+    if (!outside)
+      appendDistinct(features, first, feature);
+    else if (distance < outside_distance)
+    {
+      outside_distance = distance;
+      outside_feature = feature;
+    }
+  }
+  if (outside_distance <= nearest + 1e-12 && std::isfinite(outside_distance) && signedDistance(point) < 0.0)
+    features.push_back(outside_feature);
+}
+
+/** @param limit distance up to which features inside the lumen are wanted; @p reach the same for a point beyond the wall
+ *  @param distance to the triangle, or −1 when it was too far to be looked at
+ *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
+ *  measured from the point itself */
+bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, double reach, Feature& feature,
+                           double& distance, bool& outside) const
+{
+  const Eigen::Vector3i& corners = wall_.triangles[triangle];
+  const Eigen::Vector3d& normal = wall_.normals[triangle];
+  const double height = (point - wall_.vertices[corners[0]]).dot(normal);
+  distance = -1.0;
+  if (height > limit || height < -kDeepest)
+    return false;
+  const TrianglePoint closest = closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
+                                                       wall_.vertices[corners[2]]);
+  const Eigen::Vector3d offset = point - closest.point;
+  const double squared = offset.squaredNorm();
+  if (squared > (height >= 0.0 ? limit * limit : reach * reach))
+    return false;
+  distance = std::sqrt(squared);
+  feature.point = closest.point;
+  feature.triangle = triangle;
+  feature.stiffness = law_.stiffness;
+  feature.friction = law_.friction;
+  // A foot point on the border of a flat neighbourhood is a face's too: neither neighbour would claim it otherwise.
+  const bool foot_inside = closest.edge < 0 && closest.vertex < 0;
+  if (foot_inside || (height >= 0.0 && (offset - height * normal).squaredNorm() < kConeTolerance * kConeTolerance))
+  {
+    outside = height < 0.0;
+    feature.normal = normal;
+    feature.gap = height;
+    feature.id = featureId(triangle, kFace);
+    return true;
+  }
+  Eigen::Vector3d pseudo_normal;
+  if (closest.edge >= 0)
+  {
+    const int e = wall_.triangle_edges[triangle][closest.edge];
+    const WallEdge& edge = wall_.edges[e];
+    pseudo_normal = edge.normal;
+    outside = offset.dot(pseudo_normal) < 0.0;
+    if ((!outside && edge.reflex_angle <= 0.0) || offset.dot(edge.into_triangle[0]) > kConeTolerance ||
+        offset.dot(edge.into_triangle[1]) > kConeTolerance)
+      return false;
+    feature.id = featureId(e, kEdge);
+  }
+  else
+  {
+    const int vertex = corners[closest.vertex];
+    pseudo_normal = wall_.vertex_normals[vertex];
+    outside = offset.dot(pseudo_normal) < 0.0;
+    if ((!outside && !wall_.vertex_reflex[vertex]) || !vertexIsMinimum(vertex, offset))
+      return false;
+    feature.id = featureId(vertex, kVertex);
+  }
+  const double sign = outside ? -1.0 : 1.0;
+  feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : pseudo_normal;
+  feature.gap = sign * distance;
+  return true;
+}
+
+bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
+{
+  for (int e : wall_.vertex_edges[vertex])
+  {
+    const WallEdge& edge = wall_.edges[e];
+    const int other = edge.vertices[0] == vertex ? edge.vertices[1] : edge.vertices[0];
+    const Eigen::Vector3d along = wall_.vertices[other] - wall_.vertices[vertex];
+    if (offset.dot(along) > kConeTolerance * along.norm())
+      return false;
+  }
+  return true;
+}
+
+void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
+{
+  const Candidates& first = candidates_[query.first_node + index];
+  const Candidates& second = candidates_[query.first_node + index + 1];
+  if (first.reflex_edges.empty() && second.reflex_edges.empty())
+    return;
+  edge_pool_.clear();
+  std::set_union(first.reflex_edges.begin(), first.reflex_edges.end(), second.reflex_edges.begin(),
+                 second.reflex_edges.end(), std::back_inserter(edge_pool_));
+  const std::size_t begin = features.size();
+  const Eigen::Vector3d& a = query.nodes[index];
+  const Eigen::Vector3d& b = query.nodes[index + 1];
+  const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
+  const Eigen::Vector3d middle = 0.5 * (a + b);
+  const double reach = 0.5 * (b - a).norm() + limit;
+  for (int e : edge_pool_)
+  {
+    // Cheap rejection: the mesh edge's line must come near the middle of the wire's edge.
+    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
+    const Eigen::Vector3d along = wall_.vertices[wall_.edges[e].vertices[1]] - end0;
+    if ((middle - end0).cross(along).squaredNorm() > reach * reach * along.squaredNorm())
+      continue;
+    Feature feature;
+    double distance = 0.0;
+    if (!crossing(a, b, e, limit, feature, distance))
+      continue;
+    const double t = feature.parameter;
+    const double radius = (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
+    feature.gap -= radius;
+    if (feature.gap > query.margin)
+      continue;
+    feature.edge = query.first_node + static_cast<int>(index);
+    const auto same = [&feature](const Feature& other) { return other.id == feature.id; };
+    if (std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
+      features.push_back(feature);
+  }
+}
+
+/** Closest point of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local minimum. */
+bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit,
+                        Feature& feature, double& distance) const
+{
+  const WallEdge& edge = wall_.edges[wall_edge];
+  const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
+  const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
+  const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
+  if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
+    return false;
+  feature.point = end0 + pair.second * (end1 - end0);
+  const Eigen::Vector3d axis = a + pair.first * (b - a);
+  const Eigen::Vector3d offset = axis - feature.point;
+  distance = offset.norm();
+  if (distance > limit)
+    return false;
+  const bool at_vertex = pair.second <= 0.0 || pair.second >= 1.0;
+  const int vertex = edge.vertices[pair.second <= 0.0 ? 0 : 1];
+  const Eigen::Vector3d& inward = at_vertex ? wall_.vertex_normals[vertex] : edge.normal;
+  const bool inside = offset.dot(inward) >= 0.0;
+  if (at_vertex ? !vertexIsMinimum(vertex, offset)
+                : inside && (offset.dot(edge.into_triangle[0]) > 1e-6 * distance ||
+                             offset.dot(edge.into_triangle[1]) > 1e-6 * distance))
+    return false;
+  if (!inside && (distance > kOutsideCrossing || signedDistance(axis) > 0.0))
+    return false;
+  const double sign = inside ? 1.0 : -1.0;
+  feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : inward;
+  feature.gap = sign * distance;
+  feature.parameter = pair.first;
+  feature.triangle = edge.triangles[0];
+  feature.stiffness = law_.stiffness;
+  feature.friction = law_.friction;
+  feature.id = at_vertex ? featureId(vertex, kVertex) : featureId(wall_edge, kEdge);
+  return true;
+}
+
+void Detector::freeDistances(const Query& query, ContactSet& set) const
+{
+  // The distance to the wall is 1-Lipschitz, so both ends bound it along the edge: (d0 + d1 − |e|)/2.
+  set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
+  double previous = 0.0;
+  for (std::size_t i = 0; i < query.nodes.size(); ++i)
+  {
+    const double distance = bvh_.nearest(query.nodes[i], kFarthest).distance;
+    if (i > 0)
+    {
+      const double length = (query.nodes[i] - query.nodes[i - 1]).norm();
+      const double radius = std::max(query.radius[i - 1], query.radius[i]);
+      set.free_distance[i - 1] = std::max(query.margin, 0.5 * (previous + distance - length) - radius);
+    }
+    previous = distance;
+  }
+}
+
+}  // namespace endovascular_sim::contact

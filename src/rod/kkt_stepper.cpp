@@ -1,0 +1,689 @@
+#include "rod/kkt_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rod/bending.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr int kMaxHalvings = 3;
+constexpr int kMaxActiveSetPasses = 8;
+constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
+constexpr double kConstraintCompliance = 1e-10;
+constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
+
+}  // namespace
+
+void StepReport::add(const StepReport& other)
+{
+  solved = solved && other.solved;
+  solves += other.solves;
+  factorisations += other.factorisations;
+  truncations += other.truncations;
+  halvings += other.halvings;
+  capped += other.capped;
+  max_strain = std::max(max_strain, other.max_strain);
+  stale_passes |= other.stale_passes;
+}
+
+KktStepper::KktStepper(Discretisation rod, Boundary boundary, Environment environment, StepperSettings settings)
+  : rod_(std::move(rod)), boundary_(std::move(boundary)), environment_(std::move(environment)), settings_(settings)
+{
+  scale_ = rod_.mass[static_cast<std::size_t>(rod_.nodes() / 2)];
+}
+
+double KktStepper::bodyPosition(int node, double inserted_length) const
+{
+  return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
+}
+
+State KktStepper::initialState(double inserted_length, double rotation) const
+{
+  State state;
+  const auto n = static_cast<std::size_t>(rod_.nodes());
+  state.inserted_length = inserted_length;
+  state.rotation = rotation;
+  state.position.resize(n);
+  state.velocity.assign(n, Eigen::Vector3d::Zero());
+  state.tension.assign(n - 1, 0.0);
+  state.twist_angle.assign(n - 1, rotation);
+  state.wall_force.assign(n, Eigen::Vector3d::Zero());
+  state.friction_coefficient.assign(n, 0.0);
+  for (int i = 0; i < rod_.nodes(); ++i)
+    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
+  if (boundary_.introducer)
+    while (state.first_node + 3 < rod_.nodes() &&
+           bodyPosition(state.first_node + 2, inserted_length) < -boundary_.guide_length)
+      ++state.first_node;
+  return state;
+}
+
+bool KktStepper::isPrescribed(int node, const State& state) const
+{
+  if (boundary_.introducer)
+    return bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
+  const int last = rod_.nodes() - 1;
+  return (boundary_.proximal != EndHold::kFree && node == 0) || (boundary_.proximal == EndHold::kClamped && node == 1) ||
+         (boundary_.distal != EndHold::kFree && node == last) ||
+         (boundary_.distal == EndHold::kClamped && node == last - 1);
+}
+
+void KktStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
+{
+  const int old_first = state.first_node;
+  const double speed = (inserted_length - state.inserted_length) / dt;
+  state.inserted_length = inserted_length;
+  if (boundary_.introducer)
+  {
+    int first = 0;
+    while (first + 3 < rod_.nodes() && bodyPosition(first + 2, inserted_length) < -boundary_.guide_length)
+      ++first;
+    state.first_node = first;
+    for (int i = first; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
+    {
+      state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
+      state.velocity[i] = speed * boundary_.direction;
+      state.wall_force[i].setZero();
+    }
+  }
+  first_ = state.first_node;
+}
+
+TwistBoundary KktStepper::twistBoundary(const State& state, double tip_torque) const
+{
+  TwistBoundary twist;
+  twist.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
+  twist.tangent = boundary_.direction;
+  twist.director = boundary_.director;
+  twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.5 * rod_.rest_length[0];
+  twist.rotation = state.rotation;
+  twist.tip_torque = tip_torque;
+  return twist;
+}
+
+void KktStepper::relaxTwist(State& state, double tip_torque)
+{
+  const TwistBoundary boundary = twistBoundary(state, tip_torque);
+  twist_active_ = QuasiStaticTwist::matters(rod_, boundary);
+  if (!twist_active_)
+  {
+    std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
+    state.hand_torque = 0.0;
+    return;
+  }
+  PhaseTimer::Scope scope(*timer_, Phase::kTwist);
+  twist_.solve(rod_, boundary, state);
+}
+
+StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
+                            contact::ContactSource* contacts, PhaseTimer& timer)
+{
+  source_ = contacts;
+  timer_ = &timer;
+  pass_ = &pass;
+  step_ = input.step;
+  substep_ = input.substep;
+  last_tip_torque_ = input.tip_torque;
+  StepReport report;
+  if (!advance(state, input, dt, 0, report))
+    report.solved = false;
+  report.max_strain = maxStrain(rod_, state);
+  return report;
+}
+
+bool KktStepper::advance(State& state, const StepInput& input, double dt, int depth, StepReport& report)
+{
+  if (static_cast<int>(backup_.size()) <= depth)
+    backup_.resize(static_cast<std::size_t>(depth) + 1);
+  backup_[depth] = state;
+  if (solveStep(state, input, dt, report))
+    return true;
+  state = backup_[depth];
+  contacts_valid_ = false;
+  if (depth == kMaxHalvings)
+  {
+    // Refused: the wire stays where it was, at rest, and the caller is told.
+    for (Eigen::Vector3d& velocity : state.velocity)
+      velocity.setZero();
+    return false;
+  }
+  ++report.halvings;
+  StepInput half = input;
+  half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
+  half.rotation = 0.5 * (state.rotation + input.rotation);
+  return advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report);
+}
+
+bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  begin_ = state.position;
+  placePrescribedNodes(state, input.inserted_length, dt);
+  state.rotation = input.rotation;
+  if (source_ && !contacts_valid_)
+    detect(state, report);
+  for (int solve = 0; solve < settings_.max_solves; ++solve)
+  {
+    relaxTwist(state, input.tip_torque);
+    {
+      PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
+      prepareContacts(state, dt);
+      assemble(state, input, dt, solve == 0);
+    }
+    ++report.solves;
+    if (!solveActiveSet(state, dt, report))
+      return false;
+    const bool last = solve + 1 == settings_.max_solves;
+    const double factor = truncation(state, report);
+    accept(state, dt, factor);
+    if (source_)
+      detect(state, report);
+    if (source_ && contacts_.stale)
+      break;  // one solve per step is all that old contacts are good for
+    if (factor == 1.0 && maxStrain(rod_, state) <= settings_.strain_tolerance && !foundUnknownContact())
+      break;
+    report.capped += last;
+  }
+  finish(state, dt);
+  return true;
+}
+
+void KktStepper::finish(State& state, double dt)
+{
+  const double inverse = 1.0 / dt;
+  for (int i = first_; i < rod_.nodes(); ++i)
+    if (!isPrescribed(i, state))
+      state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+  const bool two_held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
+  state.hand_force = -state.tension[first_ + (two_held ? 1 : 0)];
+}
+
+Eigen::Vector3d KktStepper::increment(int node) const
+{
+  const double* value = rhs_.data() + row(node);
+  return {value[0], value[1], value[2]};
+}
+
+void KktStepper::addDiagonal(int node, double value)
+{
+  const int r = row(node);
+  for (int axis = 0; axis < 3; ++axis)
+    base_.at(r + axis, r + axis) += value;
+}
+
+void KktStepper::addBlock(int node, const Eigen::Matrix3d& block)
+{
+  const int r = row(node);
+  for (int col = 0; col < 3; ++col)
+    for (int line = col; line < 3; ++line)
+      base_.at(r + line, r + col) += block(line, col);
+}
+
+void KktStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve)
+{
+  const int n = rod_.nodes();
+  base_.reset(4 * (n - first_) - 1);
+  base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+  for (int i = first_ + 1; i + 1 < n; ++i)
+    addBending(i, state, dt);
+  for (int j = first_; j + 1 < n; ++j)
+    addConstraint(j, state, dt);
+  for (int i = first_; i < n; ++i)
+    addNodeTerms(i, state, dt, first_solve);
+  for (const NodalForce& load : input.forces)
+    if (load.node >= first_)
+      for (int axis = 0; axis < 3; ++axis)
+        base_rhs_[row(load.node) + axis] += dt * dt * load.force[axis];
+}
+
+void KktStepper::addBending(int node, const State& state, double dt)
+{
+  const Eigen::Vector3d e = state.position[node] - state.position[node - 1];
+  const Eigen::Vector3d g = state.position[node + 1] - state.position[node];
+  const CurvatureBinormal kb(e, g, rod_.rest_length[node - 1] * rod_.rest_length[node]);
+  const double weight = dt * dt * rod_.bending_stiffness[node] / rod_.cell_length[node];
+  Eigen::Vector3d strain = kb.value;
+  if (twist_active_ && node >= twist_.firstCurved())
+    strain -= twist_.restCurvatureBinormal(node);
+  const Eigen::Vector3d by_before = weight * kb.transposeBefore(strain);
+  const Eigen::Vector3d by_after = weight * kb.transposeAfter(strain);
+  Eigen::Vector3d proximal = -by_before;
+  Eigen::Vector3d distal = by_after;
+  if (twist_active_ && twist_.torque(node) != 0.0)
+  {
+    // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
+    const Eigen::Vector3d torque = (0.5 * dt * dt * twist_.torque(node)) * kb.value;
+    proximal -= torque / rod_.rest_length[node - 1];
+    distal += torque / rod_.rest_length[node];
+  }
+  const BendingHessian hessian(kb, weight);
+  const Eigen::Matrix3d& a = hessian.before_before;
+  const Eigen::Matrix3d& b = hessian.before_after;
+  const Eigen::Matrix3d& c = hessian.after_after;
+  const int r0 = row(node - 1);
+  const int r1 = row(node);
+  const int r2 = row(node + 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    base_rhs_[r0 + axis] -= proximal[axis];
+    base_rhs_[r1 + axis] += proximal[axis] + distal[axis];
+    base_rhs_[r2 + axis] -= distal[axis];
+  }
+  for (int col = 0; col < 3; ++col)
+  {
+    for (int line = 0; line < 3; ++line)
+    {
+      base_.at(r1 + line, r0 + col) += b(col, line) - a(line, col);
+      base_.at(r2 + line, r0 + col) -= b(col, line);
+      base_.at(r2 + line, r1 + col) += b(col, line) - c(line, col);
+    }
+    for (int line = col; line < 3; ++line)
+    {
+      base_.at(r0 + line, r0 + col) += a(line, col);
+      base_.at(r1 + line, r1 + col) += a(line, col) - b(line, col) - b(col, line) + c(line, col);
+      base_.at(r2 + line, r2 + col) += c(line, col);
+    }
+  }
+}
+
+void KktStepper::addConstraint(int edge, const State& state, double dt)
+{
+  const Eigen::Vector3d e = state.position[edge + 1] - state.position[edge];
+  const double length = e.norm();
+  const Eigen::Vector3d direction = e / length;
+  const int r0 = row(edge);
+  const int r1 = row(edge + 1);
+  const int rm = multiplierRow(edge);
+  const double tension = std::max(0.0, state.tension[edge]) * dt * dt / length;
+  if (tension > 0.0)
+    for (int col = 0; col < 3; ++col)
+      for (int line = 0; line < 3; ++line)
+      {
+        const double value = tension * ((line == col ? 1.0 : 0.0) - direction[line] * direction[col]);
+        base_.at(r1 + line, r0 + col) -= value;
+        if (line >= col)
+        {
+          base_.at(r0 + line, r0 + col) += value;
+          base_.at(r1 + line, r1 + col) += value;
+        }
+      }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    base_.at(rm, r0 + axis) = -scale_ * direction[axis];
+    base_.at(rm, r1 + axis) = scale_ * direction[axis];
+  }
+  base_.at(rm, rm) = -kConstraintCompliance * scale_;
+  base_rhs_[rm] = -scale_ * (length - rod_.rest_length[edge]);
+}
+
+void KktStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
+{
+  const double mass = rod_.mass[node];
+  const Eigen::Vector3d travel = state.position[node] - begin_[node];
+  Eigen::Vector3d residual = mass * (travel - dt * state.velocity[node]);
+  if (!environment_.gravity.isZero(0.0))
+  {
+    const double displaced = environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
+    residual -= (dt * dt * (mass - displaced)) * environment_.gravity;
+  }
+  const double damped = mass * dt * environment_.damping;
+  residual += damped * travel;
+  addDiagonal(node, mass + damped);
+  const double beyond = bodyPosition(node, state.inserted_length);
+  const Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
+  if (environment_.fluid_density > 0.0 && (beyond >= 0.0 || !boundary_.introducer))
+  {
+    const double drag = dt * environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] *
+                        rod_.cell_length[node] * velocity.norm();
+    residual += drag * travel;
+    addDiagonal(node, drag);
+  }
+  if (!state.wall_force[node].isZero(0.0))
+    addFriction(node, state, travel, velocity, dt, residual);
+  if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
+  {
+    const double depth = beyond / boundary_.guide_length;
+    const double stiffness = dt * dt * boundary_.guide_stiffness * rod_.cell_length[node] * depth * depth;
+    const Eigen::Matrix3d across =
+        stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
+    residual += across * (state.position[node] - boundary_.origin);
+    addBlock(node, across);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    base_rhs_[row(node) + axis] -= residual[axis];
+}
+
+void KktStepper::addFriction(int node, const State& state, const Eigen::Vector3d& travel,
+                             const Eigen::Vector3d& velocity, double dt, Eigen::Vector3d& residual)
+{
+  const double normal_force = state.wall_force[node].norm();
+  const double friction = state.friction_coefficient[node];
+  if (friction <= 0.0 || normal_force < 1e-9)
+    return;
+  const Eigen::Vector3d normal = state.wall_force[node] / normal_force;
+  const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  const double speed = std::max((along * velocity).norm(), settings_.friction_speed);
+  const Eigen::Matrix3d drag = (dt * friction * normal_force / speed) * along;
+  residual += drag * travel;
+  addBlock(node, drag);
+}
+
+void KktStepper::prescribeNodes(const State& state)
+{
+  for (int i = first_; i < rod_.nodes(); ++i)
+  {
+    if (!isPrescribed(i, state))
+    {
+      if (boundary_.introducer)
+        break;
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      matrix_.prescribe(row(i) + axis, 0.0, scale_, rhs_);
+    if (i + 1 < rod_.nodes() && isPrescribed(i + 1, state))
+      matrix_.prescribe(multiplierRow(i), 0.0, -scale_, rhs_);
+  }
+}
+
+bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
+{
+  prescribeNodes(state);
+  ++report.factorisations;
+  if (matrix_.factorise() != rod_.nodes() - 1 - first_)
+    return false;
+  matrix_.solve(rhs_);
+  double largest = 0.0;
+  for (double value : rhs_)
+    largest = std::max(largest, std::abs(value));
+  return std::isfinite(largest) && largest < kLargestMotion;
+}
+
+bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& report)
+{
+  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
+  double shift = 0.0;
+  for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
+  {
+    matrix_.copyFrom(base_);
+    rhs_ = base_rhs_;
+    for (std::size_t c = 0; c < active_.size(); ++c)
+      if (active_[c].active)
+        addContact(contacts_.features[c], active_[c], dt);
+    for (int i = first_; shift > 0.0 && i < rod_.nodes(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        matrix_.at(row(i) + axis, row(i) + axis) += shift * rod_.mass[i];
+    if (!factoriseAndSolve(state, report))
+    {
+      if (shift > 0.0)
+        return false;
+      shift = kShift;
+      continue;
+    }
+    if (!updateActiveSet(active_pass))
+      return true;
+  }
+  return true;
+}
+
+void KktStepper::addContact(const contact::Feature& feature, const ActiveContact& contact, double dt)
+{
+  const double stiffness = dt * dt * contact.stiffness;
+  const double push = -stiffness * feature.gap;
+  const int r0 = row(contact.node);
+  const int r1 = contact.weight1 > 0.0 ? row(contact.node + 1) : r0;
+  for (int col = 0; col < 3; ++col)
+  {
+    rhs_[r0 + col] += contact.weight0 * push * feature.normal[col];
+    for (int line = col; line < 3; ++line)
+      matrix_.at(r0 + line, r0 + col) +=
+          stiffness * contact.weight0 * contact.weight0 * feature.normal[line] * feature.normal[col];
+    if (contact.weight1 <= 0.0)
+      continue;
+    rhs_[r1 + col] += contact.weight1 * push * feature.normal[col];
+    for (int line = col; line < 3; ++line)
+      matrix_.at(r1 + line, r1 + col) +=
+          stiffness * contact.weight1 * contact.weight1 * feature.normal[line] * feature.normal[col];
+    for (int line = 0; line < 3; ++line)
+      matrix_.at(r1 + line, r0 + col) +=
+          stiffness * contact.weight0 * contact.weight1 * feature.normal[line] * feature.normal[col];
+  }
+}
+
+double KktStepper::contactMotion(std::size_t index) const
+{
+  const ActiveContact& contact = active_[index];
+  const Eigen::Vector3d& normal = contacts_.features[index].normal;
+  double motion = contact.weight0 * normal.dot(increment(contact.node));
+  if (contact.weight1 > 0.0)
+    motion += contact.weight1 * normal.dot(increment(contact.node + 1));
+  return motion;
+}
+
+bool KktStepper::updateActiveSet(int active_pass)
+{
+  bool changed = false;
+  for (std::size_t c = 0; c < active_.size(); ++c)
+  {
+    const bool active = contacts_.features[c].gap + contactMotion(c) < 0.0;
+    if (active == active_[c].active || (!active && active_pass >= kOnlyAddFromPass))
+      continue;
+    active_[c].active = active;
+    changed = true;
+  }
+  return changed;
+}
+
+void KktStepper::prepareContacts(const State& state, double dt)
+{
+  active_.clear();
+  for (const contact::Feature& feature : contacts_.features)
+  {
+    ActiveContact contact{feature.edge, 1.0 - feature.parameter, feature.parameter, settings_.contact_stiffness, false};
+    if (contact.weight0 <= 0.0 && contact.node + 2 < rod_.nodes())
+    {
+      ++contact.node;
+      std::swap(contact.weight0, contact.weight1);
+    }
+    const int second = std::min(contact.node + 1, rod_.nodes() - 1);
+    if (std::isfinite(feature.stiffness))
+      contact.stiffness = feature.stiffness * (contact.weight0 * rod_.cell_length[contact.node] +
+                                               contact.weight1 * rod_.cell_length[second]);
+    const Eigen::Vector3d velocity =
+        contact.weight0 * state.velocity[contact.node] + contact.weight1 * state.velocity[second];
+    contact.active = feature.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
+    active_.push_back(contact);
+  }
+}
+
+double KktStepper::truncation(const State& state, StepReport& report)
+{
+  double factor = 1.0;
+  bool far = false;
+  const double margin = settings_.contact_margin;
+  for (int j = first_; j + 1 < rod_.nodes(); ++j)
+  {
+    const double turn = (increment(j + 1) - increment(j)).norm() / rod_.rest_length[j];
+    if (turn > settings_.max_rotation)
+      factor = std::min(factor, settings_.max_rotation / turn);
+    far = far || increment(j).norm() > margin || increment(j + 1).norm() > margin;
+  }
+  if (source_ && contacts_.stale)
+    factor = std::min(factor, staleTruncation());
+  else if (source_ && far)
+    factor = std::min(factor, freeDistanceTruncation(state, report));
+  report.truncations += factor < 1.0;
+  return factor;
+}
+
+double KktStepper::freeDistanceTruncation(const State& state, StepReport& report)
+{
+  ask(state, true, free_distances_, report);
+  double factor = 1.0;
+  for (int j = query_.first_node; j + 1 < rod_.nodes(); ++j)
+  {
+    const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
+    const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
+    const double allowed = std::max(settings_.contact_margin, known ? free_distances_.free_distance[e] : 0.0);
+    const double motion = std::max(increment(j).norm(), increment(j + 1).norm());
+    if (motion > allowed)
+      factor = std::min(factor, allowed / motion);
+  }
+  return factor;
+}
+
+/** Old features cover only the margin around the state they were found at: all motion since then is spent from it. */
+double KktStepper::staleTruncation()
+{
+  double motion = 0.0;
+  for (int i = query_.first_node; i < rod_.nodes(); ++i)
+    motion = std::max(motion, increment(i).norm());
+  const double factor = motion > stale_budget_ ? stale_budget_ / motion : 1.0;
+  stale_budget_ -= factor * motion;
+  return factor;
+}
+
+void KktStepper::accept(State& state, double dt, double factor)
+{
+  for (int i = first_; i < rod_.nodes(); ++i)
+    state.position[i] += factor * increment(i);
+  if (factor < 1.0)
+    return;
+  // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
+  const double to_force = scale_ / (dt * dt);
+  for (int j = first_; j + 1 < rod_.nodes(); ++j)
+    state.tension[j] = to_force * rhs_[multiplierRow(j)];
+  updateWallForces(state);
+}
+
+void KktStepper::updateWallForces(State& state)
+{
+  for (int i = first_; i < rod_.nodes(); ++i)
+    state.wall_force[i].setZero();
+  for (std::size_t c = 0; c < active_.size(); ++c)
+  {
+    const contact::Feature& feature = contacts_.features[c];
+    const double force = -active_[c].stiffness * (feature.gap + contactMotion(c));
+    if (!active_[c].active || force <= 0.0)
+      continue;
+    for (int side = 0; side < 2; ++side)
+    {
+      const double weight = side == 0 ? active_[c].weight0 : active_[c].weight1;
+      if (weight <= 0.0)
+        continue;
+      const int node = active_[c].node + side;
+      state.wall_force[node] += (weight * force) * feature.normal;
+      state.friction_coefficient[node] = std::isnan(rod_.friction[node]) ? feature.friction : rod_.friction[node];
+    }
+  }
+}
+
+void KktStepper::detect(const State& state, StepReport& report)
+{
+  std::swap(contacts_, previous_contacts_);
+  std::swap(active_, previous_active_);
+  ask(state, false, contacts_, report);
+  contacts_valid_ = true;
+  if (!contacts_.stale)
+  {
+    stale_budget_ = settings_.contact_margin;
+    return;
+  }
+  contacts_.features = previous_contacts_.features;
+  for (contact::Feature& feature : contacts_.features)
+  {
+    const double t = feature.parameter;
+    const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
+    const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
+    const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
+    feature.gap = feature.normal.dot(axis - feature.point) - radius;
+  }
+}
+
+void KktStepper::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
+{
+  PhaseTimer::Scope scope(*timer_, Phase::kCollision);
+  query_.step = step_;
+  query_.substep = substep_;
+  query_.pass = *pass_;
+  query_.want_free_distance = want_free_distance;
+  query_.margin = settings_.contact_margin;
+  query_.first_node = first_;
+  while (query_.first_node < rod_.nodes() && boundary_.introducer &&
+         bodyPosition(query_.first_node, state.inserted_length) < 0.0)
+    ++query_.first_node;
+  query_.nodes.assign(state.position.begin() + query_.first_node, state.position.end());
+  query_.radius.assign(rod_.radius.begin() + query_.first_node, rod_.radius.end());
+  answer.stale = false;
+  source_->detect(query_, answer);
+  if (answer.stale && *pass_ < 64)
+    report.stale_passes |= std::uint64_t{1} << *pass_;
+  ++*pass_;
+}
+
+/** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
+bool KktStepper::foundUnknownContact() const
+{
+  for (const contact::Feature& feature : contacts_.features)
+  {
+    if (feature.gap >= -settings_.penetration_tolerance)
+      continue;
+    bool known = false;
+    for (std::size_t c = 0; c < previous_active_.size() && !known; ++c)
+      known = previous_active_[c].active && previous_contacts_.features[c].id == feature.id &&
+              std::abs(previous_contacts_.features[c].edge + previous_contacts_.features[c].parameter - feature.edge -
+                       feature.parameter) < 1.0;
+    if (!known)
+      return true;
+  }
+  return false;
+}
+
+Energy KktStepper::energy(const State& state)
+{
+  Energy energy;
+  State relaxed = state;
+  PhaseTimer unused;
+  timer_ = &unused;
+  first_ = state.first_node;
+  relaxTwist(relaxed, last_tip_torque_);
+  energy.twist = twist_active_ ? twist_.energy() : 0.0;
+  for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
+  {
+    const CurvatureBinormal kb(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
+                               rod_.rest_length[i - 1] * rod_.rest_length[i]);
+    double strain = kb.value.squaredNorm();
+    if (twist_active_ && i >= twist_.firstCurved())
+      strain += rod_.rest_curvature[i].squaredNorm() - 2.0 * kb.value.dot(twist_.restCurvatureBinormal(i));
+    energy.bending += 0.5 * rod_.bending_stiffness[i] / rod_.cell_length[i] * strain;
+  }
+  for (int j = first_; j + 1 < rod_.nodes(); ++j)
+  {
+    const double strain = (state.position[j + 1] - state.position[j]).norm() / rod_.rest_length[j] - 1.0;
+    energy.stretch += 0.5 * rod_.axial_stiffness[j] * strain * strain * rod_.rest_length[j];
+  }
+  return energy;
+}
+
+std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const StepInput& input)
+{
+  PhaseTimer unused;
+  timer_ = &unused;
+  first_ = state.first_node;
+  last_tip_torque_ = input.tip_torque;
+  relaxTwist(state, input.tip_torque);
+  base_.reset(4 * (rod_.nodes() - first_) - 1);
+  base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+  for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
+    addBending(i, state, 1.0);
+  std::vector<Eigen::Vector3d> gradient(state.position.size(), Eigen::Vector3d::Zero());
+  for (int i = first_; i < rod_.nodes(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      gradient[i][axis] = -base_rhs_[row(i) + axis];
+  return gradient;
+}
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,33 @@
+#include "rod/state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/hash.h"
+
+namespace endovascular_sim::rod
+{
+
+std::uint64_t State::hash() const
+{
+  Hash64 hash;
+  for (std::size_t i = static_cast<std::size_t>(first_node); i < position.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      hash.add(position[i][axis]);
+  for (std::size_t j = static_cast<std::size_t>(first_node); j < twist_angle.size(); ++j)
+    hash.add(twist_angle[j]);
+  return hash.value();
+}
+
+double maxStrain(const Discretisation& rod, const State& state)
+{
+  double worst = 0.0;
+  for (int j = state.first_node; j + 1 < rod.nodes(); ++j)
+  {
+    const double length = (state.position[j + 1] - state.position[j]).norm();
+    worst = std::max(worst, std::abs(length / rod.rest_length[j] - 1.0));
+  }
+  return worst;
+}
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,205 @@
+#include "rod/twist.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rod/bending.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr int kMaxIterations = 200;
+constexpr double kMaxTurn = 0.3;         // rad per iteration: a snap-through is followed, not jumped over
+constexpr double kConverged = 1e-12;     // rad
+constexpr double kMinLength = 1e-9;      // of the body's compliance, in edges: keeps the spring finite
+
+double edgeMiddle(const Discretisation& rod, int edge) { return 0.5 * (rod.position[edge] + rod.position[edge + 1]); }
+
+/** ∫ds/GJ between two arc lengths [1/(N·m)]. */
+double torsionalCompliance(const Discretisation& rod, double begin, double end, int from_node)
+{
+  double sum = 0.0;
+  for (int i = from_node; i < rod.nodes(); ++i)
+  {
+    const double cell_begin = i > 0 ? edgeMiddle(rod, i - 1) : rod.position[i];
+    const double cell_end = i + 1 < rod.nodes() ? edgeMiddle(rod, i) : rod.position[i];
+    if (cell_begin >= end)
+      break;
+    sum += std::max(0.0, std::min(end, cell_end) - std::max(begin, cell_begin)) / rod.torsional_stiffness[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& boundary)
+{
+  return rod.first_curved < rod.nodes() || boundary.tip_torque != 0.0;
+}
+
+void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const int n = rod.nodes();
+  first_edge_ = state.first_node;
+  while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
+    ++first_edge_;
+  first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
+  if (first_curved_ > n - 2)
+    first_curved_ = n;
+  bishop_.resize(n);
+  bishop_normal_.resize(n);
+  binormal_.resize(n);
+  rest_binormal_.resize(n);
+  torque_.assign(n, 0.0);
+  gradient_.resize(n);
+  diagonal_.resize(n);
+  upper_.resize(n);
+  body_stiffness_ = boundary.held ? bodyStiffness(rod, boundary) : 0.0;
+  if (first_curved_ < n)
+  {
+    transportBishopFrame(rod, boundary, state);
+    relax(rod, boundary, state);
+  }
+  evaluate(rod, boundary, state);
+}
+
+double QuasiStaticTwist::bodyStiffness(const Discretisation& rod, const TwistBoundary& boundary) const
+{
+  const int last = std::min(first_curved_ - 1, rod.nodes() - 2);
+  const double compliance = torsionalCompliance(rod, boundary.position, edgeMiddle(rod, last), first_edge_);
+  return 1.0 / std::max(compliance, kMinLength * rod.rest_length[last] / rod.torsional_stiffness[last]);
+}
+
+void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary,
+                                            const State& state)
+{
+  Eigen::Vector3d tangent = boundary.tangent;
+  Eigen::Vector3d director = boundary.director;
+  for (int j = first_edge_; j + 1 < rod.nodes(); ++j)
+  {
+    const Eigen::Vector3d next = (state.position[j + 1] - state.position[j]).normalized();
+    // Parallel transport: the rotation about tangent × next that takes one to the other.
+    director -= (director.dot(next) / (1.0 + tangent.dot(next))) * (tangent + next);
+    tangent = next;
+    if (j + 1 >= first_curved_)
+    {
+      bishop_[j] = director;
+      bishop_normal_[j] = tangent.cross(director);
+    }
+  }
+  for (int i = first_curved_; i + 1 < rod.nodes(); ++i)
+    binormal_[i] = CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
+                                     rod.rest_length[i - 1] * rod.rest_length[i])
+                       .value;
+}
+
+/** Gradient and Hessian by the twist angles of the edges first_curved_−1 … n−2; returns the largest |gradient|. */
+double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state)
+{
+  const int n = rod.nodes();
+  const int first = first_curved_ - 1;
+  for (int j = first; j + 1 < n; ++j)
+    gradient_[j] = diagonal_[j] = upper_[j] = 0.0;
+  gradient_[first] = body_stiffness_ * (state.twist_angle[first] - boundary.rotation);
+  // The tiny second term keeps the matrix regular where nothing holds the twist.
+  diagonal_[first] = body_stiffness_ + 1e-9 * rod.torsional_stiffness[first_curved_] / rod.cell_length[first_curved_];
+  gradient_[n - 2] -= boundary.tip_torque;
+  for (int i = first_curved_; i + 1 < n; ++i)
+  {
+    const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
+    const double m = state.twist_angle[i] - state.twist_angle[i - 1];
+    gradient_[i] += k * m;
+    gradient_[i - 1] -= k * m;
+    diagonal_[i] += k;
+    diagonal_[i - 1] += k;
+    upper_[i - 1] -= k;
+    const double b = 0.5 * rod.bending_stiffness[i] / rod.cell_length[i];
+    const Eigen::Vector2d& rest = rod.rest_curvature[i];
+    for (int j = i - 1; j <= i; ++j)
+    {
+      const double c = std::cos(state.twist_angle[j]);
+      const double s = std::sin(state.twist_angle[j]);
+      const double along1 = binormal_[i].dot(bishop_[j]);
+      const double along2 = binormal_[i].dot(bishop_normal_[j]);
+      const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
+      gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
+      diagonal_[j] += b * std::max(0.0, rest.dot(omega));
+    }
+  }
+  double largest = 0.0;
+  for (int j = first; j + 1 < n; ++j)
+    largest = std::max(largest, std::abs(gradient_[j]));
+  return largest;
+}
+
+void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const int first = first_curved_ - 1;
+  const int last = rod.nodes() - 2;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration)
+  {
+    if (assemble(rod, boundary, state) == 0.0)
+      return;
+    // Thomas algorithm; the matrix is symmetric, diagonally dominant and positive.
+    for (int j = first + 1; j <= last; ++j)
+    {
+      const double factor = upper_[j - 1] / diagonal_[j - 1];
+      diagonal_[j] -= factor * upper_[j - 1];
+      gradient_[j] -= factor * gradient_[j - 1];
+    }
+    double largest = 0.0;
+    for (int j = last; j >= first; --j)
+    {
+      gradient_[j] = (gradient_[j] - (j < last ? upper_[j] * gradient_[j + 1] : 0.0)) / diagonal_[j];
+      largest = std::max(largest, std::abs(gradient_[j]));
+    }
+    const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
+    for (int j = first; j <= last; ++j)
+      state.twist_angle[j] -= scale * gradient_[j];
+    if (largest < kConverged)
+      return;
+  }
+}
+
+void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const int n = rod.nodes();
+  const int last_body = std::min(first_curved_ - 1, n - 2);
+  const double body_torque = first_curved_ < n ? body_stiffness_ * (state.twist_angle[last_body] - boundary.rotation)
+                                               : boundary.tip_torque;
+  energy_ = body_stiffness_ > 0.0 ? 0.5 * body_torque * body_torque / body_stiffness_ : 0.0;
+  state.hand_torque = boundary.held ? -body_torque : 0.0;
+  double angle = boundary.rotation;
+  double reached = boundary.position;
+  for (int j = state.first_node; j <= last_body; ++j)
+  {
+    if (j > first_edge_ || edgeMiddle(rod, j) > boundary.position)
+    {
+      angle += body_torque * std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+      reached = edgeMiddle(rod, j);
+      torque_[j] = body_torque;
+    }
+    if (j < first_curved_ - 1 || first_curved_ == n)
+      state.twist_angle[j] = angle;
+  }
+  for (int i = first_curved_; i + 1 < n; ++i)
+  {
+    const double m = state.twist_angle[i] - state.twist_angle[i - 1];
+    const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
+    torque_[i] = k * m;
+    energy_ += 0.5 * k * m * m;
+    rest_binormal_[i].setZero();
+    for (int j = i - 1; j <= i; ++j)
+    {
+      const double c = std::cos(state.twist_angle[j]);
+      const double s = std::sin(state.twist_angle[j]);
+      const Eigen::Vector3d m1 = c * bishop_[j] + s * bishop_normal_[j];
+      const Eigen::Vector3d m2 = c * bishop_normal_[j] - s * bishop_[j];
+      rest_binormal_[i] += 0.5 * (rod.rest_curvature[i].x() * m2 - rod.rest_curvature[i].y() * m1);
+    }
+  }
+}
+
+}  // namespace endovascular_sim::rod

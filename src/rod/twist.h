@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rod/state.h"
+
+namespace endovascular_sim::rod
+{
+
+/** Where and how the wire's twist is held. */
+struct TwistBoundary
+{
+  bool held = true;                                          ///< false: no torque reaches the wire from the hand
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();        ///< of the wire where it is held, unit
+  Eigen::Vector3d director = Eigen::Vector3d::UnitY();       ///< d1 there at rotation 0, unit, ⟂ tangent
+  double position = 0.0;   ///< arc length of the held place from the proximal end [m]
+  double rotation = 0.0;   ///< of the handle [rad]
+  double tip_torque = 0.0; ///< applied at the tip about the axis [N·m]
+};
+
+/** Quasi-static twist (Bergou et al. 2008, §5.1): twist waves are far faster than bending, so the twist angles
+ *  minimise the elastic energy for the present centreline.
+ *
+ *  The straight isotropic body carries one torque and costs one scalar; only the edges of the pre-curved tip have
+ *  angles of their own, found by a damped tridiagonal Newton method that follows a snap-through to the next minimum. */
+class QuasiStaticTwist
+{
+public:
+  /** @return true when the twist influences anything: rest curvature, or a torque at the tip */
+  static bool matters(const Discretisation& rod, const TwistBoundary& boundary);
+
+  /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle and
+   *  state.hand_torque. Edges before the held place turn with the hand. */
+  void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+
+  /** First node at which rest curvature acts: beyond the held place and on the curved tip. */
+  int firstCurved() const { return first_curved_; }
+
+  /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁ [1]. */
+  const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
+
+  /** Torque carried at a node [N·m]: GJ·2m/l̄. */
+  double torque(int node) const { return torque_[node]; }
+
+  /** Energy of the twist alone, GJ m²/l̄ summed [J]; of the state last solved. */
+  double energy() const { return energy_; }
+
+private:
+  void transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
+  void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+  double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
+  void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+  double bodyStiffness(const Discretisation& rod, const TwistBoundary& boundary) const;
+
+  int first_edge_ = 0;    ///< first edge beyond the held place
+  int first_curved_ = 0;  ///< first curved node beyond the held place; n without
+  double body_stiffness_ = 0.0;
+  double energy_ = 0.0;
+  std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
+  std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
+  std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
+  std::vector<Eigen::Vector3d> rest_binormal_;
+  std::vector<double> torque_;
+  std::vector<double> gradient_, diagonal_, upper_;
+};
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,163 @@
+#include "session/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.h"
+#include "rod/kkt_stepper.h"
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+constexpr double kMaxHandSpeed = 1.0;              // m/s
+constexpr double kMaxHandTurn = 60.0;              // rad/s
+constexpr double kMaxRotationPerSubstep = 0.05;    // rad
+constexpr double kSlipBand = 0.1;                  // of the limit, over which the grip lets go
+
+rod::EndHold hold(EndCondition condition)
+{
+  switch (condition)
+  {
+    case EndCondition::kPinned:
+      return rod::EndHold::kPinned;
+    case EndCondition::kClamped:
+      return rod::EndHold::kClamped;
+    case EndCondition::kFree:
+      break;
+  }
+  return rod::EndHold::kFree;
+}
+
+rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
+{
+  rod::Boundary boundary;
+  boundary.introducer = scene.introducer;
+  boundary.origin = entry.position;
+  boundary.direction = entry.direction;
+  boundary.director = entry.d1;
+  boundary.guide_length = scene.solver.guide_length;
+  boundary.proximal = hold(scene.proximal_end);
+  boundary.distal = hold(scene.distal_end);
+  return boundary;
+}
+
+std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry)
+{
+  if (scene.sampling.kind != SamplingKind::kUniform)
+    throw InputError(scene.file, "sampling.kind", "only 'uniform' is simulated by this version");
+  if (scene.solver.scheme != "kkt")
+    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt");
+  rod::Environment environment;
+  environment.gravity = scene.loads.gravity;
+  environment.fluid_density = scene.loads.fluid_density;
+  environment.drag_coefficient = scene.loads.drag_coefficient;
+  environment.damping = scene.loads.damping;
+  rod::StepperSettings settings;
+  settings.max_solves = scene.solver.max_newton;
+  settings.strain_tolerance = scene.solver.strain_tolerance;
+  settings.contact_stiffness = scene.solver.contact_stiffness;
+  settings.contact_margin = scene.solver.contact_margin;
+  return std::make_unique<rod::KktStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
+                                           boundaryOf(scene, entry), environment, settings);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts)
+  : scene_(scene), contacts_(contacts), stepper_(makeStepper(scene, entry))
+{
+  const rod::Discretisation& wire = stepper_->discretisation();
+  // The introducer's guide must stay filled: the wire's end cannot be pushed into it.
+  max_insertion_ = wire.length() - scene.solver.guide_length - 3.0 * wire.rest_length.front();
+  if (scene.introducer && scene.drive.initial_insertion > max_insertion_)
+    throw InputError(scene.file, "drive.initial_insertion",
+                     "leaves less of the wire outside than the introducer's guide; at most " +
+                         std::to_string(max_insertion_) + " m");
+  const double insertion = scene.introducer ? std::max(0.0, scene.drive.insertionAt(0.0)) : 0.0;
+  state_ = stepper_->initialState(insertion, scene.drive.rotationAt(0.0));
+}
+
+double Simulation::clutch(double wanted, double resistance, double limit) const
+{
+  const double against = wanted > 0.0 ? resistance : -resistance;
+  return wanted * std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
+}
+
+HandCommand Simulation::allowedMotion(const HandCommand& command)
+{
+  const double dt = scene_.solver.time_step;
+  HandCommand motion;
+  if (!scene_.introducer)
+  {
+    motion.rotation = command.rotation - state_.rotation;
+    return motion;
+  }
+  double wanted = command.insertion - slipped_insertion_ - state_.inserted_length;
+  wanted = std::max(-kMaxHandSpeed * dt, std::min(kMaxHandSpeed * dt, wanted));
+  motion.insertion = clutch(wanted, state_.hand_force, scene_.drive.force_limit);
+  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + motion.insertion));
+  motion.insertion = reached - state_.inserted_length;
+  slipped_insertion_ += wanted - motion.insertion;
+
+  double turn = command.rotation - slipped_rotation_ - state_.rotation;
+  turn = std::max(-kMaxHandTurn * dt, std::min(kMaxHandTurn * dt, turn));
+  motion.rotation = clutch(turn, state_.hand_torque, scene_.drive.torque_limit);
+  slipped_rotation_ += turn - motion.rotation;
+  return motion;
+}
+
+void Simulation::applyLoads(rod::StepInput& input) const
+{
+  const rod::Discretisation& wire = stepper_->discretisation();
+  const double end_time = time() + scene_.solver.time_step;
+  for (const PointLoad& load : scene_.loads.point_loads)
+  {
+    const double share = load.ramp_time > 0.0 ? std::min(1.0, end_time / load.ramp_time) : 1.0;
+    input.tip_torque += share * load.torque;
+    if (load.force.isZero(0.0))
+      continue;
+    const auto after = std::upper_bound(wire.position.begin(), wire.position.end(), load.position);
+    const int edge = std::max(0, std::min(wire.nodes() - 2, static_cast<int>(after - wire.position.begin()) - 1));
+    const double t = std::max(0.0, std::min(1.0, (load.position - wire.position[edge]) / wire.rest_length[edge]));
+    input.forces.push_back({edge, (1.0 - t) * share * load.force});
+    input.forces.push_back({edge + 1, t * share * load.force});
+  }
+}
+
+void Simulation::step(const HandCommand& command)
+{
+  timer_.reset();
+  const HandCommand motion = allowedMotion(command);
+  const double substeps_wanted = std::max(std::abs(motion.insertion) / scene_.solver.max_travel_per_substep,
+                                          std::abs(motion.rotation) / kMaxRotationPerSubstep);
+  const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
+  const double insertion = state_.inserted_length;
+  const double rotation = state_.rotation;
+  report_ = rod::StepReport();
+  std::uint32_t pass = 0;
+  for (int k = 1; k <= substeps; ++k)
+  {
+    rod::StepInput input;
+    input.step = steps_;
+    input.substep = static_cast<std::uint32_t>(k - 1);
+    const double share = static_cast<double>(k) / substeps;
+    input.inserted_length = insertion + share * motion.insertion;
+    input.rotation = rotation + share * motion.rotation;
+    applyLoads(input);
+    report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
+  }
+  ++steps_;
+  trajectory_.add(state_.hash());
+}
+
+double Simulation::surfacePenetration() const
+{
+  double deepest = 0.0;
+  for (const contact::Feature& feature : stepper_->contactSet().features)
+    deepest = std::max(deepest, -feature.gap);
+  return deepest;
+}
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "common/hash.h"
+#include "common/phase_timer.h"
+#include "contact/contact_set.h"
+#include "rod/stepper.h"
+#include "session/scene.h"
+#include "session/scene_vessel.h"
+
+namespace endovascular_sim::session
+{
+
+/** What the hand asks for at one step. */
+struct HandCommand
+{
+  double insertion = 0.0;  ///< [m]
+  double rotation = 0.0;   ///< [rad]
+};
+
+/** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the same
+ *  commands give the same trajectory bit for bit. */
+class Simulation
+{
+public:
+  /** @param contacts where contact sets come from, null without a vessel; must outlive the simulation
+   *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
+  Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts);
+
+  /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
+   *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
+  void step(const HandCommand& command);
+
+  std::uint64_t steps() const { return steps_; }             ///< steps done
+  double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
+  const rod::State& state() const { return state_; }
+  const rod::Discretisation& discretisation() const { return stepper_->discretisation(); }
+  const contact::ContactSet& contactSet() const { return stepper_->contactSet(); }
+  const rod::StepReport& report() const { return report_; }  ///< of the last step
+  const PhaseTimer& timer() const { return timer_; }         ///< of the last step
+  rod::Energy energy() const { return stepper_->energy(state_); }
+
+  /** Depth of the wire's surface beyond the wall after the last step, by the contact set; 0 without contact [m]. */
+  double surfacePenetration() const;
+
+  /** Hash over the states of all steps so far. */
+  std::uint64_t trajectoryHash() const { return trajectory_.value(); }
+
+private:
+  double clutch(double wanted, double resistance, double limit) const;
+  HandCommand allowedMotion(const HandCommand& command);
+  void applyLoads(rod::StepInput& input) const;
+
+  Scene scene_;
+  contact::ContactSource* contacts_;
+  std::unique_ptr<rod::Stepper> stepper_;
+  rod::State state_;
+  rod::StepReport report_;
+  PhaseTimer timer_;
+  Hash64 trajectory_;
+  std::uint64_t steps_ = 0;
+  double slipped_insertion_ = 0.0;  ///< command minus what reached the wire [m]
+  double slipped_rotation_ = 0.0;   ///< [rad]
+  double max_insertion_ = 0.0;      ///< [m]
+};
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,261 @@
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "common/error.h"
+#include "contact/detector.h"
+#include "session/run_result.h"
+#include "session/scene.h"
+#include "session/scene_vessel.h"
+#include "session/simulation.h"
+#include "session/trajectory_file.h"
+
+namespace
+{
+
+using namespace endovascular_sim;  // NOLINT: a program's main file
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kUsage = R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
+same trajectory bit for bit.
+
+usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
+
+  --out DIR             writes result.json, trajectory.csv and plots there; made when it is missing
+  --seconds T           runs for T seconds of simulated time instead of the scene's duration
+  --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
+  --record nodes        also writes nodes.csv: every node at every recorded step
+  --no-plots            leaves the plots out
+  --quiet               no progress bar
+  --help                prints this
+
+exit code: 0 done, 1 the scene is refused or a step could not be solved (the reason goes to the error stream), 2 wrong use
+)";
+
+struct Options
+{
+  std::string scene;
+  std::string out;
+  double seconds = NAN;
+  std::vector<std::string> overrides;
+  bool record_nodes = false;
+  bool plots = true;
+  bool quiet = false;
+};
+
+int wrongUse(const std::string& reason)
+{
+  std::cerr << "simulate: " << reason << "\n\n" << kUsage;
+  return 2;
+}
+
+bool parseSeconds(const std::string& text, double& seconds)
+{
+  char* end = nullptr;
+  seconds = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(seconds) && seconds > 0.0;
+}
+
+/** @return −1 to go on, else the exit code */
+int parse(int argc, char** argv, Options& options)
+{
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    const bool has_value = i + 1 < argc;
+    if (word == "--help" || word == "-h")
+    {
+      std::cout << kUsage;
+      return 0;
+    }
+    if (word == "--no-plots")
+      options.plots = false;
+    else if (word == "--quiet")
+      options.quiet = true;
+    else if (word == "--out" && has_value)
+      options.out = argv[++i];
+    else if (word == "--set" && has_value)
+      options.overrides.emplace_back(argv[++i]);
+    else if (word == "--seconds" && has_value)
+    {
+      if (!parseSeconds(argv[++i], options.seconds))
+        return wrongUse(std::string("--seconds takes a positive number of seconds, not '") + argv[i] + "'");
+    }
+    else if (word == "--record" && has_value)
+    {
+      if (std::string(argv[++i]) != "nodes")
+        return wrongUse("--record takes 'nodes'");
+      options.record_nodes = true;
+    }
+    else if (!word.empty() && word[0] != '-' && options.scene.empty())
+      options.scene = word;
+    else
+      return wrongUse("cannot use '" + word + "'");
+  }
+  if (options.scene.empty() || options.out.empty())
+    return wrongUse("a scene and --out are needed");
+  return -1;
+}
+
+std::ofstream openFile(const std::string& path)
+{
+  std::ofstream stream(path);
+  if (!stream)
+    throw InputError(path, "", "cannot be written; check the folder's permissions and the disk's free space");
+  return stream;
+}
+
+void drawProgress(double done, double factor)
+{
+  constexpr int kWidth = 40;
+  const int filled = static_cast<int>(done * kWidth);
+  std::fprintf(stderr, "\r[%s%s] %3.0f %%  %.1fx real time ", std::string(filled, '#').c_str(),
+               std::string(kWidth - filled, '.').c_str(), 100.0 * done, factor);
+}
+
+void writeNodes(std::ofstream& file, const session::Simulation& simulation)
+{
+  char line[200];
+  for (int i = session::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+  {
+    const Eigen::Vector3d& x = simulation.state().position[i];
+    std::snprintf(line, sizeof line, "%.17g,%d,%.17g,%.17g,%.17g\n", simulation.time(), i, x.x(), x.y(), x.z());
+    file << line;
+  }
+}
+
+session::TrajectoryRow rowOf(const session::Simulation& simulation)
+{
+  const rod::State& state = simulation.state();
+  session::TrajectoryRow row;
+  row.time = simulation.time();
+  row.insertion = state.inserted_length;
+  row.rotation = state.rotation;
+  row.hand_force = state.hand_force;
+  row.hand_torque = state.hand_torque;
+  row.tip = state.position.back();
+  row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - session::firstInsertedNode(simulation));
+  return row;
+}
+
+/** The vessel of a scene with everything that is made from it. */
+struct Surroundings
+{
+  std::unique_ptr<contact::Detector> wall;
+  session::EntryPose entry;
+  std::uint64_t mesh_hash = 0;
+};
+
+Surroundings build(const session::Scene& scene)
+{
+  Surroundings made;
+  if (!scene.vessel)
+  {
+    made.entry = session::resolveEntry(scene.entry, scene.file);
+    return made;
+  }
+  const vessel::Vessel vessel = session::buildVessel(*scene.vessel, scene.entry, scene.file);
+  for (const std::string& note : vessel.notes)
+    std::cerr << vessel.source << ": " << note << "\n";
+  made.entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  made.mesh_hash = vessel.mesh.hash();
+  made.wall = std::make_unique<contact::Detector>(
+      vessel.mesh, contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+  return made;
+}
+
+void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
+         const contact::Detector* wall, session::RunResult& result, std::uint64_t steps)
+{
+  session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
+  std::ofstream nodes;
+  if (options.record_nodes)
+  {
+    nodes = openFile(options.out + "/nodes.csv");
+    nodes << "time,node,x,y,z\n";
+  }
+  const auto row_every = static_cast<std::uint64_t>(
+      std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
+  const bool progress = !options.quiet && isatty(STDERR_FILENO);
+  const Clock::time_point begin = Clock::now();
+  for (std::uint64_t k = 1; k <= steps; ++k)
+  {
+    const double end_time = static_cast<double>(k) * scene.solver.time_step;
+    const session::HandCommand command{scene.drive.insertionAt(end_time), scene.drive.rotationAt(end_time)};
+    const Clock::time_point before = Clock::now();
+    simulation.step(command);
+    result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
+    if (k % row_every != 0 && k != steps)
+      continue;
+    if (!trajectory.add(rowOf(simulation)))
+      throw InputError(options.out + "/trajectory.csv", "", "the disk refused it; free some space");
+    if (wall)
+      result.checkOutside(simulation, *wall);
+    if (options.record_nodes)
+      writeNodes(nodes, simulation);
+    if (progress)
+      drawProgress(static_cast<double>(k) / static_cast<double>(steps),
+                   simulation.time() / std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  if (progress)
+    std::fputc('\n', stderr);
+  trajectory.flush();
+}
+
+void plot(const Options& options)
+{
+  const std::filesystem::path script = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_results.py";
+  const std::string command = "/usr/bin/python3 '" + script.string() + "' '" + options.out + "' >/dev/null";
+  if (std::system(command.c_str()) != 0)
+    std::cerr << "simulate: the plots could not be drawn (" << command << ")\n";
+}
+
+int simulate(const Options& options)
+{
+  const session::Scene scene = session::loadScene(options.scene, options.overrides);
+  std::filesystem::create_directories(options.out);
+  const Surroundings surroundings = build(scene);
+  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get());
+  const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
+  const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
+  session::RunResult result(scene, surroundings.mesh_hash, steps);
+  run(scene, options, simulation, surroundings.wall.get(), result, steps);
+  const std::string text = result.json(simulation);
+  openFile(options.out + "/result.json") << text;
+  openFile(options.out + "/scene.yaml") << scene.resolved_yaml;
+  if (options.plots)
+    plot(options);
+  if (!options.quiet)
+    std::cout << text;
+  if (result.refusedSteps() > 0)
+  {
+    std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Options options;
+  const int code = parse(argc, argv, options);
+  if (code >= 0)
+    return code;
+  try
+  {
+    return simulate(options);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "simulate: " << error.what() << "\n";
+    return 1;
+  }
+}
