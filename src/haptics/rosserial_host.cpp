@@ -150,7 +150,7 @@ void RosserialHost::handleApplication(const Frame& frame, double now)
   {
     // A device that was connected to an earlier host: it does not announce its topics unasked.
     ++counters_.unknown_ids;
-    if (now - request_at_ >= options_.timing.request_period)
+    if (now >= request_at_ + options_.timing.request_period)
       requestTopics(now);
   }
 }
@@ -216,14 +216,14 @@ bool RosserialHost::isTrusted(double now) const
 {
   const bool holds_wire = (flags_ & HapticSample::kEnabled) != 0 && (flags_ & HapticSample::kFault) == 0;
   return open_ && linked_ && holds_wire && topics_.samples() && topics_.force() &&
-         now - sample_at_ < options_.timing.sample_doubt && now - force_at_ < options_.timing.force_doubt &&
-         now - not_finite_at_ >= options_.timing.fault_hold;
+         now < sample_at_ + options_.timing.sample_doubt && now < force_at_ + options_.timing.force_doubt &&
+         now >= not_finite_at_ + options_.timing.fault_hold;
 }
 
 void RosserialHost::tick(double now, const WallTime& wall)
 {
   const HostTiming& timing = options_.timing;
-  if (linked_ && now - sample_at_ >= timing.sample_timeout)
+  if (linked_ && now >= sample_at_ + timing.sample_timeout)
   {
     linked_ = false;
     ++counters_.links_lost;
@@ -237,11 +237,11 @@ void RosserialHost::tick(double now, const WallTime& wall)
   trusted_ = trusted;
   if (!trusted)
     force_.release(now);
-  if (open_ && (!linked_ || !topics_.samples() || !topics_.force()) && now - request_at_ >= timing.request_period)
+  if (open_ && (!linked_ || !topics_.samples() || !topics_.force()) && now >= request_at_ + timing.request_period)
     requestTopics(now);
   updateState(now);
   const double period = force_.isMoving() ? timing.ramp_period : timing.keep_alive;
-  if (!topics_.force() || (!urgent_ && now - sent_at_ < period))
+  if (!topics_.force() || (!urgent_ && now < sent_at_ + period))
     return;
   output_.setLatest(forceFrame(now, wall));
   urgent_ = false;
@@ -310,13 +310,13 @@ void RosserialHost::updateState(double now)
     become(DeviceState::kDisabled, "no sample for " + milliseconds(timing.sample_timeout));
   else if ((flags_ & HapticSample::kFault) != 0)
     become(DeviceState::kFault, "the device reports a fault");
-  else if (now - not_finite_at_ < timing.fault_hold)
+  else if (now < not_finite_at_ + timing.fault_hold)
     become(DeviceState::kFault, "the simulation sent a force that is not a number");
   else if ((flags_ & HapticSample::kEnabled) == 0)
     become(DeviceState::kDisabled, "the hand does not hold the instrument");
   else if (!topics_.force())
     become(DeviceState::kPaused, "the device takes no force");
-  else if (now - force_at_ >= timing.force_timeout)
+  else if (now >= force_at_ + timing.force_timeout)
     become(DeviceState::kPaused, "no force from the simulation for " + milliseconds(timing.force_timeout));
   else
     become(DeviceState::kEnabled, "");
