@@ -1,0 +1,183 @@
+#include "fluoroscopy/wire_projection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+#include "fluoroscopy/vessel_projection.h"
+#include "shapes.h"
+
+namespace endovascular_sim::fluoroscopy
+{
+namespace
+{
+
+constexpr double kRadius = 0.18e-3;
+
+XRayWire straightWire(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int edges, double radius, double attenuation)
+{
+  XRayWire wire;
+  for (int i = 0; i <= edges; ++i)
+    wire.nodes.emplace_back(a + (b - a) * i / edges);
+  wire.radius.assign(wire.nodes.size(), radius);
+  wire.attenuation.assign(static_cast<std::size_t>(edges), attenuation);
+  return wire;
+}
+
+double totalLoss(const XRayGeometry& geometry, const XRayWire& wire)
+{
+  WireProjection projection;
+  WireShadow shadow;
+  projection.project(geometry, wire, shadow);
+  double sum = 0.0;
+  for (const double transmission : shadow.transmission)
+    sum += 1.0 - transmission;
+  return sum;
+}
+
+/** ∫ (1 − exp(−μ·chord)) over the image of a wire of given length, parallel to the detector at depth SOD [pixel²]. */
+double exactLoss(const XRayGeometry& geometry, double length, double radius, double attenuation)
+{
+  constexpr int kSteps = 200000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i)
+  {
+    const double q = (i + 0.5) / kSteps;
+    sum += (1.0 - std::exp(-attenuation * 2.0 * radius * std::sqrt(1.0 - q * q))) / kSteps;
+  }
+  const double scale = geometry.focalLength() / geometry.pose().source_to_patient;
+  return 2.0 * radius * sum * length * scale * scale;
+}
+
+TEST(WireProjection, KeepsTheIntegratedAttenuationForAnyShiftAndAngleBetweenThePixels)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  const double pixel = 0.75 / geometry.focalLength();
+  for (const double attenuation : {700.0, 9300.0})  // nitinol, platinum [1/m]
+  {
+    const double exact = exactLoss(geometry, 0.04, kRadius, attenuation);
+    for (double angle = 0.0; angle < M_PI; angle += M_PI / 36.0)
+      for (double shift = 0.0; shift < 1.0; shift += 0.1)
+      {
+        const Eigen::Vector3d along(std::cos(angle), 0.0, std::sin(angle));
+        const Eigen::Vector3d across(-std::sin(angle), 0.0, std::cos(angle));
+        const Eigen::Vector3d middle = shift * pixel * across;
+        const XRayWire wire = straightWire(middle - 0.02 * along, middle + 0.02 * along, 16, kRadius, attenuation);
+        EXPECT_NEAR(totalLoss(geometry, wire), exact, 0.02 * exact) << "angle " << angle << " shift " << shift;
+      }
+  }
+}
+
+TEST(WireProjection, EqualsTheProjectionOfAFineMeshOfTheSameCylinder)
+{
+  CArmPose pose;
+  pose.primary_angle = 0.4;
+  pose.pixels = 128;
+  pose.detector_width = 0.03;  // fine pixels: the average over a pixel is near its centre's value
+  const XRayGeometry geometry(pose);
+  const Eigen::Vector3d a(-0.004, -0.003, -0.005), b(0.005, 0.004, 0.006);
+  const auto exact = vesselPathLength(geometry, cylinder(a, b, 1.5e-3, 720));
+  WireProjection projection;
+  WireShadow shadow;
+  projection.project(geometry, straightWire(a, b, 7, 1.5e-3, 1.0), shadow);
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
+  {
+    const double length = exact[shadow.pixels[k]];
+    EXPECT_NEAR(-std::log(shadow.transmission[k]), length, length > 2e-3 ? 1e-4 : 1.2e-3);
+    compared += length > 2e-3 ? 1 : 0;
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+TEST(WireProjection, DoesNotCountTheJointsOfABentWireTwiceNorMissThem)
+{
+  // An arc of 20 mm radius in few and in many edges: the same volume of wire, so the same faint shadow.
+  const XRayGeometry geometry{CArmPose{}};
+  const auto arc = [](int edges)
+  {
+    XRayWire wire;
+    for (int i = 0; i <= edges; ++i)
+      wire.nodes.emplace_back(0.02 * std::cos(M_PI * i / edges), 0.0, 0.02 * std::sin(M_PI * i / edges));
+    wire.radius.assign(wire.nodes.size(), kRadius);
+    wire.attenuation.assign(static_cast<std::size_t>(edges), 1.0);
+    return wire;
+  };
+  const double exact = exactLoss(geometry, M_PI * 0.02, kRadius, 1.0);
+  EXPECT_NEAR(totalLoss(geometry, arc(200)), exact, 0.005 * exact);
+  EXPECT_NEAR(totalLoss(geometry, arc(40)), exact, 0.005 * exact);
+}
+
+TEST(WireProjection, SeesTheWholeLengthOfAWireAlongTheRay)
+{
+  CArmPose pose;
+  pose.pixels = 65;
+  const XRayGeometry geometry(pose);
+  const Eigen::Vector3d forward = geometry.axes().col(2);
+  WireProjection projection;
+  WireShadow shadow;
+  projection.project(geometry, straightWire(-0.01 * forward, 0.01 * forward, 5, 5e-3, 1.0), shadow);
+  bool found = false;
+  for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
+    if (shadow.pixels[k] == 32 * 65 + 32)
+    {
+      EXPECT_NEAR(-std::log(shadow.transmission[k]), 0.02, 1e-5);
+      found = true;
+    }
+  EXPECT_TRUE(found);
+}
+
+TEST(WireProjection, MultipliesTheShadowsOfCrossingParts)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  WireProjection projection;
+  WireShadow shadow;
+  XRayWire wire = straightWire({-0.01, 0.0, 0.0}, {0.01, 0.0, 0.0}, 1, 2e-3, 100.0);
+  wire.nodes.emplace_back(0.01, 0.01, 0.0);
+  wire.nodes.emplace_back(-0.01, 0.01, 0.0);
+  wire.radius.assign(4, 2e-3);
+  wire.attenuation.assign(3, 100.0);
+  projection.project(geometry, wire, shadow);
+  double darkest = 1.0;
+  for (const double transmission : shadow.transmission)
+    darkest = std::min(darkest, transmission);
+  EXPECT_LT(darkest, std::exp(-100.0 * 7.8e-3));
+}
+
+TEST(WireProjection, GivesTheSameBitsForTheSameWireWhateverCameBefore)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  const XRayWire wire = straightWire({-0.01, 0.001, 0.0}, {0.02, 0.0, 0.03}, 11, kRadius, 700.0);
+  WireProjection fresh, used;
+  WireShadow expected, shadow;
+  fresh.project(geometry, wire, expected);
+  used.project(geometry, straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0), shadow);
+  used.project(geometry, wire, shadow);
+  EXPECT_EQ(shadow.pixels, expected.pixels);
+  EXPECT_EQ(shadow.transmission, expected.transmission);
+}
+
+TEST(WireProjection, IgnoresWhatIsOutsideTheFieldOrBehindTheSourceAndDoubledNodes)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  EXPECT_EQ(totalLoss(geometry, straightWire({1.0, 0.0, 0.0}, {1.0, 0.0, 0.1}, 3, kRadius, 700.0)), 0.0);
+  EXPECT_EQ(totalLoss(geometry, straightWire({0.0, 0.8, 0.0}, {0.0, 0.9, 0.0}, 3, kRadius, 700.0)), 0.0);
+  EXPECT_EQ(totalLoss(geometry, straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 3, kRadius, 700.0)), 0.0);
+  EXPECT_EQ(totalLoss(geometry, XRayWire{}), 0.0);
+}
+
+TEST(WireProjection, RefusesArraysThatDoNotFitTogether)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  XRayWire wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);
+  wire.attenuation.pop_back();
+  EXPECT_THROW(totalLoss(geometry, wire), InputError);
+  wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);
+  wire.nodes[1].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(totalLoss(geometry, wire), InputError);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::fluoroscopy
