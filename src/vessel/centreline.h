@@ -26,10 +26,10 @@ struct CentrelineTree
 /** An end of the centreline: where a vessel can be entered. */
 struct CentrelineEnd
 {
-  int branch = 0;              ///< index into CentrelineTree::branches
-  Eigen::Vector3d position;    ///< [m]
-  Eigen::Vector3d inward;      ///< unit vector from the end into the vessel
-  double radius = 0.0;         ///< [m]
+  int branch = 0;            ///< index into CentrelineTree::branches
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d inward;    ///< unit vector from the end into the vessel
+  double radius = 0.0;       ///< [m]
 };
 
 /** All ends of the tree (leaf tips, and the root's first point), in branch order. */

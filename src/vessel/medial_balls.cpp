@@ -1,0 +1,157 @@
+#include "vessel/medial_balls.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "vessel/point_tree.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+constexpr int kDeepestSplit = 9;
+/** A triangle longer than this many local radii is sampled in parts. */
+constexpr double kSampleSpacing = 0.7;
+/** More triangles than this are sampled by every second, third, … one. */
+constexpr std::size_t kMostTriangles = 40000;
+/** A step away from the nearest wall must gain this fraction of its length: less is the ridge. */
+constexpr double kLeastGain = 0.3;
+
+/** From half-way across the lumen away from the nearest wall, up to the ridge of the distance. */
+MedialBall climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, const MeshDistance& distance)
+{
+  // Started a hair inside, so that the ray does not hit its own triangle.
+  const double hair = 1e-9;
+  const double across = distance.rayHit(p + hair * inward, inward);
+  if (!(across > 0.0))
+    return {};
+  Eigen::Vector3d centre = p + 0.5 * across * inward;
+  ClosestPoint wall = distance.closest(centre);
+  for (double step = 0.3 * wall.distance; step > 0.03 * wall.distance && wall.distance > 0.0;)
+  {
+    const Eigen::Vector3d trial = centre + step * (centre - wall.point) / wall.distance;
+    const ClosestPoint trial_wall = distance.closest(trial, 1.01 * (wall.distance + step));
+    if (trial_wall.triangle < 0 || trial_wall.distance < wall.distance + kLeastGain * step)
+    {
+      step *= 0.5;
+      continue;
+    }
+    centre = trial;
+    wall = trial_wall;
+  }
+  return {centre, wall.distance};
+}
+
+/** A triangle or a part of one. */
+struct Facet
+{
+  Eigen::Vector3d a, b, c;
+  int depth;
+};
+
+void sampleFacet(const Facet& whole, const MeshDistance& distance, std::vector<MedialBall>& balls)
+{
+  const Eigen::Vector3d normal = (whole.b - whole.a).cross(whole.c - whole.a);
+  if (normal.norm() == 0.0)
+    return;
+  const Eigen::Vector3d inward = -normal.normalized();
+  std::vector<Facet> open{whole};
+  while (!open.empty())
+  {
+    const Facet f = open.back();
+    open.pop_back();
+    const MedialBall ball = climb((f.a + f.b + f.c) / 3.0, inward, distance);
+    if (ball.radius > 0.0)
+      balls.push_back(ball);
+    const double ab = (f.b - f.a).norm();
+    const double bc = (f.c - f.b).norm();
+    const double ca = (f.a - f.c).norm();
+    const double longest = std::max({ab, bc, ca});
+    if (f.depth >= kDeepestSplit || longest <= kSampleSpacing * ball.radius || !(ball.radius > 0.0))
+      continue;
+    // Across the longest side.
+    Facet g = f;
+    if (bc == longest)
+      g = {f.b, f.c, f.a, f.depth};
+    else if (ca == longest)
+      g = {f.c, f.a, f.b, f.depth};
+    const Eigen::Vector3d middle = 0.5 * (g.a + g.b);
+    open.push_back({g.a, middle, g.c, f.depth + 1});
+    open.push_back({middle, g.b, g.c, f.depth + 1});
+  }
+}
+
+std::vector<Eigen::Vector3d> centresOf(const std::vector<MedialBall>& balls)
+{
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(balls.size());
+  for (const MedialBall& ball : balls)
+    centres.push_back(ball.centre);
+  return centres;
+}
+
+}  // namespace
+
+std::vector<MedialBall> medialBalls(const TriangleMesh& mesh, const MeshDistance& distance)
+{
+  std::vector<MedialBall> balls;
+  const std::size_t stride = mesh.triangles.size() / kMostTriangles + 1;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += stride)
+  {
+    const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
+    sampleFacet({at(0), at(1), at(2), 0}, distance, balls);
+  }
+  return balls;
+}
+
+std::vector<MedialBall> thinBalls(std::vector<MedialBall> balls, double cover)
+{
+  std::stable_sort(balls.begin(), balls.end(),
+                   [](const MedialBall& a, const MedialBall& b) { return a.radius > b.radius; });
+  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
+  const PointTree tree(centres);
+  std::vector<bool> dropped(balls.size(), false);
+  std::vector<MedialBall> kept;
+  for (std::size_t i = 0; i < balls.size(); ++i)
+  {
+    if (dropped[i])
+      continue;
+    kept.push_back(balls[i]);
+    tree.within(balls[i].centre, balls[i].radius,
+                [&](int index)
+                {
+                  const auto j = static_cast<std::size_t>(index);
+                  const bool much_smaller = balls[j].radius < cover * balls[i].radius;
+                  if (much_smaller || (centres[j] - centres[i]).norm() <= cover * balls[i].radius)
+                    dropped[j] = true;
+                });
+  }
+  return kept;
+}
+
+std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialBall>& balls)
+{
+  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
+  const PointTree tree(centres);
+  std::vector<std::vector<int>> neighbours(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    tree.within(balls[i].centre, 2.0 * balls[i].radius,
+                [&](int index)
+                {
+                  const auto j = static_cast<std::size_t>(index);
+                  // Found from the larger one; of equals from the earlier one.
+                  const bool mine = balls[j].radius < balls[i].radius || (balls[j].radius == balls[i].radius && j > i);
+                  if (!mine || (centres[i] - centres[j]).norm() >= balls[i].radius + balls[j].radius)
+                    return;
+                  neighbours[i].push_back(index);
+                  neighbours[j].push_back(static_cast<int>(i));
+                });
+  for (std::vector<int>& list : neighbours)
+    std::sort(list.begin(), list.end());
+  return neighbours;
+}
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "vessel/mesh.h"
+#include "vessel/mesh_distance.h"
+
+namespace endovascular_sim::vessel
+{
+
+/** A largest sphere that fits between the walls at some place. */
+struct MedialBall
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 0.0;                               ///< [m]
+};
+
+/** Balls in the middle of the lumen: from the midpoint of the chord across it at samples of the wall, away from the
+ *  nearest wall up to the ridge of the distance (so that the grooves between facets collect no balls). Triangles longer
+ *  than the local radius are sampled several times. The order is that of the triangles. */
+std::vector<MedialBall> medialBalls(const TriangleMesh& mesh, const MeshDistance& distance);
+
+/** Thins the balls, largest first: a kept ball drops those whose centre lies within @p cover of its radii, and those
+ *  smaller than @p cover of its size whose centre it contains. */
+std::vector<MedialBall> thinBalls(std::vector<MedialBall> balls, double cover);
+
+/** For every ball the indices of those it overlaps, ascending. Overlapping balls belong to the same lumen. */
+std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialBall>& balls);
+
+}  // namespace endovascular_sim::vessel

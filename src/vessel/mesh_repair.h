@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vessel/mesh.h"
+
+namespace endovascular_sim::vessel
+{
+
+/** A mesh that is fit for use, and what was done to it. */
+struct RepairedMesh
+{
+  TriangleMesh mesh;
+  std::vector<std::string> notes;  ///< one sentence per repair; empty when nothing was wrong
+};
+
+/** Vertices closer than this are one [m]. */
+constexpr double kWeldDistance = 1e-7;
+
+/** Repairs what is safe: joins vertices closer than kWeldDistance, drops faces without area, duplicate faces and unused
+ *  vertices, parts sheets that touch in a vertex, turns faces so that all point out of the lumen, drops crumbs that
+ *  enclose less than a millionth of the vessel. Shapes are never invented: holes, non-manifold edges and several
+ *  lumens are refused.
+ *  @param source names the mesh in errors
+ *  @throws InputError with the count and place of every defect that stays */
+RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source);
+
+}  // namespace endovascular_sim::vessel
