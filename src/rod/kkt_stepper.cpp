@@ -15,6 +15,8 @@ constexpr int kMaxActiveSetPasses = 8;
 constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
 constexpr double kConstraintCompliance = 1e-10;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
+constexpr int kMaxRestoringSolves = 4;
+constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
 
 }  // namespace
@@ -187,9 +189,42 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     if (factor == 1.0 && maxStrain(rod_, state) <= settings_.strain_tolerance && !foundUnknownContact())
       break;
     report.capped += last;
+    if (last && !restoreLengths(state, input, dt, report))
+      return false;
   }
   finish(state, dt);
   return true;
+}
+
+/** After a step that was accepted unfinished (a snap that the trust region cut short): brings the edges back to their
+ *  lengths without moving on, by solves over a small fraction of the step from rest. */
+bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  restore_begin_ = begin_;
+  restore_velocity_ = state.velocity;
+  bool solved = true;
+  for (int solve = 0; solve < kMaxRestoringSolves && solved; ++solve)
+  {
+    if (maxStrain(rod_, state) <= settings_.strain_tolerance)
+      break;
+    begin_ = state.position;
+    std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
+    const double fraction = kRestoringFraction * dt;
+    prepareContacts(state, fraction);
+    assemble(state, input, fraction, true);
+    ++report.solves;
+    solved = solveActiveSet(state, fraction, report);
+    if (!solved)
+      break;
+    const double factor = truncation(state, report);
+    for (int i = first_; i < rod_.nodes(); ++i)
+      state.position[i] += factor * increment(i);
+    if (source_)
+      detect(state, report);
+  }
+  begin_ = restore_begin_;
+  state.velocity = restore_velocity_;
+  return solved;
 }
 
 void KktStepper::finish(State& state, double dt)

@@ -47,6 +47,7 @@ private:
 
   bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
+  bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   void placePrescribedNodes(State& state, double inserted_length, double dt);
   bool isPrescribed(int node, const State& state) const;
   TwistBoundary twistBoundary(const State& state, double tip_torque) const;
@@ -106,6 +107,7 @@ private:
   Matrix base_, matrix_;
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
+  std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
   std::vector<State> backup_;           ///< per depth of halving
 };
 
