@@ -19,17 +19,16 @@ constexpr double kFoldedCosine = 0.05;  // mitres are for bends below 90°
 constexpr double kReach = 1.6;  // of a mitred cylinder from its axis, in radii: √2 at a 90° bend, and obliquity
 constexpr double kHalfDiagonal = 0.7072;
 
-struct Offset
-{
-  double column, row;  // from the pixel's centre [pixel]
-};
+using Offsets = std::array<Eigen::Vector2d, kSamples>;
 
-std::array<Offset, kSamples> sampleOffsets()
+/** Samples of a pixel from its centre, as differences (x, y) of rays with z = 1. */
+Offsets sampleOffsets(double focal_length)
 {
-  std::array<Offset, kSamples> offsets{};
+  Offsets offsets;
   for (int i = 0; i < kSamples; ++i)
-    offsets[static_cast<std::size_t>(i)] = {(i + 0.5) / kSamples - 0.5,
-                                            ((i * kLatticeStep) % kSamples + 0.5) / kSamples - 0.5};
+    offsets[static_cast<std::size_t>(i)] =
+        Eigen::Vector2d((i + 0.5) / kSamples - 0.5, 0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) /
+        focal_length;
   return offsets;
 }
 
@@ -117,8 +116,8 @@ float* WireProjection::samplesOf(std::uint32_t pixel)
 
 void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
 {
-  static const std::array<Offset, kSamples> kOffsets = sampleOffsets();
   const double f = geometry.focalLength(), centre = geometry.centre();
+  const Offsets offsets = sampleOffsets(f);
   const auto image = [&](const Eigen::Vector3d& p)
   { return Eigen::Vector2d(centre + f * p.x() / p.z(), centre - f * p.y() / p.z()); };
   const Eigen::Vector2d p0 = image(edge.begin), p1 = image(edge.end);
@@ -138,11 +137,10 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
       if (distance({column, row}, p0, p1) > reach)
         continue;
       float* samples = samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column));
+      const Eigen::Vector3d ray = geometry.ray(column, row);
       for (std::size_t i = 0; i < kSamples; ++i)
-      {
-        const Eigen::Vector3d ray = geometry.ray(column + kOffsets[i].column, row + kOffsets[i].row);
-        samples[i] += static_cast<float>(edge.attenuation * edge.chord(ray, moment, across));
-      }
+        samples[i] += static_cast<float>(
+            edge.attenuation * edge.chord({ray.x() + offsets[i].x(), ray.y() + offsets[i].y(), 1.0}, moment, across));
     }
 }
 

@@ -1,0 +1,275 @@
+#include <sched.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/package.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include "common/error.h"
+#include "nodes/support/image_conversions.h"
+#include "nodes/support/names.h"
+#include "nodes/support/scene_parameters.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+
+/** The scene's X-ray; refuses a scene without one. */
+session::FluoroscopyScene xRayOf(const session::Scene& scene)
+{
+  if (!scene.fluoroscopy)
+    throw InputError(scene.file, "fluoroscopy", "missing; add it or do not start the fluoroscopy node");
+  return *scene.fluoroscopy;
+}
+
+fluoroscopy::XRayScene toXRayScene(const session::Scene& scene, const fluoroscopy::AttenuationTable& table)
+{
+  const session::FluoroscopyScene xray = xRayOf(scene);
+  fluoroscopy::XRayScene result;
+  result.tissue_attenuation = table.linear("soft_tissue", xray.energy);
+  result.vessel_attenuation = table.contrast(xray.iodine, xray.energy);
+  result.tissue_thickness = xray.tissue_thickness;
+  return result;
+}
+
+/** What the wire displaces: contrast in a vessel, else tissue, else air [1/m]. */
+double displacedAttenuation(const session::Scene& scene, const fluoroscopy::XRayScene& xray)
+{
+  if (scene.vessel)
+    return xray.vessel_attenuation;
+  return xray.tissue_thickness > 0.0 ? xray.tissue_attenuation : 0.0;
+}
+
+/** Draws what the C-arm sees, as long as somebody looks. */
+class Fluoroscopy
+{
+public:
+  Fluoroscopy(ros::NodeHandle& node, const session::Scene& scene, const fluoroscopy::AttenuationTable& table,
+              std::string scheduling)
+    : scene_(scene),
+      xray_(xRayOf(scene)),
+      fluoroscope_(toPose(xray_), toXRayScene(scene, table)),
+      section_attenuation_(
+          sectionAttenuation(scene.instrument, table, xray_.energy, displacedAttenuation(scene, fluoroscope_.scene()))),
+      isocentre_known_(xray_.isocentre.has_value()),
+      scheduling_(std::move(scheduling)),
+      raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
+      image_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2)),
+      camera_info_(node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2))
+  {
+    const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+    mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &Fluoroscopy::takeMesh, this, no_delay);
+    rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &Fluoroscopy::takeRod, this, no_delay);
+    c_arm_subscriber_ = node.subscribe(names::kCArmCommand, 1, &Fluoroscopy::takeCommand, this, no_delay);
+    updater_.setHardwareID("simulated C-arm");
+    updater_.add("Fluoroscopy", this, &Fluoroscopy::diagnose);
+    broadcastPose();
+    frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / xray_.rate), &Fluoroscopy::onFrame, this);
+    diagnostics_timer_ =
+        node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod), &Fluoroscopy::onDiagnostics, this);
+  }
+
+private:
+  void takeMesh(const VesselMesh& message)
+  {
+    guarded(
+        [&]
+        {
+          vessel::TriangleMesh mesh = toMesh(message);
+          if (!isocentre_known_ && !mesh.vertices.empty())
+          {
+            Eigen::AlignedBox3d box;
+            for (const Eigen::Vector3d& vertex : mesh.vertices)
+              box.extend(vertex);
+            moveIsocentre(box.center());
+          }
+          fluoroscope_.setVessel(std::move(mesh));
+          has_mesh_ = true;
+        });
+  }
+
+  void takeRod(const RodStateVisual& message)
+  {
+    guarded([&] { wire_ = toXRayWire(message, scene_.instrument.wire, section_attenuation_); });
+    if (!scene_.vessel && !isocentre_known_ && !wire_.nodes.empty())
+      guarded([&] { moveIsocentre(wire_.nodes[wire_.nodes.size() / 2]); });
+  }
+
+  void takeCommand(const CArm& message)
+  {
+    guarded(
+        [&]
+        {
+          move(toPose(message, xray_.pixels));
+          isocentre_known_ = true;
+        });
+  }
+
+  void moveIsocentre(const Eigen::Vector3d& isocentre)
+  {
+    fluoroscopy::CArmPose pose = fluoroscope_.geometry().pose();
+    pose.isocentre = isocentre;
+    move(pose);
+    isocentre_known_ = true;
+  }
+
+  void move(const fluoroscopy::CArmPose& pose)
+  {
+    if (pose == fluoroscope_.geometry().pose())
+      return;
+    fluoroscope_.setPose(pose);
+    broadcastPose();
+  }
+
+  void broadcastPose() { broadcaster_.sendTransform(toTransform(ros::Time::now(), fluoroscope_.geometry())); }
+
+  bool watched() const
+  {
+    return raw_.getNumSubscribers() + image_.getNumSubscribers() + camera_info_.getNumSubscribers() > 0;
+  }
+
+  void onFrame(const ros::SteadyTimerEvent& /*event*/)
+  {
+    if (!watched() || (scene_.vessel && !has_mesh_))
+      return;
+    guarded(
+        [&]
+        {
+          if (xray_.follow_tip && !wire_.nodes.empty())
+            move(fluoroscopy::followTip(fluoroscope_.geometry().pose(), wire_.nodes.back()));
+          publishFrame();
+        });
+  }
+
+  void publishFrame()
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    std_msgs::Header header;
+    header.stamp = ros::Time::now();
+    header.frame_id = names::kXRaySourceFrame;
+    const fluoroscopy::Frame& frame = fluoroscope_.render(wire_);
+    render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    ++frames_;
+    camera_info_.publish(toCameraInfo(header, fluoroscope_.geometry()));
+    if (raw_.getNumSubscribers() > 0)
+      raw_.publish(toImage(header, frame.pixels, frame.raw));
+    if (image_.getNumSubscribers() > 0)
+      image_.publish(toImage(header, frame.pixels, frame.image));
+  }
+
+  void onDiagnostics(const ros::SteadyTimerEvent& /*event*/) { updater_.force_update(); }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
+  {
+    using diagnostic_msgs::DiagnosticStatus;
+    double median = 0.0;
+    if (!render_times_.empty())
+    {
+      const auto middle = render_times_.begin() + static_cast<std::ptrdiff_t>(render_times_.size() / 2);
+      std::nth_element(render_times_.begin(), middle, render_times_.end());
+      median = *middle;
+    }
+    if (scene_.vessel && !has_mesh_)
+      status.summary(DiagnosticStatus::WARN, "waiting for the vessel");
+    else if (!new_error_.empty())
+      status.summary(DiagnosticStatus::WARN, new_error_);
+    else
+      status.summary(DiagnosticStatus::OK, watched() ? "rendering" : "idle: nobody listens");
+    status.add("frames rendered", frames_);
+    status.add("frames per second", static_cast<double>(render_times_.size()) / kDiagnosticsPeriod);
+    status.add("median render time [ms]", 1e3 * median);
+    status.add("scheduling", scheduling_);
+    status.add("last error", last_error_);
+    render_times_.clear();
+    new_error_.clear();
+  }
+
+  /** Runs a piece of work on input from outside; input that cannot be used is told and changes nothing. */
+  template <typename Work>
+  void guarded(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const InputError& error)
+    {
+      ROS_WARN_THROTTLE(1.0, "%s", error.what());
+      new_error_ = last_error_ = error.what();
+    }
+  }
+
+  session::Scene scene_;
+  session::FluoroscopyScene xray_;
+  fluoroscopy::Fluoroscope fluoroscope_;
+  std::vector<double> section_attenuation_;  // [1/m]
+  fluoroscopy::XRayWire wire_;
+  bool has_mesh_ = false;
+  bool isocentre_known_;
+
+  std::string scheduling_;
+  std::size_t frames_ = 0;
+  std::vector<double> render_times_;  // since the last diagnostics [s]
+  std::string new_error_, last_error_;
+
+  ros::Publisher raw_, image_, camera_info_;
+  ros::Subscriber mesh_subscriber_, rod_subscriber_, c_arm_subscriber_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer frame_timer_, diagnostics_timer_;
+};
+
+/** Gives way to the nodes that must be in time. Threads made later inherit it.
+ *  @return what was reached, for people */
+std::string askForIdleScheduling()
+{
+  const sched_param parameter{};
+  if (sched_setscheduler(0, SCHED_IDLE, &parameter) == 0)
+    return "SCHED_IDLE";
+  const std::string reason = std::strerror(errno);
+  ROS_WARN(
+      "SCHED_IDLE was refused (%s): rendering may delay the simulation's steps; start this node with "
+      "`chrt --idle 0` or `nice -n 19`",
+      reason.c_str());
+  return "default (SCHED_IDLE was refused: " + reason + ")";
+}
+
+/** The table named by the private parameter `attenuation_table`, or the package's own. */
+fluoroscopy::AttenuationTable attenuationTable()
+{
+  const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/attenuation.yaml";
+  return fluoroscopy::AttenuationTable::load(ros::NodeHandle("~").param<std::string>("attenuation_table", own));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "fluoroscopy");
+  const std::string scheduling = endovascular_sim::nodes::askForIdleScheduling();
+  ros::NodeHandle node;
+  try
+  {
+    endovascular_sim::nodes::Fluoroscopy fluoroscopy(node, endovascular_sim::nodes::sceneFromParameters(node),
+                                                     endovascular_sim::nodes::attenuationTable(), scheduling);
+    ros::spin();
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+}

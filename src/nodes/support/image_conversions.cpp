@@ -1,0 +1,202 @@
+#include "nodes/support/image_conversions.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <sensor_msgs/image_encodings.h>
+
+#include "common/error.h"
+#include "nodes/support/names.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
+{
+  return {point.x, point.y, point.z};
+}
+
+template <typename Pixel>
+sensor_msgs::Image image(const std_msgs::Header& header, int pixels, const std::vector<Pixel>& values,
+                         const std::string& encoding)
+{
+  sensor_msgs::Image message;
+  message.header = header;
+  message.width = message.height = static_cast<std::uint32_t>(pixels);
+  message.encoding = encoding;
+  message.is_bigendian = 0;
+  message.step = static_cast<std::uint32_t>(static_cast<std::size_t>(pixels) * sizeof(Pixel));
+  message.data.resize(values.size() * sizeof(Pixel));
+  std::memcpy(message.data.data(), values.data(), message.data.size());
+  return message;
+}
+
+const char* materialName(instrument::Material material)
+{
+  switch (material)
+  {
+    case instrument::Material::kNitinol:
+      return "nitinol";
+    case instrument::Material::kSteel:
+      return "steel";
+    case instrument::Material::kPlatinum:
+      return "platinum";
+    case instrument::Material::kPolymer:
+      return "polymer";
+  }
+  return "";
+}
+
+}  // namespace
+
+sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey)
+{
+  return image(header, pixels, grey, sensor_msgs::image_encodings::MONO8);
+}
+
+sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint16_t>& signal)
+{
+  return image(header, pixels, signal, sensor_msgs::image_encodings::MONO16);
+}
+
+sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry)
+{
+  sensor_msgs::CameraInfo info;
+  info.header = header;
+  info.width = info.height = static_cast<std::uint32_t>(geometry.pixels());
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  const Eigen::Matrix3d k = geometry.cameraMatrix();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+    {
+      info.K[static_cast<std::size_t>(3 * row + column)] = k(row, column);
+      info.P[static_cast<std::size_t>(4 * row + column)] = k(row, column);
+      info.R[static_cast<std::size_t>(3 * row + column)] = row == column ? 1.0 : 0.0;
+    }
+  return info;
+}
+
+geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry)
+{
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = names::kPatientFrame;
+  message.child_frame_id = names::kXRaySourceFrame;
+  const Eigen::Quaterniond rotation(geometry.axes());
+  message.transform.translation.x = geometry.source().x();
+  message.transform.translation.y = geometry.source().y();
+  message.transform.translation.z = geometry.source().z();
+  message.transform.rotation.x = rotation.x();
+  message.transform.rotation.y = rotation.y();
+  message.transform.rotation.z = rotation.z();
+  message.transform.rotation.w = rotation.w();
+  return message;
+}
+
+fluoroscopy::CArmPose toPose(const CArm& message, int pixels)
+{
+  fluoroscopy::CArmPose pose;
+  pose.primary_angle = message.positioner_primary_angle;
+  pose.secondary_angle = message.positioner_secondary_angle;
+  pose.source_to_detector = message.distance_source_to_detector;
+  pose.source_to_patient = message.distance_source_to_patient;
+  pose.isocentre = toEigen(message.isocentre);
+  pose.detector_width = message.detector_width;
+  pose.pixels = pixels;
+  return pose;
+}
+
+CArm toMessage(const fluoroscopy::CArmPose& pose)
+{
+  CArm message;
+  message.positioner_primary_angle = pose.primary_angle;
+  message.positioner_secondary_angle = pose.secondary_angle;
+  message.distance_source_to_detector = pose.source_to_detector;
+  message.distance_source_to_patient = pose.source_to_patient;
+  message.isocentre.x = pose.isocentre.x();
+  message.isocentre.y = pose.isocentre.y();
+  message.isocentre.z = pose.isocentre.z();
+  message.detector_width = pose.detector_width;
+  return message;
+}
+
+fluoroscopy::CArmPose toPose(const session::FluoroscopyScene& scene)
+{
+  fluoroscopy::CArmPose pose;
+  pose.primary_angle = scene.primary_angle;
+  pose.secondary_angle = scene.secondary_angle;
+  pose.source_to_detector = scene.source_to_detector;
+  pose.source_to_patient = scene.source_to_patient;
+  pose.isocentre = scene.isocentre.value_or(Eigen::Vector3d::Zero());
+  pose.detector_width = scene.detector_width;
+  pose.pixels = scene.pixels;
+  return pose;
+}
+
+vessel::TriangleMesh toMesh(const VesselMesh& message)
+{
+  vessel::TriangleMesh mesh;
+  mesh.vertices.reserve(message.mesh.vertices.size());
+  for (const geometry_msgs::Point& vertex : message.mesh.vertices)
+  {
+    mesh.vertices.push_back(toEigen(vertex));
+    if (!mesh.vertices.back().allFinite())
+      throw InputError(names::kVesselMesh, "vertex " + std::to_string(mesh.vertices.size() - 1), "must be finite");
+  }
+  mesh.triangles.reserve(message.mesh.triangles.size());
+  for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles)
+  {
+    for (const std::uint32_t index : triangle.vertex_indices)
+      if (index >= mesh.vertices.size())
+        throw InputError(names::kVesselMesh, "triangle " + std::to_string(mesh.triangles.size()),
+                         "names vertex " + std::to_string(index) + " of " + std::to_string(mesh.vertices.size()));
+    mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
+                                static_cast<int>(triangle.vertex_indices[1]),
+                                static_cast<int>(triangle.vertex_indices[2]));
+  }
+  return mesh;
+}
+
+std::vector<double> sectionAttenuation(const instrument::Instrument& instrument,
+                                       const fluoroscopy::AttenuationTable& table, double energy, double displaced)
+{
+  if (instrument.materials.size() != instrument.wire.sections.size())
+    throw InputError(instrument.name, "materials", "must have one material per section of the wire");
+  std::vector<double> attenuation;
+  for (const instrument::Material material : instrument.materials)
+    attenuation.push_back(table.linear(materialName(material), energy) - displaced);
+  return attenuation;
+}
+
+fluoroscopy::XRayWire toXRayWire(const RodStateVisual& state, const rod::Wire& wire,
+                                 const std::vector<double>& section_attenuation)
+{
+  if (state.radius.size() != state.nodes.size())
+    throw InputError(names::kRodStateVisual, "radius", "must have one value per node");
+  fluoroscopy::XRayWire result;
+  result.nodes.reserve(state.nodes.size());
+  for (const geometry_msgs::Point& node : state.nodes)
+    result.nodes.push_back(toEigen(node));
+  result.radius = state.radius;
+  if (result.nodes.size() < 2 || section_attenuation.empty())
+    return {};
+  result.attenuation.resize(result.nodes.size() - 1);
+  std::size_t section = section_attenuation.size() - 1;
+  double section_end = wire.sections[section].length;  // of the proximal end, measured from the tip
+  double from_tip = 0.0;
+  for (std::size_t j = result.attenuation.size(); j-- > 0;)
+  {
+    const double length = (result.nodes[j + 1] - result.nodes[j]).norm();
+    while (from_tip + 0.5 * length > section_end && section > 0)
+      section_end += wire.sections[--section].length;
+    result.attenuation[j] = section_attenuation[section];
+    from_tip += length;
+  }
+  return result;
+}
+
+}  // namespace endovascular_sim::nodes

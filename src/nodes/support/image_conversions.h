@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "endovascular_sim/CArm.h"
+#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/fluoroscope.h"
+#include "instrument/instrument.h"
+#include "session/scene.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** A square mono8 image. */
+sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey);
+
+/** A square mono16 image. */
+sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint16_t>& signal);
+
+/** Camera of the optical frame `x_ray_source_optical` (x image right, y image up, z from the source to the detector):
+ *  K = [f 0 c; 0 −f c; 0 0 1], f = SID / pixel size, P = [K 0], D = 0, R = 1. f_y is negative because a radiograph is
+ *  seen from the detector, the mirror image of a camera's view from the source (see XRayGeometry). */
+sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry);
+
+/** From `x_ray_source_optical` to `patient`. */
+geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry);
+
+/** C-arm pose of a command, with the image's size that no command changes. */
+fluoroscopy::CArmPose toPose(const CArm& message, int pixels);
+
+/** The command that a pose answers; header left empty. */
+CArm toMessage(const fluoroscopy::CArmPose& pose);
+
+/** Initial pose of a scene; its isocentre is the origin when the scene leaves it open. */
+fluoroscopy::CArmPose toPose(const session::FluoroscopyScene& scene);
+
+/** Triangles of a vessel message [m].
+ *  @throws InputError when an index has no vertex or a coordinate is not finite */
+vessel::TriangleMesh toMesh(const VesselMesh& message);
+
+/** Per section of the instrument: linear attenuation of its material less that of what it displaces [1/m].
+ *  @param displaced of what the wire displaces [1/m]
+ *  @param energy photon energy [keV] */
+std::vector<double> sectionAttenuation(const instrument::Instrument& instrument,
+                                       const fluoroscopy::AttenuationTable& table, double energy, double displaced);
+
+/** What X-rays see of a rod. The message ends at the wire's tip, so an edge lies in the section at its distance from
+ *  there.
+ *  @param section_attenuation of sectionAttenuation() [1/m]
+ *  @throws InputError when there is not one radius per node */
+fluoroscopy::XRayWire toXRayWire(const RodStateVisual& state, const rod::Wire& wire,
+                                 const std::vector<double>& section_attenuation);
+
+}  // namespace endovascular_sim::nodes
