@@ -10,9 +10,13 @@ namespace
 {
 
 /** What lies within this many radii of a path is taken as its own: √2 reaches the rim of a flat cap. */
-constexpr double kCover = 1.75;
+constexpr double kCover = 1.2;
 /** A branch must leave what its parent covers by this many of its own radii. */
-constexpr double kShortestBranch = 1.5;
+constexpr double kShortestBranch = 1.0;
+/** From ball to larger ball up a slope of at least this, a groove leads into its lumen; a vessel tapers less. */
+constexpr double kGrooveSlope = 0.1;
+/** A ball smaller than this fraction of the lumen above its groove is no end of a vessel. */
+constexpr double kGrooveDepth = 0.5;
 constexpr double kUnreached = 1e300;
 
 using Graph = std::vector<std::vector<int>>;
@@ -62,6 +66,18 @@ public:
   Skeletoniser(const std::vector<MedialBall>& balls, const Graph& neighbours)
     : balls_(balls), neighbours_(neighbours), covered_(balls.size(), false), tree_(balls.size())
   {
+    // Balls come largest first.
+    std::vector<double> summit;
+    for (std::size_t k = 0; k < balls.size(); ++k)
+    {
+      const double radius = balls[k].radius;
+      summit.push_back(radius);
+      for (int other : neighbours[k])
+        if (other < static_cast<int>(k) &&
+            at(other).radius - radius > kGrooveSlope * length(static_cast<int>(k), other))
+          summit[k] = std::max(summit[k], summit[static_cast<std::size_t>(other)]);
+      may_be_tip_.push_back(radius >= kGrooveDepth * summit[k]);
+    }
   }
 
   std::vector<SkeletonBranch> run()
@@ -95,7 +111,8 @@ private:
     Paths paths = lengths({{0.0, source}});
     int farthest = source;
     for (std::size_t k = 0; k < balls_.size(); ++k)
-      if (paths.cost[k] < kUnreached && paths.cost[k] > paths.cost[static_cast<std::size_t>(farthest)])
+      if (may_be_tip_[k] && paths.cost[k] < kUnreached &&
+          paths.cost[k] > paths.cost[static_cast<std::size_t>(farthest)])
         farthest = static_cast<int>(k);
     if (result != nullptr)
       *result = std::move(paths.cost);
@@ -114,7 +131,7 @@ private:
                                         });
     std::vector<int> order;
     for (std::size_t k = 0; k < balls_.size(); ++k)
-      if (along[k] < kUnreached)
+      if (may_be_tip_[k] && along[k] < kUnreached)
         order.push_back(static_cast<int>(k));
     std::stable_sort(order.begin(), order.end(),
                      [&along](int a, int b)
@@ -232,6 +249,7 @@ private:
 
   const std::vector<MedialBall>& balls_;
   const Graph& neighbours_;
+  std::vector<bool> may_be_tip_;
   std::vector<bool> covered_;
   std::vector<bool> in_tree_;
   Graph tree_;

@@ -14,7 +14,8 @@ struct SkeletonBranch
   std::vector<int> balls;  ///< from the parent's last ball to the next fork or the end
 };
 
-/** Tree of minimal paths through overlapping balls, rooted at its widest end; parents stand before their children. */
+/** Tree of minimal paths through overlapping balls, rooted at its widest end; parents stand before their children.
+ *  @param balls largest first (thinBalls) */
 std::vector<SkeletonBranch> ballSkeleton(const std::vector<MedialBall>& balls,
                                          const std::vector<std::vector<int>>& neighbours);
 

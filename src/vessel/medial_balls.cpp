@@ -19,8 +19,16 @@ constexpr double kSampleSpacing = 0.7;
 constexpr std::size_t kMostTriangles = 40000;
 /** A step away from the nearest wall must gain this fraction of its length: less is the ridge. */
 constexpr double kLeastGain = 0.3;
+/** Cosine of the smallest angle at which a ball in the middle of a lumen sees the walls that hold it (110°). Smaller
+ * ones fill grooves between facets and the rims of flat caps. */
+constexpr double kWidestGroove = -0.34;
+/** A lumen narrower than this admits no instrument: 0.014" wires have a radius of 0.18 mm [m]. */
+constexpr double kNarrowestLumen = 0.2e-3;
+/** A triangle whose samples all lie in grooves is not cut more often than this. */
+constexpr int kDeepestBlindSplit = 3;
 
-/** From half-way across the lumen away from the nearest wall, up to the ridge of the distance. */
+/** From half-way across the lumen away from the nearest wall, up to the ridge of the distance.
+ *  @return a ball of radius 0 where that is in a groove or too narrow */
 MedialBall climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, const MeshDistance& distance)
 {
   // Started a hair inside, so that the ray does not hit its own triangle.
@@ -30,19 +38,24 @@ MedialBall climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, const 
     return {};
   Eigen::Vector3d centre = p + 0.5 * across * inward;
   ClosestPoint wall = distance.closest(centre);
+  Eigen::Vector3d other_wall = wall.point;
   for (double step = 0.3 * wall.distance; step > 0.03 * wall.distance && wall.distance > 0.0;)
   {
     const Eigen::Vector3d trial = centre + step * (centre - wall.point) / wall.distance;
-    const ClosestPoint trial_wall = distance.closest(trial, 1.01 * (wall.distance + step));
-    if (trial_wall.triangle < 0 || trial_wall.distance < wall.distance + kLeastGain * step)
+    const ClosestPoint trial_wall = distance.closest(trial);
+    if (trial_wall.distance < wall.distance + kLeastGain * step)
     {
+      other_wall = trial_wall.point;
       step *= 0.5;
       continue;
     }
     centre = trial;
     wall = trial_wall;
   }
-  return {centre, wall.distance};
+  const Eigen::Vector3d to_wall = (wall.point - centre).normalized();
+  const Eigen::Vector3d to_other = (other_wall - centre).normalized();
+  const bool in_groove = to_wall.dot(to_other) > kWidestGroove || wall.distance < kNarrowestLumen;
+  return in_groove ? MedialBall{} : MedialBall{centre, wall.distance};
 }
 
 /** A triangle or a part of one. */
@@ -50,6 +63,7 @@ struct Facet
 {
   Eigen::Vector3d a, b, c;
   int depth;
+  double radius;  // of the last ball found on a larger part, 0 before the first
 };
 
 void sampleFacet(const Facet& whole, const MeshDistance& distance, std::vector<MedialBall>& balls)
@@ -70,17 +84,19 @@ void sampleFacet(const Facet& whole, const MeshDistance& distance, std::vector<M
     const double bc = (f.c - f.b).norm();
     const double ca = (f.a - f.c).norm();
     const double longest = std::max({ab, bc, ca});
-    if (f.depth >= kDeepestSplit || longest <= kSampleSpacing * ball.radius || !(ball.radius > 0.0))
+    const double radius = ball.radius > 0.0 ? ball.radius : f.radius;
+    const int deepest = radius > 0.0 ? kDeepestSplit : kDeepestBlindSplit;
+    if (f.depth >= deepest || longest <= kSampleSpacing * radius)
       continue;
     // Across the longest side.
     Facet g = f;
     if (bc == longest)
-      g = {f.b, f.c, f.a, f.depth};
+      g = {f.b, f.c, f.a, f.depth, 0.0};
     else if (ca == longest)
-      g = {f.c, f.a, f.b, f.depth};
+      g = {f.c, f.a, f.b, f.depth, 0.0};
     const Eigen::Vector3d middle = 0.5 * (g.a + g.b);
-    open.push_back({g.a, middle, g.c, f.depth + 1});
-    open.push_back({middle, g.b, g.c, f.depth + 1});
+    open.push_back({g.a, middle, g.c, f.depth + 1, radius});
+    open.push_back({middle, g.b, g.c, f.depth + 1, radius});
   }
 }
 
@@ -102,7 +118,7 @@ std::vector<MedialBall> medialBalls(const TriangleMesh& mesh, const MeshDistance
   for (std::size_t t = 0; t < mesh.triangles.size(); t += stride)
   {
     const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    sampleFacet({at(0), at(1), at(2), 0}, distance, balls);
+    sampleFacet({at(0), at(1), at(2), 0, 0.0}, distance, balls);
   }
   return balls;
 }
