@@ -36,8 +36,7 @@ public:
     Scope(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), begin_(Clock::now()) {}
     ~Scope()
     {
-      timer_.seconds_[static_cast<std::size_t>(phase_)] +=
-          std::chrono::duration<double>(Clock::now() - begin_).count();
+      timer_.seconds_[static_cast<std::size_t>(phase_)] += std::chrono::duration<double>(Clock::now() - begin_).count();
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;

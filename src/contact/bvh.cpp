@@ -21,7 +21,8 @@ using Dop = fcl::KDOP<double, 2 * kSlabs>;
 
 std::array<double, kSlabs> slabCoordinates(const Eigen::Vector3d& p)
 {
-  return {p.x(), p.y(), p.z(), p.x() + p.y(), p.x() + p.z(), p.y() + p.z(), p.x() - p.y(), p.x() - p.z(), p.y() - p.z()};
+  return {p.x(),         p.y(),         p.z(),         p.x() + p.y(), p.x() + p.z(),
+          p.y() + p.z(), p.x() - p.y(), p.x() - p.z(), p.y() - p.z()};
 }
 
 /** Lower bound of the distance from a point to an 18-DOP: the widest gap over its slabs [m]. */

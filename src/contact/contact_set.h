@@ -12,16 +12,16 @@ namespace endovascular_sim::contact
 /** A feature of the wall near one edge of the rod: geometry, not force. Edge j joins nodes j and j+1. */
 struct Feature
 {
-  int edge = 0;                                   ///< index over the whole wire
-  double parameter = 0.0;                         ///< place on the edge, 0 at node j, 1 at node j+1
+  int edge = 0;                                      ///< index over the whole wire
+  double parameter = 0.0;                            ///< place on the edge, 0 at node j, 1 at node j+1
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< closest point of the wall [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the lumen
-  double gap = 0.0;                               ///< wire's surface to wall, negative beyond the wall [m]
+  double gap = 0.0;                                  ///< wire's surface to wall, negative beyond the wall [m]
   double clearance_radius = std::numeric_limits<double>::infinity();  ///< wall radius − wire radius [m]
   double stiffness = std::numeric_limits<double>::infinity();         ///< of the wall per length of wire [N/m²]
-  double friction = 0.0;                          ///< Coulomb coefficient
-  int triangle = 0;                               ///< triangle that owns the feature
-  std::int64_t id = 0;                            ///< 3·index + kind (0 face, 1 edge, 2 vertex of the mesh)
+  double friction = 0.0;                                              ///< Coulomb coefficient
+  int triangle = 0;                                                   ///< triangle that owns the feature
+  std::int64_t id = 0;  ///< 3·index + kind (0 face, 1 edge, 2 vertex of the mesh)
 };
 
 /** What the rod asks of the detector: its centreline, and how far to look. */
@@ -30,9 +30,9 @@ struct Query
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
   std::uint32_t pass = 0;
-  bool want_free_distance = false;  ///< each edge's full free distance, not just the margin
-  double margin = 0.0;              ///< features closer than this to the wire's surface are listed [m]
-  int first_node = 0;               ///< index of nodes[0] in the whole wire
+  bool want_free_distance = false;     ///< each edge's full free distance, not just the margin
+  double margin = 0.0;                 ///< features closer than this to the wire's surface are listed [m]
+  int first_node = 0;                  ///< index of nodes[0] in the whole wire
   std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]
   std::vector<double> radius;          ///< at each node [m]
 };
@@ -46,7 +46,8 @@ struct ContactSet
   std::uint64_t vessel_version = 0;
   bool stale = false;  ///< an older answer, used because the asked one did not come in time
   int first_edge = 0;  ///< the edge that free_distance[0] speaks of
-  std::vector<double> free_distance;  ///< per edge: motion of any of its points that cannot meet an unlisted feature [m]
+  std::vector<double>
+      free_distance;  ///< per edge: motion of any of its points that cannot meet an unlisted feature [m]
   std::vector<Feature> features;
 };
 

@@ -12,15 +12,15 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kSlack = 0.8e-3;          // m that a node may move before its candidates are collected again
+constexpr double kSlack = 0.8e-3;              // m that a node may move before its candidates are collected again
 constexpr double kReflexAngle = M_PI / 180.0;  // edges that bulge less than this meet the wire's nodes only
-constexpr double kDeepest = 3e-3;          // m beyond a triangle's plane: further away it is another branch's wall
-constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
-constexpr double kSameNormal = 0.9995;     // cosine above which two features of a node count as one
-constexpr double kConeTolerance = 1e-12;   // m
-constexpr double kOnRidge = 1e-12;         // m
-constexpr double kEnd = 1e-3;              // of a wire's edge: closer to a node the node's own features stand
-constexpr double kFarthest = 30e-3;        // m: free distances are not looked for beyond it
+constexpr double kDeepest = 3e-3;              // m beyond a triangle's plane: further away it is another branch's wall
+constexpr double kOutsideCrossing = 0.4e-3;    // m by which a wire's edge may lie beyond a ridge
+constexpr double kSameNormal = 0.9995;         // cosine above which two features of a node count as one
+constexpr double kConeTolerance = 1e-12;       // m
+constexpr double kOnRidge = 1e-12;             // m
+constexpr double kEnd = 1e-3;                  // of a wire's edge: closer to a node the node's own features stand
+constexpr double kFarthest = 30e-3;            // m: free distances are not looked for beyond it
 
 enum FeatureKind
 {
@@ -29,7 +29,10 @@ enum FeatureKind
   kVertex = 2,
 };
 
-std::int64_t featureId(int index, FeatureKind kind) { return std::int64_t{3} * index + kind; }
+std::int64_t featureId(int index, FeatureKind kind)
+{
+  return std::int64_t{3} * index + kind;
+}
 
 }  // namespace
 
@@ -42,12 +45,12 @@ double Detector::signedDistance(const Eigen::Vector3d& point) const
 {
   const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity());
   const Eigen::Vector3i& corners = wall_.triangles[nearest.triangle];
-  const TrianglePoint closest = closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
-                                                       wall_.vertices[corners[2]]);
-  const Eigen::Vector3d& normal =
-      closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
-      : closest.edge >= 0 ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
-                          : wall_.normals[nearest.triangle];
+  const TrianglePoint closest =
+      closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
+                                  : closest.edge >= 0
+                                      ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
+                                      : wall_.normals[nearest.triangle];
   return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
 }
 
@@ -183,7 +186,8 @@ void Detector::detectNode(const Query& query, std::size_t index, double reach, s
     features.push_back(outside_feature);
 }
 
-/** @param limit distance up to which features inside the lumen are wanted; @p reach the same for a point beyond the wall
+/** @param limit distance up to which features inside the lumen are wanted; @p reach the same for a point beyond the
+ * wall
  *  @param distance to the triangle, or −1 when it was too far to be looked at
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
  *  measured from the point itself */
@@ -196,8 +200,8 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
   distance = -1.0;
   if (height > limit || height < -kDeepest)
     return false;
-  const TrianglePoint closest = closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
-                                                       wall_.vertices[corners[2]]);
+  const TrianglePoint closest =
+      closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d offset = point - closest.point;
   const double squared = offset.squaredNorm();
   if (squared > (height >= 0.0 ? limit * limit : reach * reach))

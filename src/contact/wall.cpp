@@ -14,7 +14,10 @@ namespace
 
 constexpr double kFlat = 1e-3;  // rad: below it an edge counts as flat
 
-double clampedAcos(double cosine) { return std::acos(std::max(-1.0, std::min(1.0, cosine))); }
+double clampedAcos(double cosine)
+{
+  return std::acos(std::max(-1.0, std::min(1.0, cosine)));
+}
 
 int oppositeCorner(const Eigen::Vector3i& triangle, const WallEdge& edge)
 {
@@ -48,7 +51,8 @@ Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangle
       const double angle =
           clampedAcos((vertices[b] - vertices[a]).normalized().dot((vertices[c] - vertices[a]).normalized()));
       vertex_normals[a] += angle * normals[t];
-      const std::uint64_t pair = static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+      const std::uint64_t pair =
+          static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
       const auto [entry, is_new] = edge_of_pair.emplace(pair, static_cast<int>(edges.size()));
       if (is_new)
       {

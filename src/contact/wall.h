@@ -17,8 +17,8 @@ struct WallEdge
   std::array<int, 2> triangles{-1, -1};
   /** Angle between both triangles' normals [rad]; positive where the edge bulges into the lumen (reflex). */
   double reflex_angle = 0.0;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();      ///< pseudo-normal towards the lumen, unit
-  std::array<Eigen::Vector3d, 2> into_triangle;          ///< in each triangle's plane, ⟂ edge, pointing into it, unit
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< pseudo-normal towards the lumen, unit
+  std::array<Eigen::Vector3d, 2> into_triangle;      ///< in each triangle's plane, ⟂ edge, pointing into it, unit
 };
 
 /** The vessel's wall with what closest-feature tests need: normals towards the lumen, edges, adjacency.
@@ -31,16 +31,15 @@ public:
 
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
-  std::vector<Eigen::Vector3d> normals;              ///< per triangle, towards the lumen, unit
-  std::vector<std::array<int, 3>> triangle_edges;    ///< edge k of a triangle joins its corners k and k+1
+  std::vector<Eigen::Vector3d> normals;            ///< per triangle, towards the lumen, unit
+  std::vector<std::array<int, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and k+1
   std::vector<WallEdge> edges;
-  std::vector<Eigen::Vector3d> vertex_normals;       ///< angle-weighted, towards the lumen, unit
+  std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
   std::vector<std::vector<int>> vertex_edges;
-  std::vector<char> vertex_reflex;                   ///< 1 where some edge at the vertex is reflex
+  std::vector<char> vertex_reflex;  ///< 1 where some edge at the vertex is reflex
 
 private:
   void finishEdge(WallEdge& edge);
-
 };
 
 }  // namespace endovascular_sim::contact

@@ -10,13 +10,15 @@ namespace endovascular_sim::rod
  *  κb = 2 e×g / (|ē||ḡ| + e·g), an integrated quantity [1]; |κb| = 2 tan(turning angle / 2) for unstretched edges. */
 struct CurvatureBinormal
 {
-  Eigen::Vector3d edge;       ///< e, the edge before the node [m]
-  Eigen::Vector3d next_edge;  ///< g, the edge after it [m]
-  double inverse_denominator; ///< 1/(|ē||ḡ| + e·g) [1/m²]
-  Eigen::Vector3d value;      ///< κb [1]
+  Eigen::Vector3d edge;        ///< e, the edge before the node [m]
+  Eigen::Vector3d next_edge;   ///< g, the edge after it [m]
+  double inverse_denominator;  ///< 1/(|ē||ḡ| + e·g) [1/m²]
+  Eigen::Vector3d value;       ///< κb [1]
 
   CurvatureBinormal(const Eigen::Vector3d& e, const Eigen::Vector3d& g, double rest_product)
-    : edge(e), next_edge(g), inverse_denominator(1.0 / (rest_product + e.dot(g))),
+    : edge(e),
+      next_edge(g),
+      inverse_denominator(1.0 / (rest_product + e.dot(g))),
       value((2.0 * inverse_denominator) * e.cross(g))
   {
   }

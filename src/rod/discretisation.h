@@ -15,17 +15,17 @@ namespace endovascular_sim::rod
  *  those of the Voronoi cell, its compliances added in series, so that a section joint may fall anywhere. */
 struct Discretisation
 {
-  std::vector<double> position;             ///< arc length from the proximal end [m], n
-  std::vector<double> rest_length;          ///< ē of every edge [m], n−1
-  std::vector<double> cell_length;          ///< Voronoi length, half of both edges [m], n
-  std::vector<double> bending_stiffness;    ///< EI [N·m²], n
-  std::vector<double> torsional_stiffness;  ///< GJ [N·m²], n
-  std::vector<double> axial_stiffness;      ///< EA per edge [N], n−1
-  std::vector<double> mass;                 ///< lumped [kg], n
-  std::vector<double> radius;               ///< outer [m], n
-  std::vector<double> friction;             ///< Coulomb coefficient, NaN: the wall's, n
+  std::vector<double> position;                 ///< arc length from the proximal end [m], n
+  std::vector<double> rest_length;              ///< ē of every edge [m], n−1
+  std::vector<double> cell_length;              ///< Voronoi length, half of both edges [m], n
+  std::vector<double> bending_stiffness;        ///< EI [N·m²], n
+  std::vector<double> torsional_stiffness;      ///< GJ [N·m²], n
+  std::vector<double> axial_stiffness;          ///< EA per edge [N], n−1
+  std::vector<double> mass;                     ///< lumped [kg], n
+  std::vector<double> radius;                   ///< outer [m], n
+  std::vector<double> friction;                 ///< Coulomb coefficient, NaN: the wall's, n
   std::vector<Eigen::Vector2d> rest_curvature;  ///< integrated over the cell, 2 tan(angle/2) [1], n
-  int first_curved = 0;                     ///< first node with rest curvature, n when there is none
+  int first_curved = 0;                         ///< first node with rest curvature, n when there is none
 
   int nodes() const { return static_cast<int>(position.size()); }
   double length() const { return position.back(); }

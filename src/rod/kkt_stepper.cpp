@@ -17,7 +17,7 @@ constexpr double kConstraintCompliance = 1e-10;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
-constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
+constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
 
 }  // namespace
 
@@ -70,7 +70,8 @@ bool KktStepper::isPrescribed(int node, const State& state) const
   if (boundary_.introducer)
     return bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
   const int last = rod_.nodes() - 1;
-  return (boundary_.proximal != EndHold::kFree && node == 0) || (boundary_.proximal == EndHold::kClamped && node == 1) ||
+  return (boundary_.proximal != EndHold::kFree && node == 0) ||
+         (boundary_.proximal == EndHold::kClamped && node == 1) ||
          (boundary_.distal != EndHold::kFree && node == last) ||
          (boundary_.distal == EndHold::kClamped && node == last - 1);
 }
@@ -166,7 +167,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   begin_ = state.position;
   placePrescribedNodes(state, input.inserted_length, dt);
   state.rotation = input.rotation;
-  if (source_ && !contacts_valid_)
+  if (source_ && (!contacts_valid_ || contacts_.stale))
     detect(state, report);
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
@@ -362,7 +363,8 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
   Eigen::Vector3d residual = mass * (travel - dt * state.velocity[node]);
   if (!environment_.gravity.isZero(0.0))
   {
-    const double displaced = environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
+    const double displaced =
+        environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
     residual -= (dt * dt * (mass - displaced)) * environment_.gravity;
   }
   const double damped = mass * dt * environment_.damping;
@@ -431,10 +433,7 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
   if (matrix_.factorise() != rod_.nodes() - 1 - first_)
     return false;
   matrix_.solve(rhs_);
-  double largest = 0.0;
-  for (double value : rhs_)
-    largest = std::max(largest, std::abs(value));
-  return std::isfinite(largest) && largest < kLargestMotion;
+  return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
 }
 
 bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& report)

@@ -108,7 +108,7 @@ private:
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
-  std::vector<State> backup_;           ///< per depth of halving
+  std::vector<State> backup_;  ///< per depth of halving
 };
 
 }  // namespace endovascular_sim::rod

@@ -29,8 +29,8 @@ struct Boundary
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();      ///< of the introducer, or the proximal end [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();   ///< material direction d1 at rotation 0, unit, ⟂ direction
-  double guide_length = 19e-3;      ///< over which the introducer's lateral guide fades [m]
-  double guide_stiffness = 5300.0;  ///< at the guide's outer end, per length of wire [N/m²]
+  double guide_length = 19e-3;                           ///< over which the introducer's lateral guide fades [m]
+  double guide_stiffness = 5300.0;                       ///< at the guide's outer end, per length of wire [N/m²]
   EndHold proximal = EndHold::kFree;
   EndHold distal = EndHold::kFree;
 };
@@ -46,13 +46,13 @@ struct Environment
 
 struct StepperSettings
 {
-  int max_solves = 12;               ///< linear solves in one step, truncated ones included
-  double strain_tolerance = 5e-5;    ///< a step that leaves more is solved again
-  double contact_stiffness = 1e5;    ///< penalty of a rigid wall per contact [N/m]
-  double contact_margin = 0.5e-3;    ///< features closer than this are listed [m]
+  int max_solves = 12;                  ///< linear solves in one step, truncated ones included
+  double strain_tolerance = 5e-5;       ///< a step that leaves more is solved again
+  double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]
+  double contact_margin = 0.5e-3;       ///< features closer than this are listed [m]
   double penetration_tolerance = 3e-5;  ///< an unknown contact deeper than this is solved for again [m]
-  double max_rotation = 0.3;         ///< of an edge in one solve [rad]
-  double friction_speed = 0.5e-3;    ///< below it Coulomb friction is viscous [m/s]
+  double max_rotation = 0.3;            ///< of an edge in one solve [rad]
+  double friction_speed = 0.5e-3;       ///< below it Coulomb friction is viscous [m/s]
 };
 
 /** A force on one node [N]. */
@@ -76,13 +76,13 @@ struct StepInput
 /** What one step took. */
 struct StepReport
 {
-  bool solved = true;      ///< false: no solution even at an eighth of the step; the state stayed as it was
-  int solves = 0;          ///< linear systems solved
-  int factorisations = 0;  ///< active-set passes included
-  int truncations = 0;     ///< solves cut short by the trust region
-  int halvings = 0;        ///< of the time step
-  int capped = 0;          ///< steps accepted at the limit of solves
-  double max_strain = 0.0; ///< after the step
+  bool solved = true;              ///< false: no solution even at an eighth of the step; the state stayed as it was
+  int solves = 0;                  ///< linear systems solved
+  int factorisations = 0;          ///< active-set passes included
+  int truncations = 0;             ///< solves cut short by the trust region
+  int halvings = 0;                ///< of the time step
+  int capped = 0;                  ///< steps accepted at the limit of solves
+  double max_strain = 0.0;         ///< after the step
   std::uint64_t stale_passes = 0;  ///< bit p: pass p used an old contact set
 
   void add(const StepReport& other);

@@ -11,11 +11,14 @@ namespace
 {
 
 constexpr int kMaxIterations = 200;
-constexpr double kMaxTurn = 0.3;         // rad per iteration: a snap-through is followed, not jumped over
-constexpr double kConverged = 1e-12;     // rad
-constexpr double kMinLength = 1e-9;      // of the body's compliance, in edges: keeps the spring finite
+constexpr double kMaxTurn = 0.3;      // rad per iteration: a snap-through is followed, not jumped over
+constexpr double kConverged = 1e-12;  // rad
+constexpr double kMinLength = 1e-9;   // of the body's compliance, in edges: keeps the spring finite
 
-double edgeMiddle(const Discretisation& rod, int edge) { return 0.5 * (rod.position[edge] + rod.position[edge + 1]); }
+double edgeMiddle(const Discretisation& rod, int edge)
+{
+  return 0.5 * (rod.position[edge] + rod.position[edge + 1]);
+}
 
 /** ∫ds/GJ between two arc lengths [1/(N·m)]. */
 double torsionalCompliance(const Discretisation& rod, double begin, double end, int from_node)
@@ -90,9 +93,10 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
     }
   }
   for (int i = first_curved_; i + 1 < rod.nodes(); ++i)
-    binormal_[i] = CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                                     rod.rest_length[i - 1] * rod.rest_length[i])
-                       .value;
+    binormal_[i] =
+        CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
+                          rod.rest_length[i - 1] * rod.rest_length[i])
+            .value;
 }
 
 /** Gradient and Hessian by the twist angles of the edges first_curved_−1 … n−2; returns the largest |gradient|. */
@@ -167,8 +171,8 @@ void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& 
 {
   const int n = rod.nodes();
   const int last_body = std::min(first_curved_ - 1, n - 2);
-  const double body_torque = first_curved_ < n ? body_stiffness_ * (state.twist_angle[last_body] - boundary.rotation)
-                                               : boundary.tip_torque;
+  const double body_torque =
+      first_curved_ < n ? body_stiffness_ * (state.twist_angle[last_body] - boundary.rotation) : boundary.tip_torque;
   energy_ = body_stiffness_ > 0.0 ? 0.5 * body_torque * body_torque / body_stiffness_ : 0.0;
   state.hand_torque = boundary.held ? -body_torque : 0.0;
   double angle = boundary.rotation;

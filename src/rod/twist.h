@@ -12,12 +12,12 @@ namespace endovascular_sim::rod
 /** Where and how the wire's twist is held. */
 struct TwistBoundary
 {
-  bool held = true;                                          ///< false: no torque reaches the wire from the hand
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();        ///< of the wire where it is held, unit
-  Eigen::Vector3d director = Eigen::Vector3d::UnitY();       ///< d1 there at rotation 0, unit, ⟂ tangent
-  double position = 0.0;   ///< arc length of the held place from the proximal end [m]
-  double rotation = 0.0;   ///< of the handle [rad]
-  double tip_torque = 0.0; ///< applied at the tip about the axis [N·m]
+  bool held = true;                                     ///< false: no torque reaches the wire from the hand
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();   ///< of the wire where it is held, unit
+  Eigen::Vector3d director = Eigen::Vector3d::UnitY();  ///< d1 there at rotation 0, unit, ⟂ tangent
+  double position = 0.0;                                ///< arc length of the held place from the proximal end [m]
+  double rotation = 0.0;                                ///< of the handle [rad]
+  double tip_torque = 0.0;                              ///< applied at the tip about the axis [N·m]
 };
 
 /** Quasi-static twist (Bergou et al. 2008, §5.1): twist waves are far faster than bending, so the twist angles

@@ -11,12 +11,12 @@ namespace endovascular_sim::rod
 /** A stretch of wire with constant properties. */
 struct Section
 {
-  double length = 0.0;              ///< [m]
-  double bending_stiffness = 0.0;   ///< EI [N·m²]
-  double torsional_stiffness = 0.0; ///< GJ [N·m²]
-  double axial_stiffness = 0.0;     ///< EA [N]
-  double radius = 0.0;              ///< outer radius [m]
-  double density = 0.0;             ///< mass per volume of the solid cylinder of this radius [kg/m³]
+  double length = 0.0;               ///< [m]
+  double bending_stiffness = 0.0;    ///< EI [N·m²]
+  double torsional_stiffness = 0.0;  ///< GJ [N·m²]
+  double axial_stiffness = 0.0;      ///< EA [N]
+  double radius = 0.0;               ///< outer radius [m]
+  double density = 0.0;              ///< mass per volume of the solid cylinder of this radius [kg/m³]
   /** Coulomb coefficient against the wall; NaN leaves it to the wall. */
   double friction = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector2d rest_curvature = Eigen::Vector2d::Zero();  ///< in the material frame [1/m]

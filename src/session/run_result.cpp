@@ -24,7 +24,10 @@ Json toJson(const DurationStatistics& statistics)
           {"max", to_us * statistics.max}};
 }
 
-Json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json toJson(const Eigen::Vector3d& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
 
 }  // namespace
 

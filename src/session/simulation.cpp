@@ -11,10 +11,10 @@ namespace endovascular_sim::session
 namespace
 {
 
-constexpr double kMaxHandSpeed = 1.0;              // m/s
-constexpr double kMaxHandTurn = 60.0;              // rad/s
-constexpr double kMaxRotationPerSubstep = 0.05;    // rad
-constexpr double kSlipBand = 0.1;                  // of the limit, over which the grip lets go
+constexpr double kMaxHandSpeed = 1.0;            // m/s
+constexpr double kMaxHandTurn = 60.0;            // rad/s
+constexpr double kMaxRotationPerSubstep = 0.05;  // rad
+constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
 
 rod::EndHold hold(EndCondition condition)
 {
@@ -149,7 +149,19 @@ void Simulation::step(const HandCommand& command)
     report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
   }
   ++steps_;
-  trajectory_.add(state_.hash());
+  state_hash_ = state_.hash();
+  trajectory_.add(state_hash_);
+}
+
+contact::Query Simulation::initialQuery() const
+{
+  contact::Query query;
+  query.margin = scene_.solver.contact_margin;
+  query.first_node = state_.first_node;
+  query.nodes.assign(state_.position.begin() + state_.first_node, state_.position.end());
+  const std::vector<double>& radius = discretisation().radius;
+  query.radius.assign(radius.begin() + state_.first_node, radius.end());
+  return query;
 }
 
 double Simulation::surfacePenetration() const

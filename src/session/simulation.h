@@ -20,8 +20,8 @@ struct HandCommand
   double rotation = 0.0;   ///< [rad]
 };
 
-/** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the same
- *  commands give the same trajectory bit for bit. */
+/** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
+ * same commands give the same trajectory bit for bit. */
 class Simulation
 {
 public:
@@ -33,7 +33,7 @@ public:
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
   void step(const HandCommand& command);
 
-  std::uint64_t steps() const { return steps_; }             ///< steps done
+  std::uint64_t steps() const { return steps_; }                                         ///< steps done
   double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
   const rod::State& state() const { return state_; }
   const rod::Discretisation& discretisation() const { return stepper_->discretisation(); }
@@ -44,6 +44,11 @@ public:
 
   /** Depth of the wire's surface beyond the wall after the last step, by the contact set; 0 without contact [m]. */
   double surfacePenetration() const;
+
+  std::uint64_t stateHash() const { return state_hash_; }  ///< of the state after the last step
+
+  /** What the solver asks before its first step: for finding out whether the contact source answers. */
+  contact::Query initialQuery() const;
 
   /** Hash over the states of all steps so far. */
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
@@ -60,6 +65,7 @@ private:
   rod::StepReport report_;
   PhaseTimer timer_;
   Hash64 trajectory_;
+  std::uint64_t state_hash_ = 0;
   std::uint64_t steps_ = 0;
   double slipped_insertion_ = 0.0;  ///< command minus what reached the wire [m]
   double slipped_rotation_ = 0.0;   ///< [rad]

@@ -22,7 +22,8 @@ namespace
 using namespace endovascular_sim;  // NOLINT: a program's main file
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kUsage = R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
+constexpr auto kUsage =
+    R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
 same trajectory bit for bit.
 
 usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
@@ -165,8 +166,8 @@ Surroundings build(const session::Scene& scene)
     std::cerr << vessel.source << ": " << note << "\n";
   made.entry = session::resolveEntry(scene.entry, vessel, scene.file);
   made.mesh_hash = vessel.mesh.hash();
-  made.wall = std::make_unique<contact::Detector>(
-      vessel.mesh, contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+  made.wall = std::make_unique<contact::Detector>(vessel.mesh,
+                                                  contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
   return made;
 }
 
@@ -210,7 +211,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
 
 void plot(const Options& options)
 {
-  const std::filesystem::path script = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_results.py";
+  const std::filesystem::path script =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_results.py";
   const std::string command = "/usr/bin/python3 '" + script.string() + "' '" + options.out + "' >/dev/null";
   if (std::system(command.c_str()) != 0)
     std::cerr << "simulate: the plots could not be drawn (" << command << ")\n";

@@ -1,0 +1,114 @@
+#include "nodes/support/contact_conversions.h"
+
+namespace endovascular_sim::nodes
+{
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& v)
+{
+  geometry_msgs::Point point;
+  point.x = v.x();
+  point.y = v.y();
+  point.z = v.z();
+  return point;
+}
+
+geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v)
+{
+  geometry_msgs::Vector3 vector;
+  vector.x = v.x();
+  vector.y = v.y();
+  vector.z = v.z();
+  return vector;
+}
+
+Eigen::Vector3d fromMessage(const geometry_msgs::Point& p)
+{
+  return {p.x, p.y, p.z};
+}
+
+Eigen::Vector3d fromMessage(const geometry_msgs::Vector3& v)
+{
+  return {v.x, v.y, v.z};
+}
+
+void toMessage(const contact::Query& query, RodState& message)
+{
+  message.step = query.step;
+  message.substep = static_cast<std::uint16_t>(query.substep);
+  message.pass = static_cast<std::uint16_t>(query.pass);
+  message.want_free_distance = query.want_free_distance;
+  message.margin = query.margin;
+  message.first_node = static_cast<std::uint32_t>(query.first_node);
+  message.radius = query.radius;
+  message.nodes.resize(query.nodes.size());
+  for (std::size_t i = 0; i < query.nodes.size(); ++i)
+    message.nodes[i] = toPoint(query.nodes[i]);
+}
+
+void fromMessage(const RodState& message, contact::Query& query)
+{
+  query.step = message.step;
+  query.substep = message.substep;
+  query.pass = message.pass;
+  query.want_free_distance = message.want_free_distance != 0;
+  query.margin = message.margin;
+  query.first_node = static_cast<int>(message.first_node);
+  query.radius = message.radius;
+  query.nodes.resize(message.nodes.size());
+  for (std::size_t i = 0; i < message.nodes.size(); ++i)
+    query.nodes[i] = fromMessage(message.nodes[i]);
+}
+
+void toMessage(const contact::ContactSet& set, ContactSet& message)
+{
+  message.step = set.step;
+  message.substep = static_cast<std::uint16_t>(set.substep);
+  message.pass = static_cast<std::uint16_t>(set.pass);
+  message.vessel_version = set.vessel_version;
+  message.first_edge = static_cast<std::uint32_t>(set.first_edge);
+  message.free_distance = set.free_distance;
+  message.features.resize(set.features.size());
+  for (std::size_t f = 0; f < set.features.size(); ++f)
+  {
+    const contact::Feature& from = set.features[f];
+    ContactFeature& to = message.features[f];
+    to.edge = from.edge;
+    to.parameter = from.parameter;
+    to.point = toPoint(from.point);
+    to.normal = toVector(from.normal);
+    to.gap = from.gap;
+    to.clearance_radius = from.clearance_radius;
+    to.stiffness = from.stiffness;
+    to.friction = from.friction;
+    to.triangle = from.triangle;
+    to.feature = from.id;
+  }
+}
+
+void fromMessage(const ContactSet& message, contact::ContactSet& set)
+{
+  set.step = message.step;
+  set.substep = message.substep;
+  set.pass = message.pass;
+  set.vessel_version = message.vessel_version;
+  set.first_edge = static_cast<int>(message.first_edge);
+  set.free_distance = message.free_distance;
+  set.features.resize(message.features.size());
+  for (std::size_t f = 0; f < set.features.size(); ++f)
+  {
+    const ContactFeature& from = message.features[f];
+    contact::Feature& to = set.features[f];
+    to.edge = from.edge;
+    to.parameter = from.parameter;
+    to.point = fromMessage(from.point);
+    to.normal = fromMessage(from.normal);
+    to.gap = from.gap;
+    to.clearance_radius = from.clearance_radius;
+    to.stiffness = from.stiffness;
+    to.friction = from.friction;
+    to.triangle = from.triangle;
+    to.id = from.feature;
+  }
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,47 @@
+#include "nodes/support/real_time.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace endovascular_sim::nodes
+{
+
+RealTimeGrant askForRealTime(int priority)
+{
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  if (sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
+    return {false, std::string("real-time scheduling was refused (") + std::strerror(errno) +
+                       "): steps will be late when the machine is busy. Allow it with a line '@" +
+                       "realtime - rtprio 90' in /etc/security/limits.d/realtime.conf, put the user into the group "
+                       "'realtime' and log in again, or run as root"};
+  std::string message = "SCHED_FIFO, priority " + std::to_string(priority);
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+    message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
+  return {true, message};
+}
+
+void leaveRealTime()
+{
+  const sched_param parameters{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
+}
+
+void sleepUntil(std::chrono::steady_clock::time_point time)
+{
+  const auto since_boot = time.time_since_epoch();
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_boot);
+  timespec target{};
+  target.tv_sec = seconds.count();
+  target.tv_nsec = std::chrono::duration_cast<std::chrono::nanoseconds>(since_boot - seconds).count();
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &target, nullptr) == EINTR)
+  {
+  }
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace endovascular_sim::nodes
+{
+
+/** What the operating system said to a wish for real-time scheduling. */
+struct RealTimeGrant
+{
+  bool granted = false;
+  std::string message;  ///< for people: what is in force, or why not and what to do
+};
+
+/** Asks for SCHED_FIFO and locked memory for this thread and all that it starts later; call it before ros::init.
+ *  @param priority 1 to 99 */
+RealTimeGrant askForRealTime(int priority);
+
+/** Back to ordinary scheduling for the calling thread (diagnostics, files). */
+void leaveRealTime();
+
+/** Sleeps until a point of the steady clock; returns at once when it has passed. */
+void sleepUntil(std::chrono::steady_clock::time_point time);
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include "contact/contact_set.h"
+#include "endovascular_sim/ContactSet.h"
+#include "endovascular_sim/RodState.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** The contact node behind its topics, as the solver's source of contact sets.
+ *
+ *  Lock-step: a query is published and its answer, the set with the same step, sub-step and pass, is waited for in the
+ *  calling thread. An answer that does not come within the patience leaves the set stale (degraded mode); as long as
+ *  the node stays silent only a fraction of it is waited for, so that the loop keeps its pace. */
+class RemoteContactSource : public contact::ContactSource
+{
+public:
+  /** @param patience how long one answer is waited for [s] */
+  RemoteContactSource(ros::NodeHandle node, double patience);
+
+  void detect(const contact::Query& query, contact::ContactSet& set) override;
+
+  /** Asks the last query again without waiting.
+   *  @return whether the node has answered any query since the last call */
+  bool probe();
+
+  /** Waits until the contact node answers for the first time, or ROS ends. @return false when ROS ended */
+  bool waitForNode(const contact::Query& query);
+
+  bool silent() const { return silent_; }  ///< the last query was not answered
+  std::chrono::steady_clock::time_point silentSince() const { return silent_since_; }
+  std::uint64_t staleSets() const { return stale_sets_; }  ///< queries that went unanswered so far
+  std::uint64_t oddSets() const { return odd_sets_; }      ///< answers that fit no question: late, duplicate or wrong
+
+private:
+  void receive(const ContactSetConstPtr& message);
+  bool fits(const ContactSet& message) const;
+  bool waitForAnswer(double seconds);
+  void publish();
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  double patience_;
+  RodState query_;
+  ContactSetConstPtr answer_;
+  bool heard_ = false;
+  bool silent_ = false;
+  std::chrono::steady_clock::time_point silent_since_;
+  std::uint64_t stale_sets_ = 0;
+  std::uint64_t odd_sets_ = 0;
+};
+
+}  // namespace endovascular_sim::nodes

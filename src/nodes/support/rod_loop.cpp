@@ -1,0 +1,246 @@
+#include "nodes/support/rod_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <ros/topic.h>
+
+#include "endovascular_sim/VesselCentreline.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "nodes/support/names.h"
+#include "nodes/support/vessel_conversions.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kContactPatience = 3e-3;  // s for one contact set
+constexpr double kPauseAfter = 20e-3;      // s of silence of the contact node
+constexpr double kRampTime = 40e-3;        // s in which the hand's force falls to zero
+constexpr double kLate = 1e-3;             // s after its slot: then a step counts as a deadline miss
+constexpr double kIdlePeriod = 10e-3;      // s between forces of zero while paused
+
+std::chrono::steady_clock::duration period(double seconds)
+{
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant)
+  : node_(node), scene_(std::move(scene)), grant_(std::move(grant)), publisher_(node_, scene_)
+{
+  const ros::NodeHandle parameters("~");
+  pause_after_ = parameters.param("pause_after", kPauseAfter);
+  seconds_ = parameters.param("seconds", 0.0);
+  if (scene_.vessel)
+    contacts_ = std::make_unique<RemoteContactSource>(node_, parameters.param("contact_patience", kContactPatience));
+  command_ = {scene_.drive.insertionAt(0.0), scene_.drive.rotationAt(0.0)};
+  if (scene_.drive.source != session::DriveSource::kDevice && scene_.drive.source != session::DriveSource::kTopic)
+    return;
+  ros::SubscribeOptions options = ros::SubscribeOptions::create<sensor_msgs::JointState>(
+      names::kInstruments + scene_.instrument.name + names::kServoJp, 10,
+      [this](const sensor_msgs::JointStateConstPtr& message) { receiveCommand(message); }, ros::VoidPtr(),
+      &command_queue_);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  command_subscriber_ = node_.subscribe(options);
+  command_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &command_queue_);
+  command_spinner_->start();
+}
+
+void RodLoop::receiveCommand(const sensor_msgs::JointStateConstPtr& message)
+{
+  session::HandCommand command;
+  bool insertion = false;
+  bool rotation = false;
+  for (std::size_t i = 0; i < std::min(message->name.size(), message->position.size()); ++i)
+  {
+    if (message->name[i] == names::kInsertionJoint && std::isfinite(message->position[i]))
+    {
+      command.insertion = message->position[i];
+      insertion = true;
+    }
+    if (message->name[i] == names::kRotationJoint && std::isfinite(message->position[i]))
+    {
+      command.rotation = message->position[i];
+      rotation = true;
+    }
+  }
+  if (!insertion || !rotation)
+  {
+    ROS_WARN_THROTTLE(5.0, "rod_dynamics: a servo_jp without finite positions of '%s' and '%s' was ignored",
+                      names::kInsertionJoint, names::kRotationJoint);
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(command_mutex_);
+  command_ = command;
+}
+
+session::HandCommand RodLoop::nextCommand()
+{
+  if (command_subscriber_)
+  {
+    const std::lock_guard<std::mutex> lock(command_mutex_);
+    return command_;
+  }
+  const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
+  return {scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
+}
+
+bool RodLoop::waitForVessel(session::EntryPose& entry)
+{
+  ROS_INFO("rod_dynamics: waiting for the vessel");
+  vessel::Vessel vessel;
+  const auto mesh = ros::topic::waitForMessage<VesselMesh>(names::kVesselMesh, node_);
+  const auto centreline =
+      mesh ? ros::topic::waitForMessage<VesselCentreline>(names::kVesselCentreline, node_) : nullptr;
+  if (!centreline)
+    return false;
+  vessel.mesh = fromMessage(*mesh);
+  vessel.centreline = fromMessage(*centreline);
+  vessel.source = mesh->source;
+  entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
+  return true;
+}
+
+bool RodLoop::makeSimulation()
+{
+  session::EntryPose entry;
+  if (!scene_.vessel)
+    entry = session::resolveEntry(scene_.entry, scene_.file);
+  else if (!waitForVessel(entry))
+    return false;
+  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get());
+  if (!contacts_)
+    return true;
+  ROS_INFO("rod_dynamics: waiting for the contact node");
+  return contacts_->waitForNode(simulation_->initialQuery());
+}
+
+bool RodLoop::run()
+{
+  publisher_.publishOperatingState("DISABLED", "waiting for the vessel and the contact node");
+  if (!makeSimulation())
+    return false;
+  std::atomic<bool> stop{false};
+  std::thread diagnostics(
+      [this, &stop]
+      {
+        leaveRealTime();
+        diagnostic_updater::Updater updater;
+        updater.setHardwareID("none");
+        updater.add("simulation", this, &RodLoop::diagnose);
+        while (!stop && ros::ok())
+        {
+          updater.force_update();
+          ros::WallDuration(1.0).sleep();
+        }
+        updater.force_update();
+      });
+  const auto slot = period(scene_.solver.time_step);
+  const auto last_step =
+      seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step)) : ~std::uint64_t{0};
+  publisher_.publishOperatingState("ENABLED", "");
+  ROS_INFO("rod_dynamics: running");
+  Clock::time_point slot_begin = Clock::now();
+  while (ros::ok() && simulation_->steps() < last_step)
+  {
+    sleepUntil(slot_begin);
+    if (contactIsLost())
+    {
+      pause();
+      slot_begin = Clock::now();
+      continue;
+    }
+    const Clock::time_point begin = Clock::now();
+    stepOnce();
+    countTime(begin, Clock::now(), slot_begin + slot);
+    slot_begin += slot;
+  }
+  publisher_.publishOperatingState("DISABLED", "the session is over");
+  publisher_.publishHand(used_, 0.0, 0.0);
+  stop = true;
+  diagnostics.join();
+  return true;
+}
+
+void RodLoop::stepOnce()
+{
+  used_ = nextCommand();
+  simulation_->step(used_);
+  publisher_.publishStep(*simulation_, used_);
+}
+
+void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end)
+{
+  const double seconds = std::chrono::duration<double>(end - begin).count();
+  ++counters_.steps;
+  counters_.late_steps += std::chrono::duration<double>(end - slot_end).count() > kLate;
+  counters_.refused_steps += !simulation_->report().solved;
+  counters_.longest_step = std::max(counters_.longest_step.load(), seconds);
+  counters_.total_step = counters_.total_step + seconds;
+  if (!contacts_)
+    return;
+  counters_.stale_sets = contacts_->staleSets();
+  counters_.odd_sets = contacts_->oddSets();
+}
+
+bool RodLoop::contactIsLost() const
+{
+  return contacts_ && contacts_->silent() &&
+         std::chrono::duration<double>(Clock::now() - contacts_->silentSince()).count() > pause_after_;
+}
+
+void RodLoop::pause()
+{
+  ++counters_.pauses;
+  counters_.paused = true;
+  const double force = simulation_->state().hand_force;
+  const double torque = simulation_->state().hand_torque;
+  publisher_.publishOperatingState("PAUSED", "the contact node does not answer");
+  ROS_WARN("rod_dynamics: paused at step %lu: the contact node does not answer; going on when it does",
+           static_cast<unsigned long>(simulation_->steps()));
+  const Clock::time_point begin = Clock::now();
+  while (ros::ok() && !contacts_->probe())
+  {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double share = std::max(0.0, 1.0 - elapsed / kRampTime);
+    publisher_.publishHand(used_, share * force, share * torque);
+    sleepUntil(Clock::now() + period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
+  }
+  counters_.paused = false;
+  if (!ros::ok())
+    return;
+  publisher_.publishOperatingState("ENABLED", "");
+  ROS_WARN("rod_dynamics: the contact node answers again; going on after %.3f s",
+           std::chrono::duration<double>(Clock::now() - begin).count());
+}
+
+void RodLoop::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  const std::uint64_t steps = counters_.steps;
+  const std::uint64_t late = counters_.late_steps;
+  const double on_time = steps > 0 ? 100.0 * (1.0 - static_cast<double>(late) / static_cast<double>(steps)) : 100.0;
+  if (counters_.paused)
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "paused: the contact node does not answer");
+  else if (!grant_.granted)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, grant_.message);
+  else if (on_time < 99.0)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "more than 1 % of the steps are late");
+  else
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  status.add("scheduling", grant_.message);
+  status.add("steps", steps);
+  status.add("deadline misses", late);
+  status.add("on time [%]", on_time);
+  status.add("step time, mean [us]", steps > 0 ? 1e6 * counters_.total_step / static_cast<double>(steps) : 0.0);
+  status.add("step time, longest [us]", 1e6 * counters_.longest_step);
+  status.add("old contact sets used", counters_.stale_sets.load());
+  status.add("contact sets dropped (late, double or wrong)", counters_.odd_sets.load());
+  status.add("pauses", counters_.pauses.load());
+  status.add("steps refused by the solver", counters_.refused_steps.load());
+}
+
+}  // namespace endovascular_sim::nodes

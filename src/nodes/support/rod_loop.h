@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "nodes/support/real_time.h"
+#include "nodes/support/remote_contact_source.h"
+#include "nodes/support/rod_publisher.h"
+#include "session/simulation.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** The rod node's loop: one simulation step per slot of the steady clock, in lock-step with the contact node.
+ *
+ *  A step that comes late starts at once and the slots stay where they are, so time is caught up. While the contact
+ *  node is silent, old contact sets serve; after `pause_after` the simulation pauses, the hand's force ramps to zero,
+ *  and it goes on, with new slots, when the node answers again. */
+class RodLoop
+{
+public:
+  RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant);
+
+  /** Runs until ROS ends, or for the parameter `seconds` of simulated time. @return false when it could not start */
+  bool run();
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /** Counters for /diagnostics, written by the loop, read by another thread. */
+  struct Counters
+  {
+    std::atomic<std::uint64_t> steps{0};
+    std::atomic<std::uint64_t> late_steps{0};
+    std::atomic<std::uint64_t> stale_sets{0};
+    std::atomic<std::uint64_t> odd_sets{0};
+    std::atomic<std::uint64_t> pauses{0};
+    std::atomic<std::uint64_t> refused_steps{0};
+    std::atomic<double> longest_step{0.0};  ///< [s]
+    std::atomic<double> total_step{0.0};    ///< [s]
+    std::atomic<bool> paused{false};
+  };
+
+  bool makeSimulation();
+  bool waitForVessel(session::EntryPose& entry);
+  session::HandCommand nextCommand();
+  void receiveCommand(const sensor_msgs::JointStateConstPtr& message);
+  void stepOnce();
+  void countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end);
+  bool contactIsLost() const;
+  void pause();
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle node_;
+  session::Scene scene_;
+  RealTimeGrant grant_;
+  double pause_after_;  ///< [s]
+  double seconds_;      ///< of simulated time; 0: endless
+  std::unique_ptr<RemoteContactSource> contacts_;
+  std::unique_ptr<session::Simulation> simulation_;
+  RodPublisher publisher_;
+  ros::CallbackQueue command_queue_;
+  std::unique_ptr<ros::AsyncSpinner> command_spinner_;
+  ros::Subscriber command_subscriber_;
+  std::mutex command_mutex_;
+  session::HandCommand command_;  ///< newest from the drive, guarded
+  session::HandCommand used_;     ///< by the last step
+  Counters counters_;
+};
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,143 @@
+#include "nodes/support/rod_publisher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "endovascular_sim/OperatingState.h"
+#include "nodes/support/contact_conversions.h"
+#include "nodes/support/names.h"
+#include "session/contact_forces.h"
+#include "session/run_result.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kVisualRate = 60.0;  // Hz
+constexpr int kStepQueue = 1000;      // a second of steps: the recorder must not lose one
+constexpr int kHandQueue = 1;         // the device wants the newest force only
+
+}  // namespace
+
+RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
+  : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::round(1.0 / (kVisualRate * scene.solver.time_step)))))
+{
+  const std::string instrument = names::kInstruments + scene.instrument.name;
+  hand_ = node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue);
+  operating_ = node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true);
+  applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
+  visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
+  forces_ = node.advertise<ContactForces>(names::kContactForces, 2);
+  hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
+  hand_message_.position.resize(2);
+  hand_message_.effort.resize(2);
+  applied_message_.insertion.resize(1);
+  applied_message_.rotation.resize(1);
+  visual_message_.header.frame_id = names::kPatientFrame;
+  forces_message_.header.frame_id = names::kPatientFrame;
+}
+
+void RodPublisher::publishHand(const session::HandCommand& command, double force, double torque)
+{
+  hand_message_.header.stamp = ros::Time::now();
+  hand_message_.position = {command.insertion, command.rotation};
+  hand_message_.effort = {force, torque};
+  hand_.publish(hand_message_);
+}
+
+void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command)
+{
+  publishHand(command, simulation.state().hand_force, simulation.state().hand_torque);
+  applied_message_.header.stamp = hand_message_.header.stamp;
+  applied_message_.step = simulation.steps() - 1;
+  applied_message_.insertion[0] = command.insertion;
+  applied_message_.rotation[0] = command.rotation;
+  applied_message_.stale_passes = simulation.report().stale_passes;
+  applied_message_.state_hash = simulation.stateHash();
+  applied_.publish(applied_message_);
+  if (simulation.steps() % visual_every_ != 0)
+    return;
+  publishVisual(simulation);
+  publishTip(simulation);
+  if (forces_.getNumSubscribers() > 0)
+    publishContactForces(simulation);
+}
+
+void RodPublisher::publishVisual(const session::Simulation& simulation)
+{
+  const rod::State& state = simulation.state();
+  const rod::Discretisation& wire = simulation.discretisation();
+  RodStateVisual& message = visual_message_;
+  message.header.stamp = hand_message_.header.stamp;
+  message.step = simulation.steps() - 1;
+  message.time = simulation.time();
+  message.inserted_length = state.inserted_length;
+  message.rotation = state.rotation;
+  message.hand_force = state.hand_force;
+  message.hand_torque = state.hand_torque;
+  const int first = session::firstInsertedNode(simulation);
+  message.first_node = static_cast<std::uint32_t>(first);
+  message.nodes.clear();
+  message.radius.clear();
+  message.contact_force.clear();
+  for (int i = first; i < wire.nodes(); ++i)
+  {
+    message.nodes.push_back(toPoint(state.position[i]));
+    message.radius.push_back(wire.radius[i]);
+    message.contact_force.push_back(toVector(state.wall_force[i]));
+  }
+  visual_.publish(message);
+}
+
+void RodPublisher::publishContactForces(const session::Simulation& simulation)
+{
+  forces_message_.header.stamp = hand_message_.header.stamp;
+  forces_message_.step = simulation.steps() - 1;
+  forces_message_.contacts.clear();
+  for (const session::WallContact& contact : session::wallContacts(simulation))
+  {
+    ContactForce force;
+    force.position = toPoint(contact.position);
+    force.normal_force = toVector(contact.normal_force);
+    force.friction_force = toVector(contact.friction_force);
+    force.triangle = contact.triangle;
+    forces_message_.contacts.push_back(force);
+  }
+  forces_.publish(forces_message_);
+}
+
+void RodPublisher::publishTip(const session::Simulation& simulation)
+{
+  const std::vector<Eigen::Vector3d>& x = simulation.state().position;
+  const std::size_t n = x.size();
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (x[n - 1] - x[n - 2]).normalized());
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = hand_message_.header.stamp;
+  transform.header.frame_id = names::kPatientFrame;
+  transform.child_frame_id = names::kTipFrame;
+  transform.transform.translation = toVector(x[n - 1]);
+  transform.transform.rotation.x = turn.x();
+  transform.transform.rotation.y = turn.y();
+  transform.transform.rotation.z = turn.z();
+  transform.transform.rotation.w = turn.w();
+  transforms_.sendTransform(transform);
+}
+
+void RodPublisher::publishOperatingState(const std::string& state, const std::string& reason)
+{
+  if (state == operating_state_)
+    return;
+  operating_state_ = state;
+  OperatingState message;
+  message.header.stamp = ros::Time::now();
+  message.state = state;
+  message.reason = reason;
+  message.is_busy = state == "ENABLED";
+  operating_.publish(message);
+}
+
+}  // namespace endovascular_sim::nodes

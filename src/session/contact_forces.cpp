@@ -1,0 +1,50 @@
+#include "session/contact_forces.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+constexpr double kSlowest = 0.5e-3;  // m/s: slower sliding is shared out linearly, as in the solver
+
+Eigen::Vector3d frictionOn(const rod::State& state, int node)
+{
+  const double force = state.wall_force[node].norm();
+  const Eigen::Vector3d normal = state.wall_force[node] / force;
+  const Eigen::Vector3d sliding = state.velocity[node] - state.velocity[node].dot(normal) * normal;
+  return -(state.friction_coefficient[node] * force / std::max(sliding.norm(), kSlowest)) * sliding;
+}
+
+}  // namespace
+
+std::vector<WallContact> wallContacts(const Simulation& simulation)
+{
+  const rod::State& state = simulation.state();
+  std::vector<WallContact> contacts;
+  for (int i = state.first_node; i < simulation.discretisation().nodes(); ++i)
+  {
+    if (state.wall_force[i].isZero(0.0))
+      continue;
+    WallContact contact;
+    contact.normal_force = state.wall_force[i];
+    contact.friction_force = frictionOn(state, i);
+    contact.position = state.position[i];
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const contact::Feature& feature : simulation.contactSet().features)
+    {
+      const bool touches = feature.edge + (feature.parameter > 0.5 ? 1 : 0) == i;
+      if (!touches || feature.gap >= smallest)
+        continue;
+      smallest = feature.gap;
+      contact.position = feature.point;
+      contact.triangle = feature.triangle;
+    }
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,302 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "endovascular_sim/CArm.h"
+#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "nodes/support/image_conversions.h"
+#include "nodes/support/names.h"
+#include "session/scene.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+const Eigen::Vector3d kTip(0.011, 0.004, 0.05);
+
+/** A box as a vessel, 30 mm wide and 100 mm long, centred at (0, 0, 0.05). */
+VesselMesh boxVessel()
+{
+  VesselMesh message;
+  message.version = 1;
+  for (int i = 0; i < 8; ++i)
+  {
+    geometry_msgs::Point corner;
+    corner.x = (i & 1) != 0 ? 0.015 : -0.015;
+    corner.y = (i & 2) != 0 ? 0.015 : -0.015;
+    corner.z = (i & 4) != 0 ? 0.1 : 0.0;
+    message.mesh.vertices.push_back(corner);
+  }
+  const std::uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& face : faces)
+  {
+    shape_msgs::MeshTriangle triangle;
+    std::copy(face, face + 3, triangle.vertex_indices.begin());
+    message.mesh.triangles.push_back(triangle);
+  }
+  return message;
+}
+
+/** A straight wire along z that ends at kTip, thick enough to stand out. */
+RodStateVisual rod()
+{
+  RodStateVisual state;
+  for (int i = 0; i <= 40; ++i)
+  {
+    geometry_msgs::Point node;
+    node.x = kTip.x();
+    node.y = kTip.y();
+    node.z = kTip.z() - 0.001 * (40 - i);
+    state.nodes.push_back(node);
+    state.radius.push_back(0.9e-3);
+  }
+  return state;
+}
+
+bool waitFor(const std::function<bool()>& condition)
+{
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(15.0);
+  while (ros::ok() && ros::SteadyTime::now() < end)
+  {
+    ros::spinOnce();
+    if (condition())
+      return true;
+    ros::WallDuration(0.01).sleep();
+  }
+  return false;
+}
+
+class FluoroscopyGraph : public testing::Test
+{
+protected:
+  FluoroscopyGraph()
+    : listener_(buffer_),
+      mesh_(node_.advertise<VesselMesh>(names::kVesselMesh, 1, true)),
+      rod_(node_.advertise<RodStateVisual>(names::kRodStateVisual, 1, true)),
+      c_arm_(node_.advertise<CArm>(names::kCArmCommand, 1)),
+      diagnostics_(node_.subscribe<diagnostic_msgs::DiagnosticArray>(names::kDiagnostics, 10,
+                                                                     &FluoroscopyGraph::takeDiagnostics, this))
+  {
+    mesh_.publish(boxVessel());
+    rod_.publish(rod());
+  }
+
+  void listen()
+  {
+    const auto keep = [](auto& map) { return [&map](const auto& message) { map[message->header.stamp] = message; }; };
+    image_ = node_.subscribe<sensor_msgs::Image>(names::kFluoroscopyImage, 10, keep(images));
+    raw_ = node_.subscribe<sensor_msgs::Image>(names::kFluoroscopyRaw, 10, keep(raws));
+    info_ = node_.subscribe<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 10, keep(infos));
+  }
+
+  void forgetFrames()
+  {
+    images.clear();
+    raws.clear();
+    infos.clear();
+  }
+
+  /** A frame of which all three parts have arrived. */
+  std::optional<ros::Time> completeFrame()
+  {
+    std::optional<ros::Time> found;
+    waitFor(
+        [&]
+        {
+          for (const auto& [stamp, info] : infos)
+            if (images.count(stamp) > 0 && raws.count(stamp) > 0)
+              found = stamp;
+          return found.has_value();
+        });
+    return found;
+  }
+
+  /** Pixel (column, row) of a point of the patient frame by tf and camera_info alone. */
+  Eigen::Vector2d pixelOf(const Eigen::Vector3d& point, const sensor_msgs::CameraInfo& info)
+  {
+    const auto t = buffer_.lookupTransform(info.header.frame_id, names::kPatientFrame, ros::Time(0)).transform;
+    const Eigen::Quaterniond turn(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
+    const Eigen::Vector3d p = turn * point + Eigen::Vector3d(t.translation.x, t.translation.y, t.translation.z);
+    const Eigen::Vector3d image = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(info.K.data()) * p;
+    return image.hnormalized();
+  }
+
+  static int grey(const sensor_msgs::Image& image, const Eigen::Vector2d& pixel)
+  {
+    return image.data.at(static_cast<std::size_t>(std::lround(pixel.y())) * image.step +
+                         static_cast<std::size_t>(std::lround(pixel.x())));
+  }
+
+  /** Expects wire 10 mm below the tip, and none 10 mm above it or 3 mm beside it. */
+  void expectWireWhereItIs(const ros::Time& stamp)
+  {
+    const sensor_msgs::CameraInfo& info = *infos.at(stamp);
+    const sensor_msgs::Image& image = *images.at(stamp);
+    const Eigen::Vector3d along(0.0, 0.0, 0.01), beside(0.003, 0.0, 0.0);
+    const int wire = grey(image, pixelOf(kTip - along, info));
+    EXPECT_LT(wire, grey(image, pixelOf(kTip + along, info)) - 30);
+    EXPECT_LT(wire, grey(image, pixelOf(kTip - along + beside, info)) - 30);
+    EXPECT_LT(wire, grey(image, pixelOf(kTip - along - beside, info)) - 30);
+  }
+
+  std::map<ros::Time, sensor_msgs::ImageConstPtr> images, raws;
+  std::map<ros::Time, sensor_msgs::CameraInfoConstPtr> infos;
+  std::map<std::string, std::string> status;
+  std::string status_message;
+  int status_count = 0;
+
+  ros::NodeHandle node_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  ros::Publisher mesh_, rod_, c_arm_;
+  ros::Subscriber diagnostics_, image_, raw_, info_;
+
+private:
+  void takeDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message)
+  {
+    for (const auto& one : message->status)
+      if (one.hardware_id == "simulated C-arm")
+      {
+        status.clear();
+        for (const auto& value : one.values)
+          status[value.key] = value.value;
+        status_message = one.message;
+        ++status_count;
+      }
+  }
+};
+
+TEST_F(FluoroscopyGraph, RendersNothingWhileNobodyListensAndSaysHowItIsScheduled)
+{
+  ASSERT_TRUE(waitFor([&] { return status_message == "idle: nobody listens"; })) << status_message;
+  const int count = status_count;
+  ASSERT_TRUE(waitFor([&] { return status_count > count + 1; }));
+  EXPECT_EQ(status.at("frames rendered"), "0");
+  EXPECT_NE(status.at("scheduling").find("SCHED_IDLE"), std::string::npos);
+}
+
+TEST_F(FluoroscopyGraph, PublishesImagesAndCameraInfoWithTheSameStampAndStopsWhenNobodyListens)
+{
+  listen();
+  const auto stamp = completeFrame();
+  ASSERT_TRUE(stamp);
+  EXPECT_EQ(images.at(*stamp)->encoding, "mono8");
+  EXPECT_EQ(raws.at(*stamp)->encoding, "mono16");
+  EXPECT_EQ(raws.at(*stamp)->data.size(), 256U * 256U * 2U);
+  const sensor_msgs::CameraInfo& info = *infos.at(*stamp);
+  EXPECT_EQ(info.header.frame_id, names::kXRaySourceFrame);
+  EXPECT_EQ(images.at(*stamp)->header.frame_id, names::kXRaySourceFrame);
+  EXPECT_DOUBLE_EQ(info.K[0], 1.2 / (0.3 / 256));
+  EXPECT_DOUBLE_EQ(info.P[0], info.K[0]);
+  EXPECT_DOUBLE_EQ(info.P[5], info.K[4]);
+  image_.shutdown();
+  raw_.shutdown();
+  info_.shutdown();
+  EXPECT_TRUE(waitFor([&] { return status_message == "idle: nobody listens"; }));
+}
+
+TEST_F(FluoroscopyGraph, DrawsTheWireWhereTfAndCameraInfoSayInAp)
+{
+  listen();
+  const auto stamp = completeFrame();
+  ASSERT_TRUE(stamp);
+  // The wire is left of the vessel's middle, the patient's left is on the image's right.
+  EXPECT_GT(pixelOf(kTip, *infos.at(*stamp)).x(), infos.at(*stamp)->K[2] + 5.0);
+  expectWireWhereItIs(*stamp);
+}
+
+TEST_F(FluoroscopyGraph, FollowsTheCommandsOfTheCArmAndRefusesImpossibleOnes)
+{
+  listen();
+  ASSERT_TRUE(completeFrame());
+  fluoroscopy::CArmPose pose;
+  pose.primary_angle = 0.7;
+  pose.secondary_angle = 0.3;
+  pose.isocentre = {0.0, 0.0, 0.04};
+  ASSERT_TRUE(waitFor([&] { return c_arm_.getNumSubscribers() > 0; }));
+  c_arm_.publish(toMessage(pose));
+  const Eigen::Vector3d source = fluoroscopy::XRayGeometry(pose).source();
+  const auto sourceIsThere = [&]
+  {
+    const auto t = buffer_.lookupTransform(names::kPatientFrame, names::kXRaySourceFrame, ros::Time(0)).transform;
+    return (Eigen::Vector3d(t.translation.x, t.translation.y, t.translation.z) - source).norm() < 1e-9;
+  };
+  ASSERT_TRUE(waitFor(sourceIsThere));
+  forgetFrames();
+  ASSERT_TRUE(completeFrame());
+  forgetFrames();  // the frame under way at the move may be of the old pose
+  const auto stamp = completeFrame();
+  ASSERT_TRUE(stamp);
+  expectWireWhereItIs(*stamp);
+
+  pose.source_to_patient = 2.0;
+  c_arm_.publish(toMessage(pose));
+  EXPECT_TRUE(waitFor([&] { return status_message.find("distance_source_to_detector") != std::string::npos; }));
+  EXPECT_TRUE(sourceIsThere());
+}
+
+TEST_F(FluoroscopyGraph, SurvivesMessagesThatDoNotFitTogether)
+{
+  listen();
+  VesselMesh mesh = boxVessel();
+  mesh.mesh.triangles[3].vertex_indices[1] = 8;
+  mesh_.publish(mesh);
+  EXPECT_TRUE(waitFor([&] { return status_message.find("triangle 3") != std::string::npos; }));
+  RodStateVisual state = rod();
+  state.radius.pop_back();
+  rod_.publish(state);
+  EXPECT_TRUE(waitFor([&] { return status_message.find("radius") != std::string::npos; }));
+  forgetFrames();
+  EXPECT_TRUE(completeFrame());
+}
+
+TEST(ImageConversions, BringACArmPoseThereAndBack)
+{
+  fluoroscopy::CArmPose pose;
+  pose.primary_angle = -0.4;
+  pose.secondary_angle = 0.2;
+  pose.source_to_detector = 1.1;
+  pose.source_to_patient = 0.8;
+  pose.isocentre = {1.0, 2.0, 3.0};
+  pose.detector_width = 0.2;
+  pose.pixels = 100;
+  EXPECT_EQ(toPose(toMessage(pose), 100), pose);
+}
+
+TEST(ImageConversions, GiveEachEdgeTheMaterialAtItsDistanceFromTheTip)
+{
+  rod::Wire wire;
+  wire.sections.resize(3);
+  wire.sections[0].length = 1.0;
+  wire.sections[1].length = 0.01;
+  wire.sections[2].length = 0.02;
+  const std::vector<double> attenuation = toXRayWire(rod(), wire, {1.0, 2.0, 3.0}).attenuation;
+  ASSERT_EQ(attenuation.size(), 40U);
+  for (std::size_t j = 0; j < 40; ++j)
+    EXPECT_EQ(attenuation[j], j >= 20 ? 3.0 : j >= 10 ? 2.0 : 1.0) << j;
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_fluoroscopy");
+  return RUN_ALL_TESTS();
+}

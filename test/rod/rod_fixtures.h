@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+
+#include "rod/kkt_stepper.h"
+
+namespace endovascular_sim::rod
+{
+
+/** A straight wire of one section. */
+inline Wire uniformWire(double length, double bending_stiffness, double radius, double density)
+{
+  Section section;
+  section.length = length;
+  section.bending_stiffness = bending_stiffness;
+  section.torsional_stiffness = bending_stiffness / 1.3;
+  section.axial_stiffness = 4.0 * bending_stiffness / (radius * radius);
+  section.radius = radius;
+  section.density = density;
+  Wire wire;
+  wire.sections = {section};
+  return wire;
+}
+
+/** A clamped bench wire along x whose clamp acts exactly at the origin: the clamp of the discrete rod acts at the
+ * middle of the first edge. @p length is the free one. */
+inline Boundary clampAtOrigin(double length, int nodes)
+{
+  Boundary boundary;
+  boundary.introducer = false;
+  boundary.proximal = EndHold::kClamped;
+  boundary.origin = Eigen::Vector3d(-0.5 * length / (nodes - 1.5), 0.0, 0.0);
+  return boundary;
+}
+
+/** Total length of the wire that has @p length free of a mid-edge clamp. */
+inline double clampedLength(double length, int nodes)
+{
+  return length * (nodes - 1) / (nodes - 1.5);
+}
+
+/** Steps until nothing moves any more; returns the number of steps, or −1 when it does not come to rest. */
+inline int settle(KktStepper& stepper, State& state, StepInput input, double dt, double slowest, int max_steps)
+{
+  PhaseTimer timer;
+  for (int k = 0; k < max_steps; ++k)
+  {
+    std::uint32_t pass = 0;
+    input.step = static_cast<std::uint64_t>(k);
+    stepper.step(state, input, dt, pass, nullptr, timer);
+    double fastest = 0.0;
+    for (const Eigen::Vector3d& velocity : state.velocity)
+      fastest = std::max(fastest, velocity.norm());
+    if (fastest < slowest && k > 10)
+      return k;
+  }
+  return -1;
+}
+
+}  // namespace endovascular_sim::rod

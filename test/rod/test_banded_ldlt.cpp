@@ -1,0 +1,93 @@
+#include "rod/banded_ldlt.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr int kBand = 10;
+
+/** A random banded matrix; every third unknown from the fifth on gets a negative diagonal, as a multiplier would. */
+BandedLdlt<kBand> randomMatrix(int size, std::mt19937& random, Eigen::MatrixXd& dense, int& negative)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  BandedLdlt<kBand> matrix;
+  matrix.reset(size);
+  dense = Eigen::MatrixXd::Zero(size, size);
+  negative = 0;
+  for (int col = 0; col < size; ++col)
+    for (int row = col; row <= std::min(size - 1, col + kBand); ++row)
+    {
+      const bool multiplier = col >= 5 && col % 3 == 0;
+      negative += row == col && multiplier;
+      const double value = row == col ? (multiplier ? -25.0 : 25.0) : uniform(random);
+      matrix.at(row, col) = value;
+      dense(row, col) = dense(col, row) = value;
+    }
+  return matrix;
+}
+
+TEST(BandedLdlt, SolvesAnIndefiniteSystemLikeADensePivotedSolver)
+{
+  std::mt19937 random(1);
+  for (int size : {1, 5, 11, 12, 60, 333})
+  {
+    Eigen::MatrixXd dense;
+    int negative = 0;
+    BandedLdlt<kBand> matrix = randomMatrix(size, random, dense, negative);
+    std::vector<double> rhs(size);
+    for (double& value : rhs)
+      value = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+    const Eigen::VectorXd expected = dense.fullPivLu().solve(Eigen::Map<Eigen::VectorXd>(rhs.data(), size));
+    EXPECT_EQ(matrix.factorise(), negative);
+    matrix.solve(rhs);
+    for (int i = 0; i < size; ++i)
+      EXPECT_NEAR(rhs[i], expected[i], 1e-12);
+  }
+}
+
+TEST(BandedLdlt, CountsNegativePivotsAsTheInertiaSays)
+{
+  std::mt19937 random(2);
+  Eigen::MatrixXd dense;
+  int negative = 0;
+  BandedLdlt<kBand> matrix = randomMatrix(90, random, dense, negative);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense);
+  EXPECT_EQ(matrix.factorise(), (eigen.eigenvalues().array() < 0.0).count());
+}
+
+TEST(BandedLdlt, ReportsAZeroPivotAndAPivotThatIsNotANumber)
+{
+  BandedLdlt<kBand> matrix;
+  matrix.reset(3);
+  EXPECT_EQ(matrix.factorise(), -1);
+  matrix.reset(1);
+  matrix.at(0, 0) = std::nan("");
+  EXPECT_EQ(matrix.factorise(), -1);
+}
+
+TEST(BandedLdlt, PrescribesAnUnknownExactly)
+{
+  std::mt19937 random(3);
+  Eigen::MatrixXd dense;
+  int negative = 0;
+  BandedLdlt<kBand> matrix = randomMatrix(40, random, dense, negative);
+  std::vector<double> rhs(40, 1.0);
+  matrix.prescribe(17, 0.25, 2.0, rhs);
+  matrix.factorise();
+  matrix.solve(rhs);
+  EXPECT_NEAR(rhs[17], 0.25, 1e-15);
+  const Eigen::VectorXd x = Eigen::Map<Eigen::VectorXd>(rhs.data(), 40);
+  const Eigen::VectorXd residual = dense * x - Eigen::VectorXd::Ones(40);
+  for (int i = 0; i < 40; ++i)
+    if (i != 17)
+      EXPECT_NEAR(residual[i], 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rod
