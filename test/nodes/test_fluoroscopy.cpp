@@ -298,5 +298,6 @@ int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "test_fluoroscopy");
+  const ros::NodeHandle keep_alive;  // the last handle to go would end the node between two tests
   return RUN_ALL_TESTS();
 }
