@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <ros/init.h>
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
@@ -381,7 +382,9 @@ int main(int argc, char** argv)
   Arguments arguments;
   try
   {
-    arguments = parse({argv + 1, argv + argc});
+    std::vector<std::string> words;
+    ros::removeROSArgs(argc, argv, words);  // roslaunch appends its own
+    arguments = parse({words.begin() + 1, words.end()});
     if (arguments.help)
     {
       std::cout << kUsage;
