@@ -56,6 +56,7 @@ void RosserialHost::lineOpened(double now)
   parser_.reset();
   output_.clear();
   topics_.clear();
+  samples_at_opening_ = counters_.samples;
   requestTopics(now);
   updateState(now);
 }
@@ -306,6 +307,8 @@ void RosserialHost::updateState(double now)
                                        ? "the device has not announced its topics"
                                        : "no topic with samples; " + topics_.refused().begin()->second.topic.name +
                                              " refused: " + topics_.refused().begin()->second.reason);
+  else if (counters_.samples == samples_at_opening_)
+    become(DeviceState::kDisabled, "the device has not sent a sample");
   else if (!linked_)
     become(DeviceState::kDisabled, "no sample for " + milliseconds(timing.sample_timeout));
   else if ((flags_ & HapticSample::kFault) != 0)

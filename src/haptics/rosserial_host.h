@@ -128,11 +128,12 @@ private:
   DeviceState state_ = DeviceState::kDisabled;
   std::string reason_;
   std::uint8_t flags_ = 0;  ///< of the newest sample
-  double sample_at_;        ///< arrival of the newest sample
-  double force_at_;         ///< arrival of the newest force
-  double not_finite_at_;    ///< arrival of the newest force that was not finite
-  double request_at_;       ///< newest request for topics
-  double sent_at_;          ///< newest force frame
+  std::uint64_t samples_at_opening_ = 0;
+  double sample_at_;      ///< arrival of the newest sample
+  double force_at_;       ///< arrival of the newest force
+  double not_finite_at_;  ///< arrival of the newest force that was not finite
+  double request_at_;     ///< newest request for topics
+  double sent_at_;        ///< newest force frame
   std::uint32_t answered_time_ = 0;
   std::vector<MotionSample> motion_out_;
   std::vector<LogLine> log_out_;
