@@ -14,6 +14,7 @@ namespace
 constexpr double kMaxHandSpeed = 1.0;            // m/s
 constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
+constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
 
 rod::EndHold hold(EndCondition condition)
@@ -79,10 +80,13 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
   state_ = stepper_->initialState(insertion, scene.drive.rotationAt(0.0));
 }
 
-double Simulation::clutch(double wanted, double resistance, double limit) const
+/** Grip of the hand, 1 firm to 0 slipping, after a step in which the wire resisted the wanted motion. It follows the
+ *  force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every change. */
+double Simulation::nextGrip(double grip, double wanted, double resistance, double limit) const
 {
   const double against = wanted > 0.0 ? resistance : -resistance;
-  return wanted * std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
+  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
+  return grip + std::min(1.0, scene_.solver.time_step / kGripTime) * (target - grip);
 }
 
 HandCommand Simulation::allowedMotion(const HandCommand& command)
@@ -96,14 +100,16 @@ HandCommand Simulation::allowedMotion(const HandCommand& command)
   }
   double wanted = command.insertion - slipped_insertion_ - state_.inserted_length;
   wanted = std::max(-kMaxHandSpeed * dt, std::min(kMaxHandSpeed * dt, wanted));
-  motion.insertion = clutch(wanted, state_.hand_force, scene_.drive.force_limit);
+  grip_ = nextGrip(grip_, wanted, state_.hand_force, scene_.drive.force_limit);
+  motion.insertion = grip_ * wanted;
   const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + motion.insertion));
   motion.insertion = reached - state_.inserted_length;
   slipped_insertion_ += wanted - motion.insertion;
 
   double turn = command.rotation - slipped_rotation_ - state_.rotation;
   turn = std::max(-kMaxHandTurn * dt, std::min(kMaxHandTurn * dt, turn));
-  motion.rotation = clutch(turn, state_.hand_torque, scene_.drive.torque_limit);
+  turning_grip_ = nextGrip(turning_grip_, turn, state_.hand_torque, scene_.drive.torque_limit);
+  motion.rotation = turning_grip_ * turn;
   slipped_rotation_ += turn - motion.rotation;
   return motion;
 }

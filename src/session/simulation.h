@@ -54,7 +54,7 @@ public:
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
 
 private:
-  double clutch(double wanted, double resistance, double limit) const;
+  double nextGrip(double grip, double wanted, double resistance, double limit) const;
   HandCommand allowedMotion(const HandCommand& command);
   void applyLoads(rod::StepInput& input) const;
 
@@ -69,6 +69,8 @@ private:
   std::uint64_t steps_ = 0;
   double slipped_insertion_ = 0.0;  ///< command minus what reached the wire [m]
   double slipped_rotation_ = 0.0;   ///< [rad]
+  double grip_ = 1.0;               ///< on pushing, 1 firm to 0 slipping
+  double turning_grip_ = 1.0;       ///< on turning
   double max_insertion_ = 0.0;      ///< [m]
 };
 

@@ -1,0 +1,172 @@
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "common/error.h"
+#include "contact/detector.h"
+#include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/SessionInfo.h"
+#include "endovascular_sim/VesselCentreline.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "nodes/support/names.h"
+#include "nodes/support/vessel_conversions.h"
+#include "session/replay_source.h"
+#include "session/simulation.h"
+
+namespace
+{
+
+using namespace endovascular_sim;  // NOLINT: a program's main file
+
+constexpr auto kUsage =
+    R"(Simulates a recorded session again, from its inputs, and compares every step with the recording bit for bit.
+
+usage: replay SESSION.bag [--keep-going]
+
+  --keep-going  counts all steps that differ instead of ending at the first
+  --help        prints this
+
+The scene, the vessel and the inputs of every step come from the bag. To look at a session instead of computing it
+again: roslaunch endovascular_sim replay.launch bag:=SESSION.bag
+exit code: 0 every step is equal, 1 a step differs or is missing, or the bag cannot be used, 2 wrong use
+)";
+
+/** What a recording holds for a replay. */
+struct Recording
+{
+  SessionInfoConstPtr info;
+  VesselMeshConstPtr mesh;
+  VesselCentrelineConstPtr centreline;
+  std::map<std::uint64_t, DriveAppliedConstPtr> steps;
+};
+
+/** Topics are recorded with their full names; scenes may run in any namespace. */
+bool isTopic(const std::string& topic, const std::string& name)
+{
+  return topic.size() > name.size() &&
+         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
+}
+
+Recording read(const std::string& file)
+{
+  Recording recording;
+  rosbag::Bag bag;
+  bag.open(file, rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag))
+  {
+    if (isTopic(message.getTopic(), nodes::names::kDriveApplied))
+    {
+      const auto applied = message.instantiate<DriveApplied>();
+      if (applied)
+        recording.steps[applied->step] = applied;
+    }
+    else if (isTopic(message.getTopic(), nodes::names::kSessionInfo))
+      recording.info = message.instantiate<SessionInfo>();
+    else if (isTopic(message.getTopic(), nodes::names::kVesselMesh))
+      recording.mesh = message.instantiate<VesselMesh>();
+    else if (isTopic(message.getTopic(), nodes::names::kVesselCentreline))
+      recording.centreline = message.instantiate<VesselCentreline>();
+  }
+  if (!recording.info)
+    throw InputError(file, nodes::names::kSessionInfo, "missing; only bags of the session node can be replayed");
+  if (recording.steps.empty())
+    throw InputError(file, nodes::names::kDriveApplied, "holds no step");
+  return recording;
+}
+
+int replay(const std::string& file, bool keep_going)
+{
+  const Recording recording = read(file);
+  const session::Scene scene = session::parseScene(recording.info->scene_yaml, file);
+  std::unique_ptr<contact::Detector> detector;
+  std::unique_ptr<session::ReplayContactSource> contacts;
+  session::EntryPose entry;
+  if (scene.vessel)
+  {
+    if (!recording.mesh || !recording.centreline)
+      throw InputError(file, nodes::names::kVesselMesh, "missing, but the scene has a vessel");
+    vessel::Vessel vessel;
+    vessel.mesh = nodes::fromMessage(*recording.mesh);
+    vessel.centreline = nodes::fromMessage(*recording.centreline);
+    if (vessel.mesh.hash() != recording.mesh->content_hash)
+      throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
+    entry = session::resolveEntry(scene.entry, vessel, file);
+    detector = std::make_unique<contact::Detector>(vessel.mesh,
+                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+    contacts = std::make_unique<session::ReplayContactSource>(*detector);
+  }
+  else
+    entry = session::resolveEntry(scene.entry, file);
+  session::Simulation simulation(scene, entry, contacts.get());
+  std::uint64_t different = 0;
+  std::uint64_t last = recording.steps.rbegin()->first;
+  for (const auto& [step, applied] : recording.steps)
+  {
+    if (step != simulation.steps())
+    {
+      std::cerr << "replay: step " << simulation.steps() << " is missing in " << file << "\n";
+      return 1;
+    }
+    if (contacts)
+      contacts->setStalePasses(applied->stale_passes);
+    simulation.step({applied->insertion.at(0), applied->rotation.at(0)});
+    if (simulation.stateHash() != applied->state_hash)
+    {
+      if (different++ == 0)
+        std::fprintf(stderr, "replay: step %lu differs: recorded %s, computed %s\n", static_cast<unsigned long>(step),
+                     Hash64::toHex(applied->state_hash).c_str(), Hash64::toHex(simulation.stateHash()).c_str());
+      if (!keep_going)
+        return 1;
+    }
+    if (step % 1000 == 0)
+      std::fprintf(stderr, "\r%3.0f %% ", 100.0 * static_cast<double>(step) / static_cast<double>(last + 1));
+  }
+  std::fprintf(stderr, "\r");
+  std::printf("%lu steps, %lu different, trajectory %s\n", static_cast<unsigned long>(simulation.steps()),
+              static_cast<unsigned long>(different), Hash64::toHex(simulation.trajectoryHash()).c_str());
+  return different == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  std::string file;
+  bool keep_going = false;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    if (word == "--help" || word == "-h")
+    {
+      std::cout << kUsage;
+      return 0;
+    }
+    if (word == "--keep-going")
+      keep_going = true;
+    else if (!word.empty() && word[0] != '-' && file.empty())
+      file = word;
+    else
+    {
+      std::cerr << "replay: cannot use '" << word << "'\n\n" << kUsage;
+      return 2;
+    }
+  }
+  if (file.empty())
+  {
+    std::cerr << "replay: a bag is needed\n\n" << kUsage;
+    return 2;
+  }
+  try
+  {
+    return replay(file, keep_going);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "replay: " << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,193 @@
+#include "contact/detector.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "contact_fixtures.h"
+#include "vessel/subdivision.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+bool same(const Feature& a, const Feature& b)
+{
+  return a.edge == b.edge && a.parameter == b.parameter && a.point == b.point && a.normal == b.normal &&
+         a.gap == b.gap && a.triangle == b.triangle && a.id == b.id;
+}
+
+/** Smallest gap over the listed features of one node (by whole-wire index), or infinity. */
+double smallestGap(const ContactSet& set, int node)
+{
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Feature& feature : set.features)
+    if ((feature.edge == node && feature.parameter == 0.0) || (feature.edge + 1 == node && feature.parameter == 1.0))
+      gap = std::min(gap, feature.gap);
+  return gap;
+}
+
+void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
+{
+  Detector detector(mesh, WallLaw{});
+  std::mt19937 random(21);
+  std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
+  int contacts = 0;
+  for (int trial = 0; trial < wires; ++trial)
+  {
+    const std::size_t t = any_triangle(random);
+    const Eigen::Vector3d start = mesh.vertices[mesh.triangles[t][0]] + 1e-3 * detector.wall().normals[t];
+    const Query query = randomWire(start, random, 25);
+    ContactSet set;
+    detector.detect(query, set);
+    for (std::size_t i = 0; i < query.nodes.size(); ++i)
+    {
+      int triangle = -1;
+      const double distance = bruteDistance(detector.wall(), query.nodes[i], triangle);
+      const double sign = vessel::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
+      EXPECT_NEAR(detector.signedDistance(query.nodes[i]), sign * distance, 1e-12);
+      const double gap = sign * distance - query.radius[i];
+      if (sign > 0.0 && gap < query.margin - 1e-9)
+      {
+        EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
+        ++contacts;
+      }
+      else if (sign < 0.0 && distance < 1e-3)
+        EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
+    }
+  }
+  EXPECT_GT(contacts, wires);
+}
+
+TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInATube)
+{
+  checkAgainstBruteForce(bentTube(), 40);
+}
+
+TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInARealAorta)
+{
+  const std::string file = dataFile("aortic_arch_tree.obj");
+  if (file.empty())
+    GTEST_SKIP() << "set ENDOVASCULAR_DATA_DIR to the folder of aortic_arch_tree.obj";
+  checkAgainstBruteForce(realMesh(file), 40);
+}
+
+TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
+{
+  const vessel::TriangleMesh mesh = bentTube();
+  Detector warm(mesh, WallLaw{});
+  std::mt19937 random(8);
+  Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.01), random, 30);
+  for (int step = 0; step < 60; ++step)
+  {
+    for (Eigen::Vector3d& node : query.nodes)
+      node += Eigen::Vector3d(1.5e-4, 0.7e-4, 1e-4);
+    ContactSet from_warm;
+    warm.detect(query, from_warm);
+    Detector fresh(mesh, WallLaw{});
+    ContactSet from_fresh;
+    fresh.detect(query, from_fresh);
+    ASSERT_EQ(from_warm.features.size(), from_fresh.features.size());
+    for (std::size_t f = 0; f < from_warm.features.size(); ++f)
+      ASSERT_TRUE(same(from_warm.features[f], from_fresh.features[f]));
+  }
+}
+
+TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
+{
+  const vessel::TriangleMesh mesh = bentTube();
+  Detector coarse(mesh, WallLaw{});
+  Detector fine(vessel::flatSubdivision(mesh, 2), WallLaw{});
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 30; ++trial)
+  {
+    const Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 20);
+    ContactSet from_coarse, from_fine;
+    coarse.detect(query, from_coarse);
+    fine.detect(query, from_fine);
+    for (std::size_t i = 0; i < query.nodes.size(); ++i)
+    {
+      const int node = query.first_node + static_cast<int>(i);
+      const double a = smallestGap(from_coarse, node);
+      const double b = smallestGap(from_fine, node);
+      if (std::isfinite(a) || std::isfinite(b))
+        EXPECT_NEAR(a, b, 1e-9);
+    }
+  }
+}
+
+TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
+{
+  // The flat end cap of a straight tube, subdivided: node right above one of its inner vertices and edges.
+  vessel::TubeShape shape;
+  shape.radius = 4e-3;
+  shape.facet_length = 5e-3;
+  shape.facets_around = 8;
+  shape.pieces = {{0.03, 0.0, 0.0}};
+  const vessel::TriangleMesh mesh = vessel::flatSubdivision(vessel::tubeMesh(shape), 1);
+  Detector detector(mesh, WallLaw{});
+  const Eigen::Vector3d above(0.0, 0.0, 0.03 - 0.6e-3);  // the cap's centre is a vertex
+  Query query;
+  query.margin = 0.5e-3;
+  query.nodes = {above - Eigen::Vector3d(0.0, 0.0, 2e-3), above};
+  query.radius = {0.4e-3, 0.4e-3};
+  ContactSet set;
+  detector.detect(query, set);
+  EXPECT_NEAR(smallestGap(set, 1), 0.2e-3, 1e-9);
+}
+
+TEST(Detector, FindsAWiresEdgeAcrossARidgeBetweenItsNodes)
+{
+  // A coarse bend: its inner side bulges into the lumen. A chord that cuts it must be listed off its nodes.
+  const vessel::TriangleMesh mesh = bentTube();
+  Detector detector(mesh, WallLaw{});
+  int ridge = -1;
+  for (std::size_t e = 0; e < detector.wall().edges.size(); ++e)
+    if (detector.wall().edges[e].reflex_angle > 0.1)
+      ridge = static_cast<int>(e);
+  ASSERT_GE(ridge, 0);
+  const WallEdge& edge = detector.wall().edges[ridge];
+  const Eigen::Vector3d middle =
+      0.5 * (detector.wall().vertices[edge.vertices[0]] + detector.wall().vertices[edge.vertices[1]]);
+  const Eigen::Vector3d along =
+      (detector.wall().vertices[edge.vertices[1]] - detector.wall().vertices[edge.vertices[0]]).normalized();
+  const Eigen::Vector3d across = along.cross(edge.normal);
+  Query query;
+  query.margin = 0.5e-3;
+  const Eigen::Vector3d over = middle + 0.5e-3 * edge.normal;
+  query.nodes = {over - 0.9e-3 * across, over + 0.9e-3 * across};
+  query.radius = {0.4e-3, 0.4e-3};
+  ContactSet set;
+  detector.detect(query, set);
+  const auto crossing = std::find_if(set.features.begin(), set.features.end(),
+                                     [&](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; });
+  ASSERT_NE(crossing, set.features.end());
+  EXPECT_NEAR(crossing->gap, 0.1e-3, 1e-9);
+  EXPECT_NEAR(crossing->parameter, 0.5, 1e-6);
+}
+
+TEST(Detector, FreeDistancesNeverReachTheWall)
+{
+  const vessel::TriangleMesh mesh = bentTube();
+  Detector detector(mesh, WallLaw{});
+  std::mt19937 random(31);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 6);
+    query.want_free_distance = true;
+    ContactSet set;
+    detector.detect(query, set);
+    for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
+      for (double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+      {
+        int triangle = -1;
+        const Eigen::Vector3d p = (1.0 - t) * query.nodes[e] + t * query.nodes[e + 1];
+        const double clearance = bruteDistance(detector.wall(), p, triangle) - 0.4e-3;
+        EXPECT_LE(set.free_distance[e], std::max(query.margin, clearance) + 1e-12);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace endovascular_sim::contact

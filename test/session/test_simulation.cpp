@@ -1,0 +1,177 @@
+#include "session/simulation.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "contact/detector.h"
+#include "session/replay_source.h"
+#include "session/run_result.h"
+#include "vessel/mesh_distance.h"
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+/** A scene with its vessel, ready to run. */
+struct Bench
+{
+  explicit Bench(const std::string& name, const std::vector<std::string>& overrides = {})
+    : scene(loadScene(std::string(PROJECT_DIR "/config/scenes/") + name, overrides))
+  {
+    if (!scene.vessel)
+    {
+      simulation = std::make_unique<Simulation>(scene, resolveEntry(scene.entry, scene.file), nullptr);
+      return;
+    }
+    vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
+    detector = std::make_unique<contact::Detector>(vessel.mesh,
+                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+    source = std::make_unique<ReplayContactSource>(*detector);
+    simulation = std::make_unique<Simulation>(scene, resolveEntry(scene.entry, vessel, scene.file), source.get());
+  }
+
+  void step()
+  {
+    const double end = static_cast<double>(simulation->steps() + 1) * scene.solver.time_step;
+    simulation->step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+  }
+
+  /** Depth of the wire's surface beyond the wall by brute force over points along every edge [m]; a point of the axis
+   *  outside the mesh counts with its whole distance. */
+  double bruteForcePenetration() const
+  {
+    const vessel::MeshDistance distance(vessel.mesh);
+    const std::vector<Eigen::Vector3d>& x = simulation->state().position;
+    const std::vector<double>& radius = simulation->discretisation().radius;
+    double deepest = 0.0;
+    for (std::size_t i = static_cast<std::size_t>(firstInsertedNode(*simulation)); i + 1 < x.size(); ++i)
+      for (int k = 0; k < 6; ++k)
+      {
+        const double t = k / 6.0;
+        const Eigen::Vector3d p = (1.0 - t) * x[i] + t * x[i + 1];
+        const double r = (1.0 - t) * radius[i] + t * radius[i + 1];
+        const double clearance = distance.closest(p).distance;
+        const bool deep = clearance < 2.0 * r && vessel::windingNumber(vessel.mesh, p) < 0.5;
+        deepest = std::max(deepest, deep ? r + clearance : r - clearance);
+      }
+    return deepest;
+  }
+
+  Scene scene;
+  vessel::Vessel vessel;
+  std::unique_ptr<contact::Detector> detector;
+  std::unique_ptr<ReplayContactSource> source;
+  std::unique_ptr<Simulation> simulation;
+};
+
+void expectInside(Bench& bench, double seconds, double deepest_allowed)
+{
+  const int steps = static_cast<int>(seconds / bench.scene.solver.time_step);
+  for (int k = 0; k < steps; ++k)
+  {
+    bench.step();
+    ASSERT_TRUE(bench.simulation->report().solved) << "step " << k;
+    ASSERT_LT(bench.simulation->report().max_strain, 1e-3) << "step " << k;
+    if (k % 50 == 49)
+      ASSERT_LE(bench.bruteForcePenetration(), deepest_allowed) << "step " << k;
+  }
+  for (int i = firstInsertedNode(*bench.simulation); i < bench.simulation->discretisation().nodes(); ++i)
+    EXPECT_GT(vessel::windingNumber(bench.vessel.mesh, bench.simulation->state().position[i]), 0.5) << "node " << i;
+}
+
+TEST(Simulation, KeepsTheWireInsideABentTube)
+{
+  Bench bench("tube.yaml");
+  expectInside(bench, 4.0, 1e-4);
+}
+
+TEST(Simulation, KeepsTheWireInsideARealAortaForSeveralHandAngles)
+{
+  const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
+  if (folder == nullptr)
+    GTEST_SKIP() << "set ENDOVASCULAR_DATA_DIR to the folder of aortic_arch_tree.obj";
+  for (const char* angle : {"0.3927", "3.1416", "4.7124"})
+  {
+    Bench bench("peer_wire.yaml", {std::string("vessel.mesh=") + folder + "/aortic_arch_tree.obj",
+                                   std::string("drive.initial_rotation=") + angle});
+    expectInside(bench, 11.5, 3.5e-4);
+  }
+}
+
+TEST(Simulation, KeepsTheWireInsideTheGeneratedAnatomy)
+{
+  Bench bench("demo.yaml");
+  expectInside(bench, 12.0, 1e-4);
+}
+
+TEST(Simulation, GivesTheSameBitsTwice)
+{
+  const auto run = []
+  {
+    Bench bench("tube.yaml");
+    for (int k = 0; k < 1500; ++k)
+      bench.step();
+    return bench.simulation->trajectoryHash();
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(Simulation, GoesOnWithOldContactSetsAndStaysInsideWhileTheyLast)
+{
+  Bench bench("tube.yaml");
+  for (int k = 0; k < 2500; ++k)
+  {
+    const bool silent = k > 1500 && k % 100 < 15;
+    bench.source->setStalePasses(silent ? ~std::uint64_t{0} : 0);
+    bench.step();
+    ASSERT_TRUE(bench.simulation->report().solved);
+    EXPECT_EQ(bench.simulation->report().stale_passes != 0, silent);
+  }
+  EXPECT_LE(bench.bruteForcePenetration(), 1e-4);
+}
+
+TEST(Simulation, ReplaysStaleSetsBitForBit)
+{
+  const auto run = []
+  {
+    Bench bench("tube.yaml");
+    for (int k = 0; k < 1200; ++k)
+    {
+      bench.source->setStalePasses(k % 7 == 3 ? 2 : 0);
+      bench.step();
+    }
+    return bench.simulation->trajectoryHash();
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
+{
+  Bench free("tube.yaml");
+  Bench slipping("tube.yaml", {"drive.force_limit=0.1"});
+  double sum = 0.0;
+  double largest_free = 0.0;
+  for (int k = 0; k < 4000; ++k)
+  {
+    free.step();
+    slipping.step();
+    sum += k >= 3000 ? slipping.simulation->state().hand_force : 0.0;
+    largest_free = std::max(largest_free, free.simulation->state().hand_force);
+  }
+  EXPECT_GT(largest_free, 0.12);
+  EXPECT_NEAR(sum / 1000.0, 0.1, 0.01);
+  EXPECT_LT(slipping.simulation->state().inserted_length, free.simulation->state().inserted_length - 1e-3);
+}
+
+TEST(Simulation, CarriesOverMotionThatIsFasterThanAHandInsteadOfDroppingIt)
+{
+  Bench bench("straight_wire.yaml");
+  for (int k = 0; k < 100; ++k)
+    bench.simulation->step({0.05, 0.0});
+  EXPECT_NEAR(bench.simulation->state().inserted_length, 0.05, 1e-9);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::session
