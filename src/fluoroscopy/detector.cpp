@@ -22,7 +22,7 @@ double opticalDepth(double intensity)
 
 std::uint16_t Detector::signal(double intensity)
 {
-  return static_cast<std::uint16_t>(std::clamp(kBackgroundSignal * intensity + 0.5, 0.0, 65535.0));
+  return static_cast<std::uint16_t>(std::lround(std::clamp(kBackgroundSignal * intensity, 0.0, 65535.0)));
 }
 
 std::uint8_t Detector::grey(double background, double wire)
@@ -30,7 +30,7 @@ std::uint8_t Detector::grey(double background, double wire)
   const double depth = opticalDepth(background);
   const double compressed = depth > 0.0 ? kCompression * (1.0 - std::exp(-depth / kCompression)) : depth;
   const double level = (kBlack - compressed - opticalDepth(wire)) / (kBlack - kWhite);
-  return static_cast<std::uint8_t>(255.0 * std::clamp(level, 0.0, 1.0) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(level, 0.0, 1.0)));
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -70,12 +70,12 @@ sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluor
   info.distortion_model = "plumb_bob";
   info.D.assign(5, 0.0);
   const Eigen::Matrix3d k = geometry.cameraMatrix();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
+  std::size_t i = 0, j = 0;  // in K and R, in P; row by row
+  for (int row = 0; row < 3; ++row, ++j)
+    for (int column = 0; column < 3; ++column, ++i, ++j)
     {
-      info.K[static_cast<std::size_t>(3 * row + column)] = k(row, column);
-      info.P[static_cast<std::size_t>(4 * row + column)] = k(row, column);
-      info.R[static_cast<std::size_t>(3 * row + column)] = row == column ? 1.0 : 0.0;
+      info.K[i] = info.P[j] = k(row, column);
+      info.R[i] = row == column ? 1.0 : 0.0;
     }
   return info;
 }
