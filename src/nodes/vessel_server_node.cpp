@@ -1,0 +1,148 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <visualization_msgs/Marker.h>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "endovascular_sim/GetVessel.h"
+#include "nodes/support/contact_conversions.h"
+#include "nodes/support/names.h"
+#include "nodes/support/scene_parameters.h"
+#include "nodes/support/vessel_conversions.h"
+#include "session/scene_vessel.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+/** Loads or makes the scene's vessel and hands it out: latched topics, a service, rviz's marker, static frames. */
+class VesselServer
+{
+public:
+  explicit VesselServer(ros::NodeHandle& node) : node_(node)
+  {
+    const session::Scene scene = sceneFromParameters(node_);
+    if (!scene.vessel)
+      throw InputError(scene.file, "vessel", "this scene has none, so it needs no vessel_server");
+    ROS_INFO("vessel_server: preparing the vessel of %s", scene.file.c_str());
+    const vessel::Vessel vessel =
+        session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
+    for (const std::string& note : vessel.notes)
+      ROS_WARN("vessel_server: %s: %s", vessel.source.c_str(), note.c_str());
+    notes_ = vessel.notes;
+    fillMessages(vessel);
+    publishFrames(session::resolveEntry(scene.entry, vessel, scene.file));
+    mesh_publisher_ = node_.advertise<VesselMesh>(names::kVesselMesh, 1, true);
+    centreline_publisher_ = node_.advertise<VesselCentreline>(names::kVesselCentreline, 1, true);
+    marker_publisher_ = node_.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
+    centreline_publisher_.publish(centreline_);
+    mesh_publisher_.publish(mesh_);
+    marker_publisher_.publish(marker(vessel.mesh));
+    service_ = node_.advertiseService(names::kGetVessel, &VesselServer::get, this);
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("vessel", this, &VesselServer::diagnose);
+    timer_ =
+        node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+    ROS_INFO("vessel_server: %s, %zu triangles, %zu branches", vessel.source.c_str(), vessel.mesh.triangles.size(),
+             vessel.centreline.branches.size());
+  }
+
+private:
+  void fillMessages(const vessel::Vessel& vessel)
+  {
+    mesh_.header.stamp = centreline_.header.stamp = ros::Time::now();
+    mesh_.header.frame_id = centreline_.header.frame_id = names::kPatientFrame;
+    mesh_.version = centreline_.version = 1;
+    mesh_.content_hash = centreline_.content_hash = vessel.mesh.hash();
+    mesh_.source = vessel.source;
+    toMessage(vessel.mesh, mesh_);
+    toMessage(vessel.centreline, centreline_);
+  }
+
+  static visualization_msgs::Marker marker(const vessel::TriangleMesh& mesh)
+  {
+    visualization_msgs::Marker marker;
+    marker.header.frame_id = names::kPatientFrame;
+    marker.ns = "vessel";
+    marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+    marker.pose.orientation.w = 1.0;
+    marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+    marker.color.r = 0.85F;
+    marker.color.g = 0.35F;
+    marker.color.b = 0.3F;
+    marker.color.a = 0.3F;
+    for (const Eigen::Vector3i& triangle : mesh.triangles)
+      for (int corner = 0; corner < 3; ++corner)
+        marker.points.push_back(toPoint(mesh.vertices[triangle[corner]]));
+    return marker;
+  }
+
+  void publishFrames(const session::EntryPose& entry)
+  {
+    // The introducer's x axis points into the vessel, its y axis along the wire's material direction d1 at rotation 0.
+    Eigen::Matrix3d axes;
+    axes << entry.direction, entry.d1, entry.direction.cross(entry.d1);
+    const Eigen::Quaterniond rotation(axes);
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = ros::Time::now();
+    transform.header.frame_id = names::kPatientFrame;
+    transform.child_frame_id = names::kIntroducerFrame;
+    transform.transform.translation = toVector(entry.position);
+    transform.transform.rotation.x = rotation.x();
+    transform.transform.rotation.y = rotation.y();
+    transform.transform.rotation.z = rotation.z();
+    transform.transform.rotation.w = rotation.w();
+    frames_.sendTransform(transform);
+  }
+
+  bool get(GetVessel::Request&, GetVessel::Response& response)
+  {
+    response.mesh = mesh_;
+    response.centreline = centreline_;
+    return true;
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
+  {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, notes_.empty() ? "published" : "published after repair");
+    status.add("source", mesh_.source);
+    status.add("version", mesh_.version);
+    status.add("triangles", mesh_.mesh.triangles.size());
+    status.add("branches", centreline_.branches.size());
+    for (std::size_t n = 0; n < notes_.size(); ++n)
+      status.add("repair " + std::to_string(n + 1), notes_[n]);
+  }
+
+  ros::NodeHandle node_;
+  VesselMesh mesh_;
+  VesselCentreline centreline_;
+  std::vector<std::string> notes_;
+  tf2_ros::StaticTransformBroadcaster frames_;
+  ros::Publisher mesh_publisher_, centreline_publisher_, marker_publisher_;
+  ros::ServiceServer service_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "vessel_server");
+  ros::NodeHandle node;
+  try
+  {
+    endovascular_sim::nodes::VesselServer server(node);
+    ros::spin();
+  }
+  catch (const endovascular_sim::InputError& error)
+  {
+    ROS_FATAL("vessel_server: %s", error.what());
+    return 1;
+  }
+  return 0;
+}
