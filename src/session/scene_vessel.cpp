@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "vessel/anatomy_mesh.h"
 #include "vessel/centreline_extraction.h"
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_distance.h"
@@ -148,6 +149,8 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
     vessel.mesh = vessel::tubeMesh(shape);
     vessel.centreline = vessel::tubeCentreline(shape);
   }
+  else if (!scene.anatomy.empty())
+    vessel = vessel::loadAnatomy(scene.anatomy);
   else
     vessel = vesselFromMeshFile(scene);
 

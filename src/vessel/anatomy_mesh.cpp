@@ -1,0 +1,68 @@
+#include "vessel/anatomy_mesh.h"
+
+#include <cstdlib>
+#include <optional>
+
+#include "common/error.h"
+#include "common/hash.h"
+#include "vessel/iso_surface.h"
+#include "vessel/mesh_cache.h"
+#include "vessel/mesh_check.h"
+#include "vessel/remesh.h"
+#include "vessel/vessel_field.h"
+
+namespace endovascular_sim::vessel
+{
+
+TriangleMesh generateAnatomyMesh(const Anatomy& anatomy, const std::vector<AnatomyChain>& chains)
+{
+  const VesselField field(anatomy, chains);
+  TriangleMesh mesh = remesh(isoSurface(field), field);
+  const MeshReport report = checkMesh(mesh);
+  requireClean(report, anatomy.file);
+  if (report.genus != 0)
+    throw InputError(anatomy.file, "branches",
+                     "branches touch that should not, so that the lumen has " + std::to_string(report.genus) +
+                         " loops; move their points apart, reduce their diameters, or reduce blend");
+  return mesh;
+}
+
+std::string anatomyCacheFolder()
+{
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && *cache == '/')
+    return std::string(cache) + "/endovascular_sim";
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home != '\0' ? std::string(home) + "/.cache/endovascular_sim" : std::string();
+}
+
+Vessel loadAnatomy(const std::string& file, const std::string& cache_folder)
+{
+  const Anatomy anatomy = readAnatomy(file);
+  const std::vector<AnatomyChain> chains = sampleChains(anatomy);
+  Vessel vessel;
+  vessel.source = file;
+  vessel.centreline = anatomyCentreline(anatomy, chains);
+
+  Hash64 key;
+  key.add(anatomy.content_hash);
+  key.add(static_cast<std::uint64_t>(kAnatomyGeneratorVersion));
+  const std::string entry = cache_folder.empty() ? std::string() : cache_folder + "/anatomy_" + key.hex() + ".mesh";
+  std::optional<TriangleMesh> cached;
+  if (!entry.empty())
+    cached = readCachedMesh(entry, key.value());
+  if (cached)
+  {
+    vessel.mesh = std::move(*cached);
+    vessel.notes.push_back("mesh of \"" + anatomy.name + "\" taken from " + entry);
+    return vessel;
+  }
+  vessel.mesh = generateAnatomyMesh(anatomy, chains);
+  vessel.notes.push_back("mesh of \"" + anatomy.name + "\" generated: " + std::to_string(vessel.mesh.triangles.size()) +
+                         " triangles");
+  if (!entry.empty() && !writeCachedMesh(entry, key.value(), vessel.mesh))
+    vessel.notes.push_back("the mesh could not be kept in " + entry + "; it will be generated again next time");
+  return vessel;
+}
+
+}  // namespace endovascular_sim::vessel

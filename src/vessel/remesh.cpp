@@ -1,0 +1,239 @@
+#include "vessel/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "vessel/editable_mesh.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+constexpr int kRounds = 8;
+/** Edges longer or shorter than these multiples of the facet length are split or collapsed. */
+constexpr double kLongest = 4.0 / 3.0;
+constexpr double kShortest = 4.0 / 5.0;
+/** A collapse may turn a face by this much: cosine. */
+constexpr double kLargestTurn = 0.5;
+constexpr double kOnWall = 1e-9;  // [m]
+
+class Remesher
+{
+public:
+  Remesher(const TriangleMesh& mesh, const VesselField& field) : mesh_(mesh), field_(field)
+  {
+    for (int v = 0; v < mesh_.vertexCount(); ++v)
+    {
+      facet_.push_back(0.0);
+      normal_.emplace_back(Eigen::Vector3d::UnitZ());
+      project(v, mesh_.position(v));
+    }
+  }
+
+  TriangleMesh run()
+  {
+    for (int round = 0; round < kRounds; ++round)
+    {
+      splitLongEdges();
+      collapseShortEdges();
+      flipEdges();
+      relax();
+    }
+    flipEdges();
+    return mesh_.compact();
+  }
+
+private:
+  double facet(int a, int b) const
+  {
+    return 0.5 * (facet_[static_cast<std::size_t>(a)] + facet_[static_cast<std::size_t>(b)]);
+  }
+
+  double length(int a, int b) const { return (mesh_.position(a) - mesh_.position(b)).norm(); }
+
+  struct OnWall
+  {
+    Eigen::Vector3d position;
+    Eigen::Vector3d normal;
+    double facet;
+  };
+
+  /** Newton's method along the gradient. */
+  OnWall onWall(Eigen::Vector3d p) const
+  {
+    FieldSample sample = field_.at(p);
+    for (int step = 0; step < 6 && std::abs(sample.distance) > kOnWall; ++step)
+    {
+      p -= sample.distance * sample.gradient / std::max(sample.gradient.squaredNorm(), 0.25);
+      sample = field_.at(p);
+    }
+    return {p, sample.gradient.normalized(), sample.facet};
+  }
+
+  void put(int v, const OnWall& place)
+  {
+    mesh_.move(v, place.position);
+    facet_[static_cast<std::size_t>(v)] = place.facet;
+    normal_[static_cast<std::size_t>(v)] = place.normal;
+  }
+
+  void project(int v, const Eigen::Vector3d& p) { put(v, onWall(p)); }
+
+  /** Calls edit(a, b) for the edges of all triangles that exist at the beginning, while they exist. */
+  template <typename Edit>
+  void forEdges(Edit edit)
+  {
+    const int count = mesh_.triangleCount();
+    for (int t = 0; t < count; ++t)
+      for (int k = 0; k < 3 && mesh_.aliveTriangle(t); ++k)
+      {
+        const int a = mesh_.triangle(t)[k];
+        const int b = mesh_.triangle(t)[(k + 1) % 3];
+        if (a < b)
+          edit(a, b);
+      }
+  }
+
+  void splitLongEdges()
+  {
+    forEdges(
+        [this](int a, int b)
+        {
+          if (length(a, b) <= kLongest * facet(a, b))
+            return;
+          const OnWall middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          mesh_.split(a, b, middle.position);
+          facet_.push_back(middle.facet);
+          normal_.push_back(middle.normal);
+        });
+  }
+
+  bool collapseIsGood(int a, int b, const OnWall& middle) const
+  {
+    for (const auto& [moved, other] : {std::pair<int, int>{a, b}, std::pair<int, int>{b, a}})
+    {
+      for (int t : mesh_.around(moved))
+      {
+        if ((mesh_.triangle(t).array() == other).any())
+          continue;
+        const Eigen::Vector3d before = mesh_.areaNormal(t);
+        const Eigen::Vector3d after = mesh_.areaNormal(t, moved, middle.position);
+        const bool was_sliver = before.norm() < 1e-3 * middle.facet * middle.facet;
+        if (!was_sliver && before.dot(after) < kLargestTurn * before.norm() * after.norm())
+          return false;
+        if (after.dot(middle.normal) < kLargestTurn * after.norm())
+          return false;
+      }
+      for (int v : mesh_.neighbours(moved))
+        if (v != other && (mesh_.position(v) - middle.position).norm() > kLongest * middle.facet)
+          return false;
+    }
+    return true;
+  }
+
+  void collapseShortEdges()
+  {
+    forEdges(
+        [this](int a, int b)
+        {
+          if (length(a, b) >= kShortest * facet(a, b) || !mesh_.canCollapse(a, b))
+            return;
+          const OnWall middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          if (!collapseIsGood(a, b, middle))
+            return;
+          mesh_.collapse(a, b, middle.position);
+          put(b, middle);
+        });
+  }
+
+  double angleAt(int apex, int a, int b) const
+  {
+    const Eigen::Vector3d u = mesh_.position(a) - mesh_.position(apex);
+    const Eigen::Vector3d v = mesh_.position(b) - mesh_.position(apex);
+    return std::atan2(u.cross(v).norm(), u.dot(v));
+  }
+
+  /** Delaunay's criterion, where the new pair of faces agrees with the wall's normals. */
+  void flipEdges()
+  {
+    for (int sweep = 0; sweep < 3; ++sweep)
+      forEdges(
+          [this](int a, int b)
+          {
+            const auto sides = mesh_.trianglesAt(a, b);
+            const int c = mesh_.opposite(sides[0], a, b);
+            const int d = mesh_.opposite(sides[1], a, b);
+            if (angleAt(c, a, b) + angleAt(d, a, b) <= M_PI + 1e-6 || !mesh_.flip(a, b))
+              return;
+            const Eigen::Vector3d normal = normalAt(a) + normalAt(b) + normalAt(c) + normalAt(d);
+            for (int t : sides)
+            {
+              const Eigen::Vector3d face = mesh_.areaNormal(t);
+              if (face.dot(normal) < kLargestTurn * face.norm() * normal.norm())
+              {
+                mesh_.flip(c, d);
+                return;
+              }
+            }
+          });
+  }
+
+  const Eigen::Vector3d& normalAt(int v) const { return normal_[static_cast<std::size_t>(v)]; }
+
+  /** Moves every vertex along the wall towards the middle of its triangles, weighted by their size in facets. */
+  void relax()
+  {
+    const int count = mesh_.vertexCount();
+    for (int v = 0; v < count; ++v)
+    {
+      if (!mesh_.aliveVertex(v))
+        continue;
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      double weights = 0.0;
+      for (int t : mesh_.around(v))
+      {
+        const Eigen::Vector3i& c = mesh_.triangle(t);
+        const double local = (facet(c[0], c[1]) + facet(c[1], c[2]) + facet(c[2], c[0])) / 3.0;
+        const double weight = mesh_.areaNormal(t).norm() / (local * local);
+        middle += weight / 3.0 * (mesh_.position(c[0]) + mesh_.position(c[1]) + mesh_.position(c[2]));
+        weights += weight;
+      }
+      if (!(weights > 0.0))
+        continue;
+      const Eigen::Vector3d shift = middle / weights - mesh_.position(v);
+      const Eigen::Vector3d& n = normalAt(v);
+      const OnWall place = onWall(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
+      if (keepsFacesUpright(v, place))
+        put(v, place);
+    }
+  }
+
+  bool keepsFacesUpright(int v, const OnWall& place) const
+  {
+    for (int t : mesh_.around(v))
+    {
+      const Eigen::Vector3d before = mesh_.areaNormal(t);
+      const Eigen::Vector3d after = mesh_.areaNormal(t, v, place.position);
+      if (after.dot(place.normal) < 0.2 * after.norm() && after.dot(place.normal) < before.dot(normalAt(v)))
+        return false;
+    }
+    return true;
+  }
+
+  EditableMesh mesh_;
+  const VesselField& field_;
+  std::vector<double> facet_;
+  std::vector<Eigen::Vector3d> normal_;
+};
+
+}  // namespace
+
+TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field)
+{
+  return Remesher(mesh, field).run();
+}
+
+}  // namespace endovascular_sim::vessel
