@@ -17,6 +17,8 @@ constexpr double kShortestBranch = 1.0;
 constexpr double kGrooveSlope = 0.1;
 /** A ball smaller than this fraction of the lumen above its groove is no end of a vessel. */
 constexpr double kGrooveDepth = 0.5;
+/** Nor is one of that size within this many radii of a larger ball: crevices between vessels that run side by side. */
+constexpr double kShadow = 2.0;
 constexpr double kUnreached = 1e300;
 
 using Graph = std::vector<std::vector<int>>;
@@ -78,6 +80,7 @@ public:
           summit[k] = std::max(summit[k], summit[static_cast<std::size_t>(other)]);
       may_be_tip_.push_back(radius >= kGrooveDepth * summit[k]);
     }
+    forbidTipsInShadows();
   }
 
   std::vector<SkeletonBranch> run()
@@ -88,6 +91,22 @@ public:
   }
 
 private:
+  void forbidTipsInShadows()
+  {
+    std::vector<std::pair<double, int>> sources;
+    for (std::size_t k = 0; k < balls_.size(); ++k)
+      sources.emplace_back(-kShadow * balls_[k].radius, static_cast<int>(k));
+    const Paths shadows = lengths(sources, 0.0);
+    for (std::size_t k = 0; k < balls_.size(); ++k)
+    {
+      int source = static_cast<int>(k);
+      while (shadows.previous[static_cast<std::size_t>(source)] >= 0)
+        source = shadows.previous[static_cast<std::size_t>(source)];
+      if (balls_[k].radius < kGrooveDepth * at(source).radius)
+        may_be_tip_[k] = false;
+    }
+  }
+
   double length(int a, int b) const { return (at(a).centre - at(b).centre).norm(); }
 
   const MedialBall& at(int k) const { return balls_[static_cast<std::size_t>(k)]; }

@@ -220,7 +220,7 @@ private:
           continue;
         const CentrelineBranch& near = tree.branches[other];
         for (std::size_t k = 0; k < near.points.size(); ++k)
-          if ((near.points[k] - branch.points.back()).norm() < 0.8 * near.radii[k] &&
+          if ((near.points[k] - branch.points.back()).norm() < 0.6 * std::min(near.radii[k], branch.radii.back()) &&
               static_cast<int>(other) != branch.parent)
           {
             branch.points.push_back(near.points[k]);
