@@ -1,4 +1,5 @@
 #include <poll.h>
+#include <pthread.h>
 #include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <ctime>
+#include <exception>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -49,6 +51,37 @@ haptics::WallTime wallNow()
 {
   const ros::WallTime now = ros::WallTime::now();
   return {now.sec, now.nsec};
+}
+
+/** A mutex whose holder inherits the priority of who waits: diagnostics must not keep the real-time thread waiting. */
+class InheritingMutex
+{
+public:
+  InheritingMutex()
+  {
+    pthread_mutexattr_t attributes;
+    pthread_mutexattr_init(&attributes);
+    pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
+    pthread_mutex_init(&mutex_, &attributes);
+    pthread_mutexattr_destroy(&attributes);
+  }
+  ~InheritingMutex() { pthread_mutex_destroy(&mutex_); }
+  InheritingMutex(const InheritingMutex&) = delete;
+  InheritingMutex& operator=(const InheritingMutex&) = delete;
+  void lock() { pthread_mutex_lock(&mutex_); }
+  void unlock() { pthread_mutex_unlock(&mutex_); }
+
+private:
+  pthread_mutex_t mutex_;
+};
+
+/** Asks for the lowest real-time priority: ahead of ordinary threads, behind the simulation's own. Without leave the
+ *  thread runs on as it is. @return true when it was granted */
+bool requestRealTime()
+{
+  sched_param priority = {};
+  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0;
 }
 
 const char* stateName(DeviceState state)
@@ -112,11 +145,12 @@ private:
   void wake() const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  std::mutex mutex_;  ///< guards link_
+  InheritingMutex mutex_;  ///< guards link_
   haptics::HapticLink link_;
   int wake_up_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   std::atomic<bool> running_{true};
   std::atomic<std::uint64_t> bad_forces_{0};
+  std::atomic<bool> real_time_{false};
 
   // The port's thread only.
   DeviceState published_state_ = DeviceState::kDisabled;
@@ -170,15 +204,12 @@ HapticDevice::~HapticDevice()
 void HapticDevice::servePort()
 {
   prctl(PR_SET_TIMERSLACK, kTimerSlack);
-  // The lowest real-time priority: ahead of ordinary threads, behind the simulation's own. Without leave it runs on.
-  sched_param priority = {};
-  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+  real_time_ = requestRealTime();
   publishState(DeviceState::kDisabled, "starting", {});
 
   while (running_)
   {
-    std::unique_lock<std::mutex> lock(mutex_);
+    std::unique_lock<InheritingMutex> lock(mutex_);
     link_.service(steadyNow(), wallNow());
     const auto samples = link_.host().takeMotion();
     const auto log = link_.host().takeLog();
@@ -224,6 +255,8 @@ void HapticDevice::wake() const
 
 void HapticDevice::takeForce(const sensor_msgs::JointState& state)
 {
+  static thread_local const bool prioritised = requestRealTime();
+  static_cast<void>(prioritised);
   if (state.effort.size() < 2)
   {
     ++bad_forces_;
@@ -232,7 +265,7 @@ void HapticDevice::takeForce(const sensor_msgs::JointState& state)
   haptics::HandMotion caused_by{std::nan(""), std::nan("")};
   if (state.position.size() >= 2)
     caused_by = {state.position[0], state.position[1]};
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<InheritingMutex> lock(mutex_);
   const DeviceState before = link_.host().state();
   link_.commandForce({state.effort[0], state.effort[1]}, caused_by, steadyNow(), wallNow());
   if (!link_.isIdle() || link_.host().state() != before)
@@ -289,7 +322,7 @@ void HapticDevice::publishState(DeviceState state, const std::string& reason, co
 
 void HapticDevice::sayGoodbye()
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<InheritingMutex> lock(mutex_);
   const double begin = steadyNow();
   link_.shutDown(begin, wallNow());
   while (!link_.isIdle() && steadyNow() < begin + kGoodbyeTime)
@@ -302,7 +335,7 @@ void HapticDevice::sayGoodbye()
 void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<InheritingMutex> lock(mutex_);
   const haptics::RosserialHost& host = link_.host();
   const haptics::ParserCounters& parser = host.parserCounters();
   const haptics::HostCounters& counters = host.counters();
@@ -311,6 +344,7 @@ void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
                      : state == DeviceState::kFault ? DiagnosticStatus::ERROR
                                                     : DiagnosticStatus::WARN;
   status.summary(level, stateName(state) + (host.reason().empty() ? "" : ": " + host.reason()));
+  status.add("real-time scheduling", real_time_ ? "granted" : "refused: allow rtprio in /etc/security/limits.d");
   status.add("last error", link_.lastError());
   status.add("reconnects", link_.opened() > 0 ? link_.opened() - 1 : 0);
   status.add("links lost", counters.links_lost);
@@ -355,7 +389,7 @@ int main(int argc, char** argv)
     const endovascular_sim::nodes::HapticDevice device(node, ros::NodeHandle("~"), scene);
     ros::spin();
   }
-  catch (const endovascular_sim::InputError& error)
+  catch (const std::exception& error)
   {
     ROS_FATAL("%s", error.what());
     return 1;

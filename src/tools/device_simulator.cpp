@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -392,7 +393,7 @@ int main(int argc, char** argv)
     }
     check(arguments);
   }
-  catch (const InputError& error)
+  catch (const std::exception& error)
   {
     std::cerr << "device_simulator: " << error.what() << "\n" << kUsage;
     return 2;
@@ -403,7 +404,7 @@ int main(int argc, char** argv)
   {
     run(arguments);
   }
-  catch (const InputError& error)
+  catch (const std::exception& error)
   {
     std::cerr << "device_simulator: " << error.what() << "\n";
     return 1;
