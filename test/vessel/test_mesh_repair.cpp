@@ -1,0 +1,210 @@
+#include "vessel/mesh_repair.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/error.h"
+#include "vessel/mesh_check.h"
+#include "vessel/mesh_reader.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+TriangleMesh load(const std::string& name)
+{
+  return readMesh(std::string(TEST_DATA_DIR) + "/meshes/" + name, 1e-3);
+}
+
+std::string refusal(const TriangleMesh& mesh)
+{
+  try
+  {
+    repairMesh(mesh, "vessel.obj");
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+struct Defect
+{
+  const char* file;
+  const char* summary;  ///< what the check calls it
+  const char* outcome;  ///< in the repair's note, or in its refusal
+};
+
+class RepairableMesh : public testing::TestWithParam<Defect>
+{
+};
+
+TEST_P(RepairableMesh, IsReportedRepairedAndTold)
+{
+  const TriangleMesh mesh = load(GetParam().file);
+  EXPECT_NE(checkMesh(mesh).summary().find(GetParam().summary), std::string::npos) << checkMesh(mesh).summary();
+  const RepairedMesh repaired = repairMesh(mesh, GetParam().file);
+  EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+  EXPECT_NEAR(repaired.mesh.signedVolume(), 8e-6, 1e-12);
+  ASSERT_EQ(repaired.notes.size(), 1U);
+  EXPECT_NE(repaired.notes[0].find(GetParam().outcome), std::string::npos) << repaired.notes[0];
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MeshRepair, RepairableMesh,
+    testing::Values(Defect{"box_inward.obj", "faces point inward", "pointed into the lumen"},
+                    Defect{"box_flipped_face.obj", "3 edges whose faces turn opposite ways", "1 face turned"},
+                    Defect{"box_duplicate_face.obj", "1 duplicate faces", "1 duplicate face dropped"},
+                    Defect{"box_degenerate_face.obj", "1 faces without area", "1 face without area dropped"},
+                    Defect{"box_and_crumb.obj", "2 separate components", "4 stray faces"}));
+
+class HopelessMesh : public testing::TestWithParam<Defect>
+{
+};
+
+TEST_P(HopelessMesh, IsRefusedWithCountAndPlace)
+{
+  const TriangleMesh mesh = load(GetParam().file);
+  EXPECT_NE(checkMesh(mesh).summary().find(GetParam().summary), std::string::npos) << checkMesh(mesh).summary();
+  const std::string text = refusal(mesh);
+  EXPECT_NE(text.find("vessel.obj"), std::string::npos) << text;
+  EXPECT_NE(text.find(GetParam().outcome), std::string::npos) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MeshRepair, HopelessMesh,
+    testing::Values(Defect{"box_with_hole.obj", "3 boundary edges", "3 boundary edges (holes), the first near ("},
+                    Defect{"box_fin.obj", "1 non-manifold edges", "non-manifold edges (three or more faces meet)"},
+                    Defect{"two_boxes.obj", "2 separate components", "two largest have 12 and 12 triangles"},
+                    Defect{"boxes_touching_in_a_corner.obj", "1 vertices where separate sheets touch",
+                           "2 separate components"},
+                    Defect{"moebius.obj", "boundary edges", "boundary edges"}));
+
+TEST(MeshRepair, LeavesASoundMeshBitForBit)
+{
+  const TriangleMesh mesh = load("box_mm.obj");
+  const RepairedMesh repaired = repairMesh(mesh, "box_mm.obj");
+  EXPECT_TRUE(repaired.notes.empty());
+  EXPECT_EQ(repaired.mesh.hash(), mesh.hash());
+}
+
+TEST(MeshRepair, JoinsVerticesThatAreATenthOfAMicrometreApart)
+{
+  TriangleMesh mesh = load("box_mm.obj");
+  mesh.vertices.emplace_back(mesh.vertices[0] + Eigen::Vector3d(5e-8, 0, 0));
+  for (Eigen::Vector3i& t : mesh.triangles)
+    if (t[0] == 0)
+    {
+      t[0] = 8;
+      break;
+    }
+  EXPECT_GT(checkMesh(mesh).boundary_edges.count, 0);
+  const RepairedMesh repaired = repairMesh(mesh, "x");
+  EXPECT_EQ(repaired.mesh.vertices.size(), 8U);
+  EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+}
+
+TEST(MeshRepair, DropsUnusedVertices)
+{
+  TriangleMesh mesh = load("box_mm.obj");
+  mesh.vertices.insert(mesh.vertices.begin(), Eigen::Vector3d(1, 2, 3));
+  for (Eigen::Vector3i& t : mesh.triangles)
+    t.array() += 1;
+  EXPECT_EQ(checkMesh(mesh).unused_vertices.count, 1);
+  EXPECT_EQ(repairMesh(mesh, "x").mesh.vertices.size(), 8U);
+}
+
+TEST(MeshCheck, RefusesAnIndexThatDoesNotExist)
+{
+  TriangleMesh mesh = load("box_mm.obj");
+  mesh.triangles[3][1] = 99;
+  EXPECT_EQ(checkMesh(mesh).invalid_faces.count, 1);
+  EXPECT_THROW(requireClean(checkMesh(mesh), "x"), InputError);
+}
+
+TEST(MeshCheck, CountsTheHandlesOfATorus)
+{
+  TriangleMesh torus;
+  const int n = 12;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+    {
+      const double a = 2.0 * M_PI * i / n;
+      const double b = 2.0 * M_PI * j / n;
+      torus.vertices.emplace_back((0.02 + 0.005 * std::cos(b)) * std::cos(a),
+                                  (0.02 + 0.005 * std::cos(b)) * std::sin(a), 0.005 * std::sin(b));
+      const int here = i * n + j;
+      const int right = (i + 1) % n * n + j;
+      const int up = i * n + (j + 1) % n;
+      const int both = (i + 1) % n * n + (j + 1) % n;
+      torus.triangles.emplace_back(here, right, both);
+      torus.triangles.emplace_back(here, both, up);
+    }
+  EXPECT_EQ(checkMesh(torus).summary(), "");
+  EXPECT_EQ(checkMesh(torus).genus, 1);
+  EXPECT_EQ(checkMesh(load("box_mm.obj")).genus, 0);
+}
+
+TEST(MeshCheck, SuggestsTheUnitOfAMeshOfImplausibleSize)
+{
+  const std::string box = std::string(TEST_DATA_DIR) + "/meshes/box_mm.obj";
+  const auto reason = [&box](double unit)
+  {
+    try
+    {
+      requirePlausibleSize(checkMesh(readMesh(box, unit)), unit, box);
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(reason(1e-3), "");
+  EXPECT_NE(reason(1.0).find("looks like millimetres: set vessel.unit: 0.001"), std::string::npos) << reason(1.0);
+  EXPECT_NE(reason(1e-6).find("vessel.unit: 0.001"), std::string::npos) << reason(1e-6);
+}
+
+/** Meshes of real vessels, which are kept beside the project. */
+class RealVessels : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
+    if (folder == nullptr || !std::filesystem::exists(std::string(folder) + "/aortic_arch_tree.obj"))
+      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+    folder_ = std::string(folder) + "/";
+  }
+  std::string folder_;
+};
+
+TEST_F(RealVessels, TheArchWithItsFacesInwardLoads)
+{
+  const TriangleMesh mesh = readMesh(folder_ + "aortic_arch_tree.obj", 1e-3);
+  EXPECT_LT(mesh.signedVolume(), 0.0);
+  EXPECT_EQ(mesh.triangles.size(), 3584U);
+  const RepairedMesh repaired = repairMesh(mesh, "aortic_arch_tree.obj");
+  EXPECT_EQ(repaired.notes.size(), 1U);
+  EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+}
+
+TEST_F(RealVessels, TheDirtyPhantomIsRefused)
+{
+  const std::string text = refusal(readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0));
+  EXPECT_NE(text.find("18 boundary edges"), std::string::npos) << text;
+  EXPECT_NE(text.find("8 non-manifold edges"), std::string::npos) << text;
+}
+
+TEST_F(RealVessels, TheUnconnectedPiecesAreRefused)
+{
+  const std::string text = refusal(readMesh(folder_ + "aorta_coronary_female.obj", 1e-3));
+  EXPECT_NE(text.find("6 separate components"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace endovascular_sim::vessel
