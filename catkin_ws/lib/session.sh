@@ -1,5 +1,6 @@
 # Shared part of `demo`: one session of the node graph, from a scene to a folder of results. Sourced by bash.
 
+programs="$workspace/devel/lib/endovascular_sim"
 launch_pid='' device_pid='' virtual_display_pid='' session_status=1
 
 # The scene's file, by name in config/scenes or by path.
@@ -104,9 +105,9 @@ start_device() {
   if $keyboard; then
     arguments+=(--keyboard)
     exec 3<&0
-    in_background same rosrun endovascular_sim device_simulator "${arguments[@]}" <&3 &
+    in_background same "$programs"/device_simulator "${arguments[@]}" <&3 &
   else
-    in_background own rosrun endovascular_sim device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
+    in_background own "$programs"/device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
   fi
   device_pid=$!
   local waited=0
@@ -127,7 +128,7 @@ run_session() {
   for override in "${all_overrides[@]}"; do check_arguments+=(--set "$override"); done
 
   local nodes
-  nodes=$(rosrun endovascular_sim scene_check "$scene_file" "${check_arguments[@]}" --nodes) ||
+  nodes=$("$programs"/scene_check "$scene_file" "${check_arguments[@]}" --nodes) ||
     die "the scene was refused (see above)"
   mkdir -p "$results/log"
   ros_environment
@@ -185,9 +186,9 @@ after_session() {
   if $with_rviz; then
     draw_rviz || { warn "rviz.png could not be drawn (see $results/log/rviz.log)"; }
   fi
-  rosrun endovascular_sim plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
+  "$programs"/plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
     { cat "$results/log/plots.log" >&2; warn "the plots could not be drawn"; }
-  rosrun endovascular_sim session_summary.py "$results" || session_status=1
+  "$programs"/session_summary.py "$results" || session_status=1
 }
 
 # Plays the bag into rviz on a virtual screen and keeps one picture of its end.
