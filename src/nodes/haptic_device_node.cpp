@@ -75,8 +75,8 @@ private:
   pthread_mutex_t mutex_;
 };
 
-/** Asks for the lowest real-time priority: ahead of ordinary threads, behind the simulation's own. Without leave the
- *  thread runs on as it is. @return true when it was granted */
+/** Asks for the lowest real-time priority for this thread and those it starts, which are ROS's own too: ahead of
+ * ordinary threads, behind the simulation's. Without leave all runs on as it is. @return true when it was granted */
 bool requestRealTime()
 {
   sched_param priority = {};
@@ -130,7 +130,8 @@ haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const sessio
 class HapticDevice
 {
 public:
-  HapticDevice(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const session::Scene& scene);
+  HapticDevice(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const session::Scene& scene,
+               bool real_time);
   ~HapticDevice();
   HapticDevice(const HapticDevice&) = delete;
   HapticDevice& operator=(const HapticDevice&) = delete;
@@ -150,7 +151,7 @@ private:
   int wake_up_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   std::atomic<bool> running_{true};
   std::atomic<std::uint64_t> bad_forces_{0};
-  std::atomic<bool> real_time_{false};
+  bool real_time_;
 
   // The port's thread only.
   DeviceState published_state_ = DeviceState::kDisabled;
@@ -169,8 +170,9 @@ private:
   std::thread thread_;
 };
 
-HapticDevice::HapticDevice(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const session::Scene& scene)
-  : link_(linkOptions(parameters, scene))
+HapticDevice::HapticDevice(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const session::Scene& scene,
+                           bool real_time)
+  : link_(linkOptions(parameters, scene)), real_time_(real_time)
 {
   const std::string instrument = names::kInstruments + scene.instrument.name;
   const std::string channel = names::kHaptic + parameters.param<std::string>("channel", "hand");
@@ -204,7 +206,6 @@ HapticDevice::~HapticDevice()
 void HapticDevice::servePort()
 {
   prctl(PR_SET_TIMERSLACK, kTimerSlack);
-  real_time_ = requestRealTime();
   publishState(DeviceState::kDisabled, "starting", {});
 
   while (running_)
@@ -255,8 +256,6 @@ void HapticDevice::wake() const
 
 void HapticDevice::takeForce(const sensor_msgs::JointState& state)
 {
-  static thread_local const bool prioritised = requestRealTime();
-  static_cast<void>(prioritised);
   if (state.effort.size() < 2)
   {
     ++bad_forces_;
@@ -382,11 +381,12 @@ void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "haptic_device");
+  const bool real_time = endovascular_sim::nodes::requestRealTime();
   const ros::NodeHandle node;
   try
   {
     const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
-    const endovascular_sim::nodes::HapticDevice device(node, ros::NodeHandle("~"), scene);
+    const endovascular_sim::nodes::HapticDevice device(node, ros::NodeHandle("~"), scene, real_time);
     ros::spin();
   }
   catch (const std::exception& error)

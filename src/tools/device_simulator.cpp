@@ -1,4 +1,5 @@
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -350,7 +351,11 @@ void run(const Arguments& arguments)
 {
   const auto keyboard = arguments.keyboard ? std::make_unique<KeyboardOperator>() : nullptr;
   DeviceSimulator device(simulatorOptions(arguments, keyboard.get()));
+  // A device does not share its processor with the simulation: ask to be served first.
   prctl(PR_SET_TIMERSLACK, 1UL);
+  sched_param priority = {};
+  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
+  sched_setscheduler(0, SCHED_FIFO, &priority);
   device.plug(steadyNow());
   double shown_at = 0.0;
   while (stop_requested == 0)
