@@ -15,51 +15,55 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr int kSlabs = 9;  // 18-DOP: x, y, z, x+y, x+z, y+z, x−y, x−z, y−z
 constexpr int kMaxDepth = 128;
-using Dop = fcl::KDOP<double, 2 * kSlabs>;
 
-std::array<double, kSlabs> slabCoordinates(const Eigen::Vector3d& p)
+}  // namespace
+
+Bvh::Bvh(const Wall& wall) : wall_(&wall)
+{
+  using Dop = fcl::KDOP<double, 2 * kSlabs>;
+  std::vector<fcl::Triangle> triangles;
+  triangles.reserve(wall.triangles.size());
+  for (const Eigen::Vector3i& t : wall.triangles)
+    triangles.emplace_back(t[0], t[1], t[2]);
+  fcl::BVHModel<Dop> model;
+  model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(wall.vertices.size()));
+  model.addSubModel(wall.vertices, triangles);
+  if (model.endModel() != fcl::BVH_OK)
+    throw InputError("vessel mesh", "", "no bounding volume hierarchy can be built over it: it needs triangles");
+  nodes_.resize(static_cast<std::size_t>(model.getNumBVs()));
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+  {
+    const auto& from = model.getBV(static_cast<int>(n));
+    for (int slab = 0; slab < kSlabs; ++slab)
+    {
+      nodes_[n].low[slab] = from.bv.dist(slab);
+      nodes_[n].high[slab] = from.bv.dist(slab + kSlabs);
+    }
+    if (from.isLeaf())
+      nodes_[n].triangle = from.primitiveId();
+    else
+      nodes_[n].left = from.leftChild();
+  }
+}
+
+std::array<double, Bvh::kSlabs> Bvh::slabCoordinates(const Eigen::Vector3d& p)
 {
   return {p.x(),         p.y(),         p.z(),         p.x() + p.y(), p.x() + p.z(),
           p.y() + p.z(), p.x() - p.y(), p.x() - p.z(), p.y() - p.z()};
 }
 
 /** Lower bound of the distance from a point to an 18-DOP: the widest gap over its slabs [m]. */
-double distanceBound(const Dop& dop, const std::array<double, kSlabs>& coordinates)
+double Bvh::distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates)
 {
   double axial = 0.0;
   double diagonal = 0.0;
   for (int slab = 0; slab < 3; ++slab)
-    axial = std::max(axial, std::max(dop.dist(slab) - coordinates[slab], coordinates[slab] - dop.dist(slab + kSlabs)));
+    axial = std::max(axial, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab]));
   for (int slab = 3; slab < kSlabs; ++slab)
-    diagonal =
-        std::max(diagonal, std::max(dop.dist(slab) - coordinates[slab], coordinates[slab] - dop.dist(slab + kSlabs)));
+    diagonal = std::max(diagonal, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab]));
   return std::max(axial, diagonal * M_SQRT1_2);
 }
-
-}  // namespace
-
-struct Bvh::Tree
-{
-  fcl::BVHModel<Dop> model;
-};
-
-Bvh::Bvh(const Wall& wall) : tree_(std::make_unique<Tree>()), wall_(&wall)
-{
-  std::vector<fcl::Triangle> triangles;
-  triangles.reserve(wall.triangles.size());
-  for (const Eigen::Vector3i& t : wall.triangles)
-    triangles.emplace_back(t[0], t[1], t[2]);
-  tree_->model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(wall.vertices.size()));
-  tree_->model.addSubModel(wall.vertices, triangles);
-  if (tree_->model.endModel() != fcl::BVH_OK)
-    throw InputError("vessel mesh", "", "no bounding volume hierarchy can be built over it: it needs triangles");
-}
-
-Bvh::~Bvh() = default;
-Bvh::Bvh(Bvh&&) noexcept = default;
-Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 
 void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const
 {
@@ -69,15 +73,15 @@ void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>&
   stack[top++] = 0;
   while (top > 0)
   {
-    const auto& node = tree_->model.getBV(stack[--top]);
-    if (distanceBound(node.bv, coordinates) > radius)
+    const Node& node = nodes_[stack[--top]];
+    if (distanceBound(node, coordinates) > radius)
       continue;
-    if (node.isLeaf())
-      triangles.push_back(node.primitiveId());
+    if (node.left < 0)
+      triangles.push_back(node.triangle);
     else
     {
-      stack[top++] = node.rightChild();
-      stack[top++] = node.leftChild();
+      stack[top++] = node.left + 1;
+      stack[top++] = node.left;
     }
   }
 }
@@ -100,10 +104,10 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance) con
     // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
     if (entry.bound > best.distance)
       continue;
-    const auto& node = tree_->model.getBV(entry.node);
-    if (node.isLeaf())
+    const Node& node = nodes_[entry.node];
+    if (node.left < 0)
     {
-      const int t = node.primitiveId();
+      const int t = node.triangle;
       const Eigen::Vector3i& corners = wall_->triangles[t];
       const double distance = (closestPointOnTriangle(point, wall_->vertices[corners[0]], wall_->vertices[corners[1]],
                                                       wall_->vertices[corners[2]])
@@ -114,8 +118,8 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance) con
         best = {t, distance};
       continue;
     }
-    Entry left{node.leftChild(), distanceBound(tree_->model.getBV(node.leftChild()).bv, coordinates)};
-    Entry right{node.rightChild(), distanceBound(tree_->model.getBV(node.rightChild()).bv, coordinates)};
+    Entry left{node.left, distanceBound(nodes_[node.left], coordinates)};
+    Entry right{node.left + 1, distanceBound(nodes_[node.left + 1], coordinates)};
     if (left.bound > right.bound)
       std::swap(left, right);
     stack[top++] = right;

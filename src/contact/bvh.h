@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,14 +13,13 @@ namespace endovascular_sim::contact
 /** Bounding volume hierarchy of 18-DOPs over the wall's triangles.
  *
  *  FCL builds the tree; the walk is ours: FCL's own sphere query copies and refits the whole model on every call and
- *  reports no depth for it (docs/CONTACT.md). */
+ *  reports no depth for it (docs/CONTACT.md). The finished nodes are copied into one flat array, because FCL's
+ * accessors are calls into its library. */
 class Bvh
 {
 public:
+  /** @param wall must outlive the tree */
   explicit Bvh(const Wall& wall);
-  ~Bvh();
-  Bvh(Bvh&&) noexcept;
-  Bvh& operator=(Bvh&&) noexcept;
 
   /** Appends every triangle whose 18-DOP is closer than @p radius to the point: a superset of those in the ball. */
   void collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const;
@@ -34,8 +33,21 @@ public:
   Nearest nearest(const Eigen::Vector3d& point, double max_distance) const;
 
 private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+  static constexpr int kSlabs = 9;  ///< 18-DOP: x, y, z, x+y, x+z, y+z, x−y, x−z, y−z
+
+  /** An 18-DOP with its children (left at `left`, right at `left` + 1), or its triangle in a leaf. */
+  struct Node
+  {
+    std::array<double, kSlabs> low;
+    std::array<double, kSlabs> high;
+    int left = -1;
+    int triangle = -1;
+  };
+
+  static std::array<double, kSlabs> slabCoordinates(const Eigen::Vector3d& p);
+  static double distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates);
+
+  std::vector<Node> nodes_;
   const Wall* wall_;
 };
 

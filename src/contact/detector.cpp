@@ -12,12 +12,16 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kSlack = 0.8e-3;              // m that a node may move before its candidates are collected again
+constexpr double kCellSize = 1e-3;               // m
+constexpr double kCellHalfDiagonal = 0.8661e-3;  // m
+constexpr double kReachRoom = 0.2e-3;            // m by which reaches are rounded up: cells live through small changes
+constexpr std::size_t kMaxCells = 200000;        // some hundred MB; then the wire's surroundings are collected anew
+constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
 constexpr double kReflexAngle = M_PI / 180.0;  // edges that bulge less than this meet the wire's nodes only
-constexpr double kDeepest = 3e-3;              // m beyond a triangle's plane: further away it is another branch's wall
 constexpr double kOutsideCrossing = 0.4e-3;    // m by which a wire's edge may lie beyond a ridge
 constexpr double kSameNormal = 0.9995;         // cosine above which two features of a node count as one
 constexpr double kConeTolerance = 1e-12;       // m
+constexpr double kConeSlack = 1e-6;            // of the distance: crossings at the border of the normal cone count
 constexpr double kOnRidge = 1e-12;             // m
 constexpr double kEnd = 1e-3;                  // of a wire's edge: closer to a node the node's own features stand
 constexpr double kFarthest = 30e-3;            // m: free distances are not looked for beyond it
@@ -54,48 +58,83 @@ double Detector::signedDistance(const Eigen::Vector3d& point) const
   return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
 }
 
-void Detector::refresh(Candidates& candidates, const Eigen::Vector3d& point, double radius)
+/** Enlarges the reaches to what the query needs; cells made for smaller ones are dropped. */
+void Detector::setReach(const Query& query)
 {
-  candidates.centre = point;
-  candidates.radius = radius;
-  candidates.triangles.clear();
-  candidates.reflex_edges.clear();
-  bvh_.collect(point, radius, candidates.triangles);
-  // Collected in the tree's order: sorted, so that results do not depend on where the list came from.
-  std::sort(candidates.triangles.begin(), candidates.triangles.end());
+  double radius = 0.0;
+  double half = 0.0;
+  for (std::size_t i = 0; i < query.nodes.size(); ++i)
+  {
+    radius = std::max(radius, query.radius[i]);
+    if (i > 0)
+      half = std::max(half, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm());
+  }
+  const double node_reach = radius + query.margin;
+  const double edge_reach = node_reach + half;
+  const bool room = cells_.size() < kMaxCells;
+  if (node_reach <= node_reach_ && edge_reach <= edge_reach_ && room)
+    return;
+  node_reach_ = std::max(node_reach_, node_reach + kReachRoom);
+  edge_reach_ = std::max(edge_reach_, edge_reach + kReachRoom);
+  cells_.clear();
+  cell_of_key_.clear();
+  last_keys_.assign(last_keys_.size(), kNoCell);
+}
+
+const Detector::Cell& Detector::cellAt(const Eigen::Vector3d& point, CellKey& last_key, int& last_cell)
+{
+  constexpr double kOffset = 1 << 20;  // cells; 21 bits per axis reach 1 km either way
+  Eigen::Vector3d corner;
+  CellKey key = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    corner[axis] = std::floor(point[axis] / kCellSize);
+    key = key << 21 | (static_cast<CellKey>(corner[axis] + kOffset) & 0x1fffff);
+  }
+  if (key == last_key)
+    return cells_[last_cell];
+  const auto [entry, is_new] = cell_of_key_.emplace(key, static_cast<int>(cells_.size()));
+  if (is_new)
+    makeCell(kCellSize * (corner + Eigen::Vector3d::Constant(0.5)));
+  last_key = key;
+  last_cell = entry->second;
+  return cells_[last_cell];
+}
+
+void Detector::makeCell(const Eigen::Vector3d& centre)
+{
+  cells_.emplace_back();
+  Cell& cell = cells_.back();
+  const double radius = std::max(node_reach_, edge_reach_) + kCellHalfDiagonal;
+  collected_.clear();
+  bvh_.collect(centre, radius, collected_);
+  // Collected in the tree's order: sorted, so that results do not depend on how the tree is walked.
+  std::sort(collected_.begin(), collected_.end());
   double nearest = radius;
-  std::size_t kept = 0;
-  for (int t : candidates.triangles)
+  for (int t : collected_)
   {
     const Eigen::Vector3i& corners = wall_.triangles[t];
-    const double distance = (closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
+    const double distance = (closestPointOnTriangle(centre, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
                                                     wall_.vertices[corners[2]])
                                  .point -
-                             point)
+                             centre)
                                 .norm();
     if (distance > radius)
       continue;
     nearest = std::min(nearest, distance);
-    candidates.triangles[kept++] = t;
+    if (distance <= node_reach_ + kCellHalfDiagonal)
+      cell.triangles.push_back(t);
     for (int e : wall_.triangle_edges[t])
       if (wall_.edges[e].reflex_angle > kReflexAngle && !edge_marked_[e])
       {
         edge_marked_[e] = 1;
-        candidates.reflex_edges.push_back(e);
+        cell.reflex_edges.push_back(e);
       }
   }
-  candidates.triangles.resize(kept);
-  for (int e : candidates.reflex_edges)
+  for (int e : cell.reflex_edges)
     edge_marked_[e] = 0;
-  std::sort(candidates.reflex_edges.begin(), candidates.reflex_edges.end());
-  if (kept > 0)
-  {
-    candidates.clear = nearest;
-    return;
-  }
-  // A free node: remember how far away the wall is, so that it is left alone for a while.
-  candidates.clear = bvh_.nearest(point, kFarthest).distance;
-  candidates.radius = std::max(radius, candidates.clear);
+  std::sort(cell.reflex_edges.begin(), cell.reflex_edges.end());
+  cell.clear = nearest - kCellHalfDiagonal;
 }
 
 void Detector::detect(const Query& query, ContactSet& set)
@@ -106,33 +145,22 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.vessel_version = vessel_version_;
   set.first_edge = query.first_node;
   set.features.clear();
-  const std::size_t n = query.nodes.size();
-  const std::size_t whole = static_cast<std::size_t>(query.first_node) + n;
-  if (candidates_.size() != whole)
-  {
-    candidates_.clear();
-    candidates_.resize(whole);
-  }
   if (query.want_free_distance)
   {
     freeDistances(query, set);
     return;
   }
+  const std::size_t n = query.nodes.size();
   set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
-  for (std::size_t i = 0; i < n; ++i)
+  setReach(query);
+  const std::size_t whole = 2 * (static_cast<std::size_t>(query.first_node) + n);
+  if (last_keys_.size() < whole)
   {
-    double half = 0.0;
-    if (i > 0)
-      half = 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm();
-    if (i + 1 < n)
-      half = std::max(half, 0.5 * (query.nodes[i + 1] - query.nodes[i]).norm());
-    const double reach = query.radius[i] + query.margin + 1.05 * half;
-    Candidates& candidates = candidates_[query.first_node + i];
-    const double moved = (query.nodes[i] - candidates.centre).norm();
-    if (candidates.radius < 0.0 || moved + reach > candidates.radius)
-      refresh(candidates, query.nodes[i], reach + kSlack);
-    detectNode(query, i, reach, set.features);
+    last_keys_.resize(whole, kNoCell);
+    last_cells_.resize(whole, 0);
   }
+  for (std::size_t i = 0; i < n; ++i)
+    detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
     detectEdge(query, i, set.features);
 }
@@ -149,24 +177,26 @@ void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first,
   features.push_back(feature);
 }
 
-void Detector::detectNode(const Query& query, std::size_t index, double reach, std::vector<Feature>& features)
+void Detector::detectNode(const Query& query, std::size_t index, std::vector<Feature>& features)
 {
   const Eigen::Vector3d& point = query.nodes[index];
-  const Candidates& candidates = candidates_[query.first_node + index];
-  if (candidates.clear - (point - candidates.centre).norm() > reach)
-    return;
   const double radius = query.radius[index];
+  const double limit = radius + query.margin;
+  const std::size_t slot = 2 * (static_cast<std::size_t>(query.first_node) + index);
+  const Cell& cell = cellAt(point, last_keys_[slot], last_cells_[slot]);
+  if (cell.clear > limit)
+    return;
   const std::size_t first = features.size();
   const bool last = index + 1 == query.nodes.size();
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
   double nearest = std::numeric_limits<double>::infinity();
-  for (int t : candidates.triangles)
+  for (int t : cell.triangles)
   {
     Feature feature;
     double distance = 0.0;
     bool outside = false;
-    const bool minimum = faceFeature(point, t, radius + query.margin, reach, feature, distance, outside);
+    const bool minimum = faceFeature(point, t, limit, feature, distance, outside);
     if (distance >= 0.0)
       nearest = std::min(nearest, distance);
     if (!minimum)
@@ -186,25 +216,24 @@ void Detector::detectNode(const Query& query, std::size_t index, double reach, s
     features.push_back(outside_feature);
 }
 
-/** @param limit distance up to which features inside the lumen are wanted; @p reach the same for a point beyond the
- * wall
- *  @param distance to the triangle, or −1 when it was too far to be looked at
+/** @param limit distance up to which features are wanted [m]
+ *  @param distance to the triangle, or −1 when it is too far
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
  *  measured from the point itself */
-bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, double reach, Feature& feature,
-                           double& distance, bool& outside) const
+bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
+                           bool& outside) const
 {
+  distance = -1.0;
+  const double height = wall_.normals[triangle].dot(point) - wall_.plane_offsets[triangle];
+  if (height > limit || height < -limit)
+    return false;
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const Eigen::Vector3d& normal = wall_.normals[triangle];
-  const double height = (point - wall_.vertices[corners[0]]).dot(normal);
-  distance = -1.0;
-  if (height > limit || height < -kDeepest)
-    return false;
   const TrianglePoint closest =
       closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d offset = point - closest.point;
   const double squared = offset.squaredNorm();
-  if (squared > (height >= 0.0 ? limit * limit : reach * reach))
+  if (squared > limit * limit)
     return false;
   distance = std::sqrt(squared);
   feature.point = closest.point;
@@ -261,27 +290,29 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   return true;
 }
 
+bool Detector::nearLine(const Eigen::Vector3d& point, int wall_edge, double distance) const
+{
+  const WallEdge& edge = wall_.edges[wall_edge];
+  const Eigen::Vector3d from_end = point - wall_.vertices[edge.vertices[0]];
+  const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - wall_.vertices[edge.vertices[0]];
+  return from_end.cross(along).squaredNorm() <= distance * distance * along.squaredNorm();
+}
+
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
 {
-  const Candidates& first = candidates_[query.first_node + index];
-  const Candidates& second = candidates_[query.first_node + index + 1];
-  if (first.reflex_edges.empty() && second.reflex_edges.empty())
-    return;
-  edge_pool_.clear();
-  std::set_union(first.reflex_edges.begin(), first.reflex_edges.end(), second.reflex_edges.begin(),
-                 second.reflex_edges.end(), std::back_inserter(edge_pool_));
-  const std::size_t begin = features.size();
   const Eigen::Vector3d& a = query.nodes[index];
   const Eigen::Vector3d& b = query.nodes[index + 1];
-  const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   const Eigen::Vector3d middle = 0.5 * (a + b);
+  const std::size_t slot = 2 * (static_cast<std::size_t>(query.first_node) + index) + 1;
+  const Cell& cell = cellAt(middle, last_keys_[slot], last_cells_[slot]);
+  if (cell.reflex_edges.empty())
+    return;
+  const std::size_t begin = features.size();
+  const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   const double reach = 0.5 * (b - a).norm() + limit;
-  for (int e : edge_pool_)
+  for (int e : cell.reflex_edges)
   {
-    // Cheap rejection: the mesh edge's line must come near the middle of the wire's edge.
-    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
-    const Eigen::Vector3d along = wall_.vertices[wall_.edges[e].vertices[1]] - end0;
-    if ((middle - end0).cross(along).squaredNorm() > reach * reach * along.squaredNorm())
+    if (!nearLine(middle, e, reach))
       continue;
     Feature feature;
     double distance = 0.0;
@@ -318,10 +349,13 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   const bool at_vertex = pair.second <= 0.0 || pair.second >= 1.0;
   const int vertex = edge.vertices[pair.second <= 0.0 ? 0 : 1];
   const Eigen::Vector3d& inward = at_vertex ? wall_.vertex_normals[vertex] : edge.normal;
-  const bool inside = offset.dot(inward) >= 0.0;
+  // The tissue behind a reflex edge is the wedge behind both triangles' planes.
+  const bool inside = at_vertex ? offset.dot(inward) >= 0.0
+                                : offset.dot(wall_.normals[edge.triangles[0]]) >= 0.0 ||
+                                      offset.dot(wall_.normals[edge.triangles[1]]) >= 0.0;
   if (at_vertex ? !vertexIsMinimum(vertex, offset)
-                : inside && (offset.dot(edge.into_triangle[0]) > 1e-6 * distance ||
-                             offset.dot(edge.into_triangle[1]) > 1e-6 * distance))
+                : inside && (offset.dot(edge.into_triangle[0]) > kConeSlack * distance ||
+                             offset.dot(edge.into_triangle[1]) > kConeSlack * distance))
     return false;
   if (!inside && (distance > kOutsideCrossing || signedDistance(axis) > 0.0))
     return false;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,8 +26,9 @@ struct WallLaw
  *
  *  Per node: closest points on the triangles around it that are true local minima (normal-cone test on reflex edges
  *  and vertices), all distinct normals. Per edge: crossing reflex edges and vertices of the mesh. A point is outside
- *  only where its globally nearest feature says so. Candidate lists are kept from call to call; what is found does not
- *  depend on them, so a detector that was restarted gives the same bits. */
+ *  only where its globally nearest feature says so. Which triangles are near is asked of the tree once per cube of
+ * space that the wire visits and then kept; what is found does not depend on it, so a detector that was restarted gives
+ * the same bits. */
 class Detector : public ContactSource
 {
 public:
@@ -42,21 +44,24 @@ public:
   const Wall& wall() const { return wall_; }
 
 private:
-  /** Triangles and reflex edges around one node, valid while it stays near `centre`. */
-  struct Candidates
+  using CellKey = std::uint64_t;
+
+  /** What a node or an edge's middle anywhere in one cube of space may meet. */
+  struct Cell
   {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double radius = -1.0;  ///< everything within this of the centre is listed [m]
-    double clear = 0.0;    ///< nothing is within this of the centre [m]
-    std::vector<int> triangles;
-    std::vector<int> reflex_edges;
+    double clear = 0.0;             ///< no wall within this of any point of the cube [m]
+    std::vector<int> triangles;     ///< all within a node's reach of the cube, ascending
+    std::vector<int> reflex_edges;  ///< all within an edge's reach of the cube, ascending
   };
 
-  void refresh(Candidates& candidates, const Eigen::Vector3d& point, double radius);
-  void detectNode(const Query& query, std::size_t index, double reach, std::vector<Feature>& features);
-  bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, double reach, Feature& feature,
-                   double& distance, bool& outside) const;
+  void setReach(const Query& query);
+  const Cell& cellAt(const Eigen::Vector3d& point, CellKey& last_key, int& last_cell);
+  void makeCell(const Eigen::Vector3d& centre);
+  void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
+  bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
+                   bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
+  bool nearLine(const Eigen::Vector3d& point, int wall_edge, double distance) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
@@ -67,8 +72,14 @@ private:
   Bvh bvh_;
   WallLaw law_;
   std::uint64_t vessel_version_;
-  std::vector<Candidates> candidates_;
-  std::vector<int> edge_pool_;
+  double node_reach_ = 0.0;  ///< from a node's axis to the farthest feature that is looked for [m]
+  double edge_reach_ = 0.0;  ///< the same from an edge's middle [m]
+  std::unordered_map<CellKey, int> cell_of_key_;
+  std::vector<Cell> cells_;
+  /** The cell that each node (2i) and each edge's middle (2i+1) was in last. */
+  std::vector<CellKey> last_keys_;
+  std::vector<int> last_cells_;
+  std::vector<int> collected_;
   std::vector<char> edge_marked_;
 };
 

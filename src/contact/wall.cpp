@@ -32,6 +32,7 @@ int oppositeCorner(const Eigen::Vector3i& triangle, const WallEdge& edge)
 Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangles(mesh.triangles)
 {
   normals.resize(triangles.size());
+  plane_offsets.resize(triangles.size());
   triangle_edges.resize(triangles.size());
   vertex_normals.assign(vertices.size(), Eigen::Vector3d::Zero());
   vertex_edges.resize(vertices.size());
@@ -43,6 +44,7 @@ Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangle
     const Eigen::Vector3i& corners = triangles[t];
     const Eigen::Vector3d& origin = vertices[corners[0]];
     normals[t] = -(vertices[corners[1]] - origin).cross(vertices[corners[2]] - origin).normalized();
+    plane_offsets[t] = normals[t].dot(origin);
     for (int k = 0; k < 3; ++k)
     {
       const int a = corners[k];

@@ -32,6 +32,7 @@ public:
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
   std::vector<Eigen::Vector3d> normals;            ///< per triangle, towards the lumen, unit
+  std::vector<double> plane_offsets;               ///< normal·x of each triangle's plane [m]
   std::vector<std::array<int, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and k+1
   std::vector<WallEdge> edges;
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit

@@ -53,7 +53,7 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
         ++contacts;
       }
-      else if (sign < 0.0 && distance < 1e-3)
+      else if (sign < 0.0 && distance < 0.85e-3)
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
     }
   }
