@@ -88,26 +88,36 @@ interrupted() {
   session_interrupted=true
 }
 
-# Processes started in the background of a script ignore SIGINT; the nodes must be able to receive it.
-in_background() {
-  python3 -c 'import os, signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)
+# become own|same COMMAND…: for the background. Replaces the subshell, so that $! is the command itself, and undoes what
+# a script does to its background processes: they ignore SIGINT. `own` gives it a process group of its own, so that a
+# Ctrl-C at the terminal reaches this script first.
+become() {
+  exec python3 -c 'import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)
 if sys.argv[1] == "own": os.setpgid(0, 0)
 os.execvp(sys.argv[2], sys.argv[2:])' "$@"
 }
 
+# Of all that the nodes print: progress, warnings, errors; without colours and time stamps.
+readable_log() {
+  sed -u -n -E 's/\x1b\[[0-9;]*m//g
+    s/^\[ INFO\] \[[0-9., ]+\]: \[session\] /   /p; t
+    s/^\[ ?(WARN|ERROR|FATAL)\] \[[0-9., ]+\]: /   \1: /p; t
+    /RLException|^error|has died \[|exit code [1-9]/p'
+}
+
 start_device() {
   local arguments=(--link "$results/device" --scene "$scene_file" --out "$results/device_latency.json")
-  [ -n "$seconds" ] && arguments+=(--seconds "$seconds")
+  # The operator moves when the simulation answers, not while a vessel is still being prepared.
+  arguments+=(--start enabled)
   local override
   for override in "${all_overrides[@]}"; do arguments+=(--set "$override"); done
   if $keyboard; then
     arguments+=(--keyboard)
     exec 3<&0
-    in_background same "$programs"/device_simulator "${arguments[@]}" <&3 &
+    become same "$programs"/device_simulator "${arguments[@]}" <&3 &
   else
-    in_background own "$programs"/device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
+    become own "$programs"/device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
   fi
   device_pid=$!
   local waited=0
@@ -156,10 +166,10 @@ run_session() {
 
   local status=0
   if $keyboard; then
-    in_background own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
+    become own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
   else
-    in_background own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
-      > >(tee "$results/log/launch.log" | grep --line-buffered -E '\[session\]|WARN|ERROR|FATAL|error|died') 2>&1 &
+    become own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
+      > >(tee "$results/log/launch.log" | readable_log) 2>&1 &
   fi
   launch_pid=$!
   while kill -0 "$launch_pid" 2>/dev/null; do
@@ -191,10 +201,28 @@ after_session() {
   "$programs"/session_summary.py "$results" || session_status=1
 }
 
+# A copy of replay.rviz that looks at the whole vessel from the front, whatever its size and place.
+fitted_view() {
+  python3 - "$results/report.json" "$repository/rviz/replay.rviz" "$results/log/replay.rviz" <<'PYTHON'
+import json, re, sys
+box = json.load(open(sys.argv[1])).get("vessel_box")
+text = open(sys.argv[2]).read()
+if box:
+    size = [b - a for a, b in zip(box["min"], box["max"])]
+    centre = [0.5 * (a + b) for a, b in zip(box["min"], box["max"])]
+    # The picture is about as wide as it is high, 45 degrees each; a tenth more for the rim, half the depth in front.
+    distance = 0.5 * 1.1 * max(size[0], size[2]) / 0.414 + 0.5 * size[1]
+    point = "Focal Point:\n        X: %.4f\n        Y: %.4f\n        Z: %.4f" % tuple(centre)
+    text = re.sub(r"Distance: [0-9.]+", "Distance: %.4f" % distance, text, count=1)
+    text = re.sub(r"Focal Point:\s+X: \S+\s+Y: \S+\s+Z: \S+", point, text, count=1)
+open(sys.argv[3], "w").write(text)
+PYTHON
+}
+
 # Plays the bag into rviz on a virtual screen and keeps one picture of its end.
 draw_rviz() {
   local display_file="$results/log/display" display waited=0
-  in_background own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
+  become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
   virtual_display_pid=$!
   trap clean_up EXIT
   trap interrupted INT TERM
@@ -202,9 +230,10 @@ draw_rviz() {
   [ -s "$display_file" ] || return 1
   display=":$(cat "$display_file")"
   ros_environment
+  fitted_view || return 1
   say "Drawing rviz from the recording, in software"
-  in_background own env DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
-    replay.launch "bag:=$results/session.bag" rate:=8 > "$results/log/rviz.log" 2>&1 &
+  become own env DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
+    replay.launch "bag:=$results/session.bag" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0
   # The player ends with the bag; rviz then gets a moment to draw the last state.

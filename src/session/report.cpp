@@ -33,6 +33,11 @@ Json summary(const RunningValue& value)
   return {{"max", value.max()}, {"mean", value.mean()}, {"final", value.final()}};
 }
 
+Json vectorOf(const Eigen::Vector3d& vector)
+{
+  return Json::array({vector.x(), vector.y(), vector.z()});
+}
+
 /** Text that is a number as a number, all else as text. */
 Json valueOf(const std::string& text)
 {
@@ -178,9 +183,12 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
   report["contact_force"] = summary(contact_force_);
   report["contacts"] = summary(contact_count_);
   report["inserted_length"] = inserted_length_.final();
-  report["tip_position"] = tip_ ? Json({tip_->x(), tip_->y(), tip_->z()}) : Json(nullptr);
+  report["tip_position"] = tip_ ? vectorOf(*tip_) : Json(nullptr);
   report["tip_path_length"] = tip_path_;
   report["nodes"] = nodes_;
+  report["vessel_box"] = vessel_box_.isEmpty()
+                             ? Json(nullptr)
+                             : Json{{"min", vectorOf(vessel_box_.min())}, {"max", vectorOf(vessel_box_.max())}};
   report["fluoroscopy"] = {{"frames", fluoroscopy_frames_}, {"pictures", fluoroscopy_pictures_}};
   report["recording"] = {{"file", recording.file},
                          {"bytes", recording.bytes},

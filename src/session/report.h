@@ -7,6 +7,7 @@
 #include <string>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace endovascular_sim::session
 {
@@ -78,6 +79,9 @@ public:
   /** Largest contact force at one moment [N] and the number of contacts that carry force. */
   void addContacts(double largest, std::size_t count);
 
+  /** Widens the vessel's bounding box by a vertex, patient frame [m]. */
+  void addVesselPoint(const Eigen::Vector3d& point) { vessel_box_.extend(point); }
+
   void addFluoroscopyFrame() { ++fluoroscopy_frames_; }
   void addFluoroscopyPicture() { ++fluoroscopy_pictures_; }
 
@@ -118,6 +122,7 @@ private:
   std::optional<Eigen::Vector3d> tip_;
   double tip_path_ = 0.0;
   std::size_t nodes_ = 0;
+  Eigen::AlignedBox3d vessel_box_;
   std::uint64_t fluoroscopy_frames_ = 0;
   std::uint64_t fluoroscopy_pictures_ = 0;
   std::map<std::string, std::map<std::string, std::string>> diagnostics_;

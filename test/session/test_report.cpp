@@ -98,6 +98,16 @@ TEST(SessionReport, MeasuresThePathOfTheTip)
   EXPECT_EQ(result["inserted_length"], 0.03);
 }
 
+TEST(SessionReport, KnowsTheBoxAroundTheVesselAndThatThereIsNone)
+{
+  SessionReport report = reportOfSteps(1);
+  EXPECT_TRUE(parsed(report)["vessel_box"].is_null());
+  report.addVesselPoint({1, -2, 3});
+  report.addVesselPoint({-1, 2, 3});
+  EXPECT_EQ(parsed(report)["vessel_box"]["min"], json::array({-1.0, -2.0, 3.0}));
+  EXPECT_EQ(parsed(report)["vessel_box"]["max"], json::array({1.0, 2.0, 3.0}));
+}
+
 TEST(SessionReport, IsJsonEvenWithoutAnyStepAndWithBrokenText)
 {
   SessionReport report = reportOfSteps(0);

@@ -189,7 +189,7 @@ void SessionRecorder::publishInfo()
 
 void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)
 {
-  if (finished_)
+  if (finished_ || durationIsOver())
     return;
   const DriveApplied& drive = *event.getMessage();
   report_.addStep(drive.step, drive.header.stamp.toSec(), drive.stale_passes != 0, drive.state_hash);
@@ -254,6 +254,8 @@ void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
   {
     info_.mesh_hash = event.getMessage()->content_hash;
     report_.setMeshHash(info_.mesh_hash);
+    for (const geometry_msgs::Point& vertex : event.getMessage()->mesh.vertices)
+      report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
     publishInfo();
   }
   bag_.write(node_.resolveName(names::kVesselMesh), event);
@@ -290,6 +292,12 @@ void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::Dia
   bag_.write(node_.resolveName(names::kDiagnostics), event);
 }
 
+bool SessionRecorder::durationIsOver() const
+{
+  // Half a step of tolerance: time is steps times their length.
+  return settings_.stop_at_duration && report_.simulatedTime() > scene_.duration - 0.5 * scene_.solver.time_step;
+}
+
 void SessionRecorder::tellProgress()
 {
   const double now = report_.simulatedTime();
@@ -310,8 +318,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
     return;
   const double silence = (ros::SteadyTime::now() - last_step_).toSec();
   const double patience = report_.steps() == 0 ? settings_.start_patience : settings_.patience;
-  // Half a step of tolerance: time is steps times their length.
-  if (report_.simulatedTime() > scene_.duration - 0.5 * scene_.solver.time_step)
+  if (durationIsOver())
     endWith("");
   else if (silence > patience)
     endWith("no step of the simulation for " + std::to_string(static_cast<int>(silence)) +

@@ -85,6 +85,8 @@ private:
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void savePicture(const sensor_msgs::ImageConstPtr& image);
+  /** True when the scene's last step is in, and the session is to end with it. */
+  bool durationIsOver() const;
   void tellProgress();
   void fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void endWith(const std::string& error);
