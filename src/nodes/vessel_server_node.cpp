@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/hash.h"
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
@@ -31,7 +32,7 @@ public:
     const vessel::Vessel vessel =
         session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
     for (const std::string& note : vessel.notes)
-      ROS_WARN("vessel_server: %s: %s", vessel.source.c_str(), note.c_str());
+      ROS_INFO("vessel_server: %s: %s", vessel.source.c_str(), note.c_str());
     notes_ = vessel.notes;
     fillMessages(vessel);
     publishFrames(session::resolveEntry(scene.entry, vessel, scene.file));
@@ -107,13 +108,14 @@ private:
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, notes_.empty() ? "published" : "published after repair");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "published");
     status.add("source", mesh_.source);
     status.add("version", mesh_.version);
+    status.add("content hash", Hash64::toHex(mesh_.content_hash));
     status.add("triangles", mesh_.mesh.triangles.size());
     status.add("branches", centreline_.branches.size());
     for (std::size_t n = 0; n < notes_.size(); ++n)
-      status.add("repair " + std::to_string(n + 1), notes_[n]);
+      status.add("note " + std::to_string(n + 1), notes_[n]);
   }
 
   ros::NodeHandle node_;

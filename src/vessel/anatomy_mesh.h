@@ -9,7 +9,7 @@ namespace endovascular_sim::vessel
 {
 
 /** Counts changes of the generator that change its meshes: part of the cache's key. */
-constexpr int kAnatomyGeneratorVersion = 1;
+constexpr int kAnatomyGeneratorVersion = 2;
 
 /** The wall of an anatomy as one watertight mesh with rounded ends and smooth junctions.
  *  @throws InputError when branches that should not meet touch, so that the lumen has a handle or an inner surface */

@@ -16,7 +16,7 @@ namespace
 /** Edge of the cubes to begin with [m]. */
 constexpr double kCube = 16e-3;
 /** The longest edge of a tetrahedron that the wall passes, in facet lengths. */
-constexpr double kCoarseness = 1.5;
+constexpr double kCoarseness = 2.0;
 /** The field's slope stays below this, so the wall is farther from a point than |distance| divided by it. */
 constexpr double kSteepest = 1.3;
 /** Cuts stay away from the corners of the tetrahedra by this fraction of the edge. */

@@ -12,7 +12,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr int kRounds = 8;
+constexpr int kRounds = 6;
 /** Edges longer or shorter than these multiples of the facet length are split or collapsed. */
 constexpr double kLongest = 4.0 / 3.0;
 constexpr double kShortest = 4.0 / 5.0;

@@ -1,0 +1,144 @@
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
+
+#include "endovascular_sim/GetVessel.h"
+#include "nodes/support/names.h"
+#include "nodes/support/scene_parameters.h"
+#include "nodes/support/vessel_conversions.h"
+#include "session/scene_vessel.h"
+#include "vessel/mesh_check.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+const ros::Duration kPatience(20.0);
+
+template <typename Message>
+boost::shared_ptr<const Message> latched(const std::string& topic)
+{
+  ros::NodeHandle node;
+  return ros::topic::waitForMessage<Message>(topic, node, kPatience);
+}
+
+/** The same vessel, made without a graph. */
+vessel::Vessel expectedVessel()
+{
+  const session::Scene scene = sceneFromParameters(ros::NodeHandle());
+  return session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
+}
+
+TEST(VesselConversions, RoundTripBitForBit)
+{
+  const vessel::Vessel vessel = expectedVessel();
+  VesselMesh mesh;
+  toMessage(vessel.mesh, mesh);
+  EXPECT_EQ(fromMessage(mesh).hash(), vessel.mesh.hash());
+  VesselCentreline centreline;
+  toMessage(vessel.centreline, centreline);
+  const vessel::CentrelineTree back = fromMessage(centreline);
+  ASSERT_EQ(back.branches.size(), vessel.centreline.branches.size());
+  for (std::size_t b = 0; b < back.branches.size(); ++b)
+  {
+    EXPECT_EQ(back.branches[b].name, vessel.centreline.branches[b].name);
+    EXPECT_EQ(back.branches[b].parent, vessel.centreline.branches[b].parent);
+    EXPECT_EQ(back.branches[b].points, vessel.centreline.branches[b].points);
+    EXPECT_EQ(back.branches[b].radii, vessel.centreline.branches[b].radii);
+  }
+}
+
+TEST(VesselServer, LatchesMeshAndCentrelineWithVersionAndHash)
+{
+  const auto mesh = latched<VesselMesh>(names::kVesselMesh);
+  const auto centreline = latched<VesselCentreline>(names::kVesselCentreline);
+  ASSERT_TRUE(mesh && centreline);
+  EXPECT_EQ(mesh->header.frame_id, names::kPatientFrame);
+  EXPECT_EQ(mesh->version, 1U);
+  EXPECT_EQ(mesh->content_hash, fromMessage(*mesh).hash());
+  EXPECT_EQ(mesh->content_hash, expectedVessel().mesh.hash());
+  EXPECT_EQ(centreline->content_hash, mesh->content_hash);
+  EXPECT_EQ(centreline->branches.size(), 1U);
+  EXPECT_TRUE(vessel::checkMesh(fromMessage(*mesh)).clean());
+}
+
+TEST(VesselServer, AnswersLateJoinersWithTheSame)
+{
+  const auto mesh = latched<VesselMesh>(names::kVesselMesh);
+  ASSERT_TRUE(mesh);
+  ASSERT_TRUE(ros::service::waitForService(names::kGetVessel, kPatience));
+  GetVessel service;
+  ASSERT_TRUE(ros::service::call(names::kGetVessel, service));
+  EXPECT_EQ(service.response.mesh.content_hash, mesh->content_hash);
+  EXPECT_EQ(fromMessage(service.response.mesh).hash(), mesh->content_hash);
+  EXPECT_EQ(service.response.centreline.branches.size(), 1U);
+}
+
+TEST(VesselServer, ShowsTheWallTranslucentInRviz)
+{
+  const auto marker = latched<visualization_msgs::Marker>(names::kVesselMarker);
+  const auto mesh = latched<VesselMesh>(names::kVesselMesh);
+  ASSERT_TRUE(marker && mesh);
+  EXPECT_EQ(marker->type, visualization_msgs::Marker::TRIANGLE_LIST);
+  EXPECT_EQ(marker->points.size(), 3 * mesh->mesh.triangles.size());
+  EXPECT_GT(marker->color.a, 0.0F);
+  EXPECT_LT(marker->color.a, 1.0F);
+}
+
+TEST(VesselServer, PutsTheIntroducerAtTheEntry)
+{
+  const session::Scene scene = sceneFromParameters(ros::NodeHandle());
+  const session::EntryPose entry = session::resolveEntry(scene.entry, expectedVessel(), scene.file);
+  const auto frames = latched<tf2_msgs::TFMessage>("/tf_static");
+  ASSERT_TRUE(frames);
+  ASSERT_EQ(frames->transforms.size(), 1U);
+  const geometry_msgs::TransformStamped& transform = frames->transforms[0];
+  EXPECT_EQ(transform.header.frame_id, names::kPatientFrame);
+  EXPECT_EQ(transform.child_frame_id, names::kIntroducerFrame);
+  const auto& q = transform.transform.rotation;
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  EXPECT_LT((rotation * Eigen::Vector3d::UnitX() - entry.direction).norm(), 1e-9);
+  EXPECT_LT((rotation * Eigen::Vector3d::UnitY() - entry.d1).norm(), 1e-9);
+  EXPECT_EQ(transform.transform.translation.x, entry.position.x());
+}
+
+TEST(VesselServer, ReportsItselfOncePerSecond)
+{
+  for (int k = 0; k < 20; ++k)
+  {
+    const auto diagnostics = latched<diagnostic_msgs::DiagnosticArray>(names::kDiagnostics);
+    ASSERT_TRUE(diagnostics);
+    for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics->status)
+      if (status.name.find("vessel") != std::string::npos && !status.values.empty())
+      {
+        EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
+        return;
+      }
+  }
+  FAIL() << "no diagnostics of the vessel server";
+}
+
+TEST(VesselServer, LeavesWithCodeOneWhenTheMeshIsRefused)
+{
+  const int status = std::system("rosrun endovascular_sim vessel_server __ns:=refused __name:=refused_server");
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_vessel_server");
+  ros::NodeHandle node;
+  return RUN_ALL_TESTS();
+}
