@@ -136,10 +136,10 @@ private:
   void drawVessel(const VesselMesh& vessel)
   {
     visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
-    wall.color.r = 0.85F;
-    wall.color.g = 0.35F;
-    wall.color.b = 0.33F;
-    wall.color.a = 0.3F;
+    wall.color.r = 1.0F;
+    wall.color.g = 0.55F;
+    wall.color.b = 0.5F;
+    wall.color.a = 0.35F;
     wall.points.reserve(3 * vessel.mesh.triangles.size());
     for (const shape_msgs::MeshTriangle& triangle : vessel.mesh.triangles)
       for (const std::uint32_t index : triangle.vertex_indices)

@@ -50,8 +50,8 @@ def summary_rows(report, device, folder):
         ("worst penetration", number(penetration(report), "%.3f", " mm", 1e3)),
     ]
     if device:
-        latency = device.get("latency_ms") or device.get("latency") or {}
-        rows.append(("device latency, median / p99", "%s / %s" % (
+        latency = device.get("motion_to_force_ms") or {}
+        rows.append(("motion to force at the device", "median %s, p99 %s" % (
             number(latency.get("median"), "%.2f", " ms"), number(latency.get("p99"), "%.2f", " ms"))))
     pictures = len(glob.glob(os.path.join(folder, "fluoroscopy", "*.png")))
     rows += [
