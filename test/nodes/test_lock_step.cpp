@@ -1,0 +1,176 @@
+#include <signal.h>
+
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include <XmlRpcClient.h>
+#include <gtest/gtest.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "contact/detector.h"
+#include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/OperatingState.h"
+#include "nodes/support/names.h"
+#include "nodes/support/scene_parameters.h"
+#include "session/replay_source.h"
+#include "session/simulation.h"
+
+namespace endovascular_sim
+{
+namespace
+{
+
+/** Everything that the rod says, kept from the first message on. */
+class Listener
+{
+public:
+  explicit Listener(const std::string& instrument)
+  {
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    applied_ = node_.subscribe<DriveApplied>(
+        nodes::names::kDriveApplied, 20000,
+        [this](const DriveAppliedConstPtr& message)
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          steps_[message->step] = *message;
+        },
+        ros::VoidConstPtr(), hints);
+    hand_ = node_.subscribe<sensor_msgs::JointState>(
+        nodes::names::kInstruments + instrument + nodes::names::kMeasuredJs, 10,
+        [this](const sensor_msgs::JointStateConstPtr& message) { force_ = message->effort.at(0); }, ros::VoidConstPtr(),
+        hints);
+    state_ = node_.subscribe<OperatingState>(
+        nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
+        [this](const OperatingStateConstPtr& message)
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          operating_ = message->state;
+        },
+        ros::VoidConstPtr(), hints);
+  }
+
+  std::map<std::uint64_t, DriveApplied> steps() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return steps_;
+  }
+  double force() const { return force_; }
+  std::string operatingState() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return operating_;
+  }
+
+private:
+  ros::NodeHandle node_;
+  ros::Subscriber applied_, hand_, state_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, DriveApplied> steps_;
+  std::string operating_;
+  std::atomic<double> force_{0.0};
+};
+
+template <typename Condition>
+bool eventually(double seconds, Condition condition)
+{
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::WallTime::now() < end)
+  {
+    if (condition())
+      return true;
+    ros::WallDuration(0.005).sleep();
+  }
+  return condition();
+}
+
+/** Ends a node the hard way, as a crash would. */
+bool killNode(const std::string& name)
+{
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = name;
+  if (!ros::master::execute("lookupNode", request, response, payload, false))
+    return false;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(payload, host, port))
+    return false;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = ros::this_node::getName();
+  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
+}
+
+class LockStep : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    scene_ = nodes::sceneFromParameters(ros::NodeHandle());
+    listener_ = std::make_unique<Listener>(scene_.instrument.name);
+    ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 500; })) << "the graph does not step";
+  }
+
+  session::Scene scene_;
+  std::unique_ptr<Listener> listener_;
+};
+
+// Runs first: the recording of inputs must begin with step 0, before anything was disturbed.
+TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
+{
+  ASSERT_TRUE(eventually(30.0, [this] { return listener_->steps().size() > 2500; }));
+  const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
+  const vessel::Vessel vessel = session::buildVessel(*scene_.vessel, scene_.entry, scene_.file);
+  contact::Detector detector(vessel.mesh, {scene_.vessel->stiffness, scene_.vessel->friction});
+  session::ReplayContactSource source(detector);
+  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source);
+  // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
+  std::uint64_t compared = 0;
+  while (simulation.steps() <= steps.rbegin()->first)
+  {
+    const auto known = steps.find(simulation.steps());
+    const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
+    session::HandCommand command{scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
+    source.setStalePasses(known != steps.end() ? known->second.stale_passes : 0);
+    if (known != steps.end())
+    {
+      EXPECT_EQ(known->second.insertion.at(0), command.insertion);
+      EXPECT_EQ(known->second.rotation.at(0), command.rotation);
+    }
+    simulation.step(command);
+    if (known == steps.end())
+      continue;
+    ASSERT_EQ(known->second.state_hash, simulation.stateHash()) << "step " << known->first;
+    ++compared;
+  }
+  EXPECT_GT(compared, 2000U);
+}
+
+TEST_F(LockStep, B_DeathOfTheContactNodePausesTakesTheForceAwayAndEndsWhenItReturns)
+{
+  ASSERT_TRUE(eventually(10.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  const std::uint64_t before = listener_->steps().rbegin()->first;
+  ASSERT_TRUE(killNode("/contact"));
+  EXPECT_TRUE(eventually(1.0, [this] { return listener_->operatingState() == "PAUSED"; }));
+  EXPECT_TRUE(eventually(0.2, [this] { return listener_->force() == 0.0; }));
+  EXPECT_TRUE(eventually(30.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  EXPECT_TRUE(eventually(30.0, [&] { return listener_->steps().rbegin()->first > before + 500; }));
+  EXPECT_TRUE(std::isfinite(listener_->force()));
+}
+
+}  // namespace
+}  // namespace endovascular_sim
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "test_lock_step");
+  testing::InitGoogleTest(&argc, argv);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
