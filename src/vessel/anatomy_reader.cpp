@@ -20,8 +20,8 @@ namespace
 class Section
 {
 public:
-  Section(const std::string& file, YAML::Node node, std::string path)
-    : file_(file), node_(std::move(node)), path_(std::move(path))
+  Section(const std::string& file, const YAML::Node& node, std::string path)
+    : file_(file), node_(node), path_(std::move(path))
   {
     if (!node_.IsMap())
       refuse("", "expected keys and values");
@@ -97,13 +97,14 @@ public:
   std::vector<Section> sections(const std::string& key) const
   {
     std::vector<Section> out;
+    const std::string prefix = path_ + (path_.empty() ? "" : ".") + key;
     int k = 0;
     if (has(key))
       for (const YAML::Node& item : list(key, "a list"))
       {
         const bool named = item.IsMap() && item["name"] && item["name"].IsScalar();
         const std::string label = named ? item["name"].Scalar() : std::to_string(k);
-        out.emplace_back(file_, item, path_ + (path_.empty() ? "" : ".") + key + "[" + label + "]");
+        out.emplace_back(file_, item, prefix + "[" + label + "]");
         ++k;
       }
     return out;

@@ -140,7 +140,7 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
     if (node.right >= 0)
     {
       // The nearer child is looked at first.
-      const double left = nodes_[static_cast<std::size_t>(index + 1)].box.squaredExteriorDistance(p);
+      const double left = nodes_[static_cast<std::size_t>(index) + 1].box.squaredExteriorDistance(p);
       const double right = nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(p);
       stack[static_cast<std::size_t>(depth++)] = left <= right ? node.right : index + 1;
       stack[static_cast<std::size_t>(depth++)] = left <= right ? index + 1 : node.right;
