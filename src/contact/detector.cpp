@@ -12,10 +12,10 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kCellSize = 1e-3;               // m
-constexpr double kCellHalfDiagonal = 0.8661e-3;  // m
-constexpr double kReachRoom = 0.2e-3;            // m by which reaches are rounded up: cells live through small changes
-constexpr std::size_t kMaxCells = 200000;        // some hundred MB; then the wire's surroundings are collected anew
+constexpr double kCellSize = 0.5e-3;              // m
+constexpr double kCellHalfDiagonal = 0.43302e-3;  // m
+constexpr double kReachRoom = 0.05e-3;            // m by which reaches are rounded up: cells live through small changes
+constexpr std::size_t kMaxCells = 200000;         // some hundred MB; then the wire's surroundings are collected anew
 constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
 constexpr double kReflexAngle = M_PI / 180.0;  // edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;    // m by which a wire's edge may lie beyond a ridge
@@ -43,6 +43,13 @@ std::int64_t featureId(int index, FeatureKind kind)
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
   : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_marked_(wall_.edges.size(), 0)
 {
+  edge_balls_.reserve(wall_.edges.size());
+  for (const WallEdge& edge : wall_.edges)
+  {
+    const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
+    const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
+    edge_balls_.push_back({0.5 * (begin + end), (end - begin).normalized(), 0.5 * (end - begin).norm()});
+  }
 }
 
 double Detector::signedDistance(const Eigen::Vector3d& point) const
@@ -290,12 +297,17 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   return true;
 }
 
+/** Cheap rejection: whether a mesh edge can come within a distance of a point, by its ball and then by its line. */
 bool Detector::nearLine(const Eigen::Vector3d& point, int wall_edge, double distance) const
 {
-  const WallEdge& edge = wall_.edges[wall_edge];
-  const Eigen::Vector3d from_end = point - wall_.vertices[edge.vertices[0]];
-  const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - wall_.vertices[edge.vertices[0]];
-  return from_end.cross(along).squaredNorm() <= distance * distance * along.squaredNorm();
+  const EdgeBall& ball = edge_balls_[wall_edge];
+  const Eigen::Vector3d from_middle = point - ball.middle;
+  const double squared = from_middle.squaredNorm();
+  const double reach = distance + ball.half_length;
+  if (squared > reach * reach)
+    return false;
+  const double along = from_middle.dot(ball.direction);
+  return squared - along * along <= distance * distance;
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)

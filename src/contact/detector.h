@@ -54,6 +54,14 @@ private:
     std::vector<int> reflex_edges;  ///< all within an edge's reach of the cube, ascending
   };
 
+  /** A mesh edge as its smallest ball with its direction. */
+  struct EdgeBall
+  {
+    Eigen::Vector3d middle;
+    Eigen::Vector3d direction;  ///< unit
+    double half_length;         ///< [m]
+  };
+
   void setReach(const Query& query);
   const Cell& cellAt(const Eigen::Vector3d& point, CellKey& last_key, int& last_cell);
   void makeCell(const Eigen::Vector3d& centre);
@@ -80,6 +88,7 @@ private:
   std::vector<CellKey> last_keys_;
   std::vector<int> last_cells_;
   std::vector<int> collected_;
+  std::vector<EdgeBall> edge_balls_;
   std::vector<char> edge_marked_;
 };
 

@@ -49,7 +49,7 @@ struct StepperSettings
   int max_solves = 12;                  ///< linear solves in one step, truncated ones included
   double strain_tolerance = 5e-5;       ///< a step that leaves more is solved again
   double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]
-  double contact_margin = 0.5e-3;       ///< features closer than this are listed [m]
+  double contact_margin = 0.25e-3;      ///< features closer than this are listed [m]
   double penetration_tolerance = 3e-5;  ///< an unknown contact deeper than this is solved for again [m]
   double max_rotation = 0.3;            ///< of an edge in one solve [rad]
   double friction_speed = 0.5e-3;       ///< below it Coulomb friction is viscous [m/s]

@@ -153,7 +153,7 @@ struct SolverScene
   int max_newton = 8;                    ///< iterations per step
   double strain_tolerance = 5e-5;        ///< a solve that leaves more edge strain than this is repeated [1]
   double contact_stiffness = 1e5;        ///< of the rigid wall's penalty per contact [N/m]
-  double contact_margin = 0.5e-3;        ///< features closer than this are listed [m]
+  double contact_margin = 0.25e-3;       ///< features closer than this are listed [m]
   double max_travel_per_substep = 0.05e-3;  ///< of the hand; faster motion is sub-stepped [m]
   double guide_length = 19e-3;           ///< over which the introducer's guide fades [m]
 };
