@@ -41,7 +41,9 @@ ros_environment() {
   ROS_MASTER_URI="http://localhost:$(free_port)"
   ROS_HOME="$results/ros"
   ROS_LOG_DIR="$results/log"
-  export ROS_MASTER_URI ROS_HOME ROS_LOG_DIR
+  # Progress shall be seen when it happens, though the output is a pipe.
+  ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+  export ROS_MASTER_URI ROS_HOME ROS_LOG_DIR ROSCONSOLE_STDOUT_LINE_BUFFERED
   mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
 }
 

@@ -42,7 +42,11 @@ public:
   {
     const auto copy = boost::make_shared<Message>(message);
     const auto header = boost::make_shared<ros::M_string>();
+    // A header of one's own replaces the whole of what rosbag writes about the topic.
     (*header)["latching"] = "1";
+    (*header)["type"] = ros::message_traits::datatype<Message>();
+    (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+    (*header)["message_definition"] = ros::message_traits::definition<Message>();
     const ros::Time now = ros::Time::now();
     push([topic, copy, header, now](rosbag::Bag& bag) { bag.write(topic, now, *copy, header); });
   }
