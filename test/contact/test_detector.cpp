@@ -54,7 +54,9 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
         ++contacts;
       }
       else if (sign < 0.0 && distance < 0.85e-3)
+      {
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
+      }
     }
   }
   EXPECT_GT(contacts, wires);
@@ -112,7 +114,9 @@ TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
       const double a = smallestGap(from_coarse, node);
       const double b = smallestGap(from_fine, node);
       if (std::isfinite(a) || std::isfinite(b))
+      {
         EXPECT_NEAR(a, b, 1e-9);
+      }
     }
   }
 }

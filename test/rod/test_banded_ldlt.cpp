@@ -86,7 +86,9 @@ TEST(BandedLdlt, PrescribesAnUnknownExactly)
   const Eigen::VectorXd residual = dense * x - Eigen::VectorXd::Ones(40);
   for (int i = 0; i < 40; ++i)
     if (i != 17)
+    {
       EXPECT_NEAR(residual[i], 0.0, 1e-12);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+#!/bin/bash
+# Ctrl-C in the middle of a session: the bag is closed properly, the report is written, nothing is left running.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# A shell lets its background processes ignore SIGINT; a terminal's Ctrl-C reaches the foreground.
+/usr/bin/python3 - "$repository/catkin_ws/demo" "$folder" <<'PYTHON'
+import os, signal, subprocess, sys, time
+demo, folder = sys.argv[1:]
+process = subprocess.Popen(
+    [demo, "--scene", "tube", "--headless", "--no-rviz", "--seconds", "600", "--out", folder + "/results"],
+    stdout=subprocess.PIPE, text=True, start_new_session=True,
+    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+for line in process.stdout:
+    print(line, end="")
+    if "2 of 600 s simulated" in line:
+        os.killpg(process.pid, signal.SIGINT)
+        break
+print(process.communicate(timeout=60)[0])
+assert process.returncode == 130, process.returncode
+PYTHON
+
+export PATH=/usr/bin:/bin
+grep -q '"steps_missing_from_recording": 0' "$folder/results/report.json"
+set +u
+. "$repository/catkin_ws/devel/setup.bash"
+rosbag info "$folder/results/session.bag" | grep -q '/drive/applied'
+if pgrep -f "$folder/results" > /dev/null; then
+  pgrep -af "$folder/results"
+  exit 1
+fi

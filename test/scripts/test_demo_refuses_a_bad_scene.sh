@@ -1,0 +1,20 @@
+#!/bin/bash
+# A scene that is refused ends the demo at once, with the scene's own message and without starting a graph.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+status=0
+message=$("$repository/catkin_ws/demo" --scene tube --headless --set vessel.stifness=3 --out "$folder/results" 2>&1) ||
+  status=$?
+echo "$message"
+[ "$status" -eq 1 ]
+grep -q 'stifness' <<< "$message"
+[ ! -e "$folder/results/session.bag" ]
+# A folder that already holds a session is never written over.
+mkdir -p "$folder/old"
+echo '{}' > "$folder/old/report.json"
+status=0
+message=$("$repository/catkin_ws/demo" --scene tube --headless --out "$folder/old" 2>&1) || status=$?
+[ "$status" -eq 1 ]
+grep -q 'already holds a session' <<< "$message"
