@@ -13,20 +13,18 @@ die() { printf '%s\n' "error: $*" >&2; exit 1; }
 
 # A path that CMake, make or catkin's generated scripts take apart is refused before anything is done.
 check_path() {
-  local path=$1
-  case "$path" in
-    *[!A-Za-z0-9_./+@~-]*)
-      local bad
-      bad=$(printf '%s' "$path" | LC_ALL=C tr -d 'A-Za-z0-9_./+@~-' | head -c 1)
-      [ "$bad" = ' ' ] && bad='a space' || bad="the character '$bad'"
-      printf '%s\n' \
-        "error: the path of this repository holds $bad, and catkin cannot build or test there:" \
-        "         $path" \
-        "       Use a path of letters, digits and . _ - + @ ~ only, for example:" \
-        "         mv '$path' \"\$HOME/endovascular_sim\"" >&2
-      exit 2
-      ;;
-  esac
+  local path=$1 bad
+  # Letters of other alphabets do no harm.
+  bad=$(printf '%s' "$path" | LC_ALL=C tr -d 'A-Za-z0-9_./+@~,=\200-\377-')
+  [ -z "$bad" ] && return
+  bad=${bad:0:1}
+  if [ "$bad" = ' ' ]; then bad='a space'; else bad="the character '$bad'"; fi
+  printf '%s\n' \
+    "error: the path of this repository holds $bad, and catkin cannot build or test there:" \
+    "         $path" \
+    "       Use a path of letters, digits and . _ - + @ ~ , = only, for example:" \
+    "         mv '$path' \"\$HOME/endovascular_sim\"" >&2
+  exit 2
 }
 
 # Only Debian's own tools: another python3, cmake or ROS in front of them (pyenv, conda, /opt/ros) breaks catkin,

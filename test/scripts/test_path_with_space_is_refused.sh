@@ -4,7 +4,7 @@ set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-for name in 'my work' 'a;b' 'a$b' 'a"b' 'a:b' 'größe'; do
+for name in 'my work' 'a;b' 'a$b' 'a"b' 'a:b' 'a%b' 'a(b' 'a#b'; do
   mkdir -p "$folder/$name/catkin_ws"
   cp -r "$repository/catkin_ws/demo" "$repository/catkin_ws/test" "$repository/catkin_ws/lib" \
     "$repository/catkin_ws/packages.txt" "$folder/$name/catkin_ws/"
