@@ -25,12 +25,12 @@ enum class EndCondition
 /** The vessel of a scene, or none. Exactly one of mesh, anatomy, tube is set. */
 struct VesselScene
 {
-  std::string mesh;     ///< path of an OBJ, STL or PLY file
-  double unit = 1.0;    ///< metres per unit of the mesh file (0.001 for millimetres)
+  std::string mesh;   ///< path of an OBJ, STL or PLY file
+  double unit = 1.0;  ///< metres per unit of the mesh file (0.001 for millimetres)
   /** From the mesh file's frame (after the unit) to the patient frame: x left, y posterior, z head. */
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  int smoothing = 0;    ///< Loop subdivisions of the mesh, 0 to 3
-  bool repair = true;   ///< repair what is safe; false refuses every defect
+  int smoothing = 0;   ///< Loop subdivisions of the mesh, 0 to 3
+  bool repair = true;  ///< repair what is safe; false refuses every defect
 
   std::string anatomy;  ///< path of an anatomy YAML file, for the generated vessel
 
@@ -43,15 +43,16 @@ struct VesselScene
   };
   struct Tube
   {
-    double radius = 0.0;         ///< [m]
-    double facet_length = 0.0;   ///< longest facet along the axis [m]
-    int facets_around = 32;      ///< facets around the circumference
+    double radius = 0.0;        ///< [m]
+    double facet_length = 0.0;  ///< longest facet along the axis [m]
+    int facets_around = 32;     ///< facets around the circumference
     std::vector<TubePiece> pieces;
   };
   std::optional<Tube> tube;
 
-  double stiffness = std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]; infinite: rigid
-  double friction = 0.0;                                       ///< Coulomb coefficient [1]
+  double stiffness =
+      std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]; infinite: rigid
+  double friction = 0.0;                        ///< Coulomb coefficient [1]
 };
 
 /** Where the wire enters. A pose, or the centreline end nearest to a point. */
@@ -59,10 +60,11 @@ struct EntryScene
 {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< patient frame [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector into the vessel
-  Eigen::Vector3d up = Eigen::Vector3d::UnitX();         ///< material direction d1 of the wire at rotation 0, made orthogonal to direction
-  bool nearest_centreline_end = false;                   ///< replace position and direction by the nearest end of the centreline
-  std::string centreline_end;                            ///< or by the end of the branch of this name; empty: not used
-  double offset = 0.0;                                   ///< how far inside that end the wire starts [m]
+  Eigen::Vector3d up =
+      Eigen::Vector3d::UnitX();  ///< material direction d1 of the wire at rotation 0, made orthogonal to direction
+  bool nearest_centreline_end = false;  ///< replace position and direction by the nearest end of the centreline
+  std::string centreline_end;           ///< or by the end of the branch of this name; empty: not used
+  double offset = 0.0;                  ///< how far inside that end the wire starts [m]
 };
 
 /** Piece-wise linear function of time plus a sine: offset + ramp(t) + amplitude·sin(2π·frequency·t + phase). */
@@ -96,35 +98,36 @@ struct DriveScene
   DriveSource source = DriveSource::kNone;
   /** Constant pushing speed until `travel` is reached; NaN: use the insertion profile [m/s]. */
   double speed = std::numeric_limits<double>::quiet_NaN();
-  double travel = 0.0;              ///< how far `speed` pushes beyond initial_insertion [m]
-  double initial_insertion = 0.0;   ///< wire beyond the introducer at the start [m]
-  double initial_rotation = 0.0;    ///< added to the rotation at all times [rad]
-  DriveProfile insertion;           ///< [m], added to initial_insertion
-  DriveProfile rotation;            ///< [rad], added to initial_rotation
-  double force_limit = 5.0;         ///< axial force at which the hand slips [N]
-  double torque_limit = 0.05;       ///< torque at which the hand slips [N·m]
+  double travel = 0.0;             ///< how far `speed` pushes beyond initial_insertion [m]
+  double initial_insertion = 0.0;  ///< wire beyond the introducer at the start [m]
+  double initial_rotation = 0.0;   ///< added to the rotation at all times [rad]
+  DriveProfile insertion;          ///< [m], added to initial_insertion
+  DriveProfile rotation;           ///< [rad], added to initial_rotation
+  double force_limit = 5.0;        ///< axial force at which the hand slips [N]
+  double torque_limit = 0.05;      ///< torque at which the hand slips [N·m]
 
   /** Commanded insertion at time t [s]: initial_insertion + min(speed·t, travel), or + insertion.at(t) without a speed;
    *  initial_insertion where the source is kNone [m]. */
   double insertionAt(double t) const;
-  /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone [rad]. */
+  /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone
+   * [rad]. */
   double rotationAt(double t) const;
 };
 
 /** A force or a torque held on a place of the wire (bench scenes). */
 struct PointLoad
 {
-  double position = 0.0;                              ///< distance from the proximal end [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< [N]
-  double torque = 0.0;                                ///< about the wire's axis [N·m]; at the tip only
-  double ramp_time = 0.0;                             ///< the load grows linearly over this time [s]
+  double position = 0.0;                            ///< distance from the proximal end [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
+  double torque = 0.0;                              ///< about the wire's axis [N·m]; at the tip only
+  double ramp_time = 0.0;                           ///< the load grows linearly over this time [s]
 };
 
 /** What acts on the wire besides the wall and the hand. */
 struct LoadScene
 {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
-  double fluid_density = 0.0;   ///< of the fluid around the wire, for drag and buoyancy; 0 computes none [kg/m³]
+  double fluid_density = 0.0;     ///< of the fluid around the wire, for drag and buoyancy; 0 computes none [kg/m³]
   double drag_coefficient = 1.2;  ///< of a cylinder across the stream [1]
   double damping = 0.0;           ///< mass-proportional, for quasi-static bench scenes [1/s]
   std::vector<PointLoad> point_loads;
@@ -140,39 +143,39 @@ enum class SamplingKind
 struct SamplingScene
 {
   SamplingKind kind = SamplingKind::kUniform;
-  int nodes = 240;            ///< over the whole wire, uniform sampling
-  double min_edge = 0.5e-3;   ///< adaptive sampling [m]
-  double max_edge = 1.5e-3;   ///< adaptive sampling [m]
+  int nodes = 240;           ///< over the whole wire, uniform sampling
+  double min_edge = 0.5e-3;  ///< adaptive sampling [m]
+  double max_edge = 1.5e-3;  ///< adaptive sampling [m]
 };
 
 /** Time stepping. */
 struct SolverScene
 {
   std::string scheme = "kkt";
-  double time_step = 1e-3;               ///< [s]
-  int max_newton = 8;                    ///< iterations per step
-  double strain_tolerance = 5e-5;        ///< a solve that leaves more edge strain than this is repeated [1]
-  double contact_stiffness = 1e5;        ///< of the rigid wall's penalty per contact [N/m]
-  double contact_margin = 0.25e-3;       ///< features closer than this are listed [m]
+  double time_step = 1e-3;                  ///< [s]
+  int max_newton = 8;                       ///< iterations per step
+  double strain_tolerance = 5e-5;           ///< a solve that leaves more edge strain than this is repeated [1]
+  double contact_stiffness = 1e5;           ///< of the rigid wall's penalty per contact [N/m]
+  double contact_margin = 0.25e-3;          ///< features closer than this are listed [m]
   double max_travel_per_substep = 0.05e-3;  ///< of the hand; faster motion is sub-stepped [m]
-  double guide_length = 19e-3;           ///< over which the introducer's guide fades [m]
+  double guide_length = 19e-3;              ///< over which the introducer's guide fades [m]
 };
 
 /** C-arm and X-ray, or none. */
 struct FluoroscopyScene
 {
-  double rate = 15.0;                     ///< [Hz]
-  int pixels = 512;                       ///< width and height of the image
-  double primary_angle = 0.0;             ///< positive LAO [rad]
-  double secondary_angle = 0.0;           ///< positive cranial [rad]
-  double source_to_detector = 1.2;        ///< SID [m]
-  double source_to_patient = 0.75;        ///< SOD [m]
-  double detector_width = 0.30;           ///< [m]
+  double rate = 15.0;                        ///< [Hz]
+  int pixels = 512;                          ///< width and height of the image
+  double primary_angle = 0.0;                ///< positive LAO [rad]
+  double secondary_angle = 0.0;              ///< positive cranial [rad]
+  double source_to_detector = 1.2;           ///< SID [m]
+  double source_to_patient = 0.75;           ///< SOD [m]
+  double detector_width = 0.30;              ///< [m]
   std::optional<Eigen::Vector3d> isocentre;  ///< patient frame [m]; empty: the centre of the vessel's bounding box
-  double energy = 60.0;                   ///< effective photon energy [keV]
-  double iodine = 150.0;                  ///< concentration in the vessel [mgI/ml]
-  double tissue_thickness = 0.20;         ///< slab of soft tissue [m]
-  bool follow_tip = true;                 ///< the isocentre follows the wire's tip
+  double energy = 60.0;                      ///< effective photon energy [keV]
+  double iodine = 150.0;                     ///< concentration in the vessel [mgI/ml]
+  double tissue_thickness = 0.20;            ///< slab of soft tissue [m]
+  bool follow_tip = true;                    ///< the isocentre follows the wire's tip
 };
 
 /** What is written down. */
@@ -186,23 +189,23 @@ struct RecordScene
 struct Scene
 {
   std::string name;
-  std::string file;                              ///< where it was read from
+  std::string file;  ///< where it was read from
   std::uint64_t seed = 0;
-  double duration = 10.0;                        ///< [s]
+  double duration = 10.0;  ///< [s]
   std::optional<VesselScene> vessel;
   EntryScene entry;
-  instrument::Instrument instrument;             ///< the wire
+  instrument::Instrument instrument;                ///< the wire
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
-  bool introducer = true;                        ///< wire born at the introducer; false: bench, the whole wire is there from the start
+  bool introducer = true;  ///< wire born at the introducer; false: bench, the whole wire is there from the start
   DriveScene drive;
   LoadScene loads;
   SamplingScene sampling;
   SolverScene solver;
   std::optional<FluoroscopyScene> fluoroscopy;
-  bool haptic_device = false;                    ///< start the haptic device node
+  bool haptic_device = false;  ///< start the haptic device node
   RecordScene record;
-  std::string resolved_yaml;                     ///< canonical text of the scene with overrides and included files merged in
+  std::string resolved_yaml;  ///< canonical text of the scene with overrides and included files merged in
 
   /** Hash of resolved_yaml. */
   std::uint64_t hash() const;
@@ -214,7 +217,8 @@ struct Scene
  *  @throws InputError naming file, key and remedy for an unknown key, a missing or impossible value, a missing file */
 Scene loadScene(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/** The same from the resolved text of a recording; @p origin names it in errors, and relative paths are sought beside it. */
+/** The same from the resolved text of a recording; @p origin names it in errors, and relative paths are sought beside
+ * it. */
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides = {});
 
 /** The nodes that a scene needs, by executable name, in the order in which they are started. */

@@ -40,7 +40,8 @@ public:
   [[noreturn]] void refuse(const std::string& key, const std::string& remedy) const override;
 
 private:
-  /** Refuses a key that looks like a known but absent one: it explains a missing value better than the missing value. */
+  /** Refuses a key that looks like a known but absent one: it explains a missing value better than the missing value.
+   */
   void refuseMisspelt() const;
   const SceneNode* visit(const std::string& key, Need need, const std::string& expected);
   std::string pathOf(const std::string& key) const;
