@@ -150,12 +150,15 @@ run_session() {
 
   local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results" stop_at_duration:=true)
   local node
+  local launch_file=sim.launch
+  if $with_rviz && ! $headless && [ -n "${DISPLAY:-}" ]; then
+    launch_file=demo.launch
+    nodes+=$'\n'visualization
+  fi
+
   for node in vessel_server contact rod_dynamics fluoroscopy haptic_device session visualization; do
     if grep -qx "$node" <<< "$nodes"; then arguments+=("$node:=true"); else arguments+=("$node:=false"); fi
   done
-  local launch_file=sim.launch
-  if $with_rviz && ! $headless && [ -n "${DISPLAY:-}" ]; then launch_file=demo.launch; fi
-
   say "Scene $scene_file"
   note "nodes: $(tr '\n' ' ' <<< "$nodes")"
   note "results: $results"

@@ -51,6 +51,9 @@ struct ContactSet
   std::vector<Feature> features;
 };
 
+/** "Every pass of the step got a fresh contact set." */
+constexpr std::uint32_t kNoStalePass = std::numeric_limits<std::uint32_t>::max();
+
 /** Where the rod's solver gets its contact sets from: the detector itself, or the contact node behind a topic. */
 class ContactSource
 {

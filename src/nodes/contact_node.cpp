@@ -28,7 +28,10 @@ public:
   {
     const session::Scene scene = sceneFromParameters(node_);
     if (!scene.vessel)
-      throw InputError(scene.file, "vessel", "this scene has none, so it needs no contact node");
+    {
+      ROS_INFO("contact: the scene %s has no vessel, so there is nothing to do", scene.name.c_str());
+      return;
+    }
     law_ = {scene.vessel->stiffness, scene.vessel->friction};
     publisher_ = node_.advertise<ContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
@@ -50,7 +53,7 @@ private:
 
   void receiveState(const RodStateConstPtr& message)
   {
-    if (!detector_)
+    if (!detector_ || message->radius.size() != message->nodes.size())
       return;
     fromMessage(*message, query_);
     detector_->detect(query_, set_);
@@ -105,7 +108,7 @@ int main(int argc, char** argv)
     nodes::ContactNode contact(node, grant);
     ros::spin();
   }
-  catch (const InputError& error)
+  catch (const std::exception& error)
   {
     ROS_FATAL("contact: %s", error.what());
     return 1;

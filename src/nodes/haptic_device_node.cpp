@@ -18,6 +18,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <ros/topic.h>
 #include <sensor_msgs/JointState.h>
 
 #include "common/error.h"
@@ -100,6 +101,18 @@ const char* stateName(DeviceState state)
   return "DISABLED";
 }
 
+/** Where the hand is: after a restart of this node in a running simulation that is where the wire was left, which the
+ *  first measured_js tells; before the simulation runs it is the scene's beginning. */
+haptics::HandMotion handPosition(const session::Scene& scene)
+{
+  constexpr double kPatience = 1.0;  // s; a running simulation speaks a thousand times in it
+  const auto hand = ros::topic::waitForMessage<sensor_msgs::JointState>(
+      names::kInstruments + scene.instrument.name + names::kMeasuredJs, ros::Duration(kPatience));
+  if (hand && hand->position.size() == 2 && std::isfinite(hand->position[0]) && std::isfinite(hand->position[1]))
+    return {hand->position[0], hand->position[1]};
+  return {scene.drive.initial_insertion, scene.drive.initial_rotation};
+}
+
 haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const session::Scene& scene)
 {
   haptics::LinkOptions options;
@@ -107,7 +120,7 @@ haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const sessio
   options.baud = parameters.param("baud", options.baud);
   haptics::SerialPort::checkBaud(options.baud, parameters.resolveName("baud"));
   options.host.types = hapticTopicTypes();
-  options.host.start = {scene.drive.initial_insertion, scene.drive.initial_rotation};
+  options.host.start = handPosition(scene);
   haptics::ForceLimits& limits = options.host.limits;
   const auto positive = [&parameters](const char* name, double otherwise)
   {

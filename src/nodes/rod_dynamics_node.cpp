@@ -21,7 +21,7 @@ int main(int argc, char** argv)
     nodes::RodLoop loop(node, nodes::sceneFromParameters(node), grant);
     return loop.run() ? 0 : 1;
   }
-  catch (const InputError& error)
+  catch (const std::exception& error)
   {
     ROS_FATAL("rod_dynamics: %s", error.what());
     return 1;

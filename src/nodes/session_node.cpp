@@ -52,7 +52,7 @@ int main(int argc, char** argv)
     ros::spin();
     return recorder.finish() ? 0 : 1;
   }
-  catch (const endovascular_sim::InputError& error)
+  catch (const std::exception& error)
   {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -27,7 +27,10 @@ public:
   {
     const session::Scene scene = sceneFromParameters(node_);
     if (!scene.vessel)
-      throw InputError(scene.file, "vessel", "this scene has none, so it needs no vessel_server");
+    {
+      ROS_INFO("vessel_server: the scene %s has no vessel, so there is nothing to do", scene.name.c_str());
+      return;
+    }
     ROS_INFO("vessel_server: preparing the vessel of %s", scene.file.c_str());
     const vessel::Vessel vessel =
         session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
@@ -141,7 +144,7 @@ int main(int argc, char** argv)
     endovascular_sim::nodes::VesselServer server(node);
     ros::spin();
   }
-  catch (const endovascular_sim::InputError& error)
+  catch (const std::exception& error)
   {
     ROS_FATAL("vessel_server: %s", error.what());
     return 1;

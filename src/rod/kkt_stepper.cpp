@@ -11,10 +11,7 @@ namespace
 {
 
 constexpr int kMaxHalvings = 3;
-constexpr int kMaxActiveSetPasses = 8;
-constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
 constexpr double kConstraintCompliance = 1e-10;
-constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
@@ -30,7 +27,7 @@ void StepReport::add(const StepReport& other)
   halvings += other.halvings;
   capped += other.capped;
   max_strain = std::max(max_strain, other.max_strain);
-  stale_passes |= other.stale_passes;
+  first_stale_pass = std::min(first_stale_pass, other.first_stale_pass);
 }
 
 KktStepper::KktStepper(Discretisation rod, Boundary boundary, Environment environment, StepperSettings settings)
@@ -126,6 +123,8 @@ void KktStepper::relaxTwist(State& state, double tip_torque)
 StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                             contact::ContactSource* contacts, PhaseTimer& timer)
 {
+  if (input.step != step_ || input.substep == 0)
+    step_is_stale_ = false;
   source_ = contacts;
   timer_ = &timer;
   pass_ = &pass;
@@ -434,246 +433,6 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
     return false;
   matrix_.solve(rhs_);
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
-}
-
-bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& report)
-{
-  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
-  double shift = 0.0;
-  for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
-  {
-    matrix_.copyFrom(base_);
-    rhs_ = base_rhs_;
-    for (std::size_t c = 0; c < active_.size(); ++c)
-      if (active_[c].active)
-        addContact(contacts_.features[c], active_[c], dt);
-    for (int i = first_; shift > 0.0 && i < rod_.nodes(); ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        matrix_.at(row(i) + axis, row(i) + axis) += shift * rod_.mass[i];
-    if (!factoriseAndSolve(state, report))
-    {
-      if (shift > 0.0)
-        return false;
-      shift = kShift;
-      continue;
-    }
-    if (!updateActiveSet(active_pass))
-      return true;
-  }
-  return true;
-}
-
-void KktStepper::addContact(const contact::Feature& feature, const ActiveContact& contact, double dt)
-{
-  const double stiffness = dt * dt * contact.stiffness;
-  const double push = -stiffness * feature.gap;
-  const int r0 = row(contact.node);
-  const int r1 = contact.weight1 > 0.0 ? row(contact.node + 1) : r0;
-  for (int col = 0; col < 3; ++col)
-  {
-    rhs_[r0 + col] += contact.weight0 * push * feature.normal[col];
-    for (int line = col; line < 3; ++line)
-      matrix_.at(r0 + line, r0 + col) +=
-          stiffness * contact.weight0 * contact.weight0 * feature.normal[line] * feature.normal[col];
-    if (contact.weight1 <= 0.0)
-      continue;
-    rhs_[r1 + col] += contact.weight1 * push * feature.normal[col];
-    for (int line = col; line < 3; ++line)
-      matrix_.at(r1 + line, r1 + col) +=
-          stiffness * contact.weight1 * contact.weight1 * feature.normal[line] * feature.normal[col];
-    for (int line = 0; line < 3; ++line)
-      matrix_.at(r1 + line, r0 + col) +=
-          stiffness * contact.weight0 * contact.weight1 * feature.normal[line] * feature.normal[col];
-  }
-}
-
-double KktStepper::contactMotion(std::size_t index) const
-{
-  const ActiveContact& contact = active_[index];
-  const Eigen::Vector3d& normal = contacts_.features[index].normal;
-  double motion = contact.weight0 * normal.dot(increment(contact.node));
-  if (contact.weight1 > 0.0)
-    motion += contact.weight1 * normal.dot(increment(contact.node + 1));
-  return motion;
-}
-
-bool KktStepper::updateActiveSet(int active_pass)
-{
-  bool changed = false;
-  for (std::size_t c = 0; c < active_.size(); ++c)
-  {
-    const bool active = contacts_.features[c].gap + contactMotion(c) < 0.0;
-    if (active == active_[c].active || (!active && active_pass >= kOnlyAddFromPass))
-      continue;
-    active_[c].active = active;
-    changed = true;
-  }
-  return changed;
-}
-
-void KktStepper::prepareContacts(const State& state, double dt)
-{
-  active_.clear();
-  for (const contact::Feature& feature : contacts_.features)
-  {
-    ActiveContact contact{feature.edge, 1.0 - feature.parameter, feature.parameter, settings_.contact_stiffness, false};
-    if (contact.weight0 <= 0.0 && contact.node + 2 < rod_.nodes())
-    {
-      ++contact.node;
-      std::swap(contact.weight0, contact.weight1);
-    }
-    const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-    if (std::isfinite(feature.stiffness))
-      contact.stiffness = feature.stiffness * (contact.weight0 * rod_.cell_length[contact.node] +
-                                               contact.weight1 * rod_.cell_length[second]);
-    const Eigen::Vector3d velocity =
-        contact.weight0 * state.velocity[contact.node] + contact.weight1 * state.velocity[second];
-    contact.active = feature.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
-    active_.push_back(contact);
-  }
-}
-
-double KktStepper::truncation(const State& state, StepReport& report)
-{
-  double factor = 1.0;
-  bool far = false;
-  const double margin = settings_.contact_margin;
-  for (int j = first_; j + 1 < rod_.nodes(); ++j)
-  {
-    const double turn = (increment(j + 1) - increment(j)).norm() / rod_.rest_length[j];
-    if (turn > settings_.max_rotation)
-      factor = std::min(factor, settings_.max_rotation / turn);
-    far = far || increment(j).norm() > margin || increment(j + 1).norm() > margin;
-  }
-  if (source_ && contacts_.stale)
-    factor = std::min(factor, staleTruncation());
-  else if (source_ && far)
-    factor = std::min(factor, freeDistanceTruncation(state, report));
-  report.truncations += factor < 1.0;
-  return factor;
-}
-
-double KktStepper::freeDistanceTruncation(const State& state, StepReport& report)
-{
-  ask(state, true, free_distances_, report);
-  double factor = 1.0;
-  for (int j = query_.first_node; j + 1 < rod_.nodes(); ++j)
-  {
-    const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
-    const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
-    const double allowed = std::max(settings_.contact_margin, known ? free_distances_.free_distance[e] : 0.0);
-    const double motion = std::max(increment(j).norm(), increment(j + 1).norm());
-    if (motion > allowed)
-      factor = std::min(factor, allowed / motion);
-  }
-  return factor;
-}
-
-/** Old features cover only the margin around the state they were found at: all motion since then is spent from it. */
-double KktStepper::staleTruncation()
-{
-  double motion = 0.0;
-  for (int i = query_.first_node; i < rod_.nodes(); ++i)
-    motion = std::max(motion, increment(i).norm());
-  const double factor = motion > stale_budget_ ? stale_budget_ / motion : 1.0;
-  stale_budget_ -= factor * motion;
-  return factor;
-}
-
-void KktStepper::accept(State& state, double dt, double factor)
-{
-  for (int i = first_; i < rod_.nodes(); ++i)
-    state.position[i] += factor * increment(i);
-  if (factor < 1.0)
-    return;
-  // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
-  const double to_force = scale_ / (dt * dt);
-  for (int j = first_; j + 1 < rod_.nodes(); ++j)
-    state.tension[j] = to_force * rhs_[multiplierRow(j)];
-  updateWallForces(state);
-}
-
-void KktStepper::updateWallForces(State& state)
-{
-  for (int i = first_; i < rod_.nodes(); ++i)
-    state.wall_force[i].setZero();
-  for (std::size_t c = 0; c < active_.size(); ++c)
-  {
-    const contact::Feature& feature = contacts_.features[c];
-    const double force = -active_[c].stiffness * (feature.gap + contactMotion(c));
-    if (!active_[c].active || force <= 0.0)
-      continue;
-    for (int side = 0; side < 2; ++side)
-    {
-      const double weight = side == 0 ? active_[c].weight0 : active_[c].weight1;
-      if (weight <= 0.0)
-        continue;
-      const int node = active_[c].node + side;
-      state.wall_force[node] += (weight * force) * feature.normal;
-      state.friction_coefficient[node] = std::isnan(rod_.friction[node]) ? feature.friction : rod_.friction[node];
-    }
-  }
-}
-
-void KktStepper::detect(const State& state, StepReport& report)
-{
-  std::swap(contacts_, previous_contacts_);
-  std::swap(active_, previous_active_);
-  ask(state, false, contacts_, report);
-  contacts_valid_ = true;
-  if (!contacts_.stale)
-  {
-    stale_budget_ = settings_.contact_margin;
-    return;
-  }
-  contacts_.features = previous_contacts_.features;
-  for (contact::Feature& feature : contacts_.features)
-  {
-    const double t = feature.parameter;
-    const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
-    const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
-    const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
-    feature.gap = feature.normal.dot(axis - feature.point) - radius;
-  }
-}
-
-void KktStepper::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
-{
-  PhaseTimer::Scope scope(*timer_, Phase::kCollision);
-  query_.step = step_;
-  query_.substep = substep_;
-  query_.pass = *pass_;
-  query_.want_free_distance = want_free_distance;
-  query_.margin = settings_.contact_margin;
-  query_.first_node = first_;
-  while (query_.first_node < rod_.nodes() && boundary_.introducer &&
-         bodyPosition(query_.first_node, state.inserted_length) < 0.0)
-    ++query_.first_node;
-  query_.nodes.assign(state.position.begin() + query_.first_node, state.position.end());
-  query_.radius.assign(rod_.radius.begin() + query_.first_node, rod_.radius.end());
-  answer.stale = false;
-  source_->detect(query_, answer);
-  if (answer.stale && *pass_ < 64)
-    report.stale_passes |= std::uint64_t{1} << *pass_;
-  ++*pass_;
-}
-
-/** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
-bool KktStepper::foundUnknownContact() const
-{
-  for (const contact::Feature& feature : contacts_.features)
-  {
-    if (feature.gap >= -settings_.penetration_tolerance)
-      continue;
-    bool known = false;
-    for (std::size_t c = 0; c < previous_active_.size() && !known; ++c)
-      known = previous_active_[c].active && previous_contacts_.features[c].id == feature.id &&
-              std::abs(previous_contacts_.features[c].edge + previous_contacts_.features[c].parameter - feature.edge -
-                       feature.parameter) < 1.0;
-    if (!known)
-      return true;
-  }
-  return false;
 }
 
 Energy KktStepper::energy(const State& state)

@@ -92,6 +92,7 @@ private:
   QuasiStaticTwist twist_;
   bool twist_active_ = false;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
+  bool step_is_stale_ = false;
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
   bool contacts_valid_ = false;
   std::vector<ActiveContact> active_, previous_active_;

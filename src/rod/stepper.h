@@ -76,14 +76,15 @@ struct StepInput
 /** What one step took. */
 struct StepReport
 {
-  bool solved = true;              ///< false: no solution even at an eighth of the step; the state stayed as it was
-  int solves = 0;                  ///< linear systems solved
-  int factorisations = 0;          ///< active-set passes included
-  int truncations = 0;             ///< solves cut short by the trust region
-  int halvings = 0;                ///< of the time step
-  int capped = 0;                  ///< steps accepted at the limit of solves
-  double max_strain = 0.0;         ///< after the step
-  std::uint64_t stale_passes = 0;  ///< bit p: pass p used an old contact set
+  bool solved = true;       ///< false: no solution even at an eighth of the step; the state stayed as it was
+  int solves = 0;           ///< linear systems solved
+  int factorisations = 0;   ///< active-set passes included
+  int truncations = 0;      ///< solves cut short by the trust region
+  int halvings = 0;         ///< of the time step
+  int capped = 0;           ///< steps accepted at the limit of solves
+  double max_strain = 0.0;  ///< after the step
+  /** First pass that used an old contact set, as all later ones of the step then do; kNoStalePass without. */
+  std::uint32_t first_stale_pass = contact::kNoStalePass;
 
   void add(const StepReport& other);
 };

@@ -14,12 +14,12 @@ class ReplayContactSource : public contact::ContactSource
 public:
   explicit ReplayContactSource(contact::ContactSource& detector) : detector_(detector) {}
 
-  /** @param stale_passes bit p: pass p of the coming step gets no answer */
-  void setStalePasses(std::uint64_t stale_passes) { stale_passes_ = stale_passes; }
+  /** @param pass from this pass on the coming step gets no answers; contact::kNoStalePass: it gets all */
+  void setFirstStalePass(std::uint32_t pass) { first_stale_pass_ = pass; }
 
   void detect(const contact::Query& query, contact::ContactSet& set) override
   {
-    if (query.pass < 64 && (stale_passes_ >> query.pass & 1U) != 0)
+    if (query.pass >= first_stale_pass_)
       set.stale = true;
     else
       detector_.detect(query, set);
@@ -27,7 +27,7 @@ public:
 
 private:
   contact::ContactSource& detector_;
-  std::uint64_t stale_passes_ = 0;
+  std::uint32_t first_stale_pass_ = contact::kNoStalePass;
 };
 
 }  // namespace endovascular_sim::session

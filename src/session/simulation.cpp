@@ -95,7 +95,8 @@ HandCommand Simulation::allowedMotion(const HandCommand& command)
   HandCommand motion;
   if (!scene_.introducer)
   {
-    motion.rotation = command.rotation - state_.rotation;
+    const double most = kMaxHandTurn * dt;
+    motion.rotation = std::max(-most, std::min(most, command.rotation - state_.rotation));
     return motion;
   }
   double wanted = command.insertion - slipped_insertion_ - state_.inserted_length;

@@ -112,7 +112,7 @@ int replay(const std::string& file, bool keep_going)
       return 1;
     }
     if (contacts)
-      contacts->setStalePasses(applied->stale_passes);
+      contacts->setFirstStalePass(applied->first_stale_pass);
     simulation.step({applied->insertion.at(0), applied->rotation.at(0)});
     if (simulation.stateHash() != applied->state_hash)
     {

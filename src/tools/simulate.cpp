@@ -104,6 +104,18 @@ int parse(int argc, char** argv, Options& options)
   return -1;
 }
 
+[[noreturn]] void diskRefused(const std::string& path)
+{
+  throw InputError(path, "", "the disk refused it; free some space");
+}
+
+void writeFile(const std::string& path, const std::string& text)
+{
+  std::ofstream stream(path);
+  if (!(stream << text) || !stream.flush())
+    diskRefused(path);
+}
+
 std::ofstream openFile(const std::string& path)
 {
   std::ofstream stream(path);
@@ -195,7 +207,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     if (k % row_every != 0 && k != steps)
       continue;
     if (!trajectory.add(rowOf(simulation)))
-      throw InputError(options.out + "/trajectory.csv", "", "the disk refused it; free some space");
+      diskRefused(options.out + "/trajectory.csv");
     if (wall)
       result.checkOutside(simulation, *wall);
     if (options.record_nodes)
@@ -206,7 +218,10 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   }
   if (progress)
     std::fputc('\n', stderr);
-  trajectory.flush();
+  if (!trajectory.flush())
+    diskRefused(options.out + "/trajectory.csv");
+  if (options.record_nodes && !nodes.flush())
+    diskRefused(options.out + "/nodes.csv");
 }
 
 void plot(const Options& options)
@@ -229,8 +244,8 @@ int simulate(const Options& options)
   session::RunResult result(scene, surroundings.mesh_hash, steps);
   run(scene, options, simulation, surroundings.wall.get(), result, steps);
   const std::string text = result.json(simulation);
-  openFile(options.out + "/result.json") << text;
-  openFile(options.out + "/scene.yaml") << scene.resolved_yaml;
+  writeFile(options.out + "/result.json", text);
+  writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
   if (options.plots)
     plot(options);
   if (!options.quiet)

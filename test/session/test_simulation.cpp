@@ -53,8 +53,10 @@ struct Bench
         const Eigen::Vector3d p = (1.0 - t) * x[i] + t * x[i + 1];
         const double r = (1.0 - t) * radius[i] + t * radius[i + 1];
         const double clearance = distance.closest(p).distance;
-        const bool deep = clearance < 2.0 * r && vessel::windingNumber(vessel.mesh, p) < 0.5;
-        deepest = std::max(deepest, deep ? r + clearance : r - clearance);
+        // The sign costs a look at every triangle: for every node, and for points so near that it matters.
+        const bool asked = k == 0 || clearance < r;
+        const bool outside = asked && vessel::windingNumber(vessel.mesh, p) < 0.5;
+        deepest = std::max(deepest, outside ? r + clearance : r - clearance);
       }
     return deepest;
   }
@@ -86,7 +88,7 @@ void expectInside(Bench& bench, double seconds, double deepest_allowed, int chec
 TEST(Simulation, KeepsTheWireInsideABentTube)
 {
   Bench bench("tube.yaml");
-  expectInside(bench, 4.0, 1e-4, 50);
+  expectInside(bench, 4.0, 1e-4, 200);
 }
 
 TEST(Simulation, KeepsTheWireInsideARealAortaForSeveralHandAngles)
@@ -98,14 +100,14 @@ TEST(Simulation, KeepsTheWireInsideARealAortaForSeveralHandAngles)
   {
     Bench bench("peer_wire.yaml", {std::string("vessel.mesh=") + folder + "/aortic_arch_tree.obj",
                                    std::string("drive.initial_rotation=") + angle});
-    expectInside(bench, 11.5, 3.5e-4, 50);
+    expectInside(bench, 11.5, 3.5e-4, 100);
   }
 }
 
 TEST(Simulation, KeepsTheWireInsideTheGeneratedAnatomy)
 {
   Bench bench("demo.yaml");
-  expectInside(bench, 15.0, 1e-4, 1500);
+  expectInside(bench, 15.0, 1e-4, 3000);
 }
 
 TEST(Simulation, GivesTheSameBitsTwice)
@@ -126,10 +128,10 @@ TEST(Simulation, GoesOnWithOldContactSetsAndStaysInsideWhileTheyLast)
   for (int k = 0; k < 2500; ++k)
   {
     const bool silent = k > 1500 && k % 100 < 15;
-    bench.source->setStalePasses(silent ? ~std::uint64_t{0} : 0);
+    bench.source->setFirstStalePass(silent ? 0 : contact::kNoStalePass);
     bench.step();
     ASSERT_TRUE(bench.simulation->report().solved);
-    EXPECT_EQ(bench.simulation->report().stale_passes != 0, silent);
+    EXPECT_EQ(bench.simulation->report().first_stale_pass == 0, silent);
   }
   EXPECT_LE(bench.bruteForcePenetration(), 1e-4);
 }
@@ -141,7 +143,7 @@ TEST(Simulation, ReplaysStaleSetsBitForBit)
     Bench bench("tube.yaml");
     for (int k = 0; k < 1200; ++k)
     {
-      bench.source->setStalePasses(k % 7 == 3 ? 2 : 0);
+      bench.source->setFirstStalePass(k % 7 == 3 ? 1 : contact::kNoStalePass);
       bench.step();
     }
     return bench.simulation->trajectoryHash();

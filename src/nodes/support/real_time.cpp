@@ -16,10 +16,10 @@ RealTimeGrant askForRealTime(int priority)
   sched_param parameters{};
   parameters.sched_priority = priority;
   if (sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
-    return {false, std::string("real-time scheduling was refused (") + std::strerror(errno) +
-                       "): steps will be late when the machine is busy. Allow it with a line '@" +
-                       "realtime - rtprio 90' in /etc/security/limits.d/realtime.conf, put the user into the group "
-                       "'realtime' and log in again, or run as root"};
+    return {false,
+            std::string("real-time scheduling was refused (") + std::strerror(errno) +
+                "): steps will be late when the machine is busy. Allow it with a line 'ACCOUNT " +
+                "- rtprio 80' in /etc/security/limits.d/90-endovascular-sim.conf and log in again, or run as root"};
   std::string message = "SCHED_FIFO, priority " + std::to_string(priority);
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";

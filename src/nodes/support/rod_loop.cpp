@@ -16,11 +16,13 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kContactPatience = 3e-3;  // s for one contact set
-constexpr double kPauseAfter = 20e-3;      // s of silence of the contact node
-constexpr double kRampTime = 40e-3;        // s in which the hand's force falls to zero
-constexpr double kLate = 1e-3;             // s after its slot: then a step counts as a deadline miss
-constexpr double kIdlePeriod = 10e-3;      // s between forces of zero while paused
+constexpr double kContactPatience = 3e-3;   // s for one contact set
+constexpr double kPauseAfter = 15e-3;       // s of silence of the contact node
+constexpr double kRampTime = 30e-3;         // s in which the hand's force falls to zero on any doubt, and returns
+constexpr double kMaxBacklog = 50e-3;       // s of late steps that are caught up; beyond it time is let go
+constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
+constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
+constexpr double kIdlePeriod = 10e-3;       // s between forces of zero while paused
 
 std::chrono::steady_clock::duration period(double seconds)
 {
@@ -143,6 +145,7 @@ bool RodLoop::run()
   const auto last_step =
       seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step)) : ~std::uint64_t{0};
   publisher_.publishOperatingState("ENABLED", "");
+  waitForRecorder();
   ROS_INFO("rod_dynamics: running");
   Clock::time_point slot_begin = Clock::now();
   while (ros::ok() && simulation_->steps() < last_step)
@@ -158,6 +161,11 @@ bool RodLoop::run()
     stepOnce();
     countTime(begin, Clock::now(), slot_begin + slot);
     slot_begin += slot;
+    if (Clock::now() - slot_begin > period(kMaxBacklog))
+    {
+      ++counters_.time_losses;
+      slot_begin = Clock::now();
+    }
   }
   publisher_.publishOperatingState("DISABLED", "the session is over");
   publisher_.publishHand(used_, 0.0, 0.0);
@@ -166,11 +174,34 @@ bool RodLoop::run()
   return true;
 }
 
+/** A recording must begin with the first step: waits for the subscriber of drive/applied where the launch says there is
+ *  one, but not for ever. */
+void RodLoop::waitForRecorder()
+{
+  if (!ros::NodeHandle("~").param("wait_for_recorder", false))
+    return;
+  const Clock::time_point end = Clock::now() + period(kRecorderPatience);
+  while (ros::ok() && !publisher_.isRecorded())
+  {
+    if (Clock::now() > end)
+    {
+      ROS_WARN("rod_dynamics: no recorder within %.0f s; the first steps will be missing from a recording",
+               kRecorderPatience);
+      return;
+    }
+    ros::WallDuration(0.01).sleep();
+  }
+}
+
 void RodLoop::stepOnce()
 {
   used_ = nextCommand();
   simulation_->step(used_);
-  publisher_.publishStep(*simulation_, used_);
+  // A step that the solver refused says nothing about the force: it fades out, and in again when steps are solved.
+  const double fade = scene_.solver.time_step / kRampTime;
+  force_share_ += simulation_->report().solved ? fade : -fade;
+  force_share_ = std::max(0.0, std::min(1.0, force_share_));
+  publisher_.publishStep(*simulation_, used_, force_share_);
 }
 
 void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end)
@@ -179,6 +210,8 @@ void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::t
   ++counters_.steps;
   counters_.late_steps += std::chrono::duration<double>(end - slot_end).count() > kLate;
   counters_.refused_steps += !simulation_->report().solved;
+  counters_.last_refused = !simulation_->report().solved || force_share_ < 1.0;
+  counters_.worst_penetration = std::max(counters_.worst_penetration.load(), simulation_->surfacePenetration());
   counters_.longest_step = std::max(counters_.longest_step.load(), seconds);
   counters_.total_step = counters_.total_step + seconds;
   if (!contacts_)
@@ -225,6 +258,9 @@ void RodLoop::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   const double on_time = steps > 0 ? 100.0 * (1.0 - static_cast<double>(late) / static_cast<double>(steps)) : 100.0;
   if (counters_.paused)
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "paused: the contact node does not answer");
+  else if (counters_.last_refused)
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
+                   "the solver refuses steps: the wire is held, without force");
   else if (!grant_.granted)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, grant_.message);
   else if (on_time < 99.0)
@@ -241,6 +277,8 @@ void RodLoop::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("contact sets dropped (late, double or wrong)", counters_.odd_sets.load());
   status.add("pauses", counters_.pauses.load());
   status.add("steps refused by the solver", counters_.refused_steps.load());
+  status.add("backlogs let go", counters_.time_losses.load());
+  status.add("worst penetration [mm]", 1e3 * counters_.worst_penetration);
 }
 
 }  // namespace endovascular_sim::nodes

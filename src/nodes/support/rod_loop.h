@@ -43,8 +43,11 @@ private:
     std::atomic<std::uint64_t> odd_sets{0};
     std::atomic<std::uint64_t> pauses{0};
     std::atomic<std::uint64_t> refused_steps{0};
-    std::atomic<double> longest_step{0.0};  ///< [s]
-    std::atomic<double> total_step{0.0};    ///< [s]
+    std::atomic<std::uint64_t> time_losses{0};
+    std::atomic<bool> last_refused{false};
+    std::atomic<double> worst_penetration{0.0};  ///< [m]
+    std::atomic<double> longest_step{0.0};       ///< [s]
+    std::atomic<double> total_step{0.0};         ///< [s]
     std::atomic<bool> paused{false};
   };
 
@@ -52,6 +55,7 @@ private:
   bool waitForVessel(session::EntryPose& entry);
   session::HandCommand nextCommand();
   void receiveCommand(const sensor_msgs::JointStateConstPtr& message);
+  void waitForRecorder();
   void stepOnce();
   void countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end);
   bool contactIsLost() const;
@@ -72,6 +76,7 @@ private:
   std::mutex command_mutex_;
   session::HandCommand command_;  ///< newest from the drive, guarded
   session::HandCommand used_;     ///< by the last step
+  double force_share_ = 1.0;      ///< of the force that is told; fades while steps are refused
   Counters counters_;
 };
 

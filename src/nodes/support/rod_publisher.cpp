@@ -23,7 +23,7 @@ constexpr int kHandQueue = 1;         // the device wants the newest force only
 }  // namespace
 
 RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
-  : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::round(1.0 / (kVisualRate * scene.solver.time_step)))))
+  : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
 {
   const std::string instrument = names::kInstruments + scene.instrument.name;
   hand_ = node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue);
@@ -48,14 +48,15 @@ void RodPublisher::publishHand(const session::HandCommand& command, double force
   hand_.publish(hand_message_);
 }
 
-void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command)
+void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command,
+                               double force_share)
 {
-  publishHand(command, simulation.state().hand_force, simulation.state().hand_torque);
+  publishHand(command, force_share * simulation.state().hand_force, force_share * simulation.state().hand_torque);
   applied_message_.header.stamp = hand_message_.header.stamp;
   applied_message_.step = simulation.steps() - 1;
   applied_message_.insertion[0] = command.insertion;
   applied_message_.rotation[0] = command.rotation;
-  applied_message_.stale_passes = simulation.report().stale_passes;
+  applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
   applied_.publish(applied_message_);
   if (simulation.steps() % visual_every_ != 0)

@@ -13,6 +13,7 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "contact/contact_set.h"
 #include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
@@ -192,7 +193,8 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   if (finished_ || durationIsOver())
     return;
   const DriveApplied& drive = *event.getMessage();
-  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.stale_passes != 0, drive.state_hash);
+  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
+                  drive.state_hash);
   last_step_ = ros::SteadyTime::now();
   bag_.write(node_.resolveName(names::kDriveApplied), event);
 }

@@ -1,6 +1,8 @@
 #include "nodes/support/vessel_conversions.h"
 
+#include "common/error.h"
 #include "nodes/support/contact_conversions.h"
+#include "nodes/support/names.h"
 
 namespace endovascular_sim::nodes
 {
@@ -22,9 +24,14 @@ vessel::TriangleMesh fromMessage(const VesselMesh& message)
   for (const geometry_msgs::Point& vertex : message.mesh.vertices)
     mesh.vertices.push_back(fromMessage(vertex));
   for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles)
+  {
+    for (std::uint32_t index : triangle.vertex_indices)
+      if (index >= mesh.vertices.size())
+        throw InputError(names::kVesselMesh, message.source, "a triangle names a vertex that is not there");
     mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
                                 static_cast<int>(triangle.vertex_indices[1]),
                                 static_cast<int>(triangle.vertex_indices[2]));
+  }
   return mesh;
 }
 
