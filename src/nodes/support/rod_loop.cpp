@@ -278,7 +278,7 @@ void RodLoop::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("pauses", counters_.pauses.load());
   status.add("steps refused by the solver", counters_.refused_steps.load());
   status.add("backlogs let go", counters_.time_losses.load());
-  status.add("worst penetration [mm]", 1e3 * counters_.worst_penetration);
+  status.add("worst penetration [m]", counters_.worst_penetration.load());
 }
 
 }  // namespace endovascular_sim::nodes
