@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <iomanip>
@@ -44,6 +45,8 @@ RecorderSettings settingsFrom(const ros::NodeHandle& parameters, const std::stri
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "session");
+  // ROS ends in good order on SIGINT only; a recording must be closed on SIGTERM, too.
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   ros::NodeHandle node;
   try
   {
