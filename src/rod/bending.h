@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -10,6 +12,10 @@ namespace endovascular_sim::rod
  *  κb = 2 e×g / (|ē||ḡ| + e·g), an integrated quantity [1]; |κb| = 2 tan(turning angle / 2) for unstretched edges. */
 struct CurvatureBinormal
 {
+  /** The denominator goes no lower than this share of |ē||ḡ| (a turn of 163°): edges that fold back onto each other
+   * would make it zero, or negative. */
+  static constexpr double kFolded = 0.02;
+
   Eigen::Vector3d edge;        ///< e, the edge before the node [m]
   Eigen::Vector3d next_edge;   ///< g, the edge after it [m]
   double inverse_denominator;  ///< 1/(|ē||ḡ| + e·g) [1/m²]
@@ -18,7 +24,7 @@ struct CurvatureBinormal
   CurvatureBinormal(const Eigen::Vector3d& e, const Eigen::Vector3d& g, double rest_product)
     : edge(e),
       next_edge(g),
-      inverse_denominator(1.0 / (rest_product + e.dot(g))),
+      inverse_denominator(1.0 / std::max(rest_product + e.dot(g), kFolded * rest_product)),
       value((2.0 * inverse_denominator) * e.cross(g))
   {
   }

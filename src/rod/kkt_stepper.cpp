@@ -149,16 +149,26 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   contacts_valid_ = false;
   if (depth == kMaxHalvings)
   {
-    // Refused: the wire stays where it was, at rest, and the caller is told.
-    for (Eigen::Vector3d& velocity : state.velocity)
-      velocity.setZero();
+    hold(state, depth);
     return false;
   }
   ++report.halvings;
   StepInput half = input;
   half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
   half.rotation = 0.5 * (state.rotation + input.rotation);
-  return advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report);
+  if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
+    return true;
+  hold(state, depth);
+  return false;
+}
+
+/** Refused: the wire stays where it was, at rest, and the caller is told. */
+void KktStepper::hold(State& state, int depth)
+{
+  state = backup_[depth];
+  for (Eigen::Vector3d& velocity : state.velocity)
+    velocity.setZero();
+  contacts_valid_ = false;
 }
 
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)

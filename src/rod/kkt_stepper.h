@@ -46,6 +46,7 @@ private:
   };
 
   bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
+  void hold(State& state, int depth);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   void placePrescribedNodes(State& state, double inserted_length, double dt);
@@ -70,6 +71,7 @@ private:
   double truncation(const State& state, StepReport& report);
   void accept(State& state, double dt, double factor);
   void updateWallForces(State& state);
+  double foldTruncation(const State& state, double factor) const;
   double freeDistanceTruncation(const State& state, StepReport& report);
   double staleTruncation();
   void detect(const State& state, StepReport& report);

@@ -13,7 +13,10 @@ namespace
 
 constexpr int kMaxActiveSetPasses = 8;
 constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
-constexpr double kShift = 10.0;      // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
+constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
+constexpr int kMaxFoldHalvings = 10;
+constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
 
@@ -118,19 +121,48 @@ double KktStepper::truncation(const State& state, StepReport& report)
 {
   double factor = 1.0;
   bool far = false;
+  double largest_turn = 0.0;
   const double margin = settings_.contact_margin;
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
   {
     const double turn = (increment(j + 1) - increment(j)).norm() / rod_.rest_length[j];
-    if (turn > settings_.max_rotation)
-      factor = std::min(factor, settings_.max_rotation / turn);
+    largest_turn = std::max(largest_turn, turn);
     far = far || increment(j).norm() > margin || increment(j + 1).norm() > margin;
   }
+  if (largest_turn > settings_.max_rotation)
+    factor = settings_.max_rotation / largest_turn;
+  if (largest_turn > kQuietTurn)
+    factor = foldTruncation(state, factor);
   if (source_ && contacts_.stale)
     factor = std::min(factor, staleTruncation());
   else if (source_ && far)
     factor = std::min(factor, freeDistanceTruncation(state, report));
   report.truncations += factor < 1.0;
+  return factor;
+}
+
+/** No two neighbouring edges may come closer to folding back onto each other than by half of what is left: the bending
+ *  energy is infinite there, and beyond it the curvature binormal has changed its side. */
+double KktStepper::foldTruncation(const State& state, double factor) const
+{
+  for (int halving = 0; halving < kMaxFoldHalvings; ++halving)
+  {
+    bool folds = false;
+    for (int i = first_ + 1; i + 1 < rod_.nodes() && !folds; ++i)
+    {
+      const Eigen::Vector3d e = state.position[i] - state.position[i - 1];
+      const Eigen::Vector3d g = state.position[i + 1] - state.position[i];
+      const Eigen::Vector3d new_e = e + factor * (increment(i) - increment(i - 1));
+      const Eigen::Vector3d new_g = g + factor * (increment(i + 1) - increment(i));
+      // 1 + cos of the turning angle: 2 for a straight wire, 0 for a fold.
+      const double now = 1.0 + e.dot(g) / std::sqrt(e.squaredNorm() * g.squaredNorm());
+      const double then = 1.0 + new_e.dot(new_g) / std::sqrt(new_e.squaredNorm() * new_g.squaredNorm());
+      folds = then < kSharpTurn && then < 0.5 * now;
+    }
+    if (!folds)
+      break;
+    factor *= 0.5;
+  }
   return factor;
 }
 

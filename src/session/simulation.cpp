@@ -150,8 +150,10 @@ void Simulation::step(const HandCommand& command)
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     const double share = static_cast<double>(k) / substeps;
-    input.inserted_length = insertion + share * motion.insertion;
-    input.rotation = rotation + share * motion.rotation;
+    // Blind, the hand is held: what it commands meanwhile follows when contact sets come again.
+    const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
+    input.inserted_length = blind ? state_.inserted_length : insertion + share * motion.insertion;
+    input.rotation = blind ? state_.rotation : rotation + share * motion.rotation;
     applyLoads(input);
     report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
   }

@@ -1,6 +1,7 @@
 #include "session/simulation.h"
 
 #include <cstdlib>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +135,35 @@ TEST(Simulation, GoesOnWithOldContactSetsAndStaysInsideWhileTheyLast)
     EXPECT_EQ(bench.simulation->report().first_stale_pass == 0, silent);
   }
   EXPECT_LE(bench.bruteForcePenetration(), 1e-4);
+}
+
+// A curved tip that is pushed about while contact sets fail at random once folded back onto itself: the solver then
+// refused every further step.
+TEST(Simulation, SolvesEveryStepOfAViolentHandWithContactSetsMissingAtRandom)
+{
+  Bench bench("tube.yaml", {"instrument=instruments/guidewire_035_j.yaml", "sampling.nodes=300"});
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  double insertion = bench.scene.drive.insertionAt(0.0);
+  double rotation = 0.0;
+  double speed = 0.0;
+  for (int k = 0; k < 6000; ++k)
+  {
+    if (k % 50 == 0)
+      speed = 0.8e-3 * uniform(random);
+    insertion = std::max(0.005, std::min(0.12, insertion + speed));
+    rotation += 0.05 * uniform(random);
+    const bool disturbed = k < 5000;
+    bench.source->setFirstStalePass(disturbed && uniform(random) > 0.3 ? (k % 5) : contact::kNoStalePass);
+    bench.simulation->step({insertion, rotation});
+    ASSERT_TRUE(bench.simulation->report().solved) << "step " << k;
+    ASSERT_LT(bench.simulation->report().max_strain, 0.1) << "step " << k;
+    if (k > 5100)
+    {
+      ASSERT_LT(bench.simulation->report().max_strain, 1e-3) << "step " << k;
+    }
+  }
+  EXPECT_LE(bench.bruteForcePenetration(), 2e-4);
 }
 
 TEST(Simulation, ReplaysStaleSetsBitForBit)
