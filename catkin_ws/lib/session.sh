@@ -109,16 +109,14 @@ readable_log() {
 }
 
 start_device() {
-  local arguments=(--link "$results/device" --scene "$scene_file" --out "$results/device_latency.json")
-  # The operator moves when the simulation answers, not while a vessel is still being prepared.
-  arguments+=(--start enabled)
-  local override
-  for override in "${all_overrides[@]}"; do arguments+=(--set "$override"); done
+  local arguments=(--link "$results/device" --out "$results/device_latency.json") override
   if $keyboard; then
-    arguments+=(--keyboard)
     exec 3<&0
-    become same "$programs"/device_simulator "${arguments[@]}" <&3 &
+    become same "$programs"/device_simulator "${arguments[@]}" --keyboard <&3 2> "$results/log/device.log" &
   else
+    # The operator moves when the simulation answers, not while a vessel is still being prepared.
+    arguments+=(--scene "$scene_file" --start enabled)
+    for override in "${all_overrides[@]}"; do arguments+=(--set "$override"); done
     become own "$programs"/device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
   fi
   device_pid=$!
@@ -148,7 +146,9 @@ run_session() {
   trap interrupted INT TERM
   trap clean_up EXIT
 
-  local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results" stop_at_duration:=true)
+  local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results")
+  # At the keyboard it is over when you say so, unless --seconds does.
+  if $keyboard && [ -z "$seconds" ]; then arguments+=(stop_at_duration:=false); else arguments+=(stop_at_duration:=true); fi
   local node
   local launch_file=sim.launch
   if $with_rviz && ! $headless && [ -n "${DISPLAY:-}" ]; then
@@ -169,7 +169,6 @@ run_session() {
     die "the scene starts no haptic device, so there is nothing to drive with the keyboard"
   fi
 
-  local status=0
   if $keyboard; then
     become own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
   else
@@ -178,7 +177,12 @@ run_session() {
   fi
   launch_pid=$!
   while kill -0 "$launch_pid" 2>/dev/null; do
-    wait "$launch_pid" && status=0 || status=$?
+    if $keyboard; then
+      kill -0 "$device_pid" 2>/dev/null || break  # q was pressed
+      wait -n "$launch_pid" "$device_pid" || true
+    else
+      wait "$launch_pid" || true
+    fi
     $session_interrupted && break
   done
   clean_up
