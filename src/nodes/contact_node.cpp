@@ -1,3 +1,4 @@
+#include <atomic>
 #include <memory>
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -7,6 +8,7 @@
 #include "contact/detector.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/contact_conversions.h"
+#include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
@@ -35,8 +37,10 @@ public:
     law_ = {scene.vessel->stiffness, scene.vessel->friction};
     publisher_ = node_.advertise<ContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-    vessel_subscriber_ = node_.subscribe(names::kVesselMesh, 1, &ContactNode::receiveVessel, this, hints);
-    state_subscriber_ = node_.subscribe(names::kRodState, kQueue, &ContactNode::receiveState, this, hints);
+    ros::NodeHandle direct(node_);
+    direct.setCallbackQueue(&queue_);
+    vessel_subscriber_ = direct.subscribe(names::kVesselMesh, 1, &ContactNode::receiveVessel, this, hints);
+    state_subscriber_ = direct.subscribe(names::kRodState, kQueue, &ContactNode::receiveState, this, hints);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("contact", this, &ContactNode::diagnose);
     timer_ =
@@ -47,6 +51,7 @@ private:
   void receiveVessel(const VesselMeshConstPtr& message)
   {
     detector_ = std::make_unique<contact::Detector>(fromMessage(*message), law_, message->version);
+    triangles_ = message->mesh.triangles.size();
     ROS_INFO("contact: vessel version %lu, %zu triangles", static_cast<unsigned long>(message->version),
              message->mesh.triangles.size());
   }
@@ -62,20 +67,21 @@ private:
     answer_.header.frame_id = names::kPatientFrame;
     publisher_.publish(answer_);
     ++answered_;
+    features_ = set_.features.size();
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
-    if (!detector_)
+    if (triangles_ == 0)
       status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for the vessel");
     else if (!grant_.granted)
       status.summary(diagnostic_msgs::DiagnosticStatus::WARN, grant_.message);
     else
       status.summary(diagnostic_msgs::DiagnosticStatus::OK, "answering");
     status.add("scheduling", grant_.message);
-    status.add("answered", answered_);
-    status.add("features in the last set", set_.features.size());
-    status.add("triangles", detector_ ? detector_->wall().triangles.size() : 0);
+    status.add("answered", answered_.load());
+    status.add("features in the last set", features_.load());
+    status.add("triangles", triangles_.load());
   }
 
   ros::NodeHandle node_;
@@ -85,8 +91,12 @@ private:
   contact::Query query_;
   contact::ContactSet set_;
   ContactSet answer_;
-  std::uint64_t answered_ = 0;
+  // For /diagnostics, which another thread writes.
+  std::atomic<std::uint64_t> answered_{0};
+  std::atomic<std::size_t> features_{0};
+  std::atomic<std::size_t> triangles_{0};
   ros::Publisher publisher_;
+  DirectCallbackQueue queue_;
   ros::Subscriber vessel_subscriber_, state_subscriber_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;

@@ -35,6 +35,7 @@ RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double patience) 
 
 void RemoteContactSource::publish()
 {
+  // Only this thread writes the query, so it may read it without the lock.
   query_.header.stamp = ros::Time::now();
   publisher_.publish(query_);
 }
@@ -59,34 +60,41 @@ bool RemoteContactSource::fits(const ContactSet& message) const
 void RemoteContactSource::receive(const ContactSetConstPtr& message)
 {
   heard_ = true;
-  if (fits(*message))
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!fits(*message))
+    {
+      ++odd_sets_;
+      return;
+    }
     answer_ = message;
-  else
-    ++odd_sets_;
+  }
+  answered_.notify_one();
+}
+
+void RemoteContactSource::ask(const contact::Query& query)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    toMessage(query, query_);
+    answer_.reset();
+  }
+  publish();
 }
 
 bool RemoteContactSource::waitForAnswer(double seconds)
 {
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  while (!answer_ && ros::ok())
-  {
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
-    if (left <= 0.0)
-      return false;
-    queue_.callOne(ros::WallDuration(left));
-  }
-  return answer_ != nullptr;
+  std::unique_lock<std::mutex> lock(mutex_);
+  return answered_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return answer_ != nullptr; });
 }
 
 void RemoteContactSource::detect(const contact::Query& query, contact::ContactSet& set)
 {
-  toMessage(query, query_);
-  answer_.reset();
-  publish();
+  ask(query);
   if (waitForAnswer(silent_ ? kSilentPatience * patience_ : patience_))
   {
     silent_ = false;
+    const std::lock_guard<std::mutex> lock(mutex_);
     fromMessage(*answer_, set);
     return;
   }
@@ -99,23 +107,21 @@ void RemoteContactSource::detect(const contact::Query& query, contact::ContactSe
 
 bool RemoteContactSource::probe()
 {
-  heard_ = false;
-  queue_.callAvailable();
-  if (heard_)
+  if (heard_.exchange(false))
+  {
     silent_ = false;
-  else
-    publish();
-  return heard_;
+    return true;
+  }
+  publish();
+  return false;
 }
 
 bool RemoteContactSource::waitForNode(const contact::Query& query)
 {
-  toMessage(query, query_);
-  answer_.reset();
   while (ros::ok())
   {
     if (publisher_.getNumSubscribers() > 0)
-      publish();
+      ask(query);
     if (waitForAnswer(0.2))
       return true;
   }

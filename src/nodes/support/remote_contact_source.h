@@ -1,14 +1,17 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include "contact/contact_set.h"
 #include "endovascular_sim/ContactSet.h"
 #include "endovascular_sim/RodState.h"
+#include "nodes/support/direct_callback_queue.h"
 
 namespace endovascular_sim::nodes
 {
@@ -26,6 +29,9 @@ public:
 
   void detect(const contact::Query& query, contact::ContactSet& set) override;
 
+  /** Forgets what was heard so far: from now on probe() tells of new answers. */
+  void startListening() { heard_ = false; }
+
   /** Asks the last query again without waiting.
    *  @return whether the node has answered any query since the last call */
   bool probe();
@@ -42,20 +48,23 @@ private:
   void receive(const ContactSetConstPtr& message);
   bool fits(const ContactSet& message) const;
   bool waitForAnswer(double seconds);
+  void ask(const contact::Query& query);
   void publish();
 
   ros::NodeHandle node_;
-  ros::CallbackQueue queue_;
+  DirectCallbackQueue queue_;
   ros::Publisher publisher_;
-  ros::Subscriber subscriber_;
   double patience_;
-  RodState query_;
-  ContactSetConstPtr answer_;
-  bool heard_ = false;
+  mutable std::mutex mutex_;
+  std::condition_variable answered_;
+  RodState query_;             ///< guarded: the receiving thread compares answers with it
+  ContactSetConstPtr answer_;  ///< guarded
+  std::atomic<bool> heard_{false};
   bool silent_ = false;
   std::chrono::steady_clock::time_point silent_since_;
   std::uint64_t stale_sets_ = 0;
-  std::uint64_t odd_sets_ = 0;
+  std::atomic<std::uint64_t> odd_sets_{0};
+  ros::Subscriber subscriber_;  ///< last, so that it ends before what its callback uses
 };
 
 }  // namespace endovascular_sim::nodes

@@ -42,14 +42,13 @@ RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant
   command_ = {scene_.drive.insertionAt(0.0), scene_.drive.rotationAt(0.0)};
   if (scene_.drive.source != session::DriveSource::kDevice && scene_.drive.source != session::DriveSource::kTopic)
     return;
+  // Called in the thread that reads the socket, which runs ahead of all but the loop.
   ros::SubscribeOptions options = ros::SubscribeOptions::create<sensor_msgs::JointState>(
       names::kInstruments + scene_.instrument.name + names::kServoJp, 10,
       [this](const sensor_msgs::JointStateConstPtr& message) { receiveCommand(message); }, ros::VoidPtr(),
       &command_queue_);
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   command_subscriber_ = node_.subscribe(options);
-  command_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &command_queue_);
-  command_spinner_->start();
 }
 
 void RodLoop::receiveCommand(const sensor_msgs::JointStateConstPtr& message)
@@ -235,6 +234,7 @@ void RodLoop::pause()
   publisher_.publishOperatingState("PAUSED", "the contact node does not answer");
   ROS_WARN("rod_dynamics: paused at step %lu: the contact node does not answer; going on when it does",
            static_cast<unsigned long>(simulation_->steps()));
+  contacts_->startListening();
   const Clock::time_point begin = Clock::now();
   while (ros::ok() && !contacts_->probe())
   {

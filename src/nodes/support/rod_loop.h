@@ -6,10 +6,10 @@
 #include <mutex>
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
+#include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
 #include "nodes/support/rod_publisher.h"
@@ -70,13 +70,12 @@ private:
   std::unique_ptr<RemoteContactSource> contacts_;
   std::unique_ptr<session::Simulation> simulation_;
   RodPublisher publisher_;
-  ros::CallbackQueue command_queue_;
-  std::unique_ptr<ros::AsyncSpinner> command_spinner_;
-  ros::Subscriber command_subscriber_;
+  DirectCallbackQueue command_queue_;
   std::mutex command_mutex_;
   session::HandCommand command_;  ///< newest from the drive, guarded
   session::HandCommand used_;     ///< by the last step
-  double force_share_ = 1.0;      ///< of the force that is told; fades while steps are refused
+  ros::Subscriber command_subscriber_;
+  double force_share_ = 1.0;  ///< of the force that is told; fades while steps are refused
   Counters counters_;
 };
 
