@@ -10,6 +10,26 @@
 
 namespace endovascular_sim::nodes
 {
+namespace
+{
+
+/** Keeps this thread and its children on the last processor that it may use; returns its number. */
+int stayOnLastCpu()
+{
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0)
+    return -1;
+  int last = CPU_SETSIZE - 1;
+  while (last > 0 && !CPU_ISSET(last, &allowed))
+    --last;
+  cpu_set_t chosen;
+  CPU_ZERO(&chosen);
+  CPU_SET(last, &chosen);
+  return sched_setaffinity(0, sizeof chosen, &chosen) == 0 ? last : -1;
+}
+
+}  // namespace
 
 RealTimeGrant askForRealTime(int priority)
 {
@@ -20,7 +40,8 @@ RealTimeGrant askForRealTime(int priority)
             std::string("real-time scheduling was refused (") + std::strerror(errno) +
                 "): steps will be late when the machine is busy. Allow it with a line 'ACCOUNT " +
                 "- rtprio 80' in /etc/security/limits.d/90-endovascular-sim.conf and log in again, or run as root"};
-  std::string message = "SCHED_FIFO, priority " + std::to_string(priority);
+  std::string message =
+      "SCHED_FIFO, priority " + std::to_string(priority) + ", processor " + std::to_string(stayOnLastCpu());
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
   return {true, message};

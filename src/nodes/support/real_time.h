@@ -14,6 +14,10 @@ struct RealTimeGrant
 };
 
 /** Asks for SCHED_FIFO and locked memory for this thread and all that it starts later; call it before ros::init.
+ *
+ *  Where that is granted, all of them stay on the last of the allowed processors. The rod and the contact node work in
+ *  turns, never at once; on one processor each turn is a switch between threads, on two it is an interrupt from one to
+ * the other, which costs several times as much, most of all in a virtual machine.
  *  @param priority 1 to 99 */
 RealTimeGrant askForRealTime(int priority);
 
