@@ -1,6 +1,8 @@
 # Shared part of `demo`: one session of the node graph, from a scene to a folder of results. Sourced by bash.
 
 programs="$workspace/devel/lib/endovascular_sim"
+# Speed of the simulated device's line [bit/s]: 230400 suffice for 1 kHz, the faster line halves the time on it.
+device_baud=460800
 launch_pid='' device_pid='' virtual_display_pid='' session_status=1
 
 # The scene's file, by name in config/scenes or by path.
@@ -109,7 +111,7 @@ readable_log() {
 }
 
 start_device() {
-  local arguments=(--link "$results/device" --out "$results/device_latency.json") override
+  local arguments=(--link "$results/device" --baud "$device_baud" --out "$results/device_latency.json") override
   if $keyboard; then
     exec 3<&0
     become same "$programs"/device_simulator "${arguments[@]}" --keyboard <&3 2> "$results/log/device.log" &
@@ -164,7 +166,7 @@ run_session() {
   note "results: $results"
   if grep -qx haptic_device <<< "$nodes"; then
     start_device
-    arguments+=("device:=$results/device")
+    arguments+=("device:=$results/device" "baud:=$device_baud")
   elif $keyboard; then
     die "the scene starts no haptic device, so there is nothing to drive with the keyboard"
   fi
