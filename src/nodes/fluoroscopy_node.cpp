@@ -16,6 +16,7 @@
 #include "common/error.h"
 #include "nodes/support/image_conversions.h"
 #include "nodes/support/names.h"
+#include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 
 namespace endovascular_sim::nodes
@@ -257,6 +258,7 @@ fluoroscopy::AttenuationTable attenuationTable()
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "fluoroscopy");
   const std::string scheduling = endovascular_sim::nodes::askForIdleScheduling();
   ros::NodeHandle node;

@@ -26,6 +26,7 @@
 #include "haptics/haptic_link.h"
 #include "nodes/support/haptic_topics.h"
 #include "nodes/support/names.h"
+#include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 
 namespace endovascular_sim::nodes
@@ -393,6 +394,7 @@ void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "haptic_device");
   const bool real_time = endovascular_sim::nodes::requestRealTime();
   const ros::NodeHandle node;

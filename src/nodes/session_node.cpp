@@ -7,6 +7,7 @@
 #include <ros/ros.h>
 
 #include "common/error.h"
+#include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/session_recorder.h"
 
@@ -44,6 +45,7 @@ RecorderSettings settingsFrom(const ros::NodeHandle& parameters, const std::stri
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "session");
   // ROS ends in good order on SIGINT only; a recording must be closed on SIGTERM, too.
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });

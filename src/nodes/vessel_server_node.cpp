@@ -10,6 +10,7 @@
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
+#include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/vessel_conversions.h"
 #include "session/scene_vessel.h"
@@ -137,6 +138,7 @@ private:
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "vessel_server");
   ros::NodeHandle node;
   try

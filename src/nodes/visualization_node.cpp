@@ -9,6 +9,7 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/names.h"
+#include "nodes/support/real_time.h"
 #include "session/tube_mesh.h"
 
 namespace endovascular_sim::nodes
@@ -165,6 +166,7 @@ private:
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "visualization");
   ros::NodeHandle node;
   const endovascular_sim::nodes::Visualization visualization(node, ros::NodeHandle("~"));

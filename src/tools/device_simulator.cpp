@@ -25,6 +25,7 @@
 #include "haptics/motion_script.h"
 #include "haptics/serial_port.h"
 #include "nodes/support/haptic_topics.h"
+#include "nodes/support/real_time.h"
 #include "session/scene.h"
 
 namespace
@@ -385,6 +386,7 @@ void run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
+  endovascular_sim::nodes::keepOffLockStepCpu();
   Arguments arguments;
   try
   {

@@ -13,19 +13,27 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** Keeps this thread and its children on the last processor that it may use; returns its number. */
-int stayOnLastCpu()
+/** The last processor that this thread may use, and all that it may use. */
+int lastCpu(cpu_set_t& allowed)
 {
-  cpu_set_t allowed;
   CPU_ZERO(&allowed);
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0)
     return -1;
   int last = CPU_SETSIZE - 1;
   while (last > 0 && !CPU_ISSET(last, &allowed))
     --last;
+  return last;
+}
+
+/** Keeps this thread and its children on the last processor; returns its number, or −1 when that was refused. */
+int stayOnLastCpu()
+{
+  cpu_set_t allowed;
+  const int last = lastCpu(allowed);
   cpu_set_t chosen;
   CPU_ZERO(&chosen);
-  CPU_SET(last, &chosen);
+  if (last >= 0)
+    CPU_SET(last, &chosen);
   return sched_setaffinity(0, sizeof chosen, &chosen) == 0 ? last : -1;
 }
 
@@ -45,6 +53,16 @@ RealTimeGrant askForRealTime(int priority)
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
   return {true, message};
+}
+
+void keepOffLockStepCpu()
+{
+  cpu_set_t allowed;
+  const int last = lastCpu(allowed);
+  if (last < 0 || CPU_COUNT(&allowed) < 2)
+    return;
+  CPU_CLR(last, &allowed);
+  sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
 void leaveRealTime()

@@ -21,6 +21,10 @@ struct RealTimeGrant
  *  @param priority 1 to 99 */
 RealTimeGrant askForRealTime(int priority);
 
+/** Leaves that processor to the rod and the contact node, where this process has another one. Call it before ros::init.
+ */
+void keepOffLockStepCpu();
+
 /** Back to ordinary scheduling for the calling thread (diagnostics, files). */
 void leaveRealTime();
 
