@@ -131,6 +131,14 @@ start_device() {
   done
 }
 
+# Processor time that a hypervisor has given to others since the machine started [1/100 s]: a step that falls into it is
+# late, and no scheduling of ours helps.
+stolen_time() { awk '/^cpu /{ print $9 }' /proc/stat; }
+stolen_note() {
+  local stolen=$(($(stolen_time) - $1))
+  [ "$stolen" -lt 10 ] || note "the host of this virtual machine took away $((stolen * 10)) ms of processor time meanwhile"
+}
+
 # Runs the graph until the scene's duration is over. Sets session_status.
 run_session() {
   session_interrupted=false
@@ -178,6 +186,8 @@ run_session() {
       > >(tee "$results/log/launch.log" | readable_log) 2>&1 &
   fi
   launch_pid=$!
+  local stolen_before
+  stolen_before=$(stolen_time)
   while kill -0 "$launch_pid" 2>/dev/null; do
     if $keyboard; then
       kill -0 "$device_pid" 2>/dev/null || break  # q was pressed
@@ -189,6 +199,7 @@ run_session() {
   done
   clean_up
   trap - EXIT INT TERM
+  stolen_note "$stolen_before"
 
   if [ ! -s "$results/report.json" ]; then
     printf '%s\n' "error: the session wrote no report; the last lines of the graph's log:" >&2
