@@ -48,7 +48,7 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   {
     const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
     const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
-    edge_balls_.push_back({0.5 * (begin + end), (end - begin).normalized(), 0.5 * (end - begin).norm()});
+    edge_balls_.push_back({0.5 * (begin + end), (end - begin).normalized(), edge.normal, 0.5 * (end - begin).norm()});
   }
 }
 
@@ -297,17 +297,24 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   return true;
 }
 
-/** Cheap rejection: whether a mesh edge can come within a distance of a point, by its ball and then by its line. */
-bool Detector::nearLine(const Eigen::Vector3d& point, int wall_edge, double distance) const
+/** Cheap rejection: whether a mesh edge can come within @p limit of the wire's edge ab, which lies within @p reach −
+ * limit of its own middle. A wire's edge whose ends are both higher than the limit above the mesh edge is higher all
+ * along. */
+bool Detector::canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double reach,
+                       double limit) const
 {
   const EdgeBall& ball = edge_balls_[wall_edge];
-  const Eigen::Vector3d from_middle = point - ball.middle;
+  const Eigen::Vector3d from_a = a - ball.middle;
+  const Eigen::Vector3d from_b = b - ball.middle;
+  if (from_a.dot(ball.normal) > limit && from_b.dot(ball.normal) > limit)
+    return false;
+  const Eigen::Vector3d from_middle = 0.5 * (from_a + from_b);
   const double squared = from_middle.squaredNorm();
-  const double reach = distance + ball.half_length;
-  if (squared > reach * reach)
+  const double far = reach + ball.half_length;
+  if (squared > far * far)
     return false;
   const double along = from_middle.dot(ball.direction);
-  return squared - along * along <= distance * distance;
+  return squared - along * along <= reach * reach;
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
@@ -324,7 +331,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double reach = 0.5 * (b - a).norm() + limit;
   for (int e : cell.reflex_edges)
   {
-    if (!nearLine(middle, e, reach))
+    if (!canMeet(a, b, e, reach, limit))
       continue;
     Feature feature;
     double distance = 0.0;

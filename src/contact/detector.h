@@ -59,6 +59,7 @@ private:
   {
     Eigen::Vector3d middle;
     Eigen::Vector3d direction;  ///< unit
+    Eigen::Vector3d normal;     ///< towards the lumen, ⟂ direction, unit
     double half_length;         ///< [m]
   };
 
@@ -69,7 +70,7 @@ private:
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
-  bool nearLine(const Eigen::Vector3d& point, int wall_edge, double distance) const;
+  bool canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double reach, double limit) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
