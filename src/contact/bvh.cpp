@@ -8,7 +8,7 @@
 #include <fcl/math/bv/kDOP.h>
 
 #include "common/error.h"
-#include "contact/closest_point.h"
+#include "vessel/triangle_point.h"
 
 namespace endovascular_sim::contact
 {
@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr int kMaxDepth = 128;
+constexpr double kBoundRounding = 1.0 + 1e-12;  // so that no bound's rounding hides the nearest triangle
 
 }  // namespace
 
@@ -86,7 +87,15 @@ void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>&
   }
 }
 
-Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance) const
+double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const
+{
+  const Eigen::Vector3i& corners = wall_->triangles[triangle];
+  const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+      point, wall_->vertices[corners[0]], wall_->vertices[corners[1]], wall_->vertices[corners[2]]);
+  return (closest.point - point).norm();
+}
+
+Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int near) const
 {
   const std::array<double, kSlabs> coordinates = slabCoordinates(point);
   struct Entry
@@ -98,24 +107,24 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance) con
   int top = 0;
   stack[top++] = {0, 0.0};
   Nearest best{-1, max_distance};
+  // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
+  const auto offer = [&best, &point, this](int t)
+  {
+    const double distance = distanceTo(t, point);
+    if (distance < best.distance || (distance == best.distance && (best.triangle < 0 || t < best.triangle)))
+      best = {t, distance};
+  };
+  if (near >= 0)
+    offer(near);
   while (top > 0)
   {
     const Entry entry = stack[--top];
-    // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
-    if (entry.bound > best.distance)
+    if (entry.bound > kBoundRounding * best.distance)
       continue;
     const Node& node = nodes_[entry.node];
     if (node.left < 0)
     {
-      const int t = node.triangle;
-      const Eigen::Vector3i& corners = wall_->triangles[t];
-      const double distance = (closestPointOnTriangle(point, wall_->vertices[corners[0]], wall_->vertices[corners[1]],
-                                                      wall_->vertices[corners[2]])
-                                   .point -
-                               point)
-                                  .norm();
-      if (distance < best.distance || (distance == best.distance && (best.triangle < 0 || t < best.triangle)))
-        best = {t, distance};
+      offer(node.triangle);
       continue;
     }
     Entry left{node.left, distanceBound(nodes_[node.left], coordinates)};

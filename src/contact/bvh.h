@@ -30,7 +30,10 @@ public:
     int triangle = -1;      ///< −1 when none is closer than the given distance
     double distance = 0.0;  ///< [m]
   };
-  Nearest nearest(const Eigen::Vector3d& point, double max_distance) const;
+  /** @param near a triangle that is expected to be near, to start from, or −1; the answer does not depend on it */
+  Nearest nearest(const Eigen::Vector3d& point, double max_distance, int near = -1) const;
+
+  double distanceTo(int triangle, const Eigen::Vector3d& point) const;  ///< [m]
 
 private:
   static constexpr int kSlabs = 9;  ///< 18-DOP: x, y, z, x+y, x+z, y+z, x−y, x−z, y−z

@@ -5,26 +5,28 @@
 
 #include <Eigen/Geometry>
 
-#include "contact/closest_point.h"
+#include "contact/segment_pair.h"
+#include "vessel/triangle_point.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
 
-constexpr double kCellSize = 0.5e-3;              // m
-constexpr double kCellHalfDiagonal = 0.43302e-3;  // m
+constexpr double kCellSize = 1e-3;                // m
+constexpr double kCellHalfDiagonal = 0.86603e-3;  // m
 constexpr double kReachRoom = 0.05e-3;            // m by which reaches are rounded up: cells live through small changes
 constexpr std::size_t kMaxCells = 200000;         // some hundred MB; then the wire's surroundings are collected anew
-constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
-constexpr double kReflexAngle = M_PI / 180.0;  // edges that bulge less than this meet the wire's nodes only
-constexpr double kOutsideCrossing = 0.4e-3;    // m by which a wire's edge may lie beyond a ridge
-constexpr double kSameNormal = 0.9995;         // cosine above which two features of a node count as one
-constexpr double kConeTolerance = 1e-12;       // m
-constexpr double kConeSlack = 1e-6;            // of the distance: crossings at the border of the normal cone count
-constexpr double kOnRidge = 1e-12;             // m
-constexpr double kEnd = 1e-3;                  // of a wire's edge: closer to a node the node's own features stand
-constexpr double kFarthest = 30e-3;            // m: free distances are not looked for beyond it
+constexpr double kRoom = 0.25e-3;                 // m that a node may move before what is near it is listed anew
+constexpr double kListGuard = 1e-8;               // m by which lists hold more than rounding could miss
+constexpr double kReflexAngle = M_PI / 180.0;     // edges that bulge less than this meet the wire's nodes only
+constexpr double kOutsideCrossing = 0.4e-3;       // m by which a wire's edge may lie beyond a ridge
+constexpr double kSameNormal = 0.9995;            // cosine above which two features of a node count as one
+constexpr double kConeTolerance = 1e-12;          // m
+constexpr double kConeSlack = 1e-6;               // of the distance: crossings at the border of the normal cone count
+constexpr double kOnRidge = 1e-12;                // m
+constexpr double kEnd = 1e-3;                     // of a wire's edge: closer to a node the node's own features stand
+constexpr double kFarthest = 30e-3;               // m: free distances are not looked for beyond it
 
 enum FeatureKind
 {
@@ -56,8 +58,8 @@ double Detector::signedDistance(const Eigen::Vector3d& point) const
 {
   const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity());
   const Eigen::Vector3i& corners = wall_.triangles[nearest.triangle];
-  const TrianglePoint closest =
-      closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+      point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
                                       ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
@@ -76,8 +78,8 @@ void Detector::setReach(const Query& query)
     if (i > 0)
       half = std::max(half, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm());
   }
-  const double node_reach = radius + query.margin;
-  const double edge_reach = node_reach + half;
+  const double node_reach = radius + query.margin + kRoom + kListGuard;
+  const double edge_reach = node_reach + half + kRoom;
   const bool room = cells_.size() < kMaxCells;
   if (node_reach <= node_reach_ && edge_reach <= edge_reach_ && room)
     return;
@@ -85,10 +87,11 @@ void Detector::setReach(const Query& query)
   edge_reach_ = std::max(edge_reach_, edge_reach + kReachRoom);
   cells_.clear();
   cell_of_key_.clear();
-  last_keys_.assign(last_keys_.size(), kNoCell);
+  near_nodes_.clear();
+  near_edges_.clear();
 }
 
-const Detector::Cell& Detector::cellAt(const Eigen::Vector3d& point, CellKey& last_key, int& last_cell)
+const Detector::Cell& Detector::cellAt(const Eigen::Vector3d& point)
 {
   constexpr double kOffset = 1 << 20;  // cells; 21 bits per axis reach 1 km either way
   Eigen::Vector3d corner;
@@ -98,14 +101,64 @@ const Detector::Cell& Detector::cellAt(const Eigen::Vector3d& point, CellKey& la
     corner[axis] = std::floor(point[axis] / kCellSize);
     key = key << 21 | (static_cast<CellKey>(corner[axis] + kOffset) & 0x1fffff);
   }
-  if (key == last_key)
-    return cells_[last_cell];
   const auto [entry, is_new] = cell_of_key_.emplace(key, static_cast<int>(cells_.size()));
   if (is_new)
     makeCell(kCellSize * (corner + Eigen::Vector3d::Constant(0.5)));
-  last_key = key;
-  last_cell = entry->second;
-  return cells_[last_cell];
+  return cells_[entry->second];
+}
+
+bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
+{
+  return room >= 0.0 && wanted == limit && (a - begin).squaredNorm() < room * room &&
+         (b - end).squaredNorm() < room * room;
+}
+
+void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
+{
+  begin = a;
+  end = b;
+  limit = wanted;
+  room = kRoom;
+  items.clear();
+}
+
+const Detector::Neighbourhood& Detector::triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit)
+{
+  Neighbourhood& near = near_nodes_[node];
+  if (near.holds(point, point, limit))
+    return near;
+  near.start(point, point, limit);
+  const Cell& cell = cellAt(point);
+  near.room = std::max(kRoom, cell.clear - limit - kListGuard);
+  if (near.room > kRoom)
+    return near;
+  const double reach = limit + kRoom + kListGuard;
+  for (int t : cell.triangles)
+    if (std::abs(wall_.normals[t].dot(point) - wall_.plane_offsets[t]) <= reach && bvh_.distanceTo(t, point) <= reach)
+      near.items.push_back(t);
+  return near;
+}
+
+const Detector::Neighbourhood& Detector::edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                                           double limit)
+{
+  Neighbourhood& near = near_edges_[edge];
+  if (near.holds(a, b, limit))
+    return near;
+  near.start(a, b, limit);
+  const double wide = limit + kRoom + kListGuard;
+  const double reach = 0.5 * (b - a).norm() + kRoom + wide;
+  for (int e : cellAt(0.5 * (a + b)).reflex_edges)
+  {
+    if (!canMeet(a, b, e, reach, wide))
+      continue;
+    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
+    const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
+    const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
+    if ((a + pair.first * (b - a) - end0 - pair.second * (end1 - end0)).norm() <= wide)
+      near.items.push_back(e);
+  }
+  return near;
 }
 
 void Detector::makeCell(const Eigen::Vector3d& centre)
@@ -121,8 +174,8 @@ void Detector::makeCell(const Eigen::Vector3d& centre)
   for (int t : collected_)
   {
     const Eigen::Vector3i& corners = wall_.triangles[t];
-    const double distance = (closestPointOnTriangle(centre, wall_.vertices[corners[0]], wall_.vertices[corners[1]],
-                                                    wall_.vertices[corners[2]])
+    const double distance = (vessel::closestPointOnTriangle(centre, wall_.vertices[corners[0]],
+                                                            wall_.vertices[corners[1]], wall_.vertices[corners[2]])
                                  .point -
                              centre)
                                 .norm();
@@ -160,11 +213,11 @@ void Detector::detect(const Query& query, ContactSet& set)
   const std::size_t n = query.nodes.size();
   set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
   setReach(query);
-  const std::size_t whole = 2 * (static_cast<std::size_t>(query.first_node) + n);
-  if (last_keys_.size() < whole)
+  const std::size_t whole = static_cast<std::size_t>(query.first_node) + n;
+  if (near_nodes_.size() < whole)
   {
-    last_keys_.resize(whole, kNoCell);
-    last_cells_.resize(whole, 0);
+    near_nodes_.resize(whole);
+    near_edges_.resize(whole);
   }
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
@@ -189,16 +242,15 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   const Eigen::Vector3d& point = query.nodes[index];
   const double radius = query.radius[index];
   const double limit = radius + query.margin;
-  const std::size_t slot = 2 * (static_cast<std::size_t>(query.first_node) + index);
-  const Cell& cell = cellAt(point, last_keys_[slot], last_cells_[slot]);
-  if (cell.clear > limit)
+  const Neighbourhood& near = triangleNeighbourhood(query.first_node + static_cast<int>(index), point, limit);
+  if (near.items.empty())
     return;
   const std::size_t first = features.size();
   const bool last = index + 1 == query.nodes.size();
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
   double nearest = std::numeric_limits<double>::infinity();
-  for (int t : cell.triangles)
+  for (int t : near.items)
   {
     Feature feature;
     double distance = 0.0;
@@ -236,8 +288,8 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     return false;
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const Eigen::Vector3d& normal = wall_.normals[triangle];
-  const TrianglePoint closest =
-      closestPointOnTriangle(point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+      point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d offset = point - closest.point;
   const double squared = offset.squaredNorm();
   if (squared > limit * limit)
@@ -321,15 +373,10 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
 {
   const Eigen::Vector3d& a = query.nodes[index];
   const Eigen::Vector3d& b = query.nodes[index + 1];
-  const Eigen::Vector3d middle = 0.5 * (a + b);
-  const std::size_t slot = 2 * (static_cast<std::size_t>(query.first_node) + index) + 1;
-  const Cell& cell = cellAt(middle, last_keys_[slot], last_cells_[slot]);
-  if (cell.reflex_edges.empty())
-    return;
   const std::size_t begin = features.size();
   const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   const double reach = 0.5 * (b - a).norm() + limit;
-  for (int e : cell.reflex_edges)
+  for (int e : edgeNeighbourhood(query.first_node + static_cast<int>(index), a, b, limit).items)
   {
     if (!canMeet(a, b, e, reach, limit))
       continue;
@@ -389,14 +436,20 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   return true;
 }
 
-void Detector::freeDistances(const Query& query, ContactSet& set) const
+void Detector::freeDistances(const Query& query, ContactSet& set)
 {
+  const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
+  if (nearest_.size() < whole)
+    nearest_.resize(whole, -1);
   // The distance to the wall is 1-Lipschitz, so both ends bound it along the edge: (d0 + d1 − |e|)/2.
   set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
-    const double distance = bvh_.nearest(query.nodes[i], kFarthest).distance;
+    int& near = nearest_[static_cast<std::size_t>(query.first_node) + i];
+    const Bvh::Nearest nearest = bvh_.nearest(query.nodes[i], kFarthest, near);
+    const double distance = nearest.distance;
+    near = nearest.triangle;
     if (i > 0)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();

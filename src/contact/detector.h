@@ -27,8 +27,8 @@ struct WallLaw
  *  Per node: closest points on the triangles around it that are true local minima (normal-cone test on reflex edges
  *  and vertices), all distinct normals. Per edge: crossing reflex edges and vertices of the mesh. A point is outside
  *  only where its globally nearest feature says so. Which triangles are near is asked of the tree once per cube of
- * space that the wire visits and then kept; what is found does not depend on it, so a detector that was restarted gives
- * the same bits. */
+ *  space that the wire visits, and each node and edge keeps the few of them that it can meet while it stays where it
+ *  is; what is found depends on neither, so a detector that was restarted gives the same bits. */
 class Detector : public ContactSource
 {
 public:
@@ -54,6 +54,19 @@ private:
     std::vector<int> reflex_edges;  ///< all within an edge's reach of the cube, ascending
   };
 
+  /** What a node or an edge of the wire may meet while its ends stay within `room` of where they were. */
+  struct Neighbourhood
+  {
+    Eigen::Vector3d begin = Eigen::Vector3d::Zero();
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();
+    double room = -1.0;   ///< [m]; negative: not listed yet
+    double limit = -1.0;  ///< distance up to which features are wanted [m]
+    std::vector<int> items;
+
+    bool holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const;
+    void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
+  };
+
   /** A mesh edge as its smallest ball with its direction. */
   struct EdgeBall
   {
@@ -64,8 +77,10 @@ private:
   };
 
   void setReach(const Query& query);
-  const Cell& cellAt(const Eigen::Vector3d& point, CellKey& last_key, int& last_cell);
+  const Cell& cellAt(const Eigen::Vector3d& point);
   void makeCell(const Eigen::Vector3d& centre);
+  const Neighbourhood& triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit);
+  const Neighbourhood& edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
@@ -75,7 +90,7 @@ private:
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
-  void freeDistances(const Query& query, ContactSet& set) const;
+  void freeDistances(const Query& query, ContactSet& set);
 
   Wall wall_;
   Bvh bvh_;
@@ -85,9 +100,8 @@ private:
   double edge_reach_ = 0.0;  ///< the same from an edge's middle [m]
   std::unordered_map<CellKey, int> cell_of_key_;
   std::vector<Cell> cells_;
-  /** The cell that each node (2i) and each edge's middle (2i+1) was in last. */
-  std::vector<CellKey> last_keys_;
-  std::vector<int> last_cells_;
+  std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index along the whole wire
+  std::vector<int> nearest_;                            ///< triangle that was nearest to each node, or −1
   std::vector<int> collected_;
   std::vector<EdgeBall> edge_balls_;
   std::vector<char> edge_marked_;

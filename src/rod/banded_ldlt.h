@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace endovascular_sim::rod
@@ -61,20 +62,18 @@ public:
   int factorise()
   {
     int negative = 0;
-    double* __restrict band = band_.data();
     for (int col = 0; col < size_; ++col)
     {
-      double* __restrict pivot_column = band + static_cast<std::size_t>(col) * kStride;
-      const double pivot = pivot_column[0];
+      double* column = band_.data() + static_cast<std::size_t>(col) * kStride;
+      const double pivot = column[0];
       if (!(pivot != 0.0) || pivot != pivot)
         return -1;
       negative += pivot < 0.0;
-      const double inverse = 1.0 / pivot;
       const int below = std::min(Bandwidth, size_ - 1 - col);
       if (below == Bandwidth)
-        eliminateFullColumn(pivot_column, inverse);
+        eliminateFull(column, 1.0 / pivot, std::make_integer_sequence<int, Bandwidth>());
       else
-        eliminate(pivot_column, inverse, below);
+        eliminate(column, 1.0 / pivot, below);
     }
     return negative;
   }
@@ -82,39 +81,53 @@ public:
   /** Solves in place with the factors. */
   void solve(std::vector<double>& rhs) const
   {
-    const double* __restrict band = band_.data();
-    double* __restrict x = rhs.data();
-    for (int col = 0; col < size_; ++col)
+    const double* band = band_.data();
+    double* x = rhs.data();
+    // Sums run from the farthest entry to the nearest, the only one that was not known long before.
+    for (int row = 1; row < size_; ++row)
     {
-      const double* column = band + static_cast<std::size_t>(col) * kStride;
-      const double value = x[col];
-      const int below = std::min(Bandwidth, size_ - 1 - col);
-      for (int k = 1; k <= below; ++k)
-        x[col + k] -= column[k] * value;
+      const double* entry = band + static_cast<std::size_t>(row) * kStride;  // of the diagonal
+      double sum = 0.0;
+      if (row >= Bandwidth)
+#pragma GCC unroll 16
+        for (int k = Bandwidth; k >= 1; --k)
+          sum += entry[k - k * kStride] * x[row - k];
+      else
+        for (int k = row; k >= 1; --k)
+          sum += entry[k - k * kStride] * x[row - k];
+      x[row] -= sum;
     }
     for (int col = size_ - 1; col >= 0; --col)
     {
       const double* column = band + static_cast<std::size_t>(col) * kStride;
-      const int below = std::min(Bandwidth, size_ - 1 - col);
       double sum = 0.0;
-      for (int k = 1; k <= below; ++k)
-        sum += column[k] * x[col + k];
+      if (col + Bandwidth < size_)
+#pragma GCC unroll 16
+        for (int k = Bandwidth; k >= 1; --k)
+          sum += column[k] * x[col + k];
+      else
+        for (int k = size_ - 1 - col; k >= 1; --k)
+          sum += column[k] * x[col + k];
       x[col] = x[col] / column[0] - sum;
     }
   }
 
 private:
-  static void eliminateFullColumn(double* __restrict column, double inverse)
+  template <int... Index>
+  static void eliminateFull(double* __restrict column, double inverse, std::integer_sequence<int, Index...>)
   {
-    for (int k = 1; k <= Bandwidth; ++k)
-    {
-      const double factor = column[k] * inverse;
-      double* __restrict target = column + static_cast<std::size_t>(k) * kStride;
-      for (int q = 0; q <= Bandwidth - k; ++q)
-        target[q] -= factor * column[k + q];
-    }
-    for (int k = 1; k <= Bandwidth; ++k)
-      column[k] *= inverse;
+    (subtract<Index + 1>(column, column[Index + 1] * inverse), ...);
+    ((column[Index + 1] *= inverse), ...);
+  }
+
+  /** Takes the pivot column, times a factor, off the column K further; its length is known when compiling. */
+  template <int K>
+  static void subtract(double* __restrict column, double factor)
+  {
+    double* __restrict target = column + static_cast<std::size_t>(K) * kStride;
+#pragma GCC unroll 16
+    for (int q = 0; q <= Bandwidth - K; ++q)
+      target[q] -= factor * column[K + q];
   }
 
   static void eliminate(double* column, double inverse, int below)

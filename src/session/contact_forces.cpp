@@ -8,14 +8,13 @@ namespace endovascular_sim::session
 namespace
 {
 
-constexpr double kSlowest = 0.5e-3;  // m/s: slower sliding is shared out linearly, as in the solver
-
 Eigen::Vector3d frictionOn(const rod::State& state, int node)
 {
   const double force = state.wall_force[node].norm();
   const Eigen::Vector3d normal = state.wall_force[node] / force;
   const Eigen::Vector3d sliding = state.velocity[node] - state.velocity[node].dot(normal) * normal;
-  return -(state.friction_coefficient[node] * force / std::max(sliding.norm(), kSlowest)) * sliding;
+  const double slowest = rod::StepperSettings().friction_speed;  // slower sliding is shared out linearly
+  return -(state.friction_coefficient[node] * force / std::max(sliding.norm(), slowest)) * sliding;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "vessel/triangle_point.h"
+
 namespace endovascular_sim::vessel
 {
 namespace
@@ -47,36 +49,6 @@ double rayBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse, con
 }
 
 }  // namespace
-
-Eigen::Vector3d closestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                       const Eigen::Vector3d& c)
-{
-  const Eigen::Vector3d ab = b - a;
-  const Eigen::Vector3d ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0.0 && d2 <= 0.0)
-    return a;
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0.0 && d4 <= d3)
-    return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0)
-    return a + d1 / (d1 - d3) * ab;
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0.0 && d5 <= d6)
-    return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0)
-    return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
-}
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size())
 {
@@ -150,7 +122,7 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
     {
       const int t = order_[static_cast<std::size_t>(k)];
       const Eigen::Vector3d q =
-          closestPointOnTriangle(p, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2));
+          closestPointOnTriangle(p, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2)).point;
       const double squared = (q - p).squaredNorm();
       if (squared < best_squared)
       {

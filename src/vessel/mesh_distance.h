@@ -18,10 +18,6 @@ struct ClosestPoint
   int triangle = -1;
 };
 
-/** Closest point of the triangle abc to p. C. Ericson, Real-Time Collision Detection, §5.1.5. */
-Eigen::Vector3d closestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                       const Eigen::Vector3d& c);
-
 /** Distance queries to a fixed mesh over a tree of boxes. For preparation and checks; the wire's contact has its own
  *  detector. Keeps a reference to the mesh. */
 class MeshDistance

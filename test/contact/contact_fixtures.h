@@ -5,9 +5,9 @@
 #include <string>
 
 #include "contact/detector.h"
-#include "vessel/mesh_distance.h"
 #include "vessel/mesh_reader.h"
 #include "vessel/mesh_repair.h"
+#include "vessel/triangle_point.h"
 #include "vessel/tube.h"
 
 namespace endovascular_sim::contact
@@ -44,7 +44,8 @@ inline double bruteDistance(const Wall& wall, const Eigen::Vector3d& p, int& tri
   {
     const Eigen::Vector3i& c = wall.triangles[t];
     const double distance =
-        (vessel::closestPointOnTriangle(p, wall.vertices[c[0]], wall.vertices[c[1]], wall.vertices[c[2]]) - p).norm();
+        (vessel::closestPointOnTriangle(p, wall.vertices[c[0]], wall.vertices[c[1]], wall.vertices[c[2]]).point - p)
+            .norm();
     if (distance < best)
     {
       best = distance;

@@ -50,7 +50,7 @@ TEST_F(BvhOfATube, CollectsEveryTriangleWithinTheRadius)
     {
       const Eigen::Vector3i& c = wall_.triangles[t];
       const Eigen::Vector3d closest =
-          vessel::closestPointOnTriangle(p, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]]);
+          vessel::closestPointOnTriangle(p, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]]).point;
       if ((closest - p).norm() <= radius)
       {
         EXPECT_TRUE(std::binary_search(found.begin(), found.end(), static_cast<int>(t)));

@@ -10,6 +10,7 @@
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_distance.h"
 #include "vessel/subdivision.h"
+#include "vessel/triangle_point.h"
 
 namespace endovascular_sim::vessel
 {
@@ -177,7 +178,8 @@ TEST(MeshDistance, AgreesWithBruteForce)
     for (const Eigen::Vector3i& t : mesh.triangles)
       brute = std::min(brute, (closestPointOnTriangle(p, mesh.vertices[static_cast<std::size_t>(t[0])],
                                                       mesh.vertices[static_cast<std::size_t>(t[1])],
-                                                      mesh.vertices[static_cast<std::size_t>(t[2])]) -
+                                                      mesh.vertices[static_cast<std::size_t>(t[2])])
+                                   .point -
                                p)
                                   .norm());
     EXPECT_DOUBLE_EQ(distance.closest(p).distance, brute);

@@ -367,6 +367,7 @@ bool SessionRecorder::finish()
   if (finished_)
     return complete_;
   finished_ = true;
+  subscribers_.clear();
   bag_.close();
   const bool rows_written = trajectory_.flush();
   session::RecordingOutcome outcome;

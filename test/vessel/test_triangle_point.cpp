@@ -1,15 +1,15 @@
-#include "contact/closest_point.h"
+#include "vessel/triangle_point.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-namespace endovascular_sim::contact
+namespace endovascular_sim::vessel
 {
 namespace
 {
 
-class ClosestPoint : public testing::Test
+class TrianglePointTest : public testing::Test
 {
 protected:
   Eigen::Vector3d next()
@@ -20,7 +20,7 @@ protected:
   std::mt19937 random_{11};
 };
 
-TEST_F(ClosestPoint, OnATriangleIsNeverBeatenByAGridOfItsPoints)
+TEST_F(TrianglePointTest, OnATriangleIsNeverBeatenByAGridOfItsPoints)
 {
   for (int trial = 0; trial < 200; ++trial)
   {
@@ -36,7 +36,7 @@ TEST_F(ClosestPoint, OnATriangleIsNeverBeatenByAGridOfItsPoints)
   }
 }
 
-TEST_F(ClosestPoint, NamesTheFeatureItLiesOn)
+TEST_F(TrianglePointTest, NamesTheFeatureItLiesOn)
 {
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_EQ(closestPointOnTriangle({-1, -1, 1}, a, b, c).vertex, 0);
@@ -50,21 +50,5 @@ TEST_F(ClosestPoint, NamesTheFeatureItLiesOn)
   EXPECT_LT((inside.point - Eigen::Vector3d(0.2, 0.3, 0.0)).norm(), 1e-15);
 }
 
-TEST_F(ClosestPoint, OfTwoSegmentsIsNeverBeatenByAGrid)
-{
-  for (int trial = 0; trial < 200; ++trial)
-  {
-    const Eigen::Vector3d p1 = next(), q1 = next(), p2 = next(), q2 = next();
-    const SegmentPair pair = closestPointsOfSegments(p1, q1, p2, q2);
-    const double distance = (p1 + pair.first * (q1 - p1) - p2 - pair.second * (q2 - p2)).norm();
-    double best = 1e9;
-    for (int i = 0; i <= 80; ++i)
-      for (int j = 0; j <= 80; ++j)
-        best = std::min(best, (p1 + (q1 - p1) * i / 80.0 - p2 - (q2 - p2) * j / 80.0).norm());
-    EXPECT_LE(distance, best + 1e-12);
-    EXPECT_GE(distance, best - 0.05);
-  }
-}
-
 }  // namespace
-}  // namespace endovascular_sim::contact
+}  // namespace endovascular_sim::vessel

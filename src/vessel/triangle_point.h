@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace endovascular_sim::contact
+namespace endovascular_sim::vessel
 {
 
 /** Which part of a triangle is closest. */
@@ -17,13 +17,4 @@ struct TrianglePoint
 TrianglePoint closestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      const Eigen::Vector3d& c);
 
-/** Parameters of the closest points of two segments p1q1 and p2q2, each in [0,1] (Ericson 2005, §5.1.9). */
-struct SegmentPair
-{
-  double first = 0.0;
-  double second = 0.0;
-};
-SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, const Eigen::Vector3d& p2,
-                                    const Eigen::Vector3d& q2);
-
-}  // namespace endovascular_sim::contact
+}  // namespace endovascular_sim::vessel

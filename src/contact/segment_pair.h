@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace endovascular_sim::contact
+{
+
+/** Parameters of the closest points of two segments p1q1 and p2q2, each in [0,1] (Ericson 2005, §5.1.9). */
+struct SegmentPair
+{
+  double first = 0.0;
+  double second = 0.0;
+};
+SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, const Eigen::Vector3d& p2,
+                                    const Eigen::Vector3d& q2);
+
+}  // namespace endovascular_sim::contact
