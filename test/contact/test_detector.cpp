@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "contact_fixtures.h"
+#include "vessel/mesh_distance.h"
 #include "vessel/subdivision.h"
 
 namespace endovascular_sim::contact
