@@ -12,8 +12,11 @@ namespace endovascular_sim::rod
  *
  *  Lower band, column storage: entry (row, col), col ≤ row ≤ col + Bandwidth. It serves positive definite and
  *  quasi-definite (saddle) matrices whose ordering keeps every pivot away from zero; the number of negative pivots
- *  is then the number of constraints, which checks every factorisation for free. */
-template <int Bandwidth>
+ *  is then the number of constraints, which checks every factorisation for free.
+ *
+ *  Unknowns that come in blocks of Period leave the band's corner empty: column c then ends c mod Period rows earlier.
+ */
+template <int Bandwidth, int Period = 1>
 class BandedLdlt
 {
 public:
@@ -32,6 +35,9 @@ public:
   /** Entry of the lower triangle, col ≤ row ≤ col + Bandwidth. */
   double& at(int row, int col) { return band_[static_cast<std::size_t>(col) * kStride + (row - col)]; }
   double at(int row, int col) const { return band_[static_cast<std::size_t>(col) * kStride + (row - col)]; }
+
+  /** The column's lower band, from its diagonal entry down; columns follow each other at kStride. */
+  double* column(int col) { return band_.data() + static_cast<std::size_t>(col) * kStride; }
 
   /** Copies another matrix's entries; allocates only when it grows. */
   void copyFrom(const BandedLdlt& other)
@@ -61,89 +67,152 @@ public:
    *  @return the number of negative pivots, or −1 when a pivot is zero or not a number */
   int factorise()
   {
-    int negative = 0;
-    for (int col = 0; col < size_; ++col)
-    {
-      double* column = band_.data() + static_cast<std::size_t>(col) * kStride;
-      const double pivot = column[0];
-      if (!(pivot != 0.0) || pivot != pivot)
-        return -1;
-      negative += pivot < 0.0;
-      const int below = std::min(Bandwidth, size_ - 1 - col);
-      if (below == Bandwidth)
-        eliminateFull(column, 1.0 / pivot, std::make_integer_sequence<int, Bandwidth>());
-      else
-        eliminate(column, 1.0 / pivot, below);
-    }
-    return negative;
+    negative_ = 0;
+    int col = 0;
+    bool regular = true;
+    for (; regular && col + Period + Bandwidth <= size_; col += Period)
+      regular = eliminateBlock(col, std::make_integer_sequence<int, Period>());
+    for (; regular && col < size_; ++col)
+      regular = eliminateShort(col);
+    return regular ? negative_ : -1;
   }
 
   /** Solves in place with the factors. */
   void solve(std::vector<double>& rhs) const
   {
-    const double* band = band_.data();
     double* x = rhs.data();
     // Sums run from the farthest entry to the nearest, the only one that was not known long before.
-    for (int row = 1; row < size_; ++row)
-    {
-      const double* entry = band + static_cast<std::size_t>(row) * kStride;  // of the diagonal
-      double sum = 0.0;
-      if (row >= Bandwidth)
-#pragma GCC unroll 16
-        for (int k = Bandwidth; k >= 1; --k)
-          sum += entry[k - k * kStride] * x[row - k];
-      else
-        for (int k = row; k >= 1; --k)
-          sum += entry[k - k * kStride] * x[row - k];
-      x[row] -= sum;
-    }
-    for (int col = size_ - 1; col >= 0; --col)
-    {
-      const double* column = band + static_cast<std::size_t>(col) * kStride;
-      double sum = 0.0;
-      if (col + Bandwidth < size_)
-#pragma GCC unroll 16
-        for (int k = Bandwidth; k >= 1; --k)
-          sum += column[k] * x[col + k];
-      else
-        for (int k = size_ - 1 - col; k >= 1; --k)
-          sum += column[k] * x[col + k];
-      x[col] = x[col] / column[0] - sum;
-    }
+    int row = 0;
+    for (; row < std::min(Bandwidth + Period, size_); ++row)
+      forwardShort(x, row);
+    while (row % Period != 0 && row < size_)
+      forwardShort(x, row++);
+    for (; row + Period <= size_; row += Period)
+      forwardBlock(x, row, std::make_integer_sequence<int, Period>());
+    for (; row < size_; ++row)
+      forwardShort(x, row);
+    int col = size_;
+    while (col > 0 && (col % Period != 0 || col + Bandwidth > size_))
+      backwardShort(x, --col);
+    for (; col > 0; col -= Period)
+      backwardBlock(x, col - Period, std::make_integer_sequence<int, Period>());
   }
 
 private:
-  template <int... Index>
-  static void eliminateFull(double* __restrict column, double inverse, std::integer_sequence<int, Index...>)
+  /** Entries below the diagonal of a column of the given place in its block, made even: pairs of entries are worked on
+   *  together, and one that was stored alone would have to be waited for. */
+  static constexpr int columnLength(int place) { return Bandwidth - place + (place > 0 ? (Bandwidth - place) % 2 : 0); }
+  /** Entries left of the diagonal of such a row: back to the first column whose block still reaches it. */
+  static constexpr int rowLength(int place) { return place + (Bandwidth - place) / Period * Period; }
+
+  bool isPivot(double pivot)
   {
-    (subtract<Index + 1>(column, column[Index + 1] * inverse), ...);
-    ((column[Index + 1] *= inverse), ...);
+    negative_ += pivot < 0.0;
+    return pivot == pivot && pivot != 0.0;
+  }
+
+  template <int... Place>
+  bool eliminateBlock(int col, std::integer_sequence<int, Place...>)
+  {
+    return (eliminateColumn<columnLength(Place)>(column(col + Place),
+                                                 std::make_integer_sequence<int, columnLength(Place)>()) &&
+            ...);
+  }
+
+  template <int Length, int... Index>
+  bool eliminateColumn(double* __restrict pivot_column, std::integer_sequence<int, Index...>)
+  {
+    if (!isPivot(pivot_column[0]))
+      return false;
+    const double inverse = 1.0 / pivot_column[0];
+    (subtract<Length, Index + 1>(pivot_column, pivot_column[Index + 1] * inverse), ...);
+    ((pivot_column[Index + 1] *= inverse), ...);
+    return true;
   }
 
   /** Takes the pivot column, times a factor, off the column K further; its length is known when compiling. */
-  template <int K>
-  static void subtract(double* __restrict column, double factor)
+  template <int Length, int K>
+  static void subtract(double* __restrict pivot_column, double factor)
   {
-    double* __restrict target = column + static_cast<std::size_t>(K) * kStride;
+    double* __restrict target = pivot_column + static_cast<std::size_t>(K) * kStride;
 #pragma GCC unroll 16
-    for (int q = 0; q <= Bandwidth - K; ++q)
-      target[q] -= factor * column[K + q];
+    for (int q = 0; q <= Length - K; ++q)
+      target[q] -= factor * pivot_column[K + q];
   }
 
-  static void eliminate(double* column, double inverse, int below)
+  bool eliminateShort(int col)
   {
+    double* pivot_column = column(col);
+    if (!isPivot(pivot_column[0]))
+      return false;
+    const double inverse = 1.0 / pivot_column[0];
+    const int below = std::min(columnLength(col % Period), size_ - 1 - col);
     for (int k = 1; k <= below; ++k)
     {
-      const double factor = column[k] * inverse;
-      double* target = column + static_cast<std::size_t>(k) * kStride;
+      const double factor = pivot_column[k] * inverse;
+      double* target = pivot_column + static_cast<std::size_t>(k) * kStride;
       for (int q = 0; q <= below - k; ++q)
-        target[q] -= factor * column[k + q];
+        target[q] -= factor * pivot_column[k + q];
     }
     for (int k = 1; k <= below; ++k)
-      column[k] *= inverse;
+      pivot_column[k] *= inverse;
+    return true;
+  }
+
+  template <int... Place>
+  void forwardBlock(double* x, int row, std::integer_sequence<int, Place...>) const
+  {
+    (forward<rowLength(Place)>(x, row + Place), ...);
+  }
+
+  template <int Length>
+  void forward(double* x, int row) const
+  {
+    const double* diagonal = band_.data() + static_cast<std::size_t>(row) * kStride;
+    double sum = 0.0;
+#pragma GCC unroll 16
+    for (int k = Length; k >= 1; --k)
+      sum += diagonal[k - k * kStride] * x[row - k];
+    x[row] -= sum;
+  }
+
+  void forwardShort(double* x, int row) const
+  {
+    const double* diagonal = band_.data() + static_cast<std::size_t>(row) * kStride;
+    double sum = 0.0;
+    for (int k = std::min(rowLength(row % Period), row); k >= 1; --k)
+      sum += diagonal[k - k * kStride] * x[row - k];
+    x[row] -= sum;
+  }
+
+  template <int... Place>
+  void backwardBlock(double* x, int col, std::integer_sequence<int, Place...>) const
+  {
+    (backward<columnLength(Period - 1 - Place)>(x, col + Period - 1 - Place), ...);
+  }
+
+  template <int Length>
+  void backward(double* x, int col) const
+  {
+    const double* entry = band_.data() + static_cast<std::size_t>(col) * kStride;
+    double sum = 0.0;
+#pragma GCC unroll 16
+    for (int k = Length; k >= 1; --k)
+      sum += entry[k] * x[col + k];
+    x[col] = x[col] / entry[0] - sum;
+  }
+
+  void backwardShort(double* x, int col) const
+  {
+    const double* entry = band_.data() + static_cast<std::size_t>(col) * kStride;
+    double sum = 0.0;
+    for (int k = std::min(columnLength(col % Period), size_ - 1 - col); k >= 1; --k)
+      sum += entry[k] * x[col + k];
+    x[col] = x[col] / entry[0] - sum;
   }
 
   int size_ = 0;
+  int negative_ = 0;
   std::vector<double> band_;
 };
 

@@ -57,23 +57,37 @@ struct BendingHessian
     const Eigen::Vector3d& k = kb.value;
     const double w = scale * kb.inverse_denominator * kb.inverse_denominator;
     const double kk = k.squaredNorm();
-    const Eigen::Vector3d ws = w * g;
-    const Eigen::Vector3d p = (0.5 * (kk - 4.0)) * g - 2.0 * g.cross(k);
-    const Eigen::Vector3d q = (0.5 * (kk - 4.0)) * e + 2.0 * e.cross(k);
-    // (∂κb/∂e)ᵀ(∂κb/∂e) = (4|g|²I − 4ggᵀ − 2(g×k)gᵀ − 2g(g×k)ᵀ + |k|²ggᵀ)/D²
-    before_before.noalias() = p * ws.transpose();
-    before_before += before_before.transpose().eval();
-    before_before.diagonal().array() += 4.0 * w * g.squaredNorm();
-    // (∂κb/∂g)ᵀ(∂κb/∂g) = (4|e|²I − 4eeᵀ + 2(e×k)eᵀ + 2e(e×k)ᵀ + |k|²eeᵀ)/D²
-    const Eigen::Vector3d we = w * e;
-    after_after.noalias() = q * we.transpose();
-    after_after += after_after.transpose().eval();
-    after_after.diagonal().array() += 4.0 * w * e.squaredNorm();
-    // (∂κb/∂e)ᵀ(∂κb/∂g) = (4egᵀ − 4(g·e)I − 2(g×k)eᵀ + 2g(e×k)ᵀ + |k|²geᵀ)/D²
-    before_after.noalias() = (4.0 * e) * ws.transpose();
-    before_after.noalias() += (kk * g - 2.0 * g.cross(k)) * we.transpose();
-    before_after.noalias() += (2.0 * ws) * e.cross(k).transpose();
-    before_after.diagonal().array() -= 4.0 * w * g.dot(e);
+    const Eigen::Vector3d gk = g.cross(k);
+    const Eigen::Vector3d ek = e.cross(k);
+    const Eigen::Vector3d p = (0.5 * w * (kk - 4.0)) * g - (2.0 * w) * gk;
+    const Eigen::Vector3d q = (0.5 * w * (kk - 4.0)) * e + (2.0 * w) * ek;
+    const Eigen::Vector3d u = (w * kk) * g - (2.0 * w) * gk;
+    const Eigen::Vector3d wg = (2.0 * w) * g;
+    // Entry by entry, because this is the hot spot of assembly.
+    //   (∂κb/∂e)ᵀ(∂κb/∂e) = (4|g|²I − 4ggᵀ − 2(g×k)gᵀ − 2g(g×k)ᵀ + |k|²ggᵀ)/D²
+    //   (∂κb/∂g)ᵀ(∂κb/∂g) = (4|e|²I − 4eeᵀ + 2(e×k)eᵀ + 2e(e×k)ᵀ + |k|²eeᵀ)/D²
+    //   (∂κb/∂e)ᵀ(∂κb/∂g) = (4egᵀ − 4(g·e)I − 2(g×k)eᵀ + 2g(e×k)ᵀ + |k|²geᵀ)/D²
+#pragma GCC unroll 3
+    for (int col = 0; col < 3; ++col)
+    {
+#pragma GCC unroll 3
+      for (int line = 0; line < 3; ++line)
+      {
+        before_before(line, col) = p[line] * g[col] + g[line] * p[col];
+        after_after(line, col) = q[line] * e[col] + e[line] * q[col];
+        before_after(line, col) = 2.0 * (e[line] * wg[col]) + u[line] * e[col] + wg[line] * ek[col];
+      }
+    }
+    const double gg4 = 4.0 * w * g.squaredNorm();
+    const double ee4 = 4.0 * w * e.squaredNorm();
+    const double ge4 = 4.0 * w * g.dot(e);
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      before_before(axis, axis) += gg4;
+      after_after(axis, axis) += ee4;
+      before_after(axis, axis) -= ge4;
+    }
   }
 };
 

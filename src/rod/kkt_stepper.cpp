@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr int kMaxHalvings = 3;
+constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
 constexpr double kConstraintCompliance = 1e-10;
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
@@ -134,7 +135,7 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   StepReport report;
   if (!advance(state, input, dt, 0, report))
     report.solved = false;
-  report.max_strain = maxStrain(rod_, state);
+  report.max_strain = strain_;
   return report;
 }
 
@@ -169,6 +170,7 @@ void KktStepper::hold(State& state, int depth)
   for (Eigen::Vector3d& velocity : state.velocity)
     velocity.setZero();
   contacts_valid_ = false;
+  strain_ = maxStrain(rod_, state);
 }
 
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
@@ -187,7 +189,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       assemble(state, input, dt, solve == 0);
     }
     ++report.solves;
-    if (!solveActiveSet(state, dt, report))
+    if (!solveActiveSet(state, input, dt, solve == 0, report))
       return false;
     const bool last = solve + 1 == settings_.max_solves;
     const double factor = truncation(state, report);
@@ -196,7 +198,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       detect(state, report);
     if (source_ && contacts_.stale)
       break;  // one solve per step is all that old contacts are good for
-    if (factor == 1.0 && maxStrain(rod_, state) <= settings_.strain_tolerance && !foundUnknownContact())
+    strain_ = maxStrain(rod_, state);
+    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !foundUnknownContact())
       break;
     report.capped += last;
     if (last && !restoreLengths(state, input, dt, report))
@@ -223,7 +226,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     prepareContacts(state, fraction);
     assemble(state, input, fraction, true);
     ++report.solves;
-    solved = solveActiveSet(state, fraction, report);
+    solved = solveActiveSet(state, input, fraction, true, report);
     if (!solved)
       break;
     const double factor = truncation(state, report);
@@ -234,6 +237,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
   }
   begin_ = restore_begin_;
   state.velocity = restore_velocity_;
+  strain_ = maxStrain(rod_, state);
   return solved;
 }
 
@@ -245,12 +249,6 @@ void KktStepper::finish(State& state, double dt)
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
   const bool two_held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
   state.hand_force = -state.tension[first_ + (two_held ? 1 : 0)];
-}
-
-Eigen::Vector3d KktStepper::increment(int node) const
-{
-  const double* value = rhs_.data() + row(node);
-  return {value[0], value[1], value[2]};
 }
 
 void KktStepper::addDiagonal(int node, double value)
@@ -271,8 +269,9 @@ void KktStepper::addBlock(int node, const Eigen::Matrix3d& block)
 void KktStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve)
 {
   const int n = rod_.nodes();
-  base_.reset(4 * (n - first_) - 1);
+  base_.reset(4 * (n - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+  base_.at(kIdleRow, kIdleRow) = -scale_;
   for (int i = first_ + 1; i + 1 < n; ++i)
     addBending(i, state, dt);
   for (int j = first_; j + 1 < n; ++j)
@@ -309,28 +308,35 @@ void KktStepper::addBending(int node, const State& state, double dt)
   const Eigen::Matrix3d& a = hessian.before_before;
   const Eigen::Matrix3d& b = hessian.before_after;
   const Eigen::Matrix3d& c = hessian.after_after;
-  const int r0 = row(node - 1);
-  const int r1 = row(node);
-  const int r2 = row(node + 1);
+  double* rhs = base_rhs_.data() + row(node - 1);
+#pragma GCC unroll 3
   for (int axis = 0; axis < 3; ++axis)
   {
-    base_rhs_[r0 + axis] -= proximal[axis];
-    base_rhs_[r1 + axis] += proximal[axis] + distal[axis];
-    base_rhs_[r2 + axis] -= distal[axis];
+    rhs[axis] -= proximal[axis];
+    rhs[axis + 4] += proximal[axis] + distal[axis];
+    rhs[axis + 8] -= distal[axis];
   }
+  double* column0 = base_.column(row(node - 1));
+  double* column1 = base_.column(row(node));
+  double* column2 = base_.column(row(node + 1));
+#pragma GCC unroll 3
   for (int col = 0; col < 3; ++col)
   {
+    // Entry of a line below the column's diagonal; a node's rows lie 4 below those of the node before.
+    double* from0 = column0 + col * Matrix::kStride - col;
+    double* from1 = column1 + col * Matrix::kStride - col;
+    double* from2 = column2 + col * Matrix::kStride - col;
+#pragma GCC unroll 3
     for (int line = 0; line < 3; ++line)
     {
-      base_.at(r1 + line, r0 + col) += b(col, line) - a(line, col);
-      base_.at(r2 + line, r0 + col) -= b(col, line);
-      base_.at(r2 + line, r1 + col) += b(col, line) - c(line, col);
-    }
-    for (int line = col; line < 3; ++line)
-    {
-      base_.at(r0 + line, r0 + col) += a(line, col);
-      base_.at(r1 + line, r1 + col) += a(line, col) - b(line, col) - b(col, line) + c(line, col);
-      base_.at(r2 + line, r2 + col) += c(line, col);
+      from0[line + 4] += b(col, line) - a(line, col);
+      from0[line + 8] -= b(col, line);
+      from1[line + 4] += b(col, line) - c(line, col);
+      if (line < col)
+        continue;
+      from0[line] += a(line, col);
+      from1[line] += a(line, col) - b(line, col) - b(col, line) + c(line, col);
+      from2[line] += c(line, col);
     }
   }
 }
@@ -339,27 +345,32 @@ void KktStepper::addConstraint(int edge, const State& state, double dt)
 {
   const Eigen::Vector3d e = state.position[edge + 1] - state.position[edge];
   const double length = e.norm();
-  const Eigen::Vector3d direction = e / length;
+  const double inverse = 1.0 / length;
+  const Eigen::Vector3d direction = inverse * e;
   const int r0 = row(edge);
-  const int r1 = row(edge + 1);
   const int rm = multiplierRow(edge);
-  const double tension = std::max(0.0, state.tension[edge]) * dt * dt / length;
-  if (tension > 0.0)
-    for (int col = 0; col < 3; ++col)
-      for (int line = 0; line < 3; ++line)
-      {
-        const double value = tension * ((line == col ? 1.0 : 0.0) - direction[line] * direction[col]);
-        base_.at(r1 + line, r0 + col) -= value;
-        if (line >= col)
-        {
-          base_.at(r0 + line, r0 + col) += value;
-          base_.at(r1 + line, r1 + col) += value;
-        }
-      }
-  for (int axis = 0; axis < 3; ++axis)
+  const double tension = std::max(0.0, state.tension[edge]) * dt * dt * inverse;
+  double* column0 = base_.column(r0);
+  double* column1 = base_.column(r0 + 4);
+#pragma GCC unroll 3
+  for (int col = 0; col < 3; ++col)
   {
-    base_.at(rm, r0 + axis) = -scale_ * direction[axis];
-    base_.at(rm, r1 + axis) = scale_ * direction[axis];
+    double* from0 = column0 + col * Matrix::kStride - col;
+    double* from1 = column1 + col * Matrix::kStride - col;
+    from0[7] = -scale_ * direction[col];
+    from1[3] = scale_ * direction[col];
+    if (tension <= 0.0)
+      continue;
+#pragma GCC unroll 3
+    for (int line = 0; line < 3; ++line)
+    {
+      const double value = tension * ((line == col ? 1.0 : 0.0) - direction[line] * direction[col]);
+      from0[line + 4] -= value;
+      if (line < col)
+        continue;
+      from0[line] += value;
+      from1[line] += value;
+    }
   }
   base_.at(rm, rm) = -kConstraintCompliance * scale_;
   base_rhs_[rm] = -scale_ * (length - rod_.rest_length[edge]);
@@ -439,7 +450,7 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
 {
   prescribeNodes(state);
   ++report.factorisations;
-  if (matrix_.factorise() != rod_.nodes() - 1 - first_)
+  if (matrix_.factorise() != rod_.nodes() - first_)
     return false;
   matrix_.solve(rhs_);
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
@@ -478,7 +489,7 @@ std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const Step
   first_ = state.first_node;
   last_tip_torque_ = input.tip_torque;
   relaxTwist(state, input.tip_torque);
-  base_.reset(4 * (rod_.nodes() - first_) - 1);
+  base_.reset(4 * (rod_.nodes() - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
     addBending(i, state, 1.0);

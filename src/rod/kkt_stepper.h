@@ -11,10 +11,11 @@ namespace endovascular_sim::rod
 
 /** The `kkt` scheme (docs/PHYSICS.md): backward Euler as one banded saddle system per solve.
  *
- *  Unknowns are interleaved x0, x1, λ0, x2, λ1, …: half bandwidth 10, every multiplier after both its nodes, so LDLᵀ
- *  needs no pivoting. Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided
- *  springs re-evaluated inside the step, friction lagged in its normal force. A solve that would move a point further
- *  than its known free distance is truncated, contacts are found again, and the same step is solved again. */
+ *  Unknowns are interleaved x0, –, x1, λ0, x2, λ1, …: half bandwidth 10, every multiplier after both its nodes, so LDLᵀ
+ *  needs no pivoting; the unknown that follows x0 stands for nothing and gives all nodes the same pattern.
+ * Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided springs re-evaluated inside
+ * the step, friction lagged in its normal force. A solve that would move a point further than its known free distance
+ * is truncated, contacts are found again, and the same step is solved again. */
 class KktStepper : public Stepper
 {
 public:
@@ -33,7 +34,7 @@ public:
 
 private:
   static constexpr int kBandwidth = 10;
-  using Matrix = BandedLdlt<kBandwidth>;
+  using Matrix = BandedLdlt<kBandwidth, 4>;
 
   /** A contact as the solver uses it. */
   struct ActiveContact
@@ -63,7 +64,7 @@ private:
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
   void prescribeNodes(const State& state);
-  bool solveActiveSet(const State& state, double dt, StepReport& report);
+  bool solveActiveSet(const State& state, const StepInput& input, double dt, bool first_solve, StepReport& report);
   bool factoriseAndSolve(const State& state, StepReport& report);
   void addContact(const contact::Feature& feature, const ActiveContact& contact, double dt);
   bool updateActiveSet(int active_pass);
@@ -81,9 +82,13 @@ private:
   double bodyPosition(int node, double inserted_length) const;
   void finish(State& state, double dt);
 
-  int row(int node) const { return node == first_ ? 0 : 4 * (node - first_) - 1; }
-  int multiplierRow(int edge) const { return 4 * (edge - first_) + 6; }
-  Eigen::Vector3d increment(int node) const;
+  int row(int node) const { return 4 * (node - first_); }
+  int multiplierRow(int edge) const { return 4 * (edge - first_) + 7; }
+  Eigen::Vector3d increment(int node) const
+  {
+    const double* value = rhs_.data() + row(node);
+    return {value[0], value[1], value[2]};
+  }
 
   const Discretisation rod_;
   const Boundary boundary_;
@@ -105,6 +110,7 @@ private:
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
   double last_tip_torque_ = 0.0;
+  double strain_ = 0.0;  ///< largest of the last accepted iterate
 
   int first_ = 0;  ///< first simulated node
   Matrix base_, matrix_;

@@ -1,6 +1,7 @@
 #include "rod/state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/hash.h"
@@ -10,12 +11,18 @@ namespace endovascular_sim::rod
 
 std::uint64_t State::hash() const
 {
-  Hash64 hash;
+  // Four chains at a time: each waits for its own last word only.
+  std::array<Hash64, 4> chains;
   for (std::size_t i = static_cast<std::size_t>(first_node); i < position.size(); ++i)
+  {
     for (int axis = 0; axis < 3; ++axis)
-      hash.add(position[i][axis]);
-  for (std::size_t j = static_cast<std::size_t>(first_node); j < twist_angle.size(); ++j)
-    hash.add(twist_angle[j]);
+      chains[axis].add(position[i][axis]);
+    if (i < twist_angle.size())
+      chains[3].add(twist_angle[i]);
+  }
+  Hash64 hash;
+  for (const Hash64& chain : chains)
+    hash.add(chain.value());
   return hash.value();
 }
 

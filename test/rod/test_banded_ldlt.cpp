@@ -13,15 +13,16 @@ namespace
 constexpr int kBand = 10;
 
 /** A random banded matrix; every third unknown from the fifth on gets a negative diagonal, as a multiplier would. */
-BandedLdlt<kBand> randomMatrix(int size, std::mt19937& random, Eigen::MatrixXd& dense, int& negative)
+template <int Period>
+BandedLdlt<kBand, Period> randomMatrix(int size, std::mt19937& random, Eigen::MatrixXd& dense, int& negative)
 {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  BandedLdlt<kBand> matrix;
+  BandedLdlt<kBand, Period> matrix;
   matrix.reset(size);
   dense = Eigen::MatrixXd::Zero(size, size);
   negative = 0;
   for (int col = 0; col < size; ++col)
-    for (int row = col; row <= std::min(size - 1, col + kBand); ++row)
+    for (int row = col; row <= std::min(size - 1, col + kBand - col % Period); ++row)
     {
       const bool multiplier = col >= 5 && col % 3 == 0;
       negative += row == col && multiplier;
@@ -32,14 +33,22 @@ BandedLdlt<kBand> randomMatrix(int size, std::mt19937& random, Eigen::MatrixXd& 
   return matrix;
 }
 
-TEST(BandedLdlt, SolvesAnIndefiniteSystemLikeADensePivotedSolver)
+template <typename Type>
+class BandedLdltOfPeriod : public testing::Test
+{
+};
+using Periods =
+    testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(BandedLdltOfPeriod, Periods);
+
+TYPED_TEST(BandedLdltOfPeriod, SolvesAnIndefiniteSystemLikeADensePivotedSolver)
 {
   std::mt19937 random(1);
-  for (int size : {1, 5, 11, 12, 60, 333})
+  for (int size : {1, 5, 11, 12, 13, 14, 15, 16, 60, 333})
   {
     Eigen::MatrixXd dense;
     int negative = 0;
-    BandedLdlt<kBand> matrix = randomMatrix(size, random, dense, negative);
+    auto matrix = randomMatrix<TypeParam::value>(size, random, dense, negative);
     std::vector<double> rhs(size);
     for (double& value : rhs)
       value = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
@@ -51,12 +60,12 @@ TEST(BandedLdlt, SolvesAnIndefiniteSystemLikeADensePivotedSolver)
   }
 }
 
-TEST(BandedLdlt, CountsNegativePivotsAsTheInertiaSays)
+TYPED_TEST(BandedLdltOfPeriod, CountsNegativePivotsAsTheInertiaSays)
 {
   std::mt19937 random(2);
   Eigen::MatrixXd dense;
   int negative = 0;
-  BandedLdlt<kBand> matrix = randomMatrix(90, random, dense, negative);
+  auto matrix = randomMatrix<TypeParam::value>(90, random, dense, negative);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense);
   EXPECT_EQ(matrix.factorise(), (eigen.eigenvalues().array() < 0.0).count());
 }
@@ -76,7 +85,7 @@ TEST(BandedLdlt, PrescribesAnUnknownExactly)
   std::mt19937 random(3);
   Eigen::MatrixXd dense;
   int negative = 0;
-  BandedLdlt<kBand> matrix = randomMatrix(40, random, dense, negative);
+  auto matrix = randomMatrix<4>(40, random, dense, negative);
   std::vector<double> rhs(40, 1.0);
   matrix.prescribe(17, 0.25, 2.0, rhs);
   matrix.factorise();
