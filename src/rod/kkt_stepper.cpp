@@ -450,9 +450,18 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
 {
   prescribeNodes(state);
   ++report.factorisations;
-  if (matrix_.factorise() != rod_.nodes() - first_)
-    return false;
-  matrix_.solve(rhs_);
+  if (settings_.linear_solver == LinearSolver::kSparse)
+  {
+    if (!klu_.factorise(sparseFromBand(matrix_)))
+      return false;
+    klu_.solve(rhs_.data());
+  }
+  else
+  {
+    if (matrix_.factorise() != rod_.nodes() - first_)
+      return false;
+    matrix_.solve(rhs_);
+  }
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
 }
 

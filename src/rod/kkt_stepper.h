@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/banded_ldlt.h"
+#include "rod/sparse_solver.h"
 #include "rod/stepper.h"
 #include "rod/twist.h"
 
@@ -114,6 +115,7 @@ private:
 
   int first_ = 0;  ///< first simulated node
   Matrix base_, matrix_;
+  KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;

@@ -44,8 +44,16 @@ struct Environment
   double damping = 0.0;                               ///< mass-proportional [1/s]
 };
 
+/** What solves the linear systems of a step. */
+enum class LinearSolver
+{
+  kBanded,  ///< the banded LDLᵀ
+  kSparse,  ///< SuiteSparse on the assembled matrix: general, slower, the check of the banded one
+};
+
 struct StepperSettings
 {
+  LinearSolver linear_solver = LinearSolver::kBanded;
   int max_solves = 12;                  ///< linear solves in one step, truncated ones included
   double strain_tolerance = 5e-5;       ///< a step that leaves more is solved again
   double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "instrument/instrument.h"
+#include "rod/stepper.h"
 
 namespace endovascular_sim::session
 {
@@ -152,6 +153,7 @@ struct SamplingScene
 struct SolverScene
 {
   std::string scheme = "kkt";
+  rod::LinearSolver linear_solver = rod::LinearSolver::kBanded;
   double time_step = 1e-3;                  ///< [s]
   int max_newton = 8;                       ///< iterations per step
   double strain_tolerance = 5e-5;           ///< a solve that leaves more edge strain than this is repeated [1]

@@ -11,6 +11,7 @@ namespace
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
 const std::vector<std::string> kSamplingKinds = {"uniform"};
+const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
 
 // Lengths that differ by less than this were meant to be equal [m].
 constexpr double kSameLength = 1e-9;
@@ -170,6 +171,7 @@ void visitSolver(SceneFields& fields, SolverScene& solver)
 {
   int scheme = 0;
   fields.choice("scheme", scheme, {"kkt"});
+  fields.option("linear_solver", solver.linear_solver, kLinearSolvers);
   fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
   fields.integer("max_newton", solver.max_newton, 1, 1000);
   fields.number("strain_tolerance", solver.strain_tolerance, "1", Range::positive());

@@ -56,6 +56,7 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   environment.drag_coefficient = scene.loads.drag_coefficient;
   environment.damping = scene.loads.damping;
   rod::StepperSettings settings;
+  settings.linear_solver = scene.solver.linear_solver;
   settings.max_solves = scene.solver.max_newton;
   settings.strain_tolerance = scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;

@@ -111,6 +111,25 @@ TEST(Simulation, KeepsTheWireInsideTheGeneratedAnatomy)
   expectInside(bench, 15.0, 1e-4, 3000);
 }
 
+TEST(Simulation, GoesTheSameWayWithTheBandedSolverAndWithSuiteSparse)
+{
+  Bench banded("tube.yaml");
+  Bench sparse("tube.yaml", {"solver.linear_solver=suitesparse"});
+  double worst = 0.0;
+  for (int k = 0; k < 3000; ++k)
+  {
+    banded.step();
+    sparse.step();
+    const rod::State& one = banded.simulation->state();
+    const rod::State& other = sparse.simulation->state();
+    for (std::size_t i = static_cast<std::size_t>(one.first_node); i < one.position.size(); ++i)
+      worst = std::max(worst, (one.position[i] - other.position[i]).norm());
+  }
+  EXPECT_FALSE(banded.simulation->contactSet().features.empty());
+  EXPECT_GT(worst, 0.0);
+  EXPECT_LT(worst, 1e-9 * banded.simulation->discretisation().length());
+}
+
 TEST(Simulation, GivesTheSameBitsTwice)
 {
   const auto run = []

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace endovascular_sim::rod
+{
+
+/** Energy ½ k m² of the twist m between two edges, k = GJ over the node's Voronoi length [N·m], and its derivative by
+ *  θ of the edge after the node; by θ of the edge before it, the derivative has the opposite sign. */
+struct Twisting
+{
+  double twist;    ///< m = θ⁺ − θ⁻ [rad]
+  double torque;   ///< k m [N·m]; also ∂E/∂θ⁺ = −∂E/∂θ⁻
+  double hessian;  ///< k: ∂²E/∂θ⁺² = ∂²E/∂θ⁻² = −∂²E/∂θ⁺∂θ⁻ [N·m]
+
+  Twisting(double before, double after, double stiffness)
+    : twist(after - before), torque(stiffness * twist), hessian(stiffness)
+  {
+  }
+
+  double energy() const { return 0.5 * torque * twist; }  ///< [J]
+};
+
+/** How the twist at a node follows from its edges e (before) and g (after) while their material frames only move
+ *  along with them (parallel transport in time): ∂m/∂e = κb/(2|e|), ∂m/∂g = κb/(2|g|) (Bergou et al. 2010, eq. 7),
+ *  with the actual lengths also in κb, which make it exact for stretched edges.
+ *
+ *  The second derivatives are symmetrised: a single node's twist depends on the path by the holonomy of its edges, but
+ *  these parts cancel between neighbours, so that the sum over a wire with held ends, or over a ring, is exact. */
+struct TwistOfCentreline
+{
+  Eigen::Vector3d by_before;      ///< ∂m/∂e [1/m]
+  Eigen::Vector3d by_after;       ///< ∂m/∂g [1/m]
+  Eigen::Matrix3d before_before;  ///< ∂²m/∂e² [1/m²]
+  Eigen::Matrix3d before_after;   ///< ∂²m/∂e∂g [1/m²]
+  Eigen::Matrix3d after_after;    ///< ∂²m/∂g² [1/m²]
+
+  TwistOfCentreline(const Eigen::Vector3d& e, const Eigen::Vector3d& g)
+  {
+    const double before = e.norm();
+    const double after = g.norm();
+    const Eigen::Vector3d t = e / before;
+    const Eigen::Vector3d u = g / after;
+    const double chi = 1.0 + t.dot(u);
+    const Eigen::Vector3d binormal = (2.0 / chi) * t.cross(u);
+    const Eigen::Vector3d mean = (t + u) / chi;
+    by_before = binormal / (2.0 * before);
+    by_after = binormal / (2.0 * after);
+    const Eigen::Matrix3d p = (-0.25 / (before * before)) * binormal * (t + mean).transpose();
+    const Eigen::Matrix3d q = (-0.25 / (after * after)) * binormal * (u + mean).transpose();
+    before_before = p + p.transpose();
+    after_after = q + q.transpose();
+    Eigen::Matrix3d cross;
+    cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+    before_after = (0.5 / (before * after)) * ((2.0 / chi) * cross - binormal * mean.transpose());
+  }
+};
+
+/** Parallel transport of a vector from tangent @p t to tangent @p u, both unit, u ≠ −t: the smallest rotation. */
+inline Eigen::Vector3d parallelTransport(const Eigen::Vector3d& vector, const Eigen::Vector3d& t,
+                                         const Eigen::Vector3d& u)
+{
+  const Eigen::Vector3d axis = t.cross(u);
+  const double cosine = t.dot(u);
+  return cosine * vector + axis.cross(vector) + (axis.dot(vector) / (1.0 + cosine)) * axis;
+}
+
+}  // namespace endovascular_sim::rod
