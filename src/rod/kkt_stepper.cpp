@@ -16,6 +16,12 @@ constexpr double kConstraintCompliance = 1e-10;
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
+constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
+
+EndMotion middle(const EndMotion& a, const EndMotion& b)
+{
+  return {0.5 * (a.displacement + b.displacement), 0.5 * (a.tilt + b.tilt), 0.5 * (a.rotation + b.rotation)};
+}
 
 }  // namespace
 
@@ -60,18 +66,19 @@ State KktStepper::initialState(double inserted_length, double rotation) const
     while (state.first_node + 3 < rod_.nodes() &&
            bodyPosition(state.first_node + 2, inserted_length) < -boundary_.guide_length)
       ++state.first_node;
+  const Eigen::Vector3d& last = state.position.back();
+  state.distal_anchor =
+      boundary_.distal == EndHold::kClamped ? Eigen::Vector3d(0.5 * (last + state.position[n - 2])) : last;
   return state;
 }
 
 bool KktStepper::isPrescribed(int node, const State& state) const
 {
+  if (isDistalHeld(node))
+    return true;
   if (boundary_.introducer)
     return bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
-  const int last = rod_.nodes() - 1;
-  return (boundary_.proximal != EndHold::kFree && node == 0) ||
-         (boundary_.proximal == EndHold::kClamped && node == 1) ||
-         (boundary_.distal != EndHold::kFree && node == last) ||
-         (boundary_.distal == EndHold::kClamped && node == last - 1);
+  return (boundary_.proximal != EndHold::kFree && node == 0) || (boundary_.proximal == EndHold::kClamped && node == 1);
 }
 
 void KktStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
@@ -87,15 +94,18 @@ void KktStepper::placePrescribedNodes(State& state, double inserted_length, doub
     state.first_node = first;
     for (int i = first; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
     {
+      if (isDistalHeld(i))
+        break;
       state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
       state.velocity[i] = speed * boundary_.direction;
+      begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
       state.wall_force[i].setZero();
     }
   }
   first_ = state.first_node;
 }
 
-TwistBoundary KktStepper::twistBoundary(const State& state, double tip_torque) const
+TwistBoundary KktStepper::twistBoundary(const State& state, const StepInput& input) const
 {
   TwistBoundary twist;
   twist.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
@@ -103,18 +113,22 @@ TwistBoundary KktStepper::twistBoundary(const State& state, double tip_torque) c
   twist.director = boundary_.director;
   twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.5 * rod_.rest_length[0];
   twist.rotation = state.rotation;
-  twist.tip_torque = tip_torque;
+  twist.tip_torque = input.tip_torque;
+  twist.edge_torque = &input.edge_torque;
+  twist.tip_held = boundary_.distal == EndHold::kClamped && boundary_.distal_twist_held;
+  twist.tip_director = distalRotation(state) * boundary_.director;
+  twist.tip_rotation = state.distal.rotation;
   return twist;
 }
 
-void KktStepper::relaxTwist(State& state, double tip_torque)
+void KktStepper::relaxTwist(State& state, const StepInput& input)
 {
-  const TwistBoundary boundary = twistBoundary(state, tip_torque);
+  const TwistBoundary boundary = twistBoundary(state, input);
   twist_active_ = QuasiStaticTwist::matters(rod_, boundary);
   if (!twist_active_)
   {
     std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
-    state.hand_torque = 0.0;
+    state.hand_torque = state.distal_torque = 0.0;
     return;
   }
   PhaseTimer::Scope scope(*timer_, Phase::kTwist);
@@ -131,7 +145,7 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   pass_ = &pass;
   step_ = input.step;
   substep_ = input.substep;
-  last_tip_torque_ = input.tip_torque;
+  last_input_ = input;
   StepReport report;
   if (!advance(state, input, dt, 0, report))
     report.solved = false;
@@ -157,6 +171,7 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   StepInput half = input;
   half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
   half.rotation = 0.5 * (state.rotation + input.rotation);
+  half.distal = middle(state.distal, input.distal);
   if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
     return true;
   hold(state, depth);
@@ -177,12 +192,13 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
 {
   begin_ = state.position;
   placePrescribedNodes(state, input.inserted_length, dt);
+  placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
   if (source_ && (!contacts_valid_ || contacts_.stale))
     detect(state, report);
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
-    relaxTwist(state, input.tip_torque);
+    relaxTwist(state, input);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
       prepareContacts(state, dt);
@@ -247,8 +263,6 @@ void KktStepper::finish(State& state, double dt)
   for (int i = first_; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
-  const bool two_held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
-  state.hand_force = -state.tension[first_ + (two_held ? 1 : 0)];
 }
 
 void KktStepper::addDiagonal(int node, double value)
@@ -435,7 +449,7 @@ void KktStepper::prescribeNodes(const State& state)
   {
     if (!isPrescribed(i, state))
     {
-      if (boundary_.introducer)
+      if (boundary_.introducer && boundary_.distal == EndHold::kFree)
         break;
       continue;
     }
@@ -462,7 +476,14 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
       return false;
     matrix_.solve(rhs_);
   }
-  return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
+  // Tensions may be huge for one solve, where a straight wire is shortened; motions may not.
+  for (std::size_t k = 0; k < rhs_.size(); ++k)
+  {
+    const bool multiplier = k % 4 == kIdleRow;
+    if (!(std::abs(rhs_[k]) < (multiplier ? kLargestTension : kLargestMotion)))
+      return false;
+  }
+  return true;
 }
 
 Energy KktStepper::energy(const State& state)
@@ -472,7 +493,7 @@ Energy KktStepper::energy(const State& state)
   PhaseTimer unused;
   timer_ = &unused;
   first_ = state.first_node;
-  relaxTwist(relaxed, last_tip_torque_);
+  relaxTwist(relaxed, last_input_);
   energy.twist = twist_active_ ? twist_.energy() : 0.0;
   for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
   {
@@ -496,8 +517,8 @@ std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const Step
   PhaseTimer unused;
   timer_ = &unused;
   first_ = state.first_node;
-  last_tip_torque_ = input.tip_torque;
-  relaxTwist(state, input.tip_torque);
+  last_input_ = input;
+  relaxTwist(state, input);
   base_.reset(4 * (rod_.nodes() - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)

@@ -52,9 +52,12 @@ private:
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   void placePrescribedNodes(State& state, double inserted_length, double dt);
+  void placeDistalEnd(State& state, const EndMotion& motion, double dt);
   bool isPrescribed(int node, const State& state) const;
-  TwistBoundary twistBoundary(const State& state, double tip_torque) const;
-  void relaxTwist(State& state, double tip_torque);
+  bool isDistalHeld(int node) const;
+  static Eigen::Matrix3d distalRotation(const State& state);
+  TwistBoundary twistBoundary(const State& state, const StepInput& input) const;
+  void relaxTwist(State& state, const StepInput& input);
 
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
   void addBending(int node, const State& state, double dt);
@@ -72,6 +75,8 @@ private:
   void prepareContacts(const State& state, double dt);
   double truncation(const State& state, StepReport& report);
   void accept(State& state, double dt, double factor);
+  void updateEndForces(State& state, double dt) const;
+  Eigen::Vector3d forceOnHold(int node, double dt) const;
   void updateWallForces(State& state);
   double foldTruncation(const State& state, double factor) const;
   double freeDistanceTruncation(const State& state, StepReport& report);
@@ -110,8 +115,8 @@ private:
   std::uint32_t* pass_ = nullptr;
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
-  double last_tip_torque_ = 0.0;
   double strain_ = 0.0;  ///< largest of the last accepted iterate
+  StepInput last_input_;
 
   int first_ = 0;  ///< first simulated node
   Matrix base_, matrix_;

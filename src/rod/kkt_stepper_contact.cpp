@@ -212,6 +212,7 @@ void KktStepper::accept(State& state, double dt, double factor)
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
     state.tension[j] = to_force * rhs_[multiplierRow(j)];
   updateWallForces(state);
+  updateEndForces(state, dt);
 }
 
 void KktStepper::updateWallForces(State& state)

@@ -60,8 +60,8 @@ private:
 };
 
 /** The nonzeros of a banded symmetric matrix, both triangles. */
-template <int Bandwidth>
-SparseMatrix sparseFromBand(const BandedLdlt<Bandwidth>& band)
+template <int Bandwidth, int Period>
+SparseMatrix sparseFromBand(const BandedLdlt<Bandwidth, Period>& band)
 {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(band.size()) * (2 * Bandwidth + 1));

@@ -10,6 +10,14 @@
 namespace endovascular_sim::rod
 {
 
+/** How far a held distal end has been moved from where it was at the start. */
+struct EndMotion
+{
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< of the clamp's middle, or of the pinned node [m]
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();          ///< rotation vector of a clamp's direction [rad]
+  double rotation = 0.0;  ///< of a clamp that holds the twist, about the wire's axis [rad]
+};
+
 /** What changes from step to step. Arrays run over all nodes (n) or edges (n−1) of the wire; those before
  *  first_node lie outside the introducer, straight and unsimulated. */
 struct State
@@ -25,6 +33,13 @@ struct State
   std::vector<double> friction_coefficient;  ///< of the contact that pushes on each node, n
   double hand_force = 0.0;                   ///< axial force of the wire on the hand, positive when it pushes back [N]
   double hand_torque = 0.0;                  ///< torque that the hand holds about the wire's axis [N·m]
+
+  EndMotion distal;            ///< where the held distal end is
+  double tip_transport = 0.0;  ///< angle from the Bishop frame to a held tip's director, over full turns [rad]
+  double distal_torque = 0.0;  ///< torque that a clamp of the distal end's twist holds about the wire's axis [N·m]
+  Eigen::Vector3d distal_anchor = Eigen::Vector3d::Zero();   ///< place of the held distal end at the start [m]
+  Eigen::Vector3d proximal_force = Eigen::Vector3d::Zero();  ///< of the wire on what holds its proximal end [N]
+  Eigen::Vector3d distal_force = Eigen::Vector3d::Zero();    ///< and on a held distal end [N]
 
   /** 64-bit hash over the positions and twist angles from first_node on, as IEEE-754 bytes. */
   std::uint64_t hash() const;

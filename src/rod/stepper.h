@@ -31,8 +31,9 @@ struct Boundary
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();   ///< material direction d1 at rotation 0, unit, ⟂ direction
   double guide_length = 19e-3;                           ///< over which the introducer's lateral guide fades [m]
   double guide_stiffness = 5300.0;                       ///< at the guide's outer end, per length of wire [N/m²]
-  EndHold proximal = EndHold::kFree;
+  EndHold proximal = EndHold::kFree;                     ///< without an introducer; a clamp holds the twist too
   EndHold distal = EndHold::kFree;
+  bool distal_twist_held = false;  ///< of a clamped distal end
 };
 
 /** What acts on the whole wire. Zero leaves the term out. */
@@ -77,8 +78,10 @@ struct StepInput
   std::uint32_t substep = 0;
   double inserted_length = 0.0;  ///< at the end of the step [m]
   double rotation = 0.0;         ///< at the end of the step [rad]
+  EndMotion distal;              ///< of a held distal end, at the end of the step
   std::vector<NodalForce> forces;
-  double tip_torque = 0.0;  ///< [N·m]
+  double tip_torque = 0.0;          ///< [N·m]
+  std::vector<double> edge_torque;  ///< from outside about the axis of every edge; empty: none [N·m]
 };
 
 /** What one step took. */

@@ -39,7 +39,8 @@ double torsionalCompliance(const Discretisation& rod, double begin, double end, 
 
 bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& boundary)
 {
-  return rod.first_curved < rod.nodes() || boundary.tip_torque != 0.0;
+  return rod.first_curved < rod.nodes() || boundary.tip_torque != 0.0 || boundary.hasEdgeTorque() ||
+         (boundary.held && boundary.tip_held);
 }
 
 void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state)
@@ -51,6 +52,7 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
   if (first_curved_ > n - 2)
     first_curved_ = n;
+  last_body_ = std::min(first_curved_ - 1, n - 2);
   bishop_.resize(n);
   bishop_normal_.resize(n);
   binormal_.resize(n);
@@ -59,20 +61,52 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   gradient_.resize(n);
   diagonal_.resize(n);
   upper_.resize(n);
-  body_stiffness_ = boundary.held ? bodyStiffness(rod, boundary) : 0.0;
-  if (first_curved_ < n)
-  {
+  prepareBody(rod, boundary);
+  if (first_curved_ < n || boundary.tip_held)
     transportBishopFrame(rod, boundary, state);
+  if (boundary.tip_held)
+    placeTip(rod, boundary, state);
+  if (first_curved_ < n)
     relax(rod, boundary, state);
-  }
   evaluate(rod, boundary, state);
 }
 
-double QuasiStaticTwist::bodyStiffness(const Discretisation& rod, const TwistBoundary& boundary) const
+/** The straight body as a spring between the held place and its last edge, turned by the torques along it. */
+void QuasiStaticTwist::prepareBody(const Discretisation& rod, const TwistBoundary& boundary)
 {
-  const int last = std::min(first_curved_ - 1, rod.nodes() - 2);
-  const double compliance = torsionalCompliance(rod, boundary.position, edgeMiddle(rod, last), first_edge_);
-  return 1.0 / std::max(compliance, kMinLength * rod.rest_length[last] / rod.torsional_stiffness[last]);
+  body_stiffness_ = 0.0;
+  if (boundary.held)
+  {
+    const double compliance = torsionalCompliance(rod, boundary.position, edgeMiddle(rod, last_body_), first_edge_);
+    body_stiffness_ =
+        1.0 / std::max(compliance, kMinLength * rod.rest_length[last_body_] / rod.torsional_stiffness[last_body_]);
+  }
+  body_load_ = body_load_angle_ = 0.0;
+  if (!boundary.hasEdgeTorque())
+    return;
+  double compliance = 0.0;
+  double reached = boundary.position;
+  for (int j = first_edge_; j < last_body_; ++j)
+  {
+    compliance += std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+    reached = std::max(reached, edgeMiddle(rod, j));
+    body_load_ += boundary.edgeTorque(j);
+    body_load_angle_ += compliance * boundary.edgeTorque(j);
+  }
+}
+
+/** Torque at the body's last node, just before its last edge, when that edge has turned by @p angle [N·m]. */
+double QuasiStaticTwist::bodyTorque(const TwistBoundary& boundary, double angle) const
+{
+  return boundary.held ? body_stiffness_ * (angle - boundary.rotation - body_load_angle_) : -body_load_;
+}
+
+/** Angle of a held last edge: from the transported frame to its director, on the branch nearest to the last one. */
+void QuasiStaticTwist::placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const
+{
+  const double angle = std::atan2(boundary.tip_director.dot(tip_normal_), boundary.tip_director.dot(tip_bishop_));
+  state.tip_transport = angle + 2.0 * M_PI * std::round((state.tip_transport - angle) / (2.0 * M_PI));
+  state.twist_angle[rod.nodes() - 2] = state.tip_transport + boundary.tip_rotation;
 }
 
 void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary,
@@ -92,6 +126,8 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
       bishop_normal_[j] = tangent.cross(director);
     }
   }
+  tip_bishop_ = director;
+  tip_normal_ = tangent.cross(director);
   for (int i = first_curved_; i + 1 < rod.nodes(); ++i)
     binormal_[i] =
         CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
@@ -106,7 +142,9 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   const int first = first_curved_ - 1;
   for (int j = first; j + 1 < n; ++j)
     gradient_[j] = diagonal_[j] = upper_[j] = 0.0;
-  gradient_[first] = body_stiffness_ * (state.twist_angle[first] - boundary.rotation);
+  gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
+  for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
+    gradient_[j] -= boundary.edgeTorque(j);
   // The tiny second term keeps the matrix regular where nothing holds the twist.
   diagonal_[first] = body_stiffness_ + 1e-9 * rod.torsional_stiffness[first_curved_] / rod.cell_length[first_curved_];
   gradient_[n - 2] -= boundary.tip_torque;
@@ -131,6 +169,12 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
       gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
       diagonal_[j] += b * std::max(0.0, rest.dot(omega));
     }
+  }
+  tip_gradient_ = gradient_[n - 2];
+  if (boundary.tip_held)
+  {
+    gradient_[n - 2] = upper_[n - 3] = 0.0;
+    diagonal_[n - 2] = 1.0;
   }
   double largest = 0.0;
   for (int j = first; j + 1 < n; ++j)
@@ -169,25 +213,54 @@ void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& bou
 
 void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
-  const int n = rod.nodes();
-  const int last_body = std::min(first_curved_ - 1, n - 2);
-  const double body_torque =
-      first_curved_ < n ? body_stiffness_ * (state.twist_angle[last_body] - boundary.rotation) : boundary.tip_torque;
-  energy_ = body_stiffness_ > 0.0 ? 0.5 * body_torque * body_torque / body_stiffness_ : 0.0;
-  state.hand_torque = boundary.held ? -body_torque : 0.0;
+  energy_ = 0.0;
+  evaluateBody(rod, boundary, state);
+  evaluateTip(rod, state);
+  state.distal_torque = 0.0;
+  if (!boundary.tip_held)
+    return;
+  // With a curved tip the last assembly knows it; a straight wire's last edge hands on the body's torque.
+  state.distal_torque = tip_gradient_;
+  if (first_curved_ == rod.nodes())
+    state.distal_torque = torque_[last_body_] - boundary.edgeTorque(last_body_) - boundary.tip_torque;
+}
+
+/** Torques, energy and angles of the straight body. */
+void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const bool given = first_curved_ < rod.nodes() || boundary.tip_held;  // the angle of the last edge is known
+  const double end_angle = state.twist_angle[last_body_];
+  double torque = given ? bodyTorque(boundary, end_angle) : boundary.tip_torque + boundary.edgeTorque(last_body_);
+  torque += body_load_;
+  state.hand_torque = boundary.held ? -torque : 0.0;
   double angle = boundary.rotation;
   double reached = boundary.position;
-  for (int j = state.first_node; j <= last_body; ++j)
+  for (int j = state.first_node; j <= last_body_; ++j)
   {
+    if (j > first_edge_)
+      torque -= boundary.edgeTorque(j - 1);
     if (j > first_edge_ || edgeMiddle(rod, j) > boundary.position)
     {
-      angle += body_torque * std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+      const double turn = torque * std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+      angle += turn;
+      energy_ += 0.5 * torque * turn;
       reached = edgeMiddle(rod, j);
-      torque_[j] = body_torque;
+      torque_[j] = torque;
     }
-    if (j < first_curved_ - 1 || first_curved_ == n)
+    if (j < last_body_ || !given)
       state.twist_angle[j] = angle;
   }
+  if (boundary.held || !given)
+    return;
+  // Nothing holds the proximal end: the body turns with its last edge.
+  for (int j = state.first_node; j < last_body_; ++j)
+    state.twist_angle[j] += end_angle - angle;
+}
+
+/** Torques, energy and rest curvature of the curved tip. */
+void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
+{
+  const int n = rod.nodes();
   for (int i = first_curved_; i + 1 < n; ++i)
   {
     const double m = state.twist_angle[i] - state.twist_angle[i - 1];

@@ -18,6 +18,18 @@ struct TwistBoundary
   double position = 0.0;                                ///< arc length of the held place from the proximal end [m]
   double rotation = 0.0;                                ///< of the handle [rad]
   double tip_torque = 0.0;                              ///< applied at the tip about the axis [N·m]
+
+  bool tip_held = false;                                    ///< true: the last edge's material frame is held too
+  Eigen::Vector3d tip_director = Eigen::Vector3d::UnitY();  ///< d1 there at tip rotation 0, unit, ⟂ the last edge
+  double tip_rotation = 0.0;                                ///< of what holds the tip [rad]
+
+  /** Torque from outside about the axis of every edge, e.g. wall friction [N·m], n−1; null or empty: none. */
+  const std::vector<double>* edge_torque = nullptr;
+
+  /** Whether any torque from outside acts along the wire. */
+  bool hasEdgeTorque() const { return edge_torque != nullptr && !edge_torque->empty(); }
+  /** Torque from outside on an edge [N·m]. */
+  double edgeTorque(int edge) const { return hasEdgeTorque() ? (*edge_torque)[edge] : 0.0; }
 };
 
 /** Quasi-static twist (Bergou et al. 2008, §5.1): twist waves are far faster than bending, so the twist angles
@@ -28,11 +40,13 @@ struct TwistBoundary
 class QuasiStaticTwist
 {
 public:
-  /** @return true when the twist influences anything: rest curvature, or a torque at the tip */
+  /** @return true when the twist influences anything: rest curvature, a torque at the tip or along the wire, or both
+   *  ends held */
   static bool matters(const Discretisation& rod, const TwistBoundary& boundary);
 
-  /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle and
-   *  state.hand_torque. Edges before the held place turn with the hand. */
+  /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle,
+   *  state.hand_torque and state.distal_torque. Edges before the held place turn with the hand. A held tip's angle is
+   *  followed over full turns by state.tip_transport. */
   void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state);
 
   /** First node at which rest curvature acts: beyond the held place and on the curved tip. */
@@ -50,16 +64,25 @@ public:
 private:
   void transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+  void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
   void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
-  double bodyStiffness(const Discretisation& rod, const TwistBoundary& boundary) const;
+  void evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+  void evaluateTip(const Discretisation& rod, State& state);
+  void prepareBody(const Discretisation& rod, const TwistBoundary& boundary);
+  double bodyTorque(const TwistBoundary& boundary, double angle) const;
 
   int first_edge_ = 0;    ///< first edge beyond the held place
   int first_curved_ = 0;  ///< first curved node beyond the held place; n without
+  int last_body_ = 0;     ///< last edge of the straight body
   double body_stiffness_ = 0.0;
+  double body_load_ = 0.0;        ///< torque from outside on the body before its last edge [N·m]
+  double body_load_angle_ = 0.0;  ///< by which that load turns the body's last edge [rad]
+  double tip_gradient_ = 0.0;     ///< of the energy less the work of torques, by the last edge's angle [N·m]
   double energy_ = 0.0;
   std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
   std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
+  Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both of the last edge
   std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;

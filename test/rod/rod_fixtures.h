@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "rod/kkt_stepper.h"
 
 namespace endovascular_sim::rod
@@ -37,6 +39,24 @@ inline Boundary clampAtOrigin(double length, int nodes)
 inline double clampedLength(double length, int nodes)
 {
   return length * (nodes - 1) / (nodes - 1.5);
+}
+
+/** A bench wire along x held at both ends; clamps act at the origin and at (length, 0, 0), in the middles of the end
+ * edges of the wire of heldLength(). */
+inline Boundary heldAtBothEnds(double length, int nodes, EndHold hold)
+{
+  Boundary boundary;
+  boundary.introducer = false;
+  boundary.proximal = boundary.distal = hold;
+  if (hold == EndHold::kClamped)
+    boundary.origin = Eigen::Vector3d(-0.5 * length / (nodes - 2), 0.0, 0.0);
+  return boundary;
+}
+
+/** Total length of the wire that has @p length between its holds. */
+inline double heldLength(double length, int nodes, EndHold hold)
+{
+  return hold == EndHold::kClamped ? length * (nodes - 1) / (nodes - 2) : length;
 }
 
 /** Steps until nothing moves any more; returns the number of steps, or −1 when it does not come to rest. */

@@ -158,5 +158,87 @@ TEST(QuasiStaticTwist, ATurnedTipFollowsContinuouslyBelowTheSnapAndJumpsAboveIt)
   EXPECT_GT(largestJump(1.3 * M_PI / 2.0), 1.0);
 }
 
+// A torque q per edge on a straight rod whose hand end is held: the torque at a node is that of all edges beyond it.
+TEST(QuasiStaticTwist, ADistributedTorqueTwistsAStraightWireByItsParabola)
+{
+  const int nodes = 40;
+  const double gj = 2e-3 / 1.3;
+  const double q = 3e-5;
+  const Discretisation rod = discretiseUniformly(uniformWire(0.1, 2e-3, 4e-4, 7000.0), nodes);
+  const double edge = rod.rest_length[0];
+  const std::vector<double> torque(nodes - 1, q);
+  Boundary bench;
+  bench.introducer = false;
+  KktStepper stepper(rod, bench, Environment(), StepperSettings());
+  State state = stepper.initialState(0.0, 0.7);
+  TwistBoundary boundary;
+  boundary.position = 0.5 * edge;
+  boundary.rotation = 0.7;
+  boundary.edge_torque = &torque;
+  EXPECT_TRUE(QuasiStaticTwist::matters(rod, boundary));
+  QuasiStaticTwist twist;
+  twist.solve(rod, boundary, state);
+  EXPECT_NEAR(state.hand_torque, -q * (nodes - 1), 1e-15);
+  for (int j = 0; j + 1 < nodes; ++j)
+  {
+    const double carried = q * (j * (nodes - 1) - 0.5 * j * (j + 1));  // sum over the nodes 1 … j of (nodes − 1 − i)·q
+    EXPECT_NEAR(state.twist_angle[j], 0.7 + carried * edge / gj, 1e-12);
+  }
+  // Held at the tip too, both holds share it.
+  boundary.tip_held = true;
+  boundary.tip_rotation = 0.7;
+  twist.solve(rod, boundary, state);
+  EXPECT_NEAR(state.hand_torque, -0.5 * q * (nodes - 1), 1e-12);
+  EXPECT_NEAR(state.distal_torque, -0.5 * q * (nodes - 1), 1e-12);
+  const double middle = q * (0.5 * (nodes - 1) * 19 - 0.5 * 19 * 20);
+  EXPECT_NEAR(state.twist_angle[19], 0.7 + middle * edge / gj, 1e-12);
+  EXPECT_NEAR(state.twist_angle[nodes - 2], 0.7, 1e-12);
+}
+
+// On a straight centreline rest curvature exerts no torque: the tip's own angles must agree with the body's formula.
+TEST(QuasiStaticTwist, TorquesAlongAPreCurvedWireOnAStraightLineTwistItLikeAStraightOne)
+{
+  const int nodes = 50;
+  Wire straight = curvedTipWire(80.0);
+  straight.sections[1].rest_curvature.setZero();
+  const Discretisation with_tip = discretiseUniformly(curvedTipWire(80.0), nodes);
+  const Discretisation without = discretiseUniformly(straight, nodes);
+  Boundary bench;
+  bench.introducer = false;
+  KktStepper stepper(without, bench, Environment(), StepperSettings());
+  std::vector<double> torque;
+  for (int j = 0; j + 1 < nodes; ++j)
+    torque.push_back(1e-5 * std::sin(0.2 * j) + 2e-6);
+  for (const bool hand_held : {true, false})
+    for (const bool tip_held : {true, false})
+    {
+      if (!hand_held && !tip_held)
+        continue;
+      TwistBoundary boundary;
+      boundary.held = hand_held;
+      boundary.position = 0.5 * without.rest_length[0];
+      boundary.rotation = 0.3;
+      boundary.edge_torque = &torque;
+      boundary.tip_held = tip_held;
+      boundary.tip_rotation = 1.1;
+      boundary.tip_torque = tip_held ? 0.0 : 4e-5;
+      State a = stepper.initialState(0.0, 0.3);
+      State b = a;
+      QuasiStaticTwist twist;
+      twist.solve(with_tip, boundary, a);
+      const double energy = twist.energy();
+      twist.solve(without, boundary, b);
+      EXPECT_NEAR(twist.energy(), energy, 1e-12);
+      EXPECT_NEAR(a.hand_torque, b.hand_torque, 1e-13);
+      EXPECT_NEAR(a.distal_torque, b.distal_torque, 1e-13);
+      double sum = a.hand_torque + a.distal_torque + boundary.tip_torque;
+      for (const double t : torque)
+        sum += t;
+      EXPECT_NEAR(sum, 0.0, 1e-13);
+      for (int j = 0; j + 1 < nodes; ++j)
+        EXPECT_NEAR(a.twist_angle[j], b.twist_angle[j], 1e-10) << "edge " << j;
+    }
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rod
