@@ -28,6 +28,7 @@ struct State
   std::vector<Eigen::Vector3d> position;     ///< [m], n
   std::vector<Eigen::Vector3d> velocity;     ///< [m/s], n
   std::vector<double> tension;               ///< multiplier of inextensibility [N], n−1
+  std::vector<Eigen::Vector3d> moment;       ///< bending moment in space, schemes that solve for it only [N·m], n
   std::vector<double> twist_angle;           ///< material frame against Bishop frame [rad], n−1
   std::vector<Eigen::Vector3d> wall_force;   ///< normal force of the wall on each node [N], n
   std::vector<double> friction_coefficient;  ///< of the contact that pushes on each node, n
