@@ -205,7 +205,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       assemble(state, input, dt, solve == 0);
     }
     ++report.solves;
-    if (!solveActiveSet(state, input, dt, solve == 0, report))
+    if (!solveActiveSet(state, dt, report))
       return false;
     const bool last = solve + 1 == settings_.max_solves;
     const double factor = truncation(state, report);
@@ -242,7 +242,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     prepareContacts(state, fraction);
     assemble(state, input, fraction, true);
     ++report.solves;
-    solved = solveActiveSet(state, input, fraction, true, report);
+    solved = solveActiveSet(state, fraction, report);
     if (!solved)
       break;
     const double factor = truncation(state, report);

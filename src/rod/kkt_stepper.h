@@ -68,7 +68,7 @@ private:
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
   void prescribeNodes(const State& state);
-  bool solveActiveSet(const State& state, const StepInput& input, double dt, bool first_solve, StepReport& report);
+  bool solveActiveSet(const State& state, double dt, StepReport& report);
   bool factoriseAndSolve(const State& state, StepReport& report);
   void addContact(const contact::Feature& feature, const ActiveContact& contact, double dt);
   bool updateActiveSet(int active_pass);

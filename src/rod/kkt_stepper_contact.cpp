@@ -20,19 +20,13 @@ constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has
 
 }  // namespace
 
-bool KktStepper::solveActiveSet(const State& state, const StepInput& input, double dt, bool first_solve,
-                                StepReport& report)
+bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& report)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
   double shift = 0.0;
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
-    // Without contacts there is one pass: the assembled matrix need not be kept.
-    const bool keep = !active_.empty();
-    if (keep)
-      matrix_.copyFrom(base_);
-    else
-      std::swap(matrix_, base_);
+    matrix_.copyFrom(base_);
     rhs_ = base_rhs_;
     for (std::size_t c = 0; c < active_.size(); ++c)
       if (active_[c].active)
@@ -45,8 +39,6 @@ bool KktStepper::solveActiveSet(const State& state, const StepInput& input, doub
       if (shift > 0.0)
         return false;
       shift = kShift;
-      if (!keep)
-        assemble(state, input, dt, first_solve);
       continue;
     }
     if (!updateActiveSet(active_pass))
