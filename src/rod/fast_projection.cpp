@@ -23,7 +23,8 @@ bool FastProjection::project(const Discretisation& rod, int first, const std::ve
   for (iterations_ = 0; iterations_ < kMaxIterations; ++iterations_)
   {
     const double strain = residual(rod, first, inverse_mass, position);
-    if (strain <= tolerance)
+    // Once at least: a strain within the tolerance, left to the stretch energy, would shake the tension.
+    if (strain <= tolerance && iterations_ > 0)
       return true;
     if (!std::isfinite(strain) || !solve(first, last, inverse_mass))
       return false;
