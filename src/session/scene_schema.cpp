@@ -1,5 +1,6 @@
 #include "session/scene_schema.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace endovascular_sim::session
@@ -11,6 +12,7 @@ namespace
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
 const std::vector<std::string> kSamplingKinds = {"uniform"};
+const std::vector<std::string> kSchemes = {"kkt", "paper"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
 
 // Lengths that differ by less than this were meant to be equal [m].
@@ -169,8 +171,10 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
 
 void visitSolver(SceneFields& fields, SolverScene& solver)
 {
-  int scheme = 0;
-  fields.choice("scheme", scheme, {"kkt"});
+  const auto known = std::find(kSchemes.begin(), kSchemes.end(), solver.scheme);
+  int scheme = static_cast<int>(known - kSchemes.begin());
+  fields.choice("scheme", scheme, kSchemes);
+  solver.scheme = kSchemes.at(static_cast<std::size_t>(scheme));
   fields.option("linear_solver", solver.linear_solver, kLinearSolvers);
   fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
   fields.integer("max_newton", solver.max_newton, 1, 1000);

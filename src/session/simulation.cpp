@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "rod/kkt_stepper.h"
+#include "rod/paper_stepper.h"
 
 namespace endovascular_sim::session
 {
@@ -48,8 +49,8 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
 {
   if (scene.sampling.kind != SamplingKind::kUniform)
     throw InputError(scene.file, "sampling.kind", "only 'uniform' is simulated by this version");
-  if (scene.solver.scheme != "kkt")
-    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt");
+  if (scene.solver.scheme != "kkt" && scene.solver.scheme != "paper")
+    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt, paper");
   rod::Environment environment;
   environment.gravity = scene.loads.gravity;
   environment.fluid_density = scene.loads.fluid_density;
@@ -61,6 +62,9 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   settings.strain_tolerance = scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;
   settings.contact_margin = scene.solver.contact_margin;
+  if (scene.solver.scheme == "paper")
+    return std::make_unique<rod::PaperStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
+                                               boundaryOf(scene, entry), environment, settings);
   return std::make_unique<rod::KktStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
                                            boundaryOf(scene, entry), environment, settings);
 }

@@ -60,7 +60,7 @@ inline double heldLength(double length, int nodes, EndHold hold)
 }
 
 /** Steps until nothing moves any more; returns the number of steps, or −1 when it does not come to rest. */
-inline int settle(KktStepper& stepper, State& state, StepInput input, double dt, double slowest, int max_steps)
+inline int settle(Stepper& stepper, State& state, StepInput input, double dt, double slowest, int max_steps)
 {
   PhaseTimer timer;
   for (int k = 0; k < max_steps; ++k)

@@ -130,6 +130,33 @@ TEST(Simulation, GoesTheSameWayWithTheBandedSolverAndWithSuiteSparse)
   EXPECT_LT(worst, 1e-9 * banded.simulation->discretisation().length());
 }
 
+TEST(Simulation, ThePaperSchemeStaysInsideABentTubeAtSmallTimeStepsAndDeeperThanTheOther)
+{
+  const std::vector<std::string> overrides = {"solver.time_step=1e-4", "drive.initial_insertion=0.045",
+                                              "drive.speed=0.05", "drive.travel=0.045", "vessel.friction=0"};
+  std::vector<std::string> paper_overrides = overrides;
+  paper_overrides.push_back("solver.scheme=paper");
+  Bench kkt("tube.yaml", overrides);
+  Bench paper("tube.yaml", paper_overrides);
+  double kkt_depth = 0.0;
+  double paper_depth = 0.0;
+  double apart = 0.0;
+  for (int k = 0; k < 8000; ++k)
+  {
+    kkt.step();
+    paper.step();
+    ASSERT_TRUE(paper.simulation->report().solved) << "step " << k;
+    kkt_depth = std::max(kkt_depth, kkt.simulation->surfacePenetration());
+    paper_depth = std::max(paper_depth, paper.simulation->surfacePenetration());
+    apart =
+        std::max(apart, (paper.simulation->state().position.back() - kkt.simulation->state().position.back()).norm());
+  }
+  EXPECT_LT(kkt_depth, 2e-5);
+  EXPECT_LT(apart, 1e-3);
+  EXPECT_LT(paper_depth, 6e-4);
+  EXPECT_GT(paper_depth, 1e-4);
+}
+
 TEST(Simulation, GivesTheSameBitsTwice)
 {
   const auto run = []
