@@ -18,11 +18,6 @@ constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
 constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
 
-EndMotion middle(const EndMotion& a, const EndMotion& b)
-{
-  return {0.5 * (a.displacement + b.displacement), 0.5 * (a.tilt + b.tilt), 0.5 * (a.rotation + b.rotation)};
-}
-
 }  // namespace
 
 void StepReport::add(const StepReport& other)
@@ -171,7 +166,7 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   StepInput half = input;
   half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
   half.rotation = 0.5 * (state.rotation + input.rotation);
-  half.distal = middle(state.distal, input.distal);
+  half.distal = between(state.distal, input.distal, 0.5);
   if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
     return true;
   hold(state, depth);

@@ -9,6 +9,12 @@
 namespace endovascular_sim::rod
 {
 
+EndMotion between(const EndMotion& from, const EndMotion& to, double share)
+{
+  return {from.displacement + share * (to.displacement - from.displacement), from.tilt + share * (to.tilt - from.tilt),
+          from.rotation + share * (to.rotation - from.rotation)};
+}
+
 std::uint64_t State::hash() const
 {
   // Four chains at a time: each waits for its own last word only.

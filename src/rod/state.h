@@ -18,6 +18,9 @@ struct EndMotion
   double rotation = 0.0;  ///< of a clamp that holds the twist, about the wire's axis [rad]
 };
 
+/** The motion at a share of the way from one to another, 0 to 1. */
+EndMotion between(const EndMotion& from, const EndMotion& to, double share);
+
 /** What changes from step to step. Arrays run over all nodes (n) or edges (n−1) of the wire; those before
  *  first_node lie outside the introducer, straight and unsimulated. */
 struct State

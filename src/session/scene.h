@@ -115,6 +115,18 @@ struct DriveScene
   double rotationAt(double t) const;
 };
 
+/** What a held distal end does besides staying where it began. */
+struct DistalScene
+{
+  bool twist_held = false;  ///< of a clamped end
+  /** Direction of the displacement; zero: the wire's own, so that negative values bring the ends together. */
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  DriveProfile displacement;  ///< [m]
+  Eigen::Vector3d tilt_axis = Eigen::Vector3d::Zero();
+  DriveProfile tilt;      ///< of a clamp's direction about tilt_axis [rad]
+  DriveProfile rotation;  ///< of a clamp that holds the twist, about the wire's axis [rad]
+};
+
 /** A force or a torque held on a place of the wire (bench scenes). */
 struct PointLoad
 {
@@ -199,6 +211,7 @@ struct Scene
   instrument::Instrument instrument;                ///< the wire
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
+  DistalScene distal;      ///< the motion of a held distal end
   bool introducer = true;  ///< wire born at the introducer; false: bench, the whole wire is there from the start
   DriveScene drive;
   LoadScene loads;

@@ -8,8 +8,7 @@ namespace endovascular_sim::session
 namespace
 {
 
-// Numbers of EndCondition, DriveSource, SamplingKind.
-const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
+// Numbers of DriveSource, SamplingKind.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
 const std::vector<std::string> kSamplingKinds = {"uniform"};
 const std::vector<std::string> kSchemes = {"kkt", "paper"};
@@ -17,31 +16,6 @@ const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // a
 
 // Lengths that differ by less than this were meant to be equal [m].
 constexpr double kSameLength = 1e-9;
-
-void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit)
-{
-  std::vector<std::vector<double>> rows;
-  for (const DriveProfile::Point& point : profile.points)
-    rows.push_back({point.time, point.value});
-  fields.rows("points", rows, 2, "s and " + unit);
-  profile.points.clear();
-  for (const std::vector<double>& row : rows)
-  {
-    if (fields.reading() && !profile.points.empty() && row[0] <= profile.points.back().time)
-      fields.refuse("points", "times must be increasing; each row is [time in s, value in " + unit + "]");
-    profile.points.push_back({row[0], row[1]});
-  }
-  fields.number("amplitude", profile.amplitude, unit, Range::any());
-  fields.number("frequency", profile.frequency, "Hz", Range::nonNegative());
-  fields.number("phase", profile.phase, "rad", Range::any());
-  if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
-    fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
-}
-
-bool isTrivial(const DriveProfile& profile)
-{
-  return profile.points.empty() && profile.amplitude == 0.0;
-}
 
 void visitSampling(SceneFields& fields, SamplingScene& sampling)
 {
@@ -53,20 +27,6 @@ void visitRecord(SceneFields& fields, RecordScene& record)
 {
   fields.number("pose_rate", record.pose_rate, "Hz", Range::positive());
   fields.number("trajectory_rate", record.trajectory_rate, "Hz", Range::positive());
-}
-
-/** Bounds of a profile's value. */
-std::pair<double, double> bounds(const DriveProfile& profile)
-{
-  double low = profile.points.empty() ? 0.0 : profile.points.front().value;
-  double high = low;
-  for (const DriveProfile::Point& point : profile.points)
-  {
-    low = std::min(low, point.value);
-    high = std::max(high, point.value);
-  }
-  const double swing = std::abs(profile.amplitude);
-  return {low - swing, high + swing};
 }
 
 /** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer. */
@@ -105,6 +65,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     checkInsertion(fields, scene);
   else
     checkBenchDrive(fields, scene);
+  checkEnds(fields, scene);
   if (scene.drive.source == DriveSource::kDevice && !scene.haptic_device)
     fields.refuse("drive.source", "is device, but haptic_device is not true; set haptic_device: true");
   if (scene.duration < scene.solver.time_step)
@@ -118,6 +79,44 @@ void checkScene(const SceneFields& fields, const Scene& scene)
 }
 
 }  // namespace
+
+void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit)
+{
+  std::vector<std::vector<double>> rows;
+  for (const DriveProfile::Point& point : profile.points)
+    rows.push_back({point.time, point.value});
+  fields.rows("points", rows, 2, "s and " + unit);
+  profile.points.clear();
+  for (const std::vector<double>& row : rows)
+  {
+    if (fields.reading() && !profile.points.empty() && row[0] <= profile.points.back().time)
+      fields.refuse("points", "times must be increasing; each row is [time in s, value in " + unit + "]");
+    profile.points.push_back({row[0], row[1]});
+  }
+  fields.number("amplitude", profile.amplitude, unit, Range::any());
+  fields.number("frequency", profile.frequency, "Hz", Range::nonNegative());
+  fields.number("phase", profile.phase, "rad", Range::any());
+  if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
+    fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
+}
+
+bool isTrivial(const DriveProfile& profile)
+{
+  return profile.points.empty() && profile.amplitude == 0.0;
+}
+
+std::pair<double, double> bounds(const DriveProfile& profile)
+{
+  double low = profile.points.empty() ? 0.0 : profile.points.front().value;
+  double high = low;
+  for (const DriveProfile::Point& point : profile.points)
+  {
+    low = std::min(low, point.value);
+    high = std::max(high, point.value);
+  }
+  const double swing = std::abs(profile.amplitude);
+  return {low - swing, high + swing};
+}
 
 void visitDrive(SceneFields& fields, DriveScene& drive)
 {
@@ -229,8 +228,7 @@ void visitScene(SceneFields& fields, Scene& scene)
   if (fields.reading())
     scene.introducer = scene.drive.source != DriveSource::kNone;
   fields.boolean("introducer", scene.introducer);
-  fields.option("proximal_end", scene.proximal_end, kEndConditions);
-  fields.option("distal_end", scene.distal_end, kEndConditions);
+  visitEnds(fields, scene);
   const double wire_length = scene.instrument.wire.length();
   fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
   fields.map("sampling", [&scene](SceneFields& sampling) { visitSampling(sampling, scene.sampling); });

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "session/scene.h"
 #include "session/scene_fields.h"
 
@@ -15,8 +18,19 @@ void visitVessel(SceneFields& fields, VesselScene& vessel);
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
 void visitInstrument(SceneFields& fields, instrument::Instrument& instrument);
 void visitDrive(SceneFields& fields, DriveScene& drive);
+void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
+void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+
+/** Whether a profile is zero at all times. */
+bool isTrivial(const DriveProfile& profile);
+
+/** Lowest and highest value of a profile. */
+std::pair<double, double> bounds(const DriveProfile& profile);
+
+/** Refuses what the held ends, the wire and the loads cannot do together. */
+void checkEnds(const SceneFields& fields, const Scene& scene);
 
 }  // namespace endovascular_sim::session

@@ -42,6 +42,7 @@ rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
   boundary.guide_length = scene.solver.guide_length;
   boundary.proximal = hold(scene.proximal_end);
   boundary.distal = hold(scene.distal_end);
+  boundary.distal_twist_held = scene.distal.twist_held;
   return boundary;
 }
 
@@ -72,7 +73,10 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts)
-  : scene_(scene), contacts_(contacts), stepper_(makeStepper(scene, entry))
+  : scene_(scene),
+    distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
+    contacts_(contacts),
+    stepper_(makeStepper(scene, entry))
 {
   const rod::Discretisation& wire = stepper_->discretisation();
   // The introducer's guide must stay filled: the wire's end cannot be pushed into it.
@@ -138,12 +142,23 @@ void Simulation::applyLoads(rod::StepInput& input) const
   }
 }
 
+rod::EndMotion Simulation::distalMotionAt(double t) const
+{
+  const DistalScene& distal = scene_.distal;
+  return {distal.displacement.at(t) * distal_direction_, distal.tilt.at(t) * distal.tilt_axis.normalized(),
+          distal.rotation.at(t)};
+}
+
 void Simulation::step(const HandCommand& command)
 {
   timer_.reset();
   const HandCommand motion = allowedMotion(command);
-  const double substeps_wanted = std::max(std::abs(motion.insertion) / scene_.solver.max_travel_per_substep,
-                                          std::abs(motion.rotation) / kMaxRotationPerSubstep);
+  const rod::EndMotion from = state_.distal;
+  const rod::EndMotion to = distalMotionAt(time() + scene_.solver.time_step);
+  const double travel = std::max(std::abs(motion.insertion), (to.displacement - from.displacement).norm());
+  const double turn =
+      std::max({std::abs(motion.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
+  const double substeps_wanted = std::max(travel / scene_.solver.max_travel_per_substep, turn / kMaxRotationPerSubstep);
   const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
   const double insertion = state_.inserted_length;
   const double rotation = state_.rotation;
@@ -159,6 +174,7 @@ void Simulation::step(const HandCommand& command)
     const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
     input.inserted_length = blind ? state_.inserted_length : insertion + share * motion.insertion;
     input.rotation = blind ? state_.rotation : rotation + share * motion.rotation;
+    input.distal = blind ? state_.distal : rod::between(from, to, share);
     applyLoads(input);
     report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
   }

@@ -57,8 +57,10 @@ private:
   double nextGrip(double grip, double wanted, double resistance, double limit) const;
   HandCommand allowedMotion(const HandCommand& command);
   void applyLoads(rod::StepInput& input) const;
+  rod::EndMotion distalMotionAt(double t) const;
 
   Scene scene_;
+  Eigen::Vector3d distal_direction_;  ///< of the distal end's displacement, unit
   contact::ContactSource* contacts_;
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;

@@ -67,6 +67,9 @@ void expectSameScene(const Scene& a, const Scene& b)
   EXPECT_EQ(a.haptic_device, b.haptic_device);
   EXPECT_EQ(a.proximal_end, b.proximal_end);
   EXPECT_EQ(a.distal_end, b.distal_end);
+  EXPECT_EQ(a.distal.twist_held, b.distal.twist_held);
+  EXPECT_EQ(text(a.distal.direction), text(b.distal.direction));
+  EXPECT_EQ(text(a.distal.tilt_axis), text(b.distal.tilt_axis));
   ASSERT_EQ(a.vessel.has_value(), b.vessel.has_value());
   if (a.vessel)
   {
@@ -85,6 +88,9 @@ void expectSameScene(const Scene& a, const Scene& b)
   {
     EXPECT_EQ(a.drive.insertionAt(0.1 * i), b.drive.insertionAt(0.1 * i));
     EXPECT_EQ(a.drive.rotationAt(0.1 * i), b.drive.rotationAt(0.1 * i));
+    EXPECT_EQ(a.distal.displacement.at(0.1 * i), b.distal.displacement.at(0.1 * i));
+    EXPECT_EQ(a.distal.tilt.at(0.1 * i), b.distal.tilt.at(0.1 * i));
+    EXPECT_EQ(a.distal.rotation.at(0.1 * i), b.distal.rotation.at(0.1 * i));
   }
 }
 

@@ -253,5 +253,32 @@ TEST(Simulation, CarriesOverMotionThatIsFasterThanAHandInsteadOfDroppingIt)
   EXPECT_NEAR(bench.simulation->state().inserted_length, 0.05, 1e-9);
 }
 
+// References 03: clamped wire, ends brought together by 0.1 L: PL²/EI = 41.5703, deflection 0.19492 L.
+TEST(Simulation, BringsTheEndsOfAWireTogetherAndTurnsTheFarOne)
+{
+  Bench bench("buckling.yaml");
+  const rod::Section& section = bench.scene.instrument.wire.sections[0];
+  const double load = 41.5702557932 * section.bending_stiffness / (0.38 * 0.38);
+  for (int k = 0; k < 3000; ++k)
+  {
+    bench.step();
+    ASSERT_TRUE(bench.simulation->report().solved);
+  }
+  const rod::State& state = bench.simulation->state();
+  EXPECT_NEAR(state.distal_force.x(), load, 1e-3 * load);
+  EXPECT_NEAR(state.proximal_force.x(), -load, 1e-3 * load);
+  EXPECT_NEAR(0.5 * (state.position[49].y() + state.position[50].y()), 0.1949243114 * 0.38, 1e-3 * 0.38);
+  EXPECT_NEAR(state.distal_torque, 0.0, 1e-12);
+  for (int k = 0; k < 3000; ++k)
+  {
+    bench.step();
+    ASSERT_TRUE(bench.simulation->report().solved);
+  }
+  // The wire leaves its plane, which takes up a part of the half turn.
+  EXPECT_GT(state.distal_torque, 0.1 * section.torsional_stiffness * M_PI / 0.38);
+  EXPECT_LT(state.distal_torque, 0.95 * section.torsional_stiffness * M_PI / 0.38);
+  EXPECT_NEAR(state.distal_torque, -state.hand_torque, 1e-12);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::session
