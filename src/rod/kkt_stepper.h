@@ -27,6 +27,7 @@ public:
   const contact::ContactSet& contactSet() const override { return contacts_; }
   void invalidateContacts() override { contacts_valid_ = false; }
   const Discretisation& discretisation() const override { return rod_; }
+  bool resample(const Discretisation& rod) override;
 
   /** Gradient of the elastic energy at the nodes of a state whose twist has been relaxed [N]; for tests. */
   std::vector<Eigen::Vector3d> elasticGradient(State state, const StepInput& input);
@@ -85,7 +86,7 @@ private:
   int multiplierRow(int edge) const { return 4 * (edge - first_) + 6; }
   Eigen::Vector3d increment(int node) const;
 
-  const Discretisation rod_;
+  Discretisation rod_;
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;
