@@ -61,16 +61,25 @@ Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle)
 
 }  // namespace
 
-Discretisation discretise(const Wire& wire, const std::vector<double>& position)
+void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& d)
 {
-  Discretisation d;
   const int n = static_cast<int>(position.size());
+  const std::size_t nodes = position.size();
   d.position = position;
   d.first_curved = n;
-  for (int i = 0; i + 1 < n; ++i)
+  d.rest_length.resize(nodes - 1);
+  d.axial_stiffness.resize(nodes - 1);
+  d.cell_length.resize(nodes);
+  d.bending_stiffness.resize(nodes);
+  d.torsional_stiffness.resize(nodes);
+  d.mass.resize(nodes);
+  d.radius.resize(nodes);
+  d.friction.resize(nodes);
+  d.rest_curvature.resize(nodes);
+  for (int j = 0; j + 1 < n; ++j)
   {
-    d.rest_length.push_back(position[i + 1] - position[i]);
-    d.axial_stiffness.push_back(d.rest_length[i] / integrate(wire, position[i], position[i + 1]).axial_compliance);
+    d.rest_length[j] = position[j + 1] - position[j];
+    d.axial_stiffness[j] = d.rest_length[j] / integrate(wire, position[j], position[j + 1]).axial_compliance;
   }
   for (int i = 0; i < n; ++i)
   {
@@ -78,17 +87,28 @@ Discretisation discretise(const Wire& wire, const std::vector<double>& position)
     const double end = i + 1 < n ? 0.5 * (position[i] + position[i + 1]) : position[i];
     const StretchIntegrals cell = integrate(wire, begin, end);
     const Section& section = sectionAt(wire, position[i]);
-    d.cell_length.push_back(end - begin);
-    d.bending_stiffness.push_back((end - begin) / cell.bending_compliance);
-    d.torsional_stiffness.push_back((end - begin) / cell.torsional_compliance);
-    d.mass.push_back(cell.mass);
-    d.radius.push_back(section.radius);
-    d.friction.push_back(section.friction);
-    d.rest_curvature.push_back(integratedCurvature(cell.rest_angle));
+    d.cell_length[i] = end - begin;
+    d.bending_stiffness[i] = (end - begin) / cell.bending_compliance;
+    d.torsional_stiffness[i] = (end - begin) / cell.torsional_compliance;
+    d.mass[i] = cell.mass;
+    d.radius[i] = section.radius;
+    d.friction[i] = section.friction;
+    d.rest_curvature[i] = integratedCurvature(cell.rest_angle);
     if (d.first_curved == n && cell.rest_angle.squaredNorm() > 0.0)
       d.first_curved = i;
   }
-  return d;
+}
+
+Discretisation discretise(const Wire& wire, const std::vector<double>& position)
+{
+  Discretisation rod;
+  discretise(wire, position, rod);
+  return rod;
+}
+
+double massBetween(const Wire& wire, double begin, double end)
+{
+  return integrate(wire, begin, end).mass;
 }
 
 Discretisation discretiseUniformly(const Wire& wire, int nodes)

@@ -35,6 +35,12 @@ struct Discretisation
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */
 Discretisation discretise(const Wire& wire, const std::vector<double>& position);
 
+/** The same into an existing object, whose memory is used again. */
+void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& rod);
+
+/** Mass of the wire between two arc lengths from the proximal end [kg]. */
+double massBetween(const Wire& wire, double begin, double end);
+
 /** @param nodes number of equally spaced nodes over the wire, at least 3 */
 Discretisation discretiseUniformly(const Wire& wire, int nodes);
 

@@ -29,6 +29,7 @@ public:
   const contact::ContactSet& contactSet() const override { return contacts_; }
   void invalidateContacts() override { contacts_valid_ = false; }
   const Discretisation& discretisation() const override { return rod_; }
+  bool resample(const Discretisation& rod) override;
 
   /** Gradient of the elastic energy at the nodes of a state whose twist has been relaxed [N]; for tests. */
   std::vector<Eigen::Vector3d> elasticGradient(State state, const StepInput& input);
@@ -96,7 +97,7 @@ private:
     return {value[0], value[1], value[2]};
   }
 
-  const Discretisation rod_;
+  Discretisation rod_;
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;

@@ -275,6 +275,22 @@ void KktStepper::ask(const State& state, bool want_free_distance, contact::Conta
   ++*pass_;
 }
 
+/** The contacts stay at their places along the wire: they serve where the next set comes too late. */
+bool KktStepper::resample(const Discretisation& rod)
+{
+  for (contact::Feature& feature : contacts_.features)
+  {
+    const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
+    const auto after = std::upper_bound(rod.position.begin(), rod.position.end() - 1, place);
+    feature.edge = std::max(0, static_cast<int>(after - rod.position.begin()) - 1);
+    const double parameter = (place - rod.position[feature.edge]) / rod.rest_length[feature.edge];
+    feature.parameter = std::max(0.0, std::min(1.0, parameter));
+  }
+  rod_ = rod;
+  contacts_valid_ = false;
+  return true;
+}
+
 /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
 bool KktStepper::foundUnknownContact() const
 {

@@ -125,6 +125,15 @@ public:
   virtual void invalidateContacts() = 0;
 
   virtual const Discretisation& discretisation() const = 0;
+
+  /** Goes on with another sampling of the same wire; the state is carried over by the caller.
+   *  @return false when the scheme keeps the nodes that it was made with */
+  virtual bool resample(const Discretisation& rod);
 };
+
+inline bool Stepper::resample(const Discretisation& /*rod*/)
+{
+  return false;
+}
 
 }  // namespace endovascular_sim::rod

@@ -10,17 +10,44 @@ namespace
 
 // Numbers of DriveSource, SamplingKind.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
-const std::vector<std::string> kSamplingKinds = {"uniform"};
+const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kSchemes = {"kkt", "paper"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
 
 // Lengths that differ by less than this were meant to be equal [m].
 constexpr double kSameLength = 1e-9;
 
-void visitSampling(SceneFields& fields, SamplingScene& sampling)
+// Of the wire's length: the shortest edge that sampling may make.
+constexpr double kShortestEdge = 2e-5;
+
+void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_length)
 {
   fields.option("kind", sampling.kind, kSamplingKinds);
-  fields.integer("nodes", sampling.nodes, 3, 100000);
+  const bool adaptive = sampling.kind == SamplingKind::kAdaptive;
+  for (const char* key : {"min_edge", "max_edge", "turn_per_edge", "min_age"})
+    if (fields.reading() && !adaptive && fields.has(key))
+      fields.refuse(key, "belongs to adaptive sampling; set kind: adaptive, or remove it");
+  if (!adaptive)
+  {
+    fields.integer("nodes", sampling.nodes, 3, 100000);
+    return;
+  }
+  if (fields.reading() && fields.has("nodes"))
+    fields.refuse("nodes", "belongs to uniform sampling; remove it, or set kind: uniform");
+  fields.number("min_edge", sampling.min_edge, "m", Range::positive());
+  fields.number("max_edge", sampling.max_edge, "m", Range::positive());
+  fields.number("turn_per_edge", sampling.turn_per_edge, "rad", {0.0, 1.0, true, false});
+  fields.number("min_age", sampling.min_age, "s", Range::nonNegative());
+  if (!fields.reading())
+    return;
+  if (sampling.max_edge < sampling.min_edge)
+    fields.refuse("max_edge", "is less than min_edge");
+  if (sampling.min_edge < kShortestEdge * wire_length)
+    fields.refuse("min_edge", "makes more than 100000 nodes of the wire; must be at least " +
+                                  std::to_string(kShortestEdge * wire_length) + " m");
+  if (sampling.max_edge > 0.5 * wire_length)
+    fields.refuse("max_edge", "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) +
+                                  " m");
 }
 
 void visitRecord(SceneFields& fields, RecordScene& record)
@@ -231,7 +258,7 @@ void visitScene(SceneFields& fields, Scene& scene)
   visitEnds(fields, scene);
   const double wire_length = scene.instrument.wire.length();
   fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
-  fields.map("sampling", [&scene](SceneFields& sampling) { visitSampling(sampling, scene.sampling); });
+  fields.map("sampling", [&](SceneFields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
   fields.map("solver", [&scene](SceneFields& solver) { visitSolver(solver, scene.solver); });
   if (fields.reading() ? fields.has("fluoroscopy") : scene.fluoroscopy.has_value())
   {

@@ -6,6 +6,7 @@
 #include "common/error.h"
 #include "rod/kkt_stepper.h"
 #include "rod/paper_stepper.h"
+#include "vessel/centreline_curvature.h"
 
 namespace endovascular_sim::session
 {
@@ -17,6 +18,7 @@ constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
+constexpr double kSamplingPeriod = 5e-3;         // s between two looks at the wire's shape
 
 rod::EndHold hold(EndCondition condition)
 {
@@ -46,10 +48,31 @@ rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
   return boundary;
 }
 
-std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry)
+std::uint64_t stepsIn(double seconds, const Scene& scene)
 {
-  if (scene.sampling.kind != SamplingKind::kUniform)
-    throw InputError(scene.file, "sampling.kind", "only 'uniform' is simulated by this version");
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds / scene.solver.time_step)));
+}
+
+std::unique_ptr<rod::AdaptiveSampling> makeSampling(const Scene& scene, const EntryPose& entry,
+                                                    const vessel::CentrelineTree* centreline)
+{
+  if (scene.sampling.kind != SamplingKind::kAdaptive)
+    return nullptr;
+  rod::SamplingSettings settings;
+  settings.min_edge = scene.sampling.min_edge;
+  settings.max_edge = scene.sampling.max_edge;
+  settings.turn_per_edge = scene.sampling.turn_per_edge;
+  settings.min_age = static_cast<int>(stepsIn(scene.sampling.min_age, scene) / stepsIn(kSamplingPeriod, scene));
+  rod::CurvatureAhead ahead;
+  if (centreline != nullptr && !centreline->branches.empty())
+    ahead = [curvature = vessel::CentrelineCurvature(*centreline)](const Eigen::Vector3d& place)
+    { return curvature.at(place); };
+  return std::make_unique<rod::AdaptiveSampling>(scene.instrument.wire, boundaryOf(scene, entry), settings, ahead);
+}
+
+std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry,
+                                          const rod::AdaptiveSampling* sampling)
+{
   if (scene.solver.scheme != "kkt" && scene.solver.scheme != "paper")
     throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt, paper");
   rod::Environment environment;
@@ -63,21 +86,28 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   settings.strain_tolerance = scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;
   settings.contact_margin = scene.solver.contact_margin;
+  rod::Discretisation wire = sampling != nullptr
+                                 ? sampling->discretisation()
+                                 : rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes);
   if (scene.solver.scheme == "paper")
-    return std::make_unique<rod::PaperStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
-                                               boundaryOf(scene, entry), environment, settings);
-  return std::make_unique<rod::KktStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
-                                           boundaryOf(scene, entry), environment, settings);
+    return std::make_unique<rod::PaperStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
+  return std::make_unique<rod::KktStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
 }
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts)
+Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
+                       const vessel::CentrelineTree* centreline)
   : scene_(scene),
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
     contacts_(contacts),
-    stepper_(makeStepper(scene, entry))
+    sampling_(makeSampling(scene, entry, centreline)),
+    sampling_every_(stepsIn(kSamplingPeriod, scene)),
+    stepper_(makeStepper(scene, entry, sampling_.get()))
 {
+  if (sampling_ && !stepper_->resample(sampling_->discretisation()))
+    throw InputError(scene.file, "sampling.kind",
+                     "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
   const rod::Discretisation& wire = stepper_->discretisation();
   // The introducer's guide must stay filled: the wire's end cannot be pushed into it.
   max_insertion_ = wire.length() - scene.solver.guide_length - 3.0 * wire.rest_length.front();
@@ -149,9 +179,20 @@ rod::EndMotion Simulation::distalMotionAt(double t) const
           distal.rotation.at(t)};
 }
 
+/** Old contacts are good for the edges that they were found at. */
+void Simulation::resample()
+{
+  if (!sampling_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
+    return;
+  PhaseTimer::Scope scope(timer_, Phase::kSampling);
+  if (sampling_->update(state_))
+    stepper_->resample(sampling_->discretisation());
+}
+
 void Simulation::step(const HandCommand& command)
 {
   timer_.reset();
+  resample();
   const HandCommand motion = allowedMotion(command);
   const rod::EndMotion from = state_.distal;
   const rod::EndMotion to = distalMotionAt(time() + scene_.solver.time_step);

@@ -6,6 +6,7 @@
 #include "common/hash.h"
 #include "common/phase_timer.h"
 #include "contact/contact_set.h"
+#include "rod/adaptive_sampling.h"
 #include "rod/stepper.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -26,8 +27,10 @@ class Simulation
 {
 public:
   /** @param contacts where contact sets come from, null without a vessel; must outlive the simulation
+   *  @param centreline of the vessel, by which adaptive sampling looks ahead of the tip; null: it does not
    *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
-  Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts);
+  Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
+             const vessel::CentrelineTree* centreline = nullptr);
 
   /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
@@ -58,10 +61,13 @@ private:
   HandCommand allowedMotion(const HandCommand& command);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
+  void resample();
 
   Scene scene_;
   Eigen::Vector3d distal_direction_;  ///< of the distal end's displacement, unit
   contact::ContactSource* contacts_;
+  std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform
+  std::uint64_t sampling_every_ = 1;                 ///< steps
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;

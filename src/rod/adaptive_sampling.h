@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rod/resampling.h"
+#include "rod/sampling_tree.h"
+#include "rod/stepper.h"
+
+namespace endovascular_sim::rod
+{
+
+/** Curvature that the wire will have to follow at a place that its tip has not reached yet [1/m]. */
+using CurvatureAhead = std::function<double(const Eigen::Vector3d&)>;
+
+/** Keeps the nodes of a wire where it bends (docs/PHYSICS.md, "Adaptive sampling").
+ *
+ *  An edge of length h is split where κh exceeds η and merged where it falls below 0.7 η, κ being the largest curvature
+ *  of the wire within three shortest edges, and near the tip also the vessel's ahead of it. Finest whatever the
+ *  curvature: edges at a section joint, those outside the introducer and in the outer part of its guide (where nodes
+ *  are released and the hand's force is read), and those at a clamped end. */
+class AdaptiveSampling
+{
+public:
+  AdaptiveSampling(const Wire& wire, const Boundary& boundary, const SamplingSettings& settings,
+                   CurvatureAhead ahead = nullptr);
+
+  const Discretisation& discretisation() const { return rod_; }
+
+  /** Splits and merges by the shape of the wire, and carries the state over.
+   *  @return whether the sampling changed; then the stepper must be told */
+  bool update(State& state);
+
+private:
+  void measureCurvature(const State& state);
+  double curvatureBeyondTip(const State& state) const;
+  void demandOfShape(const State& state);
+  void setFixedDemand();
+  void restrictDemand(const State& state);
+
+  Wire wire_;
+  Boundary boundary_;
+  SamplingSettings settings_;
+  CurvatureAhead ahead_;
+  SamplingTree tree_;
+  Resampling resampling_;
+  Discretisation rod_, next_rod_;
+  std::vector<double> position_;
+  std::vector<double> curvature_;  ///< per node [1/m]
+  std::vector<SamplingDemand> demand_;
+};
+
+}  // namespace endovascular_sim::rod
