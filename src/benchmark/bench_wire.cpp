@@ -27,11 +27,12 @@ double median(std::vector<double> values)
 
 void writeSection(std::ostream& out, const BenchWire& wire, double length, bool curved)
 {
-  out << "    - length: " << length << "\n      radius: " << wire.radius << "\n      material: steel\n      density: " << wire.density
+  out << "    - length: " << length << "\n      radius: " << wire.radius
+      << "\n      material: steel\n      density: " << wire.density
       << "\n      bending_stiffness: " << wire.bending_stiffness
       << "\n      torsional_stiffness: " << wire.torsion_ratio * wire.bending_stiffness << "\n";
   if (curved && wire.rest_curvature != 0.0)
-    out << "      rest_curvature: {radius: " << 1.0 / wire.rest_curvature << ", direction: 0}\n";
+    out << "      rest_curvature: [" << wire.rest_curvature << ", 0]\n";
 }
 
 session::Simulation benchSimulation(const std::string& scene_text)
@@ -63,9 +64,11 @@ std::string sceneText(const BenchWire& wire)
   writeSection(out, wire, wire.length + (both_clamped ? half_edge : 0.0), true);
   out << "loads:\n  gravity: [0, " << -wire.gravity << ", 0]\n  damping: " << wire.damping << "\n";
   if (!wire.tip_force.isZero(0.0))
-    out << "  point_loads:\n    - force: [" << wire.tip_force.x() << ", " << wire.tip_force.y() << ", " << wire.tip_force.z() << "]\n";
+    out << "  point_loads:\n    - force: [" << wire.tip_force.x() << ", " << wire.tip_force.y() << ", "
+        << wire.tip_force.z() << "]\n";
   out << "sampling: {kind: uniform, nodes: " << wire.nodes << "}\n"
-      << "solver: {scheme: " << wire.scheme << ", time_step: " << wire.time_step << ", strain_tolerance: 1.0e-9, max_newton: 30}\n";
+      << "solver: {scheme: " << wire.scheme << ", time_step: " << wire.time_step
+      << ", strain_tolerance: " << wire.strain_tolerance << ", max_newton: 30}\n";
   return out.str();
 }
 

@@ -15,16 +15,17 @@ struct BenchWire
 {
   std::string scheme = "kkt";
   int nodes = 100;
-  double length = 0.1;             ///< of the free part [m]
-  double radius = 1.8e-4;          ///< [m]
-  double bending_stiffness = 1e-4;  ///< EI [N·m²]
-  double torsion_ratio = 1.0;       ///< GJ/EI
-  double density = 7900.0;          ///< [kg/m³]
-  double gravity = 0.0;             ///< along −y [m/s²]
-  double rest_curvature = 0.0;      ///< of the whole free part, towards d1 [1/m]
+  double length = 0.1;                                  ///< of the free part [m]
+  double radius = 1.8e-4;                               ///< [m]
+  double bending_stiffness = 1e-4;                      ///< EI [N·m²]
+  double torsion_ratio = 1.0;                           ///< GJ/EI
+  double density = 7900.0;                              ///< [kg/m³]
+  double gravity = 0.0;                                 ///< along −y [m/s²]
+  double rest_curvature = 0.0;                          ///< of the whole free part, towards d1 [1/m]
   Eigen::Vector3d tip_force = Eigen::Vector3d::Zero();  ///< [N]
   double time_step = 1e-3;                              ///< [s]
   double damping = 0.0;                                 ///< [1/s]
+  double strain_tolerance = 1e-7;
   double distal_shift = 0.0;  ///< of a clamped far end towards the near one [m]; 0: the far end is free
 };
 

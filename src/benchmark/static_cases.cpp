@@ -23,16 +23,20 @@ double unitForce(const BenchWire& wire)
 
 StaticCase elastica(double load, double x, double y)
 {
-  StaticCase problem{"cantilever, tip force PL²/EI = " + std::to_string(static_cast<int>(load)), "elliptic integrals",
-                     unitWire(), {x, y, 0.0}};
+  StaticCase problem{"cantilever, tip force PL²/EI = " + std::to_string(static_cast<int>(load)),
+                     "elliptic integrals",
+                     unitWire(),
+                     {x, y, 0.0}};
   problem.wire.tip_force.y() = load * unitForce(problem.wire);
   return problem;
 }
 
 StaticCase heavyElastica(double load, double x, double y)
 {
-  StaticCase problem{"heavy cantilever, wL³/EI = " + std::to_string(static_cast<int>(load)), "boundary value problem",
-                     unitWire(), {x, -y, 0.0}};
+  StaticCase problem{"heavy cantilever, wL³/EI = " + std::to_string(static_cast<int>(load)),
+                     "boundary value problem",
+                     unitWire(),
+                     {x, -y, 0.0}};
   BenchWire& wire = problem.wire;
   const double weight = load * unitForce(wire) / wire.length;
   wire.gravity = weight / (wire.density * M_PI * wire.radius * wire.radius);

@@ -12,9 +12,9 @@ namespace endovascular_sim::benchmark
 struct StaticCase
 {
   std::string name;
-  std::string source;    ///< of the reference value
-  BenchWire wire;        ///< nodes, scheme and time step are set by the study
-  Eigen::Vector3d tip;   ///< exact, of the free part's length 1 [m/m]
+  std::string source;   ///< of the reference value
+  BenchWire wire;       ///< nodes, scheme and time step are set by the study
+  Eigen::Vector3d tip;  ///< exact, of the free part's length 1 [m/m]
 };
 
 /** Elastica with a tip force, heavy elastica, circular arcs with loads in and out of their plane. */

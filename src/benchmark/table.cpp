@@ -34,7 +34,8 @@ std::string Table::csv() const
 
 std::string Table::markdown() const
 {
-  std::string text = "| " + joined(columns_, " | ") + " |\n|" + joined(std::vector<std::string>(columns_.size(), "---"), "|") + "|\n";
+  std::string text =
+      "| " + joined(columns_, " | ") + " |\n|" + joined(std::vector<std::string>(columns_.size(), "---"), "|") + "|\n";
   for (const std::vector<std::string>& row : rows_)
     text += "| " + joined(row, " | ") + " |\n";
   return text;

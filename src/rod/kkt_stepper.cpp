@@ -12,7 +12,7 @@ namespace
 
 constexpr int kMaxHalvings = 3;
 constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
-constexpr double kConstraintCompliance = 1e-10;
+constexpr double kEdgeCompliance = 1e-16;  // s²: m of stretch per N of tension and kg of a node; nothing, but no zero pivot
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
@@ -381,7 +381,7 @@ void KktStepper::addConstraint(int edge, const State& state, double dt)
       from1[line] += value;
     }
   }
-  base_.at(rm, rm) = -kConstraintCompliance * scale_;
+  base_.at(rm, rm) = -(kEdgeCompliance / (dt * dt)) * scale_;
   base_rhs_[rm] = -scale_ * (length - rod_.rest_length[edge]);
 }
 
