@@ -1,5 +1,6 @@
 #include "session/scene_schema.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace endovascular_sim::session
@@ -168,8 +169,10 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
 
 void visitSolver(SceneFields& fields, SolverScene& solver)
 {
-  int scheme = 0;
-  fields.choice("scheme", scheme, {"kkt"});
+  static const std::vector<std::string> kSchemes = {"kkt", "mixed"};
+  int scheme = static_cast<int>(std::find(kSchemes.begin(), kSchemes.end(), solver.scheme) - kSchemes.begin());
+  fields.choice("scheme", scheme, kSchemes);
+  solver.scheme = kSchemes[static_cast<std::size_t>(scheme)];
   fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
   fields.integer("max_newton", solver.max_newton, 1, 1000);
   fields.number("strain_tolerance", solver.strain_tolerance, "1", Range::positive());

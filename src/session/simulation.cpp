@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "rod/kkt_stepper.h"
+#include "rod/mixed_stepper.h"
 
 namespace endovascular_sim::session
 {
@@ -44,12 +45,30 @@ rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
   return boundary;
 }
 
+std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, const rod::Boundary& boundary,
+                                               const rod::Environment& environment,
+                                               const rod::StepperSettings& settings)
+{
+  const rod::Wire& wire = scene.instrument.wire;
+  const auto refuse = [&scene](const std::string& why)
+  { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
+  if (scene.vessel)
+    refuse("contact with a vessel");
+  if (wire.curvedTipLength() > 0.0)
+    refuse("a pre-curved wire");
+  for (const PointLoad& load : scene.loads.point_loads)
+    if (load.torque != 0.0)
+      refuse("a torque at the tip");
+  return std::make_unique<rod::MixedStepper>(wire, rod::discretiseUniformly(wire, scene.sampling.nodes), boundary,
+                                             environment, settings);
+}
+
 std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry)
 {
   if (scene.sampling.kind != SamplingKind::kUniform)
     throw InputError(scene.file, "sampling.kind", "only 'uniform' is simulated by this version");
-  if (scene.solver.scheme != "kkt")
-    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt");
+  if (scene.solver.scheme != "kkt" && scene.solver.scheme != "mixed")
+    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt, mixed");
   rod::Environment environment;
   environment.gravity = scene.loads.gravity;
   environment.fluid_density = scene.loads.fluid_density;
@@ -60,6 +79,8 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   settings.strain_tolerance = scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;
   settings.contact_margin = scene.solver.contact_margin;
+  if (scene.solver.scheme == "mixed")
+    return makeMixedStepper(scene, boundaryOf(scene, entry), environment, settings);
   return std::make_unique<rod::KktStepper>(rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes),
                                            boundaryOf(scene, entry), environment, settings);
 }
