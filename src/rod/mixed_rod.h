@@ -19,6 +19,8 @@ struct MixedEdge
   double length = 0.0;            ///< h, rest arc length [m]
   double flexibility = 0.0;       ///< 1/EI [1/(N·m²)]
   double axial_compliance = 0.0;  ///< 1/EA, 0: inextensible [1/N]
+  double linear_density = 0.0;    ///< ρA [kg/m]
+  double cross_section = 0.0;     ///< A, fluid that a length of wire displaces [m²]
   /** κ̄ at the edge's two ends, in space, along the binormal [1/m]. */
   std::array<Eigen::Vector3d, 2> rest_curvature{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< force per length of wire [N/m]
@@ -31,8 +33,8 @@ struct MixedEnd
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< of a clamp, towards the tip, unit
 };
 
-/** Cuts a wire at the given arc lengths into edges of the mixed rod, flexibilities averaged over each edge; loads and
- *  rest curvature are left zero.
+/** Cuts a wire at the given arc lengths into edges of the mixed rod, properties averaged over each edge; loads and rest
+ *  curvature are left zero.
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */
 std::vector<MixedEdge> mixedEdges(const Wire& wire, const std::vector<double>& position);
 
@@ -42,14 +44,17 @@ std::vector<MixedEdge> mixedEdges(const Wire& wire, const std::vector<double>& p
  *  and λ) of
  *
  *    L = Σ_i M_i·Φ_i − Σ_j [ h/(6EI) (|M_j|² + M_j·M_{j+1} + |M_{j+1}|²) + h/6 (M_j·(2κ̄_j + κ̄_{j+1}) + M_{j+1}·(κ̄_j +
- *        2κ̄_{j+1})) ] + Σ_j [ λ_j (|e_j| − h + s_j) − λ_j² h/(2EA) ] − W
+ *        2κ̄_{j+1})) ] + Σ_j [ λ_j (|e_j| − h + s_j) − ½ λ_j² (h/EA + b_j) ] − W
  *    s_j = h³ (8|κ_j|² + 14 κ_j·κ_{j+1} + 8|κ_{j+1}|²)/720, κ = M/EI + κ̄: how much shorter the chord is than its arc
+ *    b_j = ∫y²/EI over the edge, y the bow of the arc over the chord
  *    W = Σ_i F_i·x_i + Σ_j q·( h (x_j + x_{j+1})/2 − h³/24 (κ_j + κ_{j+1})×t_j )
  *
  *  with Φ_i the turning angle vector between the chords, at a clamp between its tangent and the chord. Fourth order in
- *  h for nodal forces and for q constant along an edge. Unknowns are ordered x0, M0, x1, M1, λ0, x2, M2, λ1, …: half
- *  bandwidth 16; where the inertia or the load makes the x block positive, the matrix is quasi-definite with
- *  4(n − 1) + 3 negative pivots. */
+ *  h for nodal forces and for q constant along an edge. b is of the order h⁵, below that of the method, but without it
+ * the chord's compliance −∂²L/∂λ² is negative once M is eliminated, and motion is unstable where Δt²/m is less than it:
+ *  −½M²h/EI + λs − ½λ²b are the first terms of the complementary energy of a beam under tension, concave in (M, λ).
+ * Unknowns are ordered x0, M0, x1, M1, λ0, x2, M2, λ1, …: half bandwidth 16; where the inertia or the load makes the x
+ * block positive, the matrix is quasi-definite with 4(n − 1) + 3 negative pivots. */
 class MixedRod
 {
 public:
@@ -93,16 +98,28 @@ public:
 
   int negativePivots(const State& state) const { return 4 * (nodes() - state.first_node) - 1; }
 
+  /** By how much chord j is longer than its arc allows, as a strain: the constraint's residual. */
+  double strain(const State& state, int edge) const;
+
   /** Elastic bending energy ½∫EI|κ − κ̄|² of the simulated part at equilibrium [J]; fourth order in h too. */
   double bendingEnergy(const State& state) const;
 
 private:
+  /** First and second derivatives by a chord. */
+  struct Chord
+  {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  };
+
   bool turnsFreely(const State& state, int node) const;
   Eigen::Vector3d chordBefore(const State& state, int node) const;
   Eigen::Vector3d chordAfter(const State& state, int node) const;
-  void assembleNode(const State& state, int node, std::vector<double>& gradient, Matrix& hessian) const;
-  void assembleEdge(const State& state, int edge, std::vector<double>& gradient, Matrix& hessian) const;
-  void assembleBow(const State& state, int edge, std::vector<double>& gradient, Matrix& hessian) const;
+  void assembleNode(const State& state, int node, Chord& before, Chord& after, std::vector<double>& gradient,
+                    Matrix& hessian) const;
+  void assembleEdge(const State& state, int edge, Chord& chord, std::vector<double>& gradient, Matrix& hessian) const;
+  void assembleBow(const State& state, int edge, Chord& chord, std::vector<double>& gradient, Matrix& hessian) const;
+  static void scatter(const State& state, int edge, const Chord& chord, std::vector<double>& gradient, Matrix& hessian);
 
   std::vector<MixedEdge> edges_;
   MixedEnd proximal_;

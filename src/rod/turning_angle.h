@@ -55,67 +55,108 @@ private:
                                          2048.0 / 145422675.0};
 };
 
-/** Turning angle vector between two directions: along e×g, as long as the angle between them [rad]. */
+/** Turning angle vector between two directions: along e×g, as long as the angle between them [rad].
+ *
+ *  With u = e/|e|, v = g/|g|, c = u×v, d = u·v: Φ = g(d) c, and its derivatives are
+ *  ∂Φ/∂e = (c aᵀ − g[v]×)/|e|, a = g′v − (g′d + g)u, and ∂Φ/∂g = (c bᵀ + g[u]×)/|g|, b = g′u − (g′d + g)v. */
 struct TurningAngle
 {
   /** The cosine goes no lower than this (a turn of 168°): at a fold the angle has no direction. */
   static constexpr double kFolded = -0.98;
 
-  Eigen::Vector3d before, after;         ///< unit tangents u, v
   double inverse_before, inverse_after;  ///< of the edges' lengths [1/m]
-  Eigen::Vector3d cross;                 ///< u × v
-  AngleOverSine ratio;                   ///< of the angle between them
+  Eigen::Vector3d before, after;         ///< unit tangents u, v
+  double cosine;                         ///< d
+  Eigen::Vector3d cross;                 ///< c
+  AngleOverSine ratio;                   ///< g(d)
+  Eigen::Vector3d along_before;          ///< a
+  Eigen::Vector3d along_after;           ///< b
   Eigen::Vector3d value;                 ///< Φ [rad]
-  Eigen::Matrix3d by_before, by_after;   ///< ∂Φ/∂e, ∂Φ/∂g [rad/m]
 
   TurningAngle(const Eigen::Vector3d& e, const Eigen::Vector3d& g)
     : inverse_before(1.0 / e.norm()),
       inverse_after(1.0 / g.norm()),
-      ratio(std::max(kFolded, (e * inverse_before).dot(g * inverse_after)))
+      before(inverse_before * e),
+      after(inverse_after * g),
+      cosine(std::max(kFolded, before.dot(after))),
+      cross(before.cross(after)),
+      ratio(cosine),
+      along_before(ratio.first * after - (ratio.first * cosine + ratio.value) * before),
+      along_after(ratio.first * before - (ratio.first * cosine + ratio.value) * after),
+      value(ratio.value * cross)
   {
-    before = e * inverse_before;
-    after = g * inverse_after;
-    cross = before.cross(after);
-    value = ratio.value * cross;
-    // ∂Φ/∂u = −g[v]× + g′ c vᵀ, ∂Φ/∂v = g[u]× + g′ c uᵀ, then projected across the edge.
-    by_before.noalias() = (ratio.first * cross) * after.transpose();
-    addCross(by_before, -ratio.value, after);
-    by_before -= (by_before * before).eval() * before.transpose();
-    by_before *= inverse_before;
-    by_after.noalias() = (ratio.first * cross) * before.transpose();
-    addCross(by_after, ratio.value, before);
-    by_after -= (by_after * after).eval() * after.transpose();
-    by_after *= inverse_after;
+  }
+
+  /** ∂Φ/∂e [rad/m]. */
+  Eigen::Matrix3d byBefore() const
+  {
+    Eigen::Matrix3d block = cross * (inverse_before * along_before).transpose();
+    addCross(block, -ratio.value * inverse_before, after);
+    return block;
+  }
+
+  /** ∂Φ/∂g [rad/m]. */
+  Eigen::Matrix3d byAfter() const
+  {
+    Eigen::Matrix3d block = cross * (inverse_after * along_after).transpose();
+    addCross(block, ratio.value * inverse_after, before);
+    return block;
+  }
+
+  /** (∂Φ/∂e)ᵀ m. */
+  Eigen::Vector3d transposeBefore(const Eigen::Vector3d& m) const
+  {
+    return inverse_before * (ratio.value * after.cross(m) + cross.dot(m) * along_before);
+  }
+
+  /** (∂Φ/∂g)ᵀ m. */
+  Eigen::Vector3d transposeAfter(const Eigen::Vector3d& m) const
+  {
+    return inverse_after * (cross.dot(m) * along_after - ratio.value * before.cross(m));
   }
 
   /** m += factor·[w]×. */
   static void addCross(Eigen::Matrix3d& m, double factor, const Eigen::Vector3d& w)
   {
-    m(0, 1) -= factor * w.z();
-    m(0, 2) += factor * w.y();
-    m(1, 0) += factor * w.z();
-    m(1, 2) -= factor * w.x();
-    m(2, 0) -= factor * w.y();
-    m(2, 1) += factor * w.x();
+    const Eigen::Vector3d f = factor * w;
+    m(0, 1) -= f.z();
+    m(0, 2) += f.y();
+    m(1, 0) += f.z();
+    m(1, 2) -= f.x();
+    m(2, 0) -= f.y();
+    m(2, 1) += f.x();
   }
 };
 
-/** Second derivatives of a function of a direction u = e/|e| by e [∂²/∂e²], from those by u.
- *  @param inverse 1/|e|
- *  @param gradient, hessian by u, u taken as free */
-inline Eigen::Matrix3d hessianByEdge(const Eigen::Vector3d& u, double inverse, const Eigen::Vector3d& gradient,
-                                     const Eigen::Matrix3d& hessian)
+/** scale·(p qᵀ + q pᵀ − r sᵀ − s rᵀ − shift·I). */
+inline Eigen::Matrix3d symmetricBlock(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
+                                      const Eigen::Vector3d& s, double shift, double scale)
 {
+  Eigen::Matrix3d block;
+  for (int col = 0; col < 3; ++col)
+    for (int row = col; row < 3; ++row)
+    {
+      const double value = scale * (p[row] * q[col] + q[row] * p[col] - r[row] * s[col] - s[row] * r[col]);
+      block(row, col) = value;
+      block(col, row) = value;
+    }
+  block.diagonal().array() -= scale * shift;
+  return block;
+}
+
+/** Second derivatives by e of a function of the direction u = e/|e| whose second derivatives by u, taken as free, are
+ *  p qᵀ + q pᵀ.
+ *  @param inverse 1/|e|
+ *  @param gradient by u */
+inline Eigen::Matrix3d hessianByEdge(const Eigen::Vector3d& u, double inverse, const Eigen::Vector3d& gradient,
+                                     const Eigen::Vector3d& p, const Eigen::Vector3d& q)
+{
+  // (P H P − (u·∇)P − (P∇)uᵀ − u(P∇)ᵀ)/|e|² with P = I − uuᵀ
   const double along = u.dot(gradient);
-  const Eigen::Vector3d across = gradient - along * u;
-  const Eigen::Vector3d hu = hessian * u;
-  const Eigen::Vector3d w = hu - (0.5 * u.dot(hu)) * u + across;
-  Eigen::Matrix3d result = hessian;
-  result.noalias() -= w * u.transpose();
-  result.noalias() -= u * w.transpose();
-  result.noalias() += (along * u) * u.transpose();
-  result.diagonal().array() -= along;
-  return (inverse * inverse) * result;
+  const double up = u.dot(p);
+  const double uq = u.dot(q);
+  const Eigen::Vector3d w = gradient + uq * p + up * q - (up * uq + 1.5 * along) * u;
+  return symmetricBlock(p, q, w, u, along, inverse * inverse);
 }
 
 /** Exact second derivatives of m·Φ by the edges before and after the node. */
@@ -130,24 +171,29 @@ struct TurningHessian
     const double mc = m.dot(phi.cross);
     const double g = phi.ratio.value;
     const double g1 = phi.ratio.first;
-    const double g2 = phi.ratio.second;
+    const double bend = 0.5 * mc * phi.ratio.second;
+    const double a = mc * g1;
     const Eigen::Vector3d vm = v.cross(m);
     const Eigen::Vector3d mu = m.cross(u);
-    const Eigen::Vector3d left = g1 * vm + (0.5 * mc * g2) * v;
-    const Eigen::Vector3d right = g1 * mu + (0.5 * mc * g2) * u;
-    Eigen::Matrix3d h = left * v.transpose();
-    h += h.transpose().eval();
-    before_before = hessianByEdge(u, phi.inverse_before, g * vm + (mc * g1) * v, h);
-    h.noalias() = right * u.transpose();
-    h += h.transpose().eval();
-    after_after = hessianByEdge(v, phi.inverse_after, g * mu + (mc * g1) * u, h);
-    h.noalias() = left * u.transpose();
-    h.noalias() += v * right.transpose();
-    h.diagonal().array() += mc * g1;
-    TurningAngle::addCross(h, -g, m);
-    h -= u * (u.transpose() * h).eval();
-    h -= (h * v).eval() * v.transpose();
-    before_after = (phi.inverse_before * phi.inverse_after) * h;
+    // ∂²/∂u² = p vᵀ + v pᵀ, ∂²/∂v² = q uᵀ + u qᵀ, ∂²/∂u∂v = p uᵀ + v qᵀ + a I − g[m]×
+    const Eigen::Vector3d p = g1 * vm + bend * v;
+    const Eigen::Vector3d q = g1 * mu + bend * u;
+    before_before = hessianByEdge(u, phi.inverse_before, g * vm + a * v, p, v);
+    after_after = hessianByEdge(v, phi.inverse_after, g * mu + a * u, q, u);
+    const double d = u.dot(v);
+    const double both = phi.inverse_before * phi.inverse_after;
+    const Eigen::Vector3d p_across = p - u.dot(p) * u;
+    const Eigen::Vector3d q_across = q - v.dot(q) * v;
+    const Eigen::Vector3d u_across = both * (u - d * v);
+    const Eigen::Vector3d v_across = both * (v - d * u);
+    const Eigen::Vector3d right = both * ((a * d + g * u.dot(vm)) * v - a * u - g * mu);
+    const Eigen::Vector3d left = both * (-g * vm - a * v);
+    for (int col = 0; col < 3; ++col)
+      for (int row = 0; row < 3; ++row)
+        before_after(row, col) =
+            p_across[row] * u_across[col] + v_across[row] * q_across[col] + u[row] * right[col] + left[row] * v[col];
+    before_after.diagonal().array() += both * a;
+    TurningAngle::addCross(before_after, -both * g, m);
   }
 };
 

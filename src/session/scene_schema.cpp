@@ -11,7 +11,7 @@ namespace
 // Numbers of DriveSource, SamplingKind.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
-const std::vector<std::string> kSchemes = {"kkt", "paper"};
+const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
 
 // Lengths that differ by less than this were meant to be equal [m].

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "rod/kkt_stepper.h"
+#include "rod/mixed_stepper.h"
 #include "rod/paper_stepper.h"
 #include "vessel/centreline_curvature.h"
 
@@ -70,11 +71,26 @@ std::unique_ptr<rod::AdaptiveSampling> makeSampling(const Scene& scene, const En
   return std::make_unique<rod::AdaptiveSampling>(scene.instrument.wire, boundaryOf(scene, entry), settings, ahead);
 }
 
+std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discretisation nodes,
+                                               const rod::Boundary& boundary, const rod::Environment& environment,
+                                               const rod::StepperSettings& settings)
+{
+  const rod::Wire& wire = scene.instrument.wire;
+  const auto refuse = [&scene](const std::string& why)
+  { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
+  if (scene.vessel)
+    refuse("contact with a vessel");
+  if (wire.curvedTipLength() > 0.0)
+    refuse("a pre-curved wire");
+  for (const PointLoad& load : scene.loads.point_loads)
+    if (load.torque != 0.0)
+      refuse("a torque at the tip");
+  return std::make_unique<rod::MixedStepper>(wire, std::move(nodes), boundary, environment, settings);
+}
+
 std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry,
                                           const rod::AdaptiveSampling* sampling)
 {
-  if (scene.solver.scheme != "kkt" && scene.solver.scheme != "paper")
-    throw InputError(scene.file, "solver.scheme", "unknown scheme '" + scene.solver.scheme + "'; known: kkt, paper");
   rod::Environment environment;
   environment.gravity = scene.loads.gravity;
   environment.fluid_density = scene.loads.fluid_density;
@@ -91,6 +107,8 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
                                  : rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes);
   if (scene.solver.scheme == "paper")
     return std::make_unique<rod::PaperStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
+  if (scene.solver.scheme == "mixed")
+    return makeMixedStepper(scene, std::move(wire), boundaryOf(scene, entry), environment, settings);
   return std::make_unique<rod::KktStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
 }
 

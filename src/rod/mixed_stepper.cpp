@@ -1,0 +1,371 @@
+#include "rod/mixed_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr int kMaxHalvings = 3;
+constexpr double kFirstShift = 1.0;  // of the inertia, when a factorisation is not that of a minimum
+constexpr double kShiftGrowth = 30.0;
+constexpr int kMaxShifts = 5;
+constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
+
+EndHold atNode(const Boundary& boundary, EndHold hold)
+{
+  return boundary.introducer ? EndHold::kClamped : hold;
+}
+
+using MassMatrix = std::vector<std::array<double, 2>>;
+
+/** Share of consistent mass at an edge's end, from the edge's and its neighbour's ρA h². */
+double consistentShare(double own, double neighbour)
+{
+  return own > 0.0 ? std::max(0.0, std::min(1.0, 1.0 - neighbour / own)) : 0.0;
+}
+
+/** @param density of every edge, per length */
+MassMatrix massMatrix(const MixedRod& rod, const std::vector<double>& density)
+{
+  const std::vector<MixedEdge>& edges = rod.edges();
+  // Euler–Maclaurin's end term has the rotation of the end as its factor, none at a clamp.
+  const bool held = rod.proximal().hold == EndHold::kClamped;
+  const bool tip_held = rod.distal().hold == EndHold::kClamped;
+  const auto weight = [&](std::size_t j) { return density[j] * edges[j].length * edges[j].length; };
+  MassMatrix mass(edges.size() + 1, {0.0, 0.0});
+  for (std::size_t j = 0; j < edges.size(); ++j)
+  {
+    const double before = consistentShare(weight(j), j > 0 ? weight(j - 1) : held * weight(j));
+    const double after = consistentShare(weight(j), j + 1 < edges.size() ? weight(j + 1) : tip_held * weight(j));
+    const double whole = density[j] * edges[j].length;
+    mass[j][0] += whole * (0.5 - before / 6.0);
+    mass[j + 1][0] += whole * (0.5 - after / 6.0);
+    mass[j][1] += whole * (before + after) / 12.0;
+  }
+  return mass;
+}
+
+}  // namespace
+
+MixedStepper::MixedStepper(const Wire& wire, Discretisation rod, Boundary boundary, Environment environment,
+                           StepperSettings settings)
+  : rod_(std::move(rod)),
+    boundary_(std::move(boundary)),
+    environment_(std::move(environment)),
+    settings_(settings),
+    model_(mixedEdges(wire, rod_.position), {atNode(boundary_, boundary_.proximal), boundary_.direction},
+           {boundary_.distal, boundary_.direction})
+{
+  std::vector<double> density, immersed;
+  for (int j = 0; j + 1 < rod_.nodes(); ++j)
+  {
+    MixedEdge& edge = model_.edge(j);
+    edge.axial_compliance = 0.0;  // the wire keeps its length, as in the other schemes
+    density.push_back(edge.linear_density);
+    immersed.push_back(edge.linear_density - environment_.fluid_density * edge.cross_section);
+  }
+  mass_ = massMatrix(model_, density);
+  const MassMatrix weight = massMatrix(model_, immersed);
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    weight_.push_back((weight[i][0] + weight[i][1] + (i > 0 ? weight[i - 1][1] : 0.0)) * environment_.gravity);
+}
+
+double MixedStepper::bodyPosition(int node, double inserted_length) const
+{
+  return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
+}
+
+int MixedStepper::firstNode(double inserted_length) const
+{
+  int first = 0;
+  while (boundary_.introducer && first + 3 < rod_.nodes() &&
+         bodyPosition(first + 2, inserted_length) < -boundary_.guide_length)
+    ++first;
+  return first;
+}
+
+State MixedStepper::initialState(double inserted_length, double rotation) const
+{
+  State state = model_.straight(boundary_.origin, boundary_.direction);
+  state.inserted_length = inserted_length;
+  state.rotation = rotation;
+  state.first_node = firstNode(inserted_length);
+  std::fill(state.twist_angle.begin(), state.twist_angle.end(), rotation);
+  for (int i = 0; i < rod_.nodes(); ++i)
+    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
+  return state;
+}
+
+bool MixedStepper::isPrescribed(int node, const State& state) const
+{
+  if (boundary_.introducer)
+    return node == state.first_node || bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
+  return (boundary_.proximal != EndHold::kFree && node == 0) ||
+         (boundary_.distal != EndHold::kFree && node == rod_.nodes() - 1);
+}
+
+void MixedStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
+{
+  const int old_first = state.first_node;
+  const double speed = (inserted_length - state.inserted_length) / dt;
+  state.inserted_length = inserted_length;
+  if (!boundary_.introducer)
+    return;
+  state.first_node = firstNode(inserted_length);
+  for (int i = state.first_node; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
+  {
+    if (i < old_first)
+      state.moment[i].setZero();
+    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
+    state.velocity[i] = speed * boundary_.direction;
+    state.wall_force[i].setZero();
+  }
+}
+
+StepReport MixedStepper::step(State& state, const StepInput& input, double dt, std::uint32_t&, contact::ContactSource*,
+                              PhaseTimer& timer)
+{
+  timer_ = &timer;
+  StepReport report;
+  if (!advance(state, input, dt, 0, report))
+    report.solved = false;
+  report.max_strain = largestStrain(state);
+  return report;
+}
+
+bool MixedStepper::advance(State& state, const StepInput& input, double dt, int depth, StepReport& report)
+{
+  if (static_cast<int>(backup_.size()) <= depth)
+    backup_.resize(static_cast<std::size_t>(depth) + 1);
+  backup_[depth] = state;
+  if (solveStep(state, input, dt, report))
+    return true;
+  state = backup_[depth];
+  if (depth == kMaxHalvings)
+  {
+    hold(state, depth);
+    return false;
+  }
+  ++report.halvings;
+  StepInput half = input;
+  half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
+  half.rotation = 0.5 * (state.rotation + input.rotation);
+  if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
+    return true;
+  hold(state, depth);
+  return false;
+}
+
+/** Refused: the wire stays where it was, at rest, and the caller is told. */
+void MixedStepper::hold(State& state, int depth)
+{
+  state = backup_[depth];
+  for (Vector3d& velocity : state.velocity)
+    velocity.setZero();
+}
+
+bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  begin_ = state.position;
+  placePrescribedNodes(state, input.inserted_length, dt);
+  state.rotation = input.rotation;
+  std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
+  for (int solve = 0; solve < settings_.max_solves; ++solve)
+  {
+    {
+      PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
+      assemble(state, input, dt, solve == 0);
+    }
+    ++report.solves;
+    bool shifted = false;
+    if (!factoriseAndSolve(state, dt, report, shifted))
+      return false;
+    const double factor = truncation(state, report);
+    accept(state, factor);
+    if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance)
+      break;
+    report.capped += solve + 1 == settings_.max_solves;
+  }
+  finish(state, dt);
+  return true;
+}
+
+void MixedStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve)
+{
+  base_.reset(model_.size(state));
+  gradient_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+  model_.assemble(state, gradient_, base_);
+  addInertia(state, dt);
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+    addNodeTerms(i, state, dt, first_solve);
+  for (const NodalForce& load : input.forces)
+    if (load.node >= state.first_node)
+      for (int axis = 0; axis < 3; ++axis)
+        gradient_[model_.positionRow(state, load.node) + axis] -= load.force[axis];
+}
+
+/** Gradient and second derivative of ½(x − x*)ᵀM(x − x*)/Δt² + ½c(x − x⁰)ᵀM(x − x⁰)/Δt, x* = x⁰ + Δt v. */
+void MixedStepper::addInertia(const State& state, double dt)
+{
+  const double damped = 1.0 + dt * environment_.damping;
+  const double scale = 1.0 / (dt * dt);
+  Vector3d change =
+      damped * (state.position[state.first_node] - begin_[state.first_node]) - dt * state.velocity[state.first_node];
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+  {
+    const int row = model_.positionRow(state, i);
+    const double own = scale * mass_[i][0];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      gradient_[row + axis] += own * change[axis];
+      base_.at(row + axis, row + axis) += own * damped;
+    }
+    if (i + 1 == rod_.nodes())
+      break;
+    const Vector3d next = damped * (state.position[i + 1] - begin_[i + 1]) - dt * state.velocity[i + 1];
+    const double shared = scale * mass_[i][1];
+    const int next_row = model_.positionRow(state, i + 1);
+    for (int axis = 0; shared != 0.0 && axis < 3; ++axis)
+    {
+      gradient_[row + axis] += shared * next[axis];
+      gradient_[next_row + axis] += shared * change[axis];
+      base_.at(next_row + axis, row + axis) += shared * damped;
+    }
+    change = next;
+  }
+}
+
+void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d& block)
+{
+  const int r = model_.positionRow(state, node);
+  for (int col = 0; col < 3; ++col)
+    for (int line = col; line < 3; ++line)
+      base_.at(r + line, r + col) += block(line, col);
+}
+
+/** Weight, drag of the fluid, and the introducer's guide. */
+void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
+{
+  const double beyond = bodyPosition(node, state.inserted_length);
+  Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  Vector3d force = -weight_[node];
+  if (environment_.fluid_density > 0.0 && (beyond >= 0.0 || !boundary_.introducer))
+  {
+    const Vector3d travel = state.position[node] - begin_[node];
+    const Vector3d velocity = first_solve ? state.velocity[node] : Vector3d(travel / dt);
+    const double drag = environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] *
+                        rod_.cell_length[node] * velocity.norm() / dt;
+    block.diagonal().array() += drag;
+    force += drag * travel;
+  }
+  if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
+  {
+    const double depth = beyond / boundary_.guide_length;
+    const double stiffness = boundary_.guide_stiffness * rod_.cell_length[node] * depth * depth;
+    const Eigen::Matrix3d across =
+        stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
+    block += across;
+    force += across * (state.position[node] - boundary_.origin);
+  }
+  addBlock(state, node, block);
+  for (int axis = 0; axis < 3; ++axis)
+    gradient_[model_.positionRow(state, node) + axis] += force[axis];
+}
+
+/** Solves for the increments. A matrix without the inertia of a minimum gets more mass, which shortens the step. */
+bool MixedStepper::factoriseAndSolve(const State& state, double dt, StepReport& report, bool& shifted)
+{
+  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
+  double shift = 0.0;
+  for (int attempt = 0; attempt < kMaxShifts; ++attempt)
+  {
+    matrix_.copyFrom(base_);
+    rhs_ = gradient_;
+    for (double& value : rhs_)
+      value = -value;
+    for (int i = state.first_node; shift > 0.0 && i < rod_.nodes(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        matrix_.at(model_.positionRow(state, i) + axis, model_.positionRow(state, i) + axis) +=
+            shift * rod_.mass[i] / (dt * dt);
+    model_.prescribeEnds(state, matrix_, rhs_);
+    for (int i = state.first_node; boundary_.introducer && i < rod_.nodes() && isPrescribed(i, state); ++i)
+    {
+      model_.prescribe(model_.positionRow(state, i), 1.0, matrix_, rhs_);
+      if (i > state.first_node)
+        matrix_.prescribe(model_.tensionRow(state, i - 1), 0.0, -1.0, rhs_);
+    }
+    ++report.factorisations;
+    if (matrix_.factorise() == model_.negativePivots(state))
+    {
+      matrix_.solve(rhs_);
+      return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
+    }
+    shifted = true;
+    shift = std::max(kFirstShift, kShiftGrowth * shift);
+  }
+  return false;
+}
+
+double MixedStepper::truncation(const State& state, StepReport& report) const
+{
+  double largest_turn = 0.0;
+  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
+  {
+    const Vector3d change = increment(model_.positionRow(state, j + 1)) - increment(model_.positionRow(state, j));
+    largest_turn = std::max(largest_turn, change.norm() / rod_.rest_length[j]);
+  }
+  if (largest_turn <= settings_.max_rotation)
+    return 1.0;
+  ++report.truncations;
+  return settings_.max_rotation / largest_turn;
+}
+
+void MixedStepper::accept(State& state, double factor) const
+{
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+  {
+    state.position[i] += factor * increment(model_.positionRow(state, i));
+    state.moment[i] += factor * increment(model_.momentRow(state, i));
+  }
+  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
+    state.tension[j] += factor * rhs_[model_.tensionRow(state, j)];
+}
+
+/** Of the edges that are free to keep their lengths. */
+double MixedStepper::largestStrain(const State& state) const
+{
+  double worst = 0.0;
+  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
+    if (!(isPrescribed(j, state) && isPrescribed(j + 1, state)))
+      worst = std::max(worst, std::abs(model_.strain(state, j)));
+  return worst;
+}
+
+void MixedStepper::finish(State& state, double dt) const
+{
+  const double inverse = 1.0 / dt;
+  int first_free_edge = state.first_node;
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+    if (!isPrescribed(i, state))
+      state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+    else if (i < rod_.nodes() - 1)
+      first_free_edge = boundary_.introducer ? i : first_free_edge;
+  state.hand_force = -state.tension[first_free_edge];
+}
+
+Energy MixedStepper::energy(const State& state)
+{
+  Energy energy;
+  energy.bending = model_.bendingEnergy(state);
+  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
+    energy.stretch +=
+        0.5 * rod_.rest_length[j] * model_.edges()[j].axial_compliance * state.tension[j] * state.tension[j];
+  return energy;
+}
+
+}  // namespace endovascular_sim::rod
