@@ -1,6 +1,7 @@
 #include "rod/twist.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rod/bending.h"
@@ -13,7 +14,9 @@ namespace
 constexpr int kMaxIterations = 200;
 constexpr double kMaxTurn = 0.3;      // rad per iteration: a snap-through is followed, not jumped over
 constexpr double kConverged = 1e-12;  // rad
-constexpr double kMinLength = 1e-9;   // of the body's compliance, in edges: keeps the spring finite
+// Share of the Hessian's concave part that is left out: the first with which it is positive definite.
+constexpr std::array<double, 5> kLeftOut = {0.0, 1e-3, 1e-2, 0.1, 1.0};
+constexpr double kMinLength = 1e-9;  // of the body's compliance, in edges: keeps the spring finite
 
 double edgeMiddle(const Discretisation& rod, int edge)
 {
@@ -61,6 +64,9 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   gradient_.resize(n);
   diagonal_.resize(n);
   upper_.resize(n);
+  concave_.resize(n);
+  pivot_.resize(n);
+  step_.resize(n);
   prepareBody(rod, boundary);
   if (first_curved_ < n || boundary.tip_held)
     transportBishopFrame(rod, boundary, state);
@@ -135,13 +141,14 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
             .value;
 }
 
-/** Gradient and Hessian by the twist angles of the edges first_curved_−1 … n−2; returns the largest |gradient|. */
+/** Gradient and Hessian by the twist angles of the edges first_curved_−1 … n−2, and apart what of the Hessian's
+ *  diagonal curves down; returns the largest |gradient|. */
 double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state)
 {
   const int n = rod.nodes();
   const int first = first_curved_ - 1;
   for (int j = first; j + 1 < n; ++j)
-    gradient_[j] = diagonal_[j] = upper_[j] = 0.0;
+    gradient_[j] = diagonal_[j] = upper_[j] = concave_[j] = 0.0;
   gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
   for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
     gradient_[j] -= boundary.edgeTorque(j);
@@ -167,7 +174,8 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
       const double along2 = binormal_[i].dot(bishop_normal_[j]);
       const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
       gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
-      diagonal_[j] += b * std::max(0.0, rest.dot(omega));
+      diagonal_[j] += b * rest.dot(omega);
+      concave_[j] += b * std::max(0.0, -rest.dot(omega));
     }
   }
   tip_gradient_ = gradient_[n - 2];
@@ -182,6 +190,34 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   return largest;
 }
 
+/** Solves the tridiagonal system for the Newton step, with a share of the concave part left out of the matrix.
+ *  @return the largest step, or a negative number when the matrix is not positive definite */
+double QuasiStaticTwist::solveForStep(int first, int last, double left_out)
+{
+  for (int j = first; j <= last; ++j)
+  {
+    pivot_[j] = diagonal_[j] + left_out * concave_[j];
+    step_[j] = gradient_[j];
+    if (j > first)
+    {
+      const double factor = upper_[j - 1] / pivot_[j - 1];
+      pivot_[j] -= factor * upper_[j - 1];
+      step_[j] -= factor * step_[j - 1];
+    }
+    if (!(pivot_[j] > 0.0))
+      return -1.0;
+  }
+  double largest = 0.0;
+  for (int j = last; j >= first; --j)
+  {
+    step_[j] = (step_[j] - (j < last ? upper_[j] * step_[j + 1] : 0.0)) / pivot_[j];
+    largest = std::max(largest, std::abs(step_[j]));
+  }
+  return largest;
+}
+
+/** Newton's method with the exact Hessian where that is positive definite. Beyond a snap-through it is not: there as
+ *  little as needed of what curves down is left out, and the angles run downhill to the next minimum. */
 void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
   const int first = first_curved_ - 1;
@@ -190,22 +226,12 @@ void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& bou
   {
     if (assemble(rod, boundary, state) == 0.0)
       return;
-    // Thomas algorithm; the matrix is symmetric, diagonally dominant and positive.
-    for (int j = first + 1; j <= last; ++j)
-    {
-      const double factor = upper_[j - 1] / diagonal_[j - 1];
-      diagonal_[j] -= factor * upper_[j - 1];
-      gradient_[j] -= factor * gradient_[j - 1];
-    }
-    double largest = 0.0;
-    for (int j = last; j >= first; --j)
-    {
-      gradient_[j] = (gradient_[j] - (j < last ? upper_[j] * gradient_[j + 1] : 0.0)) / diagonal_[j];
-      largest = std::max(largest, std::abs(gradient_[j]));
-    }
+    double largest = -1.0;
+    for (std::size_t k = 0; k < kLeftOut.size() && largest < 0.0; ++k)
+      largest = solveForStep(first, last, kLeftOut[k]);
     const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
     for (int j = first; j <= last; ++j)
-      state.twist_angle[j] -= scale * gradient_[j];
+      state.twist_angle[j] -= scale * step_[j];
     if (largest < kConverged)
       return;
   }

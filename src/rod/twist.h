@@ -66,6 +66,7 @@ private:
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
+  double solveForStep(int first, int last, double left_out);
   void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateTip(const Discretisation& rod, State& state);
@@ -86,7 +87,8 @@ private:
   std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
-  std::vector<double> gradient_, diagonal_, upper_;
+  std::vector<double> gradient_, diagonal_, upper_, concave_;
+  std::vector<double> pivot_, step_;
 };
 
 }  // namespace endovascular_sim::rod

@@ -1,0 +1,231 @@
+#include <gtest/gtest.h>
+
+#include "rod/twist.h"
+#include "rod_fixtures.h"
+
+// Torque transmission on a prescribed planar centreline (References 07): GJ φ″ = EI κ κ0 sin φ, φ between the wire's
+// natural bend and the centreline's; φ_in is the hand's angle, φ_out the tip's.
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kStiffness = 1e-3;  // EI and GJ of the bend's wire [N·m²]
+
+/** A wire on a planar centreline that turns by the same angle at each of its last nodes; held at the middle of its
+ *  first edge. */
+struct PlanarBend
+{
+  PlanarBend(const Wire& wire, int nodes, int bent_nodes, double turn) : rod(discretiseUniformly(wire, nodes))
+  {
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    double angle = 0.0;
+    state.position.push_back(x);
+    for (int j = 0; j + 1 < nodes; ++j)
+    {
+      if (j >= nodes - 1 - bent_nodes)
+        angle += turn;
+      x += rod.rest_length[j] * Eigen::Vector3d(std::cos(angle), 0.0, -std::sin(angle));
+      state.position.push_back(x);
+    }
+    state.twist_angle.assign(static_cast<std::size_t>(nodes - 1), 0.0);
+    hold.position = 0.5 * rod.rest_length[0];
+  }
+
+  /** Turns the hand to an angle; returns the tip's. */
+  double turnTo(double angle)
+  {
+    hold.rotation = angle;
+    twist.solve(rod, hold, state);
+    return state.twist_angle.back();
+  }
+
+  Discretisation rod;
+  State state;
+  TwistBoundary hold;
+  QuasiStaticTwist twist;
+};
+
+/** Pre-curved over the whole bend, √(EI κ κ0/GJ)·L = lambda. The discrete bend reaches from the middle of the first
+ *  edge to that of the last. */
+PlanarBend distributedBend(double lambda, int nodes)
+{
+  const double length = 0.1;
+  const double edge = length / (nodes - 2);
+  const double curvature = lambda / length;
+  Wire wire = uniformWire(edge * (nodes - 1), kStiffness, 4e-4, 7000.0);
+  wire.sections[0].torsional_stiffness = kStiffness;
+  wire.sections[0].rest_curvature = Eigen::Vector2d(0.0, -curvature);
+  return PlanarBend(wire, nodes, nodes - 2, 2.0 * std::atan(0.5 * curvature * edge));
+}
+
+/** Hand angle at which the tip first reaches an angle, turned in small steps. */
+double handAngleFor(PlanarBend& bend, double tip)
+{
+  const double step = 0.25 * kDegree;
+  double before = bend.turnTo(0.0);
+  for (double hand = step; hand < 7.0; hand += step)
+  {
+    const double now = bend.turnTo(hand);
+    if (now >= tip)
+      return hand - step * (now - tip) / (now - before);
+    before = now;
+  }
+  return NAN;
+}
+
+struct Transmission
+{
+  double lambda;
+  double out;     ///< [deg]
+  double in;      ///< [deg]
+  double torque;  ///< of the hand, TL/GJ
+};
+
+TEST(ReferencesTwist, HandAngleForATipAngleInABendIsThatOfTheContinuum)
+{
+  for (const Transmission& exact : {Transmission{0.5, 60.0, 66.26484711852943, 0.22078327533305434},
+                                    Transmission{1.0, 60.0, 85.69151950722886, 0.9218174202195772},
+                                    Transmission{1.0, 120.0, 143.65376297895565, 0.7816012694421106},
+                                    Transmission{1.0, 165.0, 171.8332525609681, 0.21878306608550602},
+                                    Transmission{2.0, 45.0, 138.73427699472361, 3.4161564646369995},
+                                    Transmission{2.0, 90.0, 191.78227469332728, 2.7984718770529384},
+                                    Transmission{2.5, 60.0, 213.4321912826432, 4.084327434353842}})
+  {
+    PlanarBend bend = distributedBend(exact.lambda, 80);
+    const double hand = handAngleFor(bend, exact.out * kDegree);
+    EXPECT_NEAR(hand / kDegree, exact.in, 0.05) << "lambda " << exact.lambda << " out " << exact.out;
+    EXPECT_NEAR(bend.turnTo(hand), exact.out * kDegree, 1e-3);
+    EXPECT_NEAR(std::abs(bend.state.hand_torque) * 0.1 / kStiffness, exact.torque, 0.003 * exact.torque);
+  }
+}
+
+TEST(ReferencesTwist, TransmissionConvergesWithSecondOrder)
+{
+  const auto error = [](int nodes)
+  {
+    PlanarBend bend = distributedBend(2.0, nodes);
+    return handAngleFor(bend, 90.0 * kDegree) / kDegree - 191.78227469332728;
+  };
+  const double coarse = error(22);
+  const double fine = error(42);
+  const double finest = error(82);
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
+  EXPECT_NEAR(std::log2(fine / finest), 2.0, 0.15);
+}
+
+struct Snap
+{
+  double hand = NAN;  ///< the last before it [rad]
+  double from = NAN;  ///< of the tip
+  double to = NAN;
+};
+
+/** Turns the hand by steps until the tip jumps. */
+Snap snapOf(PlanarBend& bend, double begin, double step, double end)
+{
+  double before = bend.turnTo(begin);
+  for (int k = 1; k < static_cast<int>((end - begin) / step); ++k)
+  {
+    const double now = bend.turnTo(begin + k * step);
+    if (std::abs(now - before) > 0.5)
+      return {begin + (k - 1) * step, before, now};
+    before = now;
+  }
+  return {};
+}
+
+TEST(ReferencesTwist, APreCurvedWireSnapsWhereTheContinuumDoesAndLandsOnItsNextState)
+{
+  struct Exact
+  {
+    double lambda, in, out, landing;  // [deg]
+  };
+  for (const Exact& exact : {Exact{2.0, 197.7856142522825, 116.7210068571072, 301.6117828402459},
+                             Exact{2.5, 228.97578968967696, 92.41541234603068, 335.325407876718}})
+  {
+    PlanarBend bend = distributedBend(exact.lambda, 80);
+    const Snap forward = snapOf(bend, 0.0, 0.05 * kDegree, 7.0);
+    EXPECT_NEAR(forward.hand / kDegree, exact.in, 0.15);
+    EXPECT_NEAR(forward.from / kDegree, exact.out, 5.0);  // the slope is infinite there
+    EXPECT_NEAR(forward.to / kDegree, exact.landing, 0.3);
+    // Turned back it stays on the other side for longer: hysteresis, symmetric about half a turn.
+    const Snap back = snapOf(bend, forward.hand + 0.2 * kDegree, -0.05 * kDegree, 0.0);
+    EXPECT_NEAR(back.hand / kDegree, 360.0 - exact.in, 0.15);
+    EXPECT_NEAR(back.to / kDegree, 360.0 - exact.landing, 0.3);
+  }
+}
+
+TEST(ReferencesTwist, BelowAQuarterWaveTheTipFollowsTheHandWithoutASnap)
+{
+  for (const double lambda : {0.9, 0.98})
+  {
+    PlanarBend bend = distributedBend(lambda * 0.5 * M_PI, 80);
+    EXPECT_TRUE(std::isnan(snapOf(bend, 0.0, 0.05 * kDegree, 7.0).hand)) << lambda;
+  }
+  PlanarBend bend = distributedBend(1.03 * 0.5 * M_PI, 80);
+  EXPECT_NEAR(snapOf(bend, 0.0, 0.05 * kDegree, 7.0).hand, M_PI, 2.0 * kDegree);
+}
+
+// A long straight shaft and a short tip, stiff in torsion, in the bend: φ_in − φ_out = A sin φ_out, A = EI κ κ0 l
+// L0/GJ.
+TEST(ReferencesTwist, ALongShaftWithAShortPreCurvedTipSnapsByTheLumpedFormula)
+{
+  const int nodes = 101;
+  const int bent = 8;
+  const double edge = 1e-3;
+  const double shaft = (nodes - 2 - bent) * edge;  // from the middle of the first edge to the tip's first middle
+  const double factor = 2.0;                       // A
+  const double curvature = std::sqrt(factor / (bent * edge * shaft));
+  Wire wire = uniformWire(shaft + 0.5 * edge, kStiffness, 4e-4, 7000.0);
+  wire.sections[0].torsional_stiffness = kStiffness;
+  wire.sections.push_back(wire.sections[0]);
+  wire.sections[1].length = (bent + 0.5) * edge;
+  wire.sections[1].torsional_stiffness = 1e4 * kStiffness;
+  wire.sections[1].rest_curvature = Eigen::Vector2d(0.0, -curvature);
+  PlanarBend bend(wire, nodes, bent, 2.0 * std::atan(0.5 * curvature * edge));
+  const double hand = handAngleFor(bend, 60.0 * kDegree);
+  EXPECT_NEAR(hand / kDegree, 159.23920117592255, 0.3);
+  const Snap snap = snapOf(bend, hand, 0.05 * kDegree, 7.0);
+  EXPECT_NEAR(snap.hand / kDegree, 219.23920117592257, 0.3);
+  EXPECT_NEAR(snap.to / kDegree, 308.6866410295673, 0.5);
+}
+
+// Null test: a straight isotropic wire turns at its tip exactly as at the hand, in any bend, without torque.
+TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
+{
+  const int nodes = 60;
+  Boundary boundary = clampAtOrigin(0.2, nodes);
+  Environment environment;
+  environment.damping = 50.0;
+  KktStepper stepper(discretiseUniformly(uniformWire(clampedLength(0.2, nodes), kStiffness, 4e-4, 7000.0), nodes),
+                     boundary, environment, StepperSettings());
+  State state = stepper.initialState(0.0, 0.0);
+  StepInput input;
+  input.forces.push_back({nodes - 1, Eigen::Vector3d(0.0, 0.2, 0.0)});
+  input.forces.push_back({nodes / 2, Eigen::Vector3d(0.0, 0.0, -0.4)});
+  PhaseTimer timer;
+  for (int k = 0; k < 500; ++k)
+  {
+    std::uint32_t pass = 0;
+    input.rotation = 0.02 * k;
+    ASSERT_TRUE(stepper.step(state, input, 1e-3, pass, nullptr, timer).solved);
+  }
+  ASSERT_GT(state.position.back().norm(), 0.05);
+  ASSERT_LT(state.position.back().x(), 0.18);
+  EXPECT_NEAR(state.twist_angle.back(), state.rotation, 1e-9);
+  EXPECT_EQ(state.hand_torque, 0.0);
+  // The twist solver itself says the same when it is made to solve.
+  TwistBoundary hold;
+  hold.position = 0.5 * stepper.discretisation().rest_length[0];
+  hold.rotation = state.rotation;
+  QuasiStaticTwist twist;
+  twist.solve(stepper.discretisation(), hold, state);
+  EXPECT_NEAR(state.twist_angle.back(), state.rotation, 1e-9);
+  EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rod
