@@ -35,6 +35,13 @@ enum FeatureKind
   kVertex = 2,
 };
 
+/** Index by which a node or edge is remembered: from the tip, so that nodes that come and go at the wire's other end
+ *  change nothing. */
+int placeFromTip(const Query& query, std::size_t index)
+{
+  return static_cast<int>(query.nodes.size() - 1 - index);
+}
+
 std::int64_t featureId(int index, FeatureKind kind)
 {
   return std::int64_t{3} * index + kind;
@@ -213,11 +220,10 @@ void Detector::detect(const Query& query, ContactSet& set)
   const std::size_t n = query.nodes.size();
   set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
   setReach(query);
-  const std::size_t whole = static_cast<std::size_t>(query.first_node) + n;
-  if (near_nodes_.size() < whole)
+  if (near_nodes_.size() < n)
   {
-    near_nodes_.resize(whole);
-    near_edges_.resize(whole);
+    near_nodes_.resize(n);
+    near_edges_.resize(n);
   }
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
@@ -242,7 +248,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   const Eigen::Vector3d& point = query.nodes[index];
   const double radius = query.radius[index];
   const double limit = radius + query.margin;
-  const Neighbourhood& near = triangleNeighbourhood(query.first_node + static_cast<int>(index), point, limit);
+  const Neighbourhood& near = triangleNeighbourhood(placeFromTip(query, index), point, limit);
   if (near.items.empty())
     return;
   const std::size_t first = features.size();
@@ -376,7 +382,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const std::size_t begin = features.size();
   const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   const double reach = 0.5 * (b - a).norm() + limit;
-  for (int e : edgeNeighbourhood(query.first_node + static_cast<int>(index), a, b, limit).items)
+  for (int e : edgeNeighbourhood(placeFromTip(query, index), a, b, limit).items)
   {
     if (!canMeet(a, b, e, reach, limit))
       continue;

@@ -100,7 +100,7 @@ private:
   double edge_reach_ = 0.0;  ///< the same from an edge's middle [m]
   std::unordered_map<CellKey, int> cell_of_key_;
   std::vector<Cell> cells_;
-  std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index along the whole wire
+  std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index from the tip
   std::vector<int> nearest_;                            ///< triangle that was nearest to each node, or −1
   std::vector<int> collected_;
   std::vector<EdgeBall> edge_balls_;

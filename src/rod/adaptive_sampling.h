@@ -35,7 +35,7 @@ public:
 
 private:
   void measureCurvature(const State& state);
-  double curvatureBeyondTip(const State& state) const;
+  double curvatureBeyondTip(const Eigen::Vector3d& before_tip, const Eigen::Vector3d& tip);
   void demandOfShape(const State& state);
   void setFixedDemand();
   void restrictDemand(const State& state);
@@ -50,6 +50,8 @@ private:
   std::vector<double> position_;
   std::vector<double> curvature_;  ///< per node [1/m]
   std::vector<SamplingDemand> demand_;
+  double beyond_tip_ = -1.0;  ///< curvature ahead of where the tip was when it last looked; negative: never [1/m]
+  Eigen::Vector3d looked_from_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace endovascular_sim::rod

@@ -86,6 +86,7 @@ private:
   void ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report);
   bool foundUnknownContact() const;
   double contactMotion(std::size_t index) const;
+  void moveToSampling(contact::Feature& feature, const Discretisation& rod) const;
   double bodyPosition(int node, double inserted_length) const;
   void finish(State& state, double dt);
 

@@ -275,20 +275,31 @@ void KktStepper::ask(const State& state, bool want_free_distance, contact::Conta
   ++*pass_;
 }
 
-/** The contacts stay at their places along the wire: they serve where the next set comes too late. */
 bool KktStepper::resample(const Discretisation& rod)
 {
+  // Where the nodes that were asked about are still the same ones, so are their contacts.
+  const int added = rod.nodes() - rod_.nodes();
+  const bool same = query_.first_node + added >= 0 &&
+                    std::equal(rod_.position.begin() + query_.first_node, rod_.position.end(),
+                               rod.position.begin() + query_.first_node + added, rod.position.end());
   for (contact::Feature& feature : contacts_.features)
-  {
-    const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
-    const auto after = std::upper_bound(rod.position.begin(), rod.position.end() - 1, place);
-    feature.edge = std::max(0, static_cast<int>(after - rod.position.begin()) - 1);
-    const double parameter = (place - rod.position[feature.edge]) / rod.rest_length[feature.edge];
-    feature.parameter = std::max(0.0, std::min(1.0, parameter));
-  }
+    if (same)
+      feature.edge += added;
+    else
+      moveToSampling(feature, rod);
+  contacts_valid_ = contacts_valid_ && same;
   rod_ = rod;
-  contacts_valid_ = false;
   return true;
+}
+
+/** A contact stays at its place along the wire: it serves where the next set comes too late. */
+void KktStepper::moveToSampling(contact::Feature& feature, const Discretisation& rod) const
+{
+  const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
+  const auto after = std::upper_bound(rod.position.begin(), rod.position.end() - 1, place);
+  feature.edge = std::max(0, static_cast<int>(after - rod.position.begin()) - 1);
+  const double parameter = (place - rod.position[feature.edge]) / rod.rest_length[feature.edge];
+  feature.parameter = std::max(0.0, std::min(1.0, parameter));
 }
 
 /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */

@@ -161,8 +161,8 @@ void Resampling::insert(const Change& change, const Discretisation& from, const 
   const Eigen::Vector3d before = (change.cell_before / from.cell_length[a]) * state.wall_force[a];
   const Eigen::Vector3d after = (change.cell_after / from.cell_length[a + 1]) * state.wall_force[a + 1];
   next_.wall_force[k] = before + after;
-  next_.friction_coefficient[k] = before.squaredNorm() > after.squaredNorm() ? state.friction_coefficient[a]
-                                                                            : state.friction_coefficient[a + 1];
+  next_.friction_coefficient[k] =
+      before.squaredNorm() > after.squaredNorm() ? state.friction_coefficient[a] : state.friction_coefficient[a + 1];
 }
 
 void Resampling::remove(const Change& change, const Discretisation& from, const Discretisation& to, const State& state)
@@ -173,11 +173,9 @@ void Resampling::remove(const Change& change, const Discretisation& from, const 
   const Eigen::Vector3d mean =
       (change.mass_before * state.velocity[gone - 1] + change.mass_after * state.velocity[gone + 1]) / mass;
   const Eigen::Vector3d kick = mass / (to.mass[k] + to.mass[k + 1]) * (state.velocity[gone] - mean);
-  const Eigen::Vector3d mean_force =
-      (change.cell_before / from.cell_length[gone - 1]) * state.wall_force[gone - 1] +
-      (change.cell_after / from.cell_length[gone + 1]) * state.wall_force[gone + 1];
-  const Eigen::Vector3d beyond = (state.wall_force[gone] - mean_force) /
-                                 (to.cell_length[k] + to.cell_length[k + 1]);
+  const Eigen::Vector3d mean_force = (change.cell_before / from.cell_length[gone - 1]) * state.wall_force[gone - 1] +
+                                     (change.cell_after / from.cell_length[gone + 1]) * state.wall_force[gone + 1];
+  const Eigen::Vector3d beyond = (state.wall_force[gone] - mean_force) / (to.cell_length[k] + to.cell_length[k + 1]);
   for (int side = 0; side < 2; ++side)
   {
     const bool was_free = state.wall_force[gone - 1 + 2 * side].isZero(0.0);

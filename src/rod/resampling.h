@@ -31,9 +31,9 @@ private:
   /** A node that comes between the nodes a and a+1 or goes from there, in indices of the sampling without it. */
   struct Change
   {
-    int coarse;   ///< a in the sampling without the node
-    int fine;     ///< the node itself in the sampling with it
-    bool split;   ///< it comes
+    int coarse;                      ///< a in the sampling without the node
+    int fine;                        ///< the node itself in the sampling with it
+    bool split;                      ///< it comes
     double mass_before, mass_after;  ///< mass that a and a+1 give to the node, or get from it [kg]
     double cell_before, cell_after;  ///< length of the cells likewise [m]
   };

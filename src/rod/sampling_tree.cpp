@@ -18,14 +18,11 @@ SamplingTree::SamplingTree(double length, const SamplingSettings& settings) : se
 {
   const double roots = std::max(1.0, std::ceil(length / settings.max_edge * (1.0 - kSameLength)));
   const double halvings = std::ceil(std::log2(length / roots / settings.min_edge) - kSameLength);
-  coarsest_ = std::max(0, std::min(kDeepest, static_cast<int>(halvings)));
+  coarsest_ = settings.extra_levels + std::max(0, std::min(kDeepest, static_cast<int>(halvings)));
   base_edges_ = static_cast<std::int64_t>(roots) << coarsest_;
   base_edge_ = length / static_cast<double>(base_edges_);
-  leaves_.resize(static_cast<std::size_t>(base_edges_));
-  for (std::int64_t j = 0; j < base_edges_; ++j)
-    leaves_[static_cast<std::size_t>(j)] = {j, 0, kOld};
-  next_.reserve(leaves_.size());
-  change_.reserve(leaves_.size());
+  for (std::int64_t begin = 0; begin < base_edges_; begin += std::int64_t{1} << coarsest_)
+    leaves_.push_back({begin, coarsest_, kOld});
 }
 
 double SamplingTree::position(std::int64_t base_edges) const
@@ -59,9 +56,8 @@ void SamplingTree::markSplits(const std::vector<SamplingDemand>& demand)
   for (std::size_t j = 0; j < leaves_.size(); ++j)
   {
     const SamplingLeaf& leaf = leaves_[j];
-    const double h = edge(leaf.level);
-    const bool curved =
-        h > settings_.min_edge * (1.0 + kSameLength) && demand[j].curvature * h > settings_.turn_per_edge;
+    const double turn = demand[j].curvature * edge(leaf.level);
+    const bool curved = leaf.level > fineLevel() && turn > settings_.turn_per_edge;
     if (leaf.level > 0 && (curved || leaf.level > demand[j].coarsest))
       change_[j] = Change::kSplit;
   }
@@ -84,12 +80,12 @@ bool SamplingTree::canMerge(std::size_t j, const std::vector<SamplingDemand>& de
   const bool siblings = a.level == b.level && ((a.begin >> a.level) & 1) == 0;
   if (!siblings || a.level >= coarsest_ || change_[j] != Change::kNone || change_[j + 1] != Change::kNone)
     return false;
-  if (!demand[j].mergeable || !demand[j + 1].mergeable || std::min(a.age, b.age) < settings_.min_age)
+  if (a.age < demand[j].min_age || b.age < demand[j + 1].min_age)
     return false;
   if (a.level + 1 > std::min(demand[j].coarsest, demand[j + 1].coarsest))
     return false;
-  const double curvature = std::max(demand[j].curvature, demand[j + 1].curvature);
-  if (curvature * edge(a.level + 1) >= settings_.merge_fraction * settings_.turn_per_edge)
+  const double turn = std::max(demand[j].curvature, demand[j + 1].curvature) * edge(a.level + 1);
+  if (a.level >= fineLevel() && turn >= settings_.merge_fraction * settings_.turn_per_edge)
     return false;
   return (j == 0 || levelAfterSplits(j - 1) >= a.level) &&
          (j + 2 == leaves_.size() || levelAfterSplits(j + 2) >= a.level);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace endovascular_sim::rod
@@ -9,11 +10,12 @@ namespace endovascular_sim::rod
 /** How finely a wire is cut where it bends. */
 struct SamplingSettings
 {
-  double min_edge = 0.5e-3;      ///< an edge this long or shorter is not split for its curvature [m]
-  double max_edge = 1.5e-3;      ///< no edge is longer [m]
-  double turn_per_edge = 0.1;    ///< η: an edge that turns by more is split [rad]
-  double merge_fraction = 0.7;   ///< of η, below which the turn of both halves together must be to merge them
-  int min_age = 10;              ///< updates that both halves must have lived
+  double min_edge = 0.5e-3;     ///< an edge this long or shorter is not split for its curvature [m]
+  double max_edge = 1.5e-3;     ///< no edge is longer [m]
+  double turn_per_edge = 0.1;   ///< η: an edge that turns by more is split [rad]
+  double merge_fraction = 0.7;  ///< of η, below which the turn of both halves together must be to merge them
+  int min_age = 10;             ///< updates that both halves must have lived
+  int extra_levels = 0;         ///< levels below that of min_edge, for where they are demanded
 };
 
 /** An edge of the wire: 2^level base edges, beginning at a multiple of its own length. */
@@ -31,20 +33,25 @@ struct SamplingDemand
 {
   double curvature = 0.0;  ///< to be resolved [1/m]
   int coarsest = 0;        ///< level above which the leaf is split, whatever its curvature
-  bool mergeable = true;   ///< false: the leaf stays as it is, or is split
+  int min_age = 0;         ///< updates that it must have lived before it is merged
 };
+
+/** As the age that a leaf must have: it is never merged. */
+constexpr int kNeverMerged = std::numeric_limits<int>::max();
 
 /** Edges of a wire as the leaves of a forest of binary trees: an edge is halved, or joined with its other half again,
  *  so that a merge is exactly the inverse of a split. Neighbours differ by one level at most. Equal roots fill the
- *  wire's length, none longer than max_edge; they are halved until an edge is no longer than min_edge. */
+ *  wire's length, none longer than max_edge; the finest level is the first at which an edge is no longer than
+ *  min_edge, or so many levels below as the settings say. */
 class SamplingTree
 {
 public:
-  /** All leaves at the finest level.
+  /** All leaves at the coarsest level.
    *  @param length of the wire [m], positive */
   SamplingTree(double length, const SamplingSettings& settings);
 
   int coarsestLevel() const { return coarsest_; }
+  int fineLevel() const { return settings_.extra_levels; }  ///< the coarsest with edges no longer than min_edge
   double edge(int level) const { return base_edge_ * static_cast<double>(std::int64_t{1} << level); }  ///< [m]
   const std::vector<SamplingLeaf>& leaves() const { return leaves_; }
   int nodes() const { return static_cast<int>(leaves_.size()) + 1; }

@@ -46,8 +46,8 @@ void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_len
     fields.refuse("min_edge", "makes more than 100000 nodes of the wire; must be at least " +
                                   std::to_string(kShortestEdge * wire_length) + " m");
   if (sampling.max_edge > 0.5 * wire_length)
-    fields.refuse("max_edge", "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) +
-                                  " m");
+    fields.refuse("max_edge",
+                  "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) + " m");
 }
 
 void visitRecord(SceneFields& fields, RecordScene& record)

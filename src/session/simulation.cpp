@@ -19,7 +19,7 @@ constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
-constexpr double kSamplingPeriod = 5e-3;         // s between two looks at the wire's shape
+constexpr double kSamplingPeriod = 10e-3;        // s between two looks at the wire's shape
 
 rod::EndHold hold(EndCondition condition)
 {
@@ -135,6 +135,8 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
                          std::to_string(max_insertion_) + " m");
   const double insertion = scene.introducer ? std::max(0.0, scene.drive.insertionAt(0.0)) : 0.0;
   state_ = stepper_->initialState(insertion, scene.drive.rotationAt(0.0));
+  while (sampling_ && sampling_->update(state_))
+    stepper_->resample(sampling_->discretisation());
 }
 
 /** Grip of the hand, 1 firm to 0 slipping, after a step in which the wire resisted the wanted motion. It follows the

@@ -17,7 +17,8 @@ public:
    *  of the centreline. */
   explicit CentrelineCurvature(const CentrelineTree& tree);
 
-  /** Curvature at the nearest point of the centreline; the lowest index among equally near ones; 0 without any [1/m]. */
+  /** Curvature at the nearest point of the centreline; the lowest index among equally near ones; 0 without any [1/m].
+   */
   double at(const Eigen::Vector3d& place) const;
 
 private:
