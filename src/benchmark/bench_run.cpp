@@ -49,10 +49,16 @@ BenchRun::BenchRun(const std::string& scene_text, const std::vector<std::string>
   else
     entry = session::resolveEntry(scene_.entry, scene_.file);
   simulation_ = std::make_unique<session::Simulation>(scene_, entry, wall_.get());
+  forgetEnergy();
+}
+
+void BenchRun::forgetEnergy()
+{
   last_insertion_ = simulation_->state().inserted_length;
   last_rotation_ = simulation_->state().rotation;
   const rod::Energy energy = simulation_->energy();
-  first_energy_ = energy.bending + energy.twist;
+  first_energy_ = energy.bending + energy.twist + kineticEnergy(*simulation_);
+  work_ = 0.0;
 }
 
 RunSummary BenchRun::advance(double seconds)

@@ -43,6 +43,9 @@ public:
   /** Runs on for a time of the scene and measures it. */
   RunSummary advance(double seconds);
 
+  /** Begins the energy's account anew, after the state was changed from outside. */
+  void forgetEnergy();
+
   session::Simulation& simulation() { return *simulation_; }
   const session::Scene& scene() const { return scene_; }
   const contact::Detector* wall() const { return wall_.get(); }  ///< null without a vessel

@@ -205,7 +205,7 @@ Section vessel(const StudyOptions& options, const Progress& progress)
   double done = 0.0;
   for (const std::string& scheme : schemes())
     for (const std::string sampling : {"{kind: uniform, nodes: 121}", "{kind: uniform, nodes: 241}",
-                                        "{kind: uniform, nodes: 451}", "{kind: adaptive}"})
+                                       "{kind: uniform, nodes: 451}", "{kind: adaptive}"})
       for (double time_step : options.quick ? std::vector<double>{1e-3} : std::vector<double>{2e-3, 1e-3, 5e-4})
       {
         progress(0.85 + 0.15 * done++ / 36.0, "vessel, " + scheme + ", " + sampling);

@@ -244,6 +244,12 @@ void Simulation::step(const HandCommand& command)
   trajectory_.add(state_hash_);
 }
 
+void Simulation::setState(rod::State state)
+{
+  state_ = std::move(state);
+  stepper_->invalidateContacts();
+}
+
 contact::Query Simulation::initialQuery() const
 {
   contact::Query query;
