@@ -129,20 +129,20 @@ double EquilibriumSolver::potential(const Equilibrium& e) const
 
 Eigen::VectorXd EquilibriumSolver::transportGradient(const Equilibrium& e) const
 {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * problem_.nodes());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rowOf(problem_.nodes()));
   for (int i = firstBent(); problem_.twist_held && i <= lastBent(); ++i)
   {
     const TwistOfCentreline twist(edge(e, edgeBefore(i)).vector, edge(e, i).vector);
-    gradient.segment<3>(3 * previous(i)) -= twist.by_before;
-    gradient.segment<3>(3 * i) += twist.by_before - twist.by_after;
-    gradient.segment<3>(3 * next(i)) += twist.by_after;
+    gradient.segment<3>(rowOf(previous(i))) -= twist.by_before;
+    gradient.segment<3>(rowOf(i)) += twist.by_before - twist.by_after;
+    gradient.segment<3>(rowOf(next(i))) += twist.by_after;
   }
   return gradient;
 }
 
 Eigen::VectorXd EquilibriumSolver::forces(const Equilibrium& e) const
 {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * problem_.nodes());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rowOf(problem_.nodes()));
   for (int i = firstBent(); i <= lastBent(); ++i)
   {
     const int before = edgeBefore(i);
@@ -152,18 +152,18 @@ Eigen::VectorXd EquilibriumSolver::forces(const Equilibrium& e) const
         problem_.rod.bending_stiffness[i] / problem_.rod.cell_length[i] * (kb.value - restBinormal(i));
     const Eigen::Vector3d by_before = kb.transposeBefore(strain);
     const Eigen::Vector3d by_after = kb.transposeAfter(strain);
-    gradient.segment<3>(3 * previous(i)) -= by_before;
-    gradient.segment<3>(3 * i) += by_before - by_after;
-    gradient.segment<3>(3 * next(i)) += by_after;
+    gradient.segment<3>(rowOf(previous(i))) -= by_before;
+    gradient.segment<3>(rowOf(i)) += by_before - by_after;
+    gradient.segment<3>(rowOf(next(i))) += by_after;
   }
   for (int j = 0; j < problem_.edges(); ++j)
   {
     const Eigen::Vector3d pull = e.tension[j] * edge(e, j).vector.normalized();
-    gradient.segment<3>(3 * j) -= pull;
-    gradient.segment<3>(3 * next(j)) += pull;
+    gradient.segment<3>(rowOf(j)) -= pull;
+    gradient.segment<3>(rowOf(next(j))) += pull;
   }
   for (std::size_t i = 0; i < problem_.force.size(); ++i)
-    gradient.segment<3>(3 * static_cast<int>(i)) -= problem_.force[i];
+    gradient.segment<3>(rowOf(static_cast<int>(i))) -= problem_.force[i];
   return gradient + e.torque * transportGradient(e);
 }
 
@@ -195,7 +195,7 @@ SparseMatrix EquilibriumSolver::hessian(const Equilibrium& e) const
     addBlock(entries, next(j), j, -geometric);
     addBlock(entries, next(j), next(j), geometric);
   }
-  SparseMatrix matrix(3 * problem_.nodes(), 3 * problem_.nodes());
+  SparseMatrix matrix(rowOf(problem_.nodes()), rowOf(problem_.nodes()));
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }

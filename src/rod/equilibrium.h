@@ -97,6 +97,7 @@ private:
   };
   using Triplets = std::vector<Eigen::Triplet<double>>;
 
+  static Eigen::Index rowOf(int node) { return Eigen::Index{3} * node; }
   int next(int node) const { return node + 1 < problem_.nodes() ? node + 1 : 0; }
   int previous(int node) const { return node > 0 ? node - 1 : problem_.nodes() - 1; }
   int edgeBefore(int node) const { return node > 0 ? node - 1 : problem_.edges() - 1; }

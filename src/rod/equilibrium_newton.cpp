@@ -26,15 +26,15 @@ Eigen::VectorXd EquilibriumSolver::residual(const Equilibrium& e) const
 {
   const int n = problem_.nodes();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(unknowns());
-  r.head(3 * n) = forces(e);
+  r.head(rowOf(n)) = forces(e);
   int row = 3 * n;
   for (int j = 0; j < problem_.edges(); ++j, ++row)
     r[row] = rigidEdge(j) ? 0.0 : edge(e, j).length - problem_.rod.rest_length[j];
   for (std::size_t k = 0; k < problem_.supports.size(); ++k)
-    r.segment<3>(3 * problem_.supports[k].node) -= e.reaction[k] * problem_.supports[k].direction;
+    r.segment<3>(rowOf(problem_.supports[k].node)) -= e.reaction[k] * problem_.supports[k].direction;
   for (int i = 0; i < n; ++i)
     if (problem_.held[i])
-      r.segment<3>(3 * i).setZero();
+      r.segment<3>(rowOf(i)).setZero();
   r[unknowns() - 1] = problem_.twist_held ? problem_.twist + transport(e) - compliance_ * e.torque : 0.0;
   return r;
 }
@@ -68,7 +68,7 @@ void EquilibriumSolver::addConstraints(const Equilibrium& e, Triplets& entries) 
   {
     const Eigen::VectorXd gradient = transportGradient(e);
     for (int i = 0; i < problem_.nodes(); ++i)
-      couple(row, i, gradient.segment<3>(3 * i));
+      couple(row, i, gradient.segment<3>(rowOf(i)));
   }
   entries.emplace_back(row, row, problem_.twist_held ? -compliance_ : 1.0);
 }
@@ -94,7 +94,7 @@ void EquilibriumSolver::advance(Equilibrium& e, const Eigen::VectorXd& step) con
   const int n = problem_.nodes();
   for (int i = 0; i < n; ++i)
     if (!problem_.held[i])
-      e.position[i] += step.segment<3>(3 * i);
+      e.position[i] += step.segment<3>(rowOf(i));
   for (int j = 0; j < problem_.edges(); ++j)
     e.tension[j] += step[3 * n + j];
   for (std::size_t k = 0; k < problem_.supports.size(); ++k)
@@ -113,21 +113,21 @@ bool EquilibriumSolver::solve(Equilibrium& e) const
   for (e.iterations = 1; e.iterations <= kMaxIterations; ++e.iterations)
   {
     const Eigen::VectorXd r = residual(e);
-    const double shift = r.head(3 * n).lpNorm<Eigen::Infinity>() / (kReach * length_);
+    const double shift = r.head(rowOf(n)).lpNorm<Eigen::Infinity>() / (kReach * length_);
     if (!r.allFinite() || !klu.factorise(saddle(e, shift)))
       return false;
     Eigen::VectorXd step = -r;
     klu.solve(step.data());
     double turn = 0.0;
     for (int j = 0; j < problem_.edges(); ++j)
-      turn =
-          std::max(turn, (step.segment<3>(3 * next(j)) - step.segment<3>(3 * j)).norm() / problem_.rod.rest_length[j]);
+      turn = std::max(
+          turn, (step.segment<3>(rowOf(next(j))) - step.segment<3>(rowOf(j))).norm() / problem_.rod.rest_length[j]);
     const double factor = std::min(1.0, kLargestTurn / turn);
     advance(e, factor * step);
     double strain = 0.0;
     for (int j = 0; j < problem_.edges(); ++j)
       strain = std::max(strain, rigidEdge(j) ? 0.0 : std::abs(edge(e, j).length / problem_.rod.rest_length[j] - 1.0));
-    if (step.head(3 * n).lpNorm<Eigen::Infinity>() < kConverged * length_ && strain < kConvergedStrain)
+    if (step.head(rowOf(n)).lpNorm<Eigen::Infinity>() < kConverged * length_ && strain < kConvergedStrain)
       return true;
   }
   return false;
@@ -137,24 +137,24 @@ bool EquilibriumSolver::solve(Equilibrium& e) const
 Eigen::MatrixXd EquilibriumSolver::constraintJacobian(const Equilibrium& e) const
 {
   const int n = problem_.nodes();
-  Eigen::MatrixXd jacobian =
-      Eigen::MatrixXd::Zero(3 * n + problem_.edges() + static_cast<int>(problem_.supports.size()), 3 * n);
+  const Eigen::Index most = rowOf(n) + problem_.edges() + static_cast<int>(problem_.supports.size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(most, rowOf(n));
   int rows = 0;
   for (int i = 0; i < n; ++i)
     if (problem_.held[i])
     {
-      jacobian.block<3, 3>(rows, 3 * i).setIdentity();
+      jacobian.block<3, 3>(rows, rowOf(i)).setIdentity();
       rows += 3;
     }
   for (int j = 0; j < problem_.edges(); ++j)
     if (!rigidEdge(j))
     {
       const Eigen::RowVector3d direction = edge(e, j).vector.normalized().transpose();
-      jacobian.block<1, 3>(rows, 3 * j) = -direction;
-      jacobian.block<1, 3>(rows++, 3 * next(j)) = direction;
+      jacobian.block<1, 3>(rows, rowOf(j)) = -direction;
+      jacobian.block<1, 3>(rows++, rowOf(next(j))) = direction;
     }
   for (const Support& support : problem_.supports)
-    jacobian.block<1, 3>(rows++, 3 * support.node) = support.direction.transpose();
+    jacobian.block<1, 3>(rows++, rowOf(support.node)) = support.direction.transpose();
   return jacobian.topRows(rows);
 }
 

@@ -290,6 +290,38 @@ TEST(Equilibrium, AClampedWireBucklesAsTheContinuumDoesWithSecondOrder)
   EXPECT_LT(std::abs(fine[1]), 0.1);
 }
 
+/** The same of a unit wire on two pins. */
+Eigen::Vector2d pinnedPostBuckling(int nodes)
+{
+  Wire wire;
+  wire.sections = {unitSection(1.0, 1.0, 1.0)};
+  EquilibriumProblem problem;
+  problem.rod = discretiseUniformly(wire, nodes);
+  problem.held.assign(static_cast<std::size_t>(nodes), false);
+  problem.held[0] = problem.held[nodes - 1] = true;
+  problem.supports.push_back({nodes / 2, Eigen::Vector3d::UnitZ()});
+  Equilibrium guess;
+  for (const double s : problem.rod.position)
+    guess.position.emplace_back(0.9 * s, 0.2 * std::sin(M_PI * s), 0.0);
+  guess.position.back().y() = 0.0;
+  const EquilibriumSolver solver(problem);
+  EXPECT_TRUE(solver.solve(guess));
+  EXPECT_NEAR(guess.reaction[0], 0.0, 1e-9);
+  return {guess.position[nodes / 2].y(), solver.forces(guess)[0]};
+}
+
+// References 03: pinned post-buckling, end shortening 0.1.
+TEST(Equilibrium, APinnedWireBucklesAsTheContinuumDoesWithSecondOrder)
+{
+  const Eigen::Vector2d exact(0.19492431137557378, 10.392563948288947);
+  const Eigen::Vector2d coarse = pinnedPostBuckling(41) - exact;
+  const Eigen::Vector2d fine = pinnedPostBuckling(81) - exact;
+  EXPECT_NEAR(std::log2(coarse[0] / fine[0]), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(coarse[1] / fine[1]), 2.0, 0.1);
+  EXPECT_LT(std::abs(fine[0]), 1e-3);
+  EXPECT_LT(std::abs(fine[1]), 0.02);
+}
+
 /** Largest error of the envelope of a localised helix (van der Heijden & Thompson 2000; Bergou et al. 2008): cosine of
  * the angle of the tangent to the axis, (cos φ − cos φ0)/(1 − cos φ0) = tanh²(s/s*). */
 double localisedEnvelopeError(int nodes)

@@ -1,5 +1,7 @@
 #include "rod/paper_stepper.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "rod_fixtures.h"
@@ -256,6 +258,63 @@ TEST(PaperStepper, RefusesWhatItCannotDoAndKeepsTheWireWhereItWas)
   }
   std::uint32_t pass = 0;
   EXPECT_TRUE(stepper.step(state, StepInput(), 1e-3, pass, nullptr, timer).solved);
+}
+
+/** Random wires, steps and motions far beyond any use, on a floor, with every node shaken now and then. */
+TEST(PaperStepper, NeverLosesAWireWhateverIsAskedOfIt)
+{
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto logarithmic = [&](double low, double high) { return low * std::pow(high / low, uniform(random)); };
+  int refused = 0;
+  for (int sample = 0; sample < 80; ++sample)
+  {
+    const int nodes = 3 + static_cast<int>(60 * uniform(random) * uniform(random));
+    const double dt = logarithmic(5e-5, 2e-2);
+    const double speed = logarithmic(1e-3, 0.5);
+    const double shake = logarithmic(1e-7, 3e-3);
+    Floor floor;
+    Wire wire = uniformWire(0.1, logarithmic(1.6e-6, 5e-3), logarithmic(1e-4, 5e-4), kDensity);
+    wire.sections.push_back(wire.sections[0]);
+    wire.sections[1].length = 0.03;
+    wire.sections[1].bending_stiffness *= logarithmic(1e-3, 1.0);
+    wire.sections[1].rest_curvature = Eigen::Vector2d(logarithmic(1.0, 500.0), 0.0);
+    Environment environment;
+    environment.gravity = Eigen::Vector3d(0.0, 0.0, -9.81);
+    Boundary boundary;
+    boundary.origin = Eigen::Vector3d(0.0, 0.0, 1e-3);
+    PaperStepper stepper(discretiseUniformly(wire, nodes), boundary, environment, StepperSettings());
+    State state = stepper.initialState(0.05, 0.0);
+    PhaseTimer timer;
+    StepInput input;
+    for (int k = 0; k < 150; ++k)
+    {
+      if (k % 40 == 20)
+      {
+        for (Eigen::Vector3d& position : state.position)
+          position += shake * Eigen::Vector3d(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+        stepper.invalidateContacts();
+      }
+      const State before = state;
+      input.step = static_cast<std::uint64_t>(k);
+      input.inserted_length = state.inserted_length + (k % 30 < 20 ? speed : -2.0 * speed) * dt;
+      input.rotation += 60.0 * dt;
+      std::uint32_t pass = 0;
+      const StepReport report = stepper.step(state, input, dt, pass, &floor, timer);
+      if (report.solved)
+      {
+        ASSERT_LT(report.max_strain, 1e-2) << "sample " << sample << " step " << k;
+      }
+      else
+      {
+        ++refused;
+        ASSERT_EQ(state.position, before.position);
+      }
+      for (int i = state.first_node; i < nodes; ++i)
+        ASSERT_TRUE(state.position[i].allFinite() && state.velocity[i].allFinite()) << sample << " step " << k;
+    }
+  }
+  EXPECT_LT(refused, 120);  // one in a hundred
 }
 
 TEST(PaperStepper, GivesTheSameBitsForTheSameInputs)
