@@ -25,15 +25,25 @@ class PhaseTimer
 public:
   using Clock = std::chrono::steady_clock;
 
-  void reset() { seconds_.fill(0.0); }
+  void reset()
+  {
+    seconds_.fill(0.0);
+    entries_.fill(0);
+  }
 
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
+
+  /** How often a phase was entered since the last reset. */
+  int entries(Phase phase) const { return entries_[static_cast<std::size_t>(phase)]; }
 
   /** Runs the phase from construction to destruction. */
   class Scope
   {
   public:
-    Scope(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), begin_(Clock::now()) {}
+    Scope(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), begin_(Clock::now())
+    {
+      ++timer_.entries_[static_cast<std::size_t>(phase_)];
+    }
     ~Scope()
     {
       timer_.seconds_[static_cast<std::size_t>(phase_)] += std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -49,6 +59,7 @@ public:
 
 private:
   std::array<double, kPhaseCount> seconds_{};
+  std::array<int, kPhaseCount> entries_{};
 };
 
 }  // namespace endovascular_sim

@@ -77,4 +77,35 @@ inline int settle(Stepper& stepper, State& state, StepInput input, double dt, do
   return -1;
 }
 
+/** Static equilibrium of the discrete wire: every step starts from rest, so that each is a damped Newton iteration
+ *  on the energy. Long steps first, then shorter ones, because the constraints yield by 1e-10·tension·Δt².
+ *  @param dt of the long steps, about the inverse of the lowest frequency [s]
+ *  @return false when it still moves by more than 1e-13 m per step at the end */
+inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput input, double dt,
+                               contact::ContactSource* contacts = nullptr)
+{
+  PhaseTimer timer;
+  std::vector<Eigen::Vector3d> before;
+  bool at_rest = false;
+  for (const double step : {dt, 0.1 * dt})
+  {
+    at_rest = false;
+    for (int k = 0; k < 5000 && !at_rest; ++k)
+    {
+      std::uint32_t pass = 0;
+      before = state.position;
+      for (Eigen::Vector3d& velocity : state.velocity)
+        velocity.setZero();
+      if (!stepper.step(state, input, step, pass, contacts, timer).solved)
+        return false;
+      ++input.step;
+      double motion = 0.0;
+      for (std::size_t i = 0; i < before.size(); ++i)
+        motion = std::max(motion, (state.position[i] - before[i]).norm());
+      at_rest = motion < 1e-13;
+    }
+  }
+  return at_rest;
+}
+
 }  // namespace endovascular_sim::rod

@@ -12,39 +12,6 @@ namespace
 constexpr double kEi = 4.9469e-5;  // N·m², steel wire of 0.18 mm radius, E = 60 GPa
 constexpr double kLength = 0.38;
 
-/** Tip of a clamped wire at rest under a tip force P in −y with PL²/EI = load; huge steps with damping settle it. */
-Eigen::Vector3d elasticaTip(double load, int nodes)
-{
-  Environment environment;
-  environment.damping = 30.0;
-  StepperSettings settings;
-  settings.max_solves = 40;
-  settings.strain_tolerance = 1e-12;
-  KktStepper stepper(discretiseUniformly(uniformWire(clampedLength(kLength, nodes), kEi, 1.8e-4, 7900.0), nodes),
-                     clampAtOrigin(kLength, nodes), environment, settings);
-  State state = stepper.initialState(0.0, 0.0);
-  StepInput input;
-  input.forces.push_back({nodes - 1, Eigen::Vector3d(0.0, -load * kEi / (kLength * kLength), 0.0)});
-  EXPECT_GE(settle(stepper, state, input, 0.02, 1e-10, 20000), 0);
-  return state.position.back() / kLength;
-}
-
-// References 01: cantilever elastica, tip x/L and y/L by an independent boundary value solver.
-TEST(KktStepper, TipOfTheElasticaConvergesToTheContinuumWithSecondOrder)
-{
-  const Eigen::Vector3d light(0.9435667637, -0.3017207738, 0.0);
-  const Eigen::Vector3d heavy(0.4450044022, -0.8106090249, 0.0);
-  for (const auto& [load, exact] : {std::make_pair(1.0, light), std::make_pair(10.0, heavy)})
-  {
-    const double coarse = (elasticaTip(load, 26) - exact).norm();
-    const double fine = (elasticaTip(load, 51) - exact).norm();
-    const double finest = (elasticaTip(load, 101) - exact).norm();
-    EXPECT_LT(finest, 2e-4);
-    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.12);
-    EXPECT_NEAR(std::log2(fine / finest), 2.0, 0.12);
-  }
-}
-
 // peers.md of the design: heavy cantilever wL³/EI = 8.75, exact tip (265.07, −252.90) mm.
 TEST(KktStepper, HeavyCantileverHangsWhereTheContinuumSays)
 {

@@ -227,5 +227,36 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
+// References 11: over one turn of a helix (radius 1, pitch 2π·0.5) the Bishop frame falls behind Frenet's by 2.8099
+// rad, in a polygon of 16, 64 edges by 2.8537, 2.8126. A director held alike at both ends sees that as twist.
+TEST(ReferencesTwist, TransportAlongAHelixTurnsByItsTorsion)
+{
+  for (const auto& [edges, torsion] : {std::make_pair(16, 2.853683510031414), std::make_pair(64, 2.8126358328821897)})
+  {
+    const int nodes = edges + 2;  // the last edge is parallel to the first one
+    std::vector<Eigen::Vector3d> position;
+    for (int i = 0; i < nodes; ++i)
+    {
+      const double t = 2.0 * M_PI * i / edges;
+      position.emplace_back(0.01 * std::cos(t), 0.01 * std::sin(t), 0.005 * t);
+    }
+    const double edge = (position[1] - position[0]).norm();
+    Discretisation rod = discretiseUniformly(uniformWire(edge * (nodes - 1), kStiffness, 4e-4, 7000.0), nodes);
+    State state;
+    state.position = position;
+    state.twist_angle.assign(static_cast<std::size_t>(nodes - 1), 0.0);
+    TwistBoundary hold;
+    hold.position = 0.5 * edge;
+    hold.tangent = (position[1] - position[0]) / edge;
+    hold.director = hold.tangent.cross(Eigen::Vector3d::UnitZ()).normalized();
+    hold.tip_held = true;
+    hold.tip_director = hold.director;
+    QuasiStaticTwist twist;
+    twist.solve(rod, hold, state);
+    EXPECT_NEAR(std::abs(state.tip_transport), torsion, 1e-9);
+    EXPECT_NEAR(std::abs(state.distal_torque), (kStiffness / 1.3) * torsion / (edges * edge), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rod
