@@ -36,6 +36,9 @@ public:
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
   void step(const HandCommand& command);
 
+  /** From now on the nodes stay where they are along the wire. */
+  void keepSampling() { sampling_.reset(); }
+
   std::uint64_t steps() const { return steps_; }                                         ///< steps done
   double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
   const rod::State& state() const { return state_; }
