@@ -10,7 +10,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kAtRest = 1e-13;  // m moved in a step
+constexpr double kAtRest = 1e-12;  // m moved in a step
 
 std::vector<int> nodeCounts(const std::string& scheme, bool quick)
 {

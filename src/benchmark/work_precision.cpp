@@ -44,7 +44,7 @@ void addStatics(Table& table, const std::string& name, const StaticCase& problem
   {
     try
     {
-      const RestResult rest = runToRest(sceneText(atRest(problem, scheme, nodes)), 1e-13, restSteps(scheme));
+      const RestResult rest = runToRest(sceneText(atRest(problem, scheme, nodes)), 1e-12, restSteps(scheme));
       BenchWire moving = problem.wire;
       moving.scheme = scheme;
       moving.nodes = nodes;

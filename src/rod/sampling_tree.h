@@ -11,8 +11,8 @@ namespace endovascular_sim::rod
 struct SamplingSettings
 {
   double min_edge = 0.5e-3;     ///< an edge this long or shorter is not split for its curvature [m]
-  double max_edge = 1.5e-3;     ///< no edge is longer [m]
-  double turn_per_edge = 0.1;   ///< η: an edge that turns by more is split [rad]
+  double max_edge = 2.0e-3;     ///< no edge is longer [m]
+  double turn_per_edge = 0.05;  ///< η: an edge that turns by more is split [rad]
   double merge_fraction = 0.7;  ///< of η, below which the turn of both halves together must be to merge them
   int min_age = 10;             ///< updates that both halves must have lived
   int extra_levels = 0;         ///< levels below that of min_edge, for where they are demanded

@@ -156,12 +156,12 @@ enum class SamplingKind
 struct SamplingScene
 {
   SamplingKind kind = SamplingKind::kUniform;
-  int nodes = 240;           ///< over the whole wire, uniform sampling
+  int nodes = 240;  ///< over the whole wire, uniform sampling
   // Adaptive sampling:
-  double min_edge = 0.5e-3;    ///< an edge this long or shorter is not split for its curvature [m]
-  double max_edge = 1.5e-3;    ///< no edge is longer [m]
-  double turn_per_edge = 0.1;  ///< an edge that turns by more is split [rad]
-  double min_age = 0.05;       ///< that edges must have lived before they are merged [s]
+  double min_edge = 0.5e-3;     ///< an edge this long or shorter is not split for its curvature [m]
+  double max_edge = 2.0e-3;     ///< no edge is longer [m]
+  double turn_per_edge = 0.05;  ///< an edge that turns by more is split [rad]
+  double min_age = 0.05;        ///< that edges must have lived before they are merged [s]
 };
 
 /** Time stepping. */

@@ -138,6 +138,11 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
 
 }  // namespace
 
+CentrelineUse centrelineUse(const Scene& scene)
+{
+  return scene.sampling.kind == SamplingKind::kAdaptive ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
+}
+
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
                            CentrelineUse centreline)
 {

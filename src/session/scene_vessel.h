@@ -17,6 +17,9 @@ enum class CentrelineUse
   kRequired,  ///< always
 };
 
+/** What a scene needs: adaptive sampling looks ahead along the centreline. */
+CentrelineUse centrelineUse(const Scene& scene);
+
 /** Reads or makes the vessel of a scene: unit, check and repair, transform, smoothing.
  *  @param origin the scene's file, for errors
  *  @throws InputError when the mesh or the anatomy is refused */

@@ -39,6 +39,9 @@ public:
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
 
+  /** From now on the nodes stay where they are along the wire. */
+  void keepSampling() { sampling_.reset(); }
+
   std::uint64_t steps() const { return steps_; }                                         ///< steps done
   double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
   const rod::State& state() const { return state_; }

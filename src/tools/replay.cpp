@@ -85,6 +85,7 @@ int replay(const std::string& file, bool keep_going)
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<session::ReplayContactSource> contacts;
   session::EntryPose entry;
+  vessel::CentrelineTree centreline;
   if (scene.vessel)
   {
     if (!recording.mesh || !recording.centreline)
@@ -95,13 +96,14 @@ int replay(const std::string& file, bool keep_going)
     if (vessel.mesh.hash() != recording.mesh->content_hash)
       throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
     entry = session::resolveEntry(scene.entry, vessel, file);
+    centreline = vessel.centreline;
     detector = std::make_unique<contact::Detector>(vessel.mesh,
                                                    contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
     contacts = std::make_unique<session::ReplayContactSource>(*detector);
   }
   else
     entry = session::resolveEntry(scene.entry, file);
-  session::Simulation simulation(scene, entry, contacts.get());
+  session::Simulation simulation(scene, entry, contacts.get(), &centreline);
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
   for (const auto& [step, applied] : recording.steps)

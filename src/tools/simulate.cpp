@@ -162,6 +162,7 @@ struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   session::EntryPose entry;
+  vessel::CentrelineTree centreline;
   std::uint64_t mesh_hash = 0;
 };
 
@@ -173,10 +174,12 @@ Surroundings build(const session::Scene& scene)
     made.entry = session::resolveEntry(scene.entry, scene.file);
     return made;
   }
-  const vessel::Vessel vessel = session::buildVessel(*scene.vessel, scene.entry, scene.file);
+  const vessel::Vessel vessel =
+      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
   made.entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  made.centreline = vessel.centreline;
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh,
                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
@@ -238,7 +241,7 @@ int simulate(const Options& options)
   const session::Scene scene = session::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
   const Surroundings surroundings = build(scene);
-  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get());
+  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline);
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);

@@ -136,10 +136,12 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
 {
   ASSERT_TRUE(eventually(30.0, [this] { return listener_->steps().size() > 2500; }));
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
-  const vessel::Vessel vessel = session::buildVessel(*scene_.vessel, scene_.entry, scene_.file);
+  const vessel::Vessel vessel =
+      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::centrelineUse(scene_));
   contact::Detector detector(vessel.mesh, {scene_.vessel->stiffness, scene_.vessel->friction});
   session::ReplayContactSource source(detector);
-  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source);
+  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source,
+                                 &vessel.centreline);
   // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
   std::uint64_t compared = 0;
   while (simulation.steps() <= steps.rbegin()->first)

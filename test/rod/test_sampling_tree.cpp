@@ -10,6 +10,8 @@ namespace
 SamplingSettings settings()
 {
   SamplingSettings settings;
+  settings.max_edge = 1.5e-3;
+  settings.turn_per_edge = 0.1;
   settings.min_age = 3;
   return settings;
 }

@@ -90,7 +90,7 @@ session::HandCommand RodLoop::nextCommand()
   return {scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
 }
 
-bool RodLoop::waitForVessel(session::EntryPose& entry)
+bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::CentrelineTree& centreline_tree)
 {
   ROS_INFO("rod_dynamics: waiting for the vessel");
   vessel::Vessel vessel;
@@ -103,17 +103,19 @@ bool RodLoop::waitForVessel(session::EntryPose& entry)
   vessel.centreline = fromMessage(*centreline);
   vessel.source = mesh->source;
   entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
+  centreline_tree = std::move(vessel.centreline);
   return true;
 }
 
 bool RodLoop::makeSimulation()
 {
   session::EntryPose entry;
+  vessel::CentrelineTree centreline;
   if (!scene_.vessel)
     entry = session::resolveEntry(scene_.entry, scene_.file);
-  else if (!waitForVessel(entry))
+  else if (!waitForVessel(entry, centreline))
     return false;
-  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get());
+  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &centreline);
   if (!contacts_)
     return true;
   ROS_INFO("rod_dynamics: waiting for the contact node");

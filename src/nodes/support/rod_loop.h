@@ -52,7 +52,7 @@ private:
   };
 
   bool makeSimulation();
-  bool waitForVessel(session::EntryPose& entry);
+  bool waitForVessel(session::EntryPose& entry, vessel::CentrelineTree& centreline_tree);
   session::HandCommand nextCommand();
   void receiveCommand(const sensor_msgs::JointStateConstPtr& message);
   void waitForRecorder();

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Draws the plots of `benchmark` from the CSV files in a folder."""
+
+import argparse
+import csv
+import pathlib
+
+import matplotlib
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+
+COLOURS = {'kkt': 'tab:blue', 'paper': 'tab:orange', 'mixed': 'tab:green', 'SOFA BeamAdapter': 'tab:red',
+           'PositionBasedDynamics': 'tab:purple', 'DisMech': 'tab:brown'}
+MARKERS = {'kkt': 'o', 'paper': 's', 'mixed': 'D', 'SOFA BeamAdapter': '^', 'PositionBasedDynamics': 'v', 'DisMech': 'P'}
+
+
+def rows_of(folder, name):
+    """Rows of a CSV as dictionaries; none when the study was not run."""
+    path = folder / f'{name}.csv'
+    if not path.exists():
+        return []
+    with open(path, encoding='utf-8') as stream:
+        return list(csv.DictReader(stream))
+
+
+def value(row, key):
+    """A cell as a number, None where it is empty."""
+    try:
+        return float(row[key])
+    except ValueError:
+        return None
+
+
+def grouped(rows, *keys):
+    """Rows by the values of some columns, in order of appearance."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return groups
+
+
+def curve(axes, rows, x, y, **style):
+    """One line of points that have both values."""
+    points = [(value(row, x), value(row, y)) for row in rows]
+    points = [(a, b) for a, b in points if a is not None and b is not None and a > 0 and b > 0]
+    if points:
+        axes.plot([a for a, _ in points], [b for _, b in points], **style)
+
+
+def finish(axes, title, x, y):
+    """Log–log axes with names."""
+    axes.set_xscale('log')
+    axes.set_yscale('log')
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.set_title(title, fontsize=10)
+    axes.grid(True, which='both', alpha=0.3)
+
+
+def save(figure, folder, name):
+    figure.tight_layout()
+    figure.savefig(folder / 'images' / 'validation' / name, dpi=110)
+    plt.close(figure)
+
+
+def panels(count):
+    """A row of axes, or two."""
+    columns = min(count, 3)
+    lines = -(-count // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(5 * columns, 4 * lines), squeeze=False)
+    flat = [axis for line in axes for axis in line]
+    for axis in flat[count:]:
+        axis.set_visible(False)
+    return figure, flat
+
+
+def draw_accuracy(folder):
+    """Tip error over nodes, a panel per problem."""
+    problems = grouped(rows_of(folder, 'accuracy'), 'problem')
+    if not problems:
+        return
+    figure, axes = panels(len(problems))
+    for axis, ((problem,), rows) in zip(axes, problems.items()):
+        for (scheme,), points in grouped(rows, 'scheme').items():
+            curve(axis, points, 'nodes', 'tip error / L', color=COLOURS[scheme], marker=MARKERS[scheme], label=scheme)
+        finish(axis, problem, 'nodes', 'tip error / L')
+        axis.legend(fontsize=8)
+    save(figure, folder, 'accuracy.png')
+
+
+def draw_static(folder):
+    """Static error over time per step."""
+    problems = grouped(rows_of(folder, 'work_precision_static'), 'problem')
+    if not problems:
+        return
+    figure, axes = panels(len(problems))
+    for axis, ((problem,), rows) in zip(axes, problems.items()):
+        for (scheme,), points in grouped(rows, 'scheme').items():
+            curve(axis, points, 'µs per step', 'tip error / L', color=COLOURS[scheme], marker=MARKERS[scheme], label=scheme,
+                  linestyle='--' if points[0]['note'] == 'measured' else '-')
+        finish(axis, problem, 'µs per step of 1 ms', 'tip error at rest / L')
+        axis.legend(fontsize=8)
+    save(figure, folder, 'work_precision_static.png')
+
+
+def draw_dynamic(folder):
+    """Error of the falling wire over run time, one line per scheme and number of nodes, along Δt."""
+    groups = grouped(rows_of(folder, 'work_precision_dynamic'), 'scheme', 'nodes')
+    if not groups:
+        return
+    figure, axis = plt.subplots(figsize=(7, 5))
+    for k, ((scheme, nodes), rows) in enumerate(groups.items()):
+        curve(axis, rows, 'ms for 0.2 s', 'tip error / L', color=COLOURS[scheme], marker=MARKERS[scheme], label=f'{scheme}, {nodes}',
+              alpha=(0.45, 0.7, 1.0)[k % 3])
+    finish(axis, 'falling wire after 0.2 s; along a line Δt from 4 to 0.25 ms', 'ms of computing', 'tip error / L')
+    axis.legend(fontsize=8)
+    save(figure, folder, 'work_precision_dynamic.png')
+
+
+def draw_vessel(folder):
+    """Distance to the reference over time per second of motion."""
+    groups = grouped(rows_of(folder, 'work_precision_vessel'), 'scheme', 'sampling')
+    if not groups:
+        return
+    figure, axis = plt.subplots(figsize=(7, 5))
+    for (scheme, sampling), rows in groups.items():
+        points = [dict(row, load=str(1.0 / value(row, 'real-time factor')) if value(row, 'real-time factor') else '')
+                  for row in rows]
+        adaptive = 'adaptive' in sampling
+        curve(axis, points, 'load', 'RMS distance [mm]', color=COLOURS[scheme], marker='*' if adaptive else MARKERS[scheme],
+              markersize=12 if adaptive else 6, linestyle='--' if adaptive else '-',
+              label=f"{scheme}, {sampling.strip('{}').replace('kind: ', '')}")
+    finish(axis, 'wire in aortic_arch_tree.obj; along a line Δt', 's of computing per s of motion', 'RMS distance to the reference [mm]')
+    axis.legend(fontsize=7)
+    save(figure, folder, 'work_precision_vessel.png')
+
+
+def draw_speed(folder):
+    """Time per step over nodes."""
+    groups = grouped(rows_of(folder, 'speed_growth'), 'scheme')
+    if not groups:
+        return
+    figure, axis = plt.subplots(figsize=(6, 4.5))
+    for (scheme,), rows in groups.items():
+        curve(axis, rows, 'nodes', 'µs per step', color=COLOURS[scheme], marker=MARKERS[scheme], label=scheme)
+    finish(axis, 'step without contact', 'nodes', 'µs per step')
+    axis.legend()
+    save(figure, folder, 'speed.png')
+
+
+def draw_sampling(folder):
+    """Distance to the reference over time per step, a panel per case."""
+    cases = grouped(rows_of(folder, 'sampling_runs'), 'case')
+    if not cases:
+        return
+    figure, axes = panels(len(cases))
+    for axis, ((case,), rows) in zip(axes, cases.items()):
+        for row in rows:
+            curve(axis, [row], 'µs per step', 'RMS distance [mm]', marker='*' if 'adaptive' in row['sampling'] else 'o',
+                  linestyle='', markersize=13 if 'adaptive' in row['sampling'] else 7, label=row['sampling'])
+        finish(axis, case, 'µs per step', 'RMS distance to uniform 0.125 mm [mm]')
+        axis.legend(fontsize=7)
+    save(figure, folder, 'sampling.png')
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('folder', type=pathlib.Path, help='where `benchmark` wrote its CSV files')
+    folder = parser.parse_args().folder
+    (folder / 'images' / 'validation').mkdir(parents=True, exist_ok=True)
+    for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_sampling):
+        draw(folder)
+
+
+if __name__ == '__main__':
+    main()
