@@ -16,6 +16,7 @@ constexpr double kEdgeCompliance = 1e-16;  // s²: m of stretch per N of tension
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
+constexpr double kLargestStrain = 1e-2;      // that a step may leave, e.g. of a straight wire that is shortened
 constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
 
 }  // namespace
@@ -213,7 +214,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !foundUnknownContact())
       break;
     report.capped += last;
-    if (last && !restoreLengths(state, input, dt, report))
+    if (last && (!restoreLengths(state, input, dt, report) || maxStrain(rod_, state) > kLargestStrain))
       return false;
   }
   finish(state, dt);

@@ -239,5 +239,23 @@ TEST(Boundaries, AWirePushedFromTheIntroducerAgainstAPinnedTipBuckles)
   EXPECT_NEAR(state.distal_force.x(), state.hand_force, 0.02 * euler);
 }
 
+// It does not know to which side to buckle: it yields a little, then the step is refused and the wire stays.
+TEST(Boundaries, AStraightWireShortenedExactlyAlongItsAxisIsRefusedNotCrushed)
+{
+  const int nodes = 41;
+  KktStepper stepper(discretiseUniformly(benchWire(nodes), nodes), heldAtBothEnds(kLength, nodes, EndHold::kClamped),
+                     Environment(), StepperSettings());
+  State state = stepper.initialState(0.0, 0.0);
+  StepInput input;
+  bool refused = false;
+  for (int k = 1; k <= 500; ++k)
+  {
+    input.distal.displacement.x() = -5e-5 * k;
+    refused = !run(stepper, state, input, 1e-3, 1).solved || refused;
+    ASSERT_LE(maxStrain(stepper.discretisation(), state), 1e-2);
+  }
+  EXPECT_TRUE(refused);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rod
