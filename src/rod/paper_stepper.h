@@ -70,7 +70,7 @@ private:
   int row(int node) const { return 3 * (node - first_); }
   Eigen::Vector3d displacement(int node) const;
 
-  const Discretisation rod_;
+  Discretisation rod_;
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;
