@@ -9,6 +9,8 @@ namespace endovascular_sim::vessel
 namespace
 {
 
+constexpr double kSpacing = 0.25;  // of the radius: points of the centreline that are nearer to each other are left out
+
 /** Curvature of the circle through three points [1/m]. */
 double circleCurvature(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
@@ -27,8 +29,12 @@ CentrelineCurvature::CentrelineCurvature(const CentrelineTree& tree)
 void CentrelineCurvature::addBranch(const CentrelineBranch& branch)
 {
   const std::vector<Eigen::Vector3d>& x = branch.points;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
   {
+    if (i > 0 && i + 1 < x.size() && (x[i] - x[kept]).norm() < kSpacing * branch.radii[i])
+      continue;
+    kept = i;
     std::size_t before = i;
     std::size_t after = i;
     while (before > 0 && (x[i] - x[before]).norm() < branch.radii[i])
