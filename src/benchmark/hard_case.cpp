@@ -122,11 +122,16 @@ std::string sceneText(const HardCase& hard)
   const double radius = channelRadius(hard);
   std::ostringstream out;
   out.precision(12);
-  out << "name: hard\nduration: 1.0e6\nvessel:\n  tube:\n    radius: " << radius
-      << "\n    facet_length: " << 0.35 * radius << "\n    facets_around: 40\n    pieces:\n      - length: 0.03\n"
-      << "      - {length: " << std::min(0.5 * M_PI, 0.06 / hard.bend_radius) * hard.bend_radius
-      << ", curvature: " << 1.0 / hard.bend_radius << ", plane_angle: 0.3}\n      - length: 0.08\n  friction: 0.1\n"
-      << "entry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n";
+  out << "name: hard\nduration: 1.0e6\n";
+  // A disturbed node may not be put beyond a wall.
+  if (hard.disturbance > 0.0 || hard.nearly_folded > 0.0)
+    out << "vessel: none\nloads: {damping: 20.0}\n";
+  else
+    out << "vessel:\n  tube:\n    radius: " << radius << "\n    facet_length: " << 0.35 * radius
+        << "\n    facets_around: 40\n    pieces:\n      - length: 0.03\n"
+        << "      - {length: " << std::min(0.5 * M_PI, 0.06 / hard.bend_radius) * hard.bend_radius
+        << ", curvature: " << 1.0 / hard.bend_radius << ", plane_angle: 0.3}\n      - length: 0.08\n  friction: 0.1\n";
+  out << "entry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n";
   writeWire(out, hard, std::min(4e-4, radius / 3.0));
   writeDrive(out, hard);
   out << "sampling: "

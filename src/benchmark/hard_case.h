@@ -6,7 +6,7 @@
 namespace endovascular_sim::benchmark
 {
 
-/** One pushed and turned wire in a bent channel. */
+/** One pushed and turned wire in a bent channel, or in free space where its state is disturbed. */
 struct HardCase
 {
   std::string label;

@@ -116,7 +116,8 @@ std::vector<HardCase> latinHypercube(int samples)
     hard.turns = 100.0 * share[3][k] * share[3][k] * share[3][k];
     hard.bend_radius = scaled(2e-3, 0.06, share[4][k]);
     hard.tip_radius = scaled(2e-3, 0.02, share[5][k]);
-    hard.nodes = static_cast<int>(scaled(10.0, 1000.0, share[6][k]));
+    // At least two edges per radius of the bend: coarser ones cannot follow it.
+    hard.nodes = static_cast<int>(scaled(std::max(10.0, 2.0 * 0.15 / hard.bend_radius), 1000.0, share[6][k]));
     cases.push_back(hard);
   }
   return cases;
@@ -180,7 +181,7 @@ std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress&
   for (HardCase& hard : samples)
     hard.label = described(hard);
   counts = run(samples, cube.table, max_steps, progress, 0.4, 1.0);
-  cube.text = "The same, all factors at once. " + counted(counts);
+  cube.text = "The same, all factors at once, with at least two edges per radius of the bend. " + counted(counts);
   return {single, cube};
 }
 
