@@ -121,14 +121,19 @@ double KktStepper::truncation(const State& state, StepReport& report)
 {
   double factor = 1.0;
   bool far = false;
-  double largest_turn = 0.0;
+  double largest_turn = 0.0;  // squared, until all are seen
   const double margin = settings_.contact_margin;
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
   {
-    const double turn = (increment(j + 1) - increment(j)).norm() / rod_.rest_length[j];
-    largest_turn = std::max(largest_turn, turn);
-    far = far || increment(j).norm() > margin || increment(j + 1).norm() > margin;
+    // Along the edge the solve restores what the hand's motion took from a short one: no rotation.
+    const Eigen::Vector3d edge = state.position[j + 1] - state.position[j];
+    const Eigen::Vector3d change = increment(j + 1) - increment(j);
+    const double along = change.dot(edge);
+    const double across = std::max(0.0, change.squaredNorm() - along * along / edge.squaredNorm());
+    largest_turn = std::max(largest_turn, across / (rod_.rest_length[j] * rod_.rest_length[j]));
+    far = far || increment(j).squaredNorm() > margin * margin || increment(j + 1).squaredNorm() > margin * margin;
   }
+  largest_turn = std::sqrt(largest_turn);
   if (largest_turn > settings_.max_rotation)
     factor = settings_.max_rotation / largest_turn;
   if (largest_turn > kQuietTurn)
