@@ -73,6 +73,9 @@ std::vector<HardCase> oneAtATime(bool quick)
   vary<double>(cases, "two edges folded up to", "°", 180.0 / M_PI, {0.5, 0.1, 0.01},
                [](HardCase& h, double v) { h.nearly_folded = v; });
   HardCase hard;
+  hard.label = "edges from 0.2 to 6 mm";
+  hard.sampling = "{kind: adaptive, min_edge: 0.2e-3, max_edge: 6.0e-3, turn_per_edge: 0.02}";
+  cases.push_back(hard);
   hard.label = "edges from 0.06 to 6 mm";
   hard.sampling = "{kind: adaptive, min_edge: 0.06e-3, max_edge: 6.0e-3, turn_per_edge: 0.02}";
   cases.push_back(hard);

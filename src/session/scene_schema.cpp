@@ -17,6 +17,9 @@ const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // a
 // Lengths that differ by less than this were meant to be equal [m].
 constexpr double kSameLength = 1e-9;
 
+// Least edge of adaptive sampling over the hand's travel in a sub-step.
+constexpr double kTravelsPerEdge = 4.0;
+
 // Of the wire's length: the shortest edge that sampling may make.
 constexpr double kShortestEdge = 2e-5;
 
@@ -82,8 +85,21 @@ void checkBenchDrive(const SceneFields& fields, const Scene& scene)
     fields.refuse("proximal_end", "is not clamped, so that the drive has no hold; set proximal_end: clamped");
 }
 
+/** Nodes pass the end of the introducer's guide one after another: an edge must outlast the hand's travel. */
+void checkEdges(const SceneFields& fields, const Scene& scene)
+{
+  const double shortest = kTravelsPerEdge * scene.solver.max_travel_per_substep;
+  if (scene.introducer && scene.sampling.kind == SamplingKind::kAdaptive &&
+      scene.sampling.min_edge < shortest - kSameLength)
+    fields.refuse("sampling.min_edge",
+                  "is too short for what the hand may travel in a sub-step; must be at least 4 times "
+                  "solver.max_travel_per_substep, " +
+                      std::to_string(shortest) + " m");
+}
+
 void checkScene(const SceneFields& fields, const Scene& scene)
 {
+  checkEdges(fields, scene);
   const bool held_twice = scene.introducer && scene.proximal_end != EndCondition::kFree;
   if (held_twice)
     fields.refuse("proximal_end",

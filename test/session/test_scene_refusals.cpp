@@ -78,6 +78,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_edges_of_uniform_sampling.yaml", "sampling.min_edge (line 13)", "belongs to adaptive sampling"},
     {"bad_max_edge.yaml", "sampling.max_edge (line 14)", "less than min_edge"},
     {"bad_tiny_min_edge.yaml", "sampling.min_edge (line 14)", "more than 100000 nodes"},
+    {"bad_min_edge_of_a_fast_hand.yaml", "sampling.min_edge (line 14)", "at least 4 times"},
     {"bad_duplicate_key.yaml", "duration (line 3)", "keep one of the two"},
     {"bad_broken_yaml.yaml", "line 13", "not valid YAML"},
     {"bad_empty_file.yaml", "line 1", "expected `key: value` lines"},
