@@ -109,7 +109,9 @@ Verdict verdictOf(const RunSummary& summary)
   verdict.refused = summary.refused;
   verdict.steps = summary.steps;
   verdict.reason = complaint(summary, summary.energy_excess > kEnergyFloor ? verdict.energy_excess : 0.0);
-  verdict.word = !verdict.reason.empty() ? "bad" : summary.refused > 0 ? "refused" : "good";
+  // A wire that is held throughout keeps the strain that it was given.
+  const bool held = summary.finite && summary.refused > 0 && summary.refused == summary.steps;
+  verdict.word = !verdict.reason.empty() && !held ? "bad" : summary.refused > 0 ? "refused" : "good";
   if (verdict.word == "refused")
     verdict.reason = std::to_string(summary.refused) + " steps refused, the wire held";
   return verdict;
