@@ -54,11 +54,9 @@ std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, const rod::Bo
   { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
   if (scene.vessel)
     refuse("contact with a vessel");
-  if (wire.curvedTipLength() > 0.0)
-    refuse("a pre-curved wire");
   for (const PointLoad& load : scene.loads.point_loads)
-    if (load.torque != 0.0)
-      refuse("a torque at the tip");
+    if (load.torque != 0.0 && scene.distal_end == EndCondition::kClamped)
+      refuse("a torque at a clamped tip");
   return std::make_unique<rod::MixedStepper>(wire, rod::discretiseUniformly(wire, scene.sampling.nodes), boundary,
                                              environment, settings);
 }
