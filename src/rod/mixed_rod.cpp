@@ -80,6 +80,8 @@ std::vector<MixedEdge> mixedEdges(const Wire& wire, const std::vector<double>& p
           std::max(0.0, std::min(end, position[j + 1]) - std::max(begin, position[j])) / edges[j].length;
       edges[j].flexibility += share / section.bending_stiffness;
       edges[j].axial_compliance += share / section.axial_stiffness;
+      edges[j].twist_flexibility += share / section.torsional_stiffness;
+      edges[j].material_curvature += share * section.rest_curvature;
       edges[j].cross_section += share * M_PI * section.radius * section.radius;
       edges[j].linear_density += share * section.density * M_PI * section.radius * section.radius;
       begin = end;

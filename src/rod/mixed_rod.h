@@ -16,14 +16,16 @@ namespace endovascular_sim::rod
 /** A stretch of wire between two nodes of the mixed rod. Sections change at nodes only. */
 struct MixedEdge
 {
-  double length = 0.0;            ///< h, rest arc length [m]
-  double flexibility = 0.0;       ///< 1/EI [1/(N·m²)]
-  double axial_compliance = 0.0;  ///< 1/EA, 0: inextensible [1/N]
-  double linear_density = 0.0;    ///< ρA [kg/m]
-  double cross_section = 0.0;     ///< A, fluid that a length of wire displaces [m²]
+  double length = 0.0;             ///< h, rest arc length [m]
+  double flexibility = 0.0;        ///< 1/EI [1/(N·m²)]
+  double axial_compliance = 0.0;   ///< 1/EA, 0: inextensible [1/N]
+  double twist_flexibility = 0.0;  ///< 1/GJ [1/(N·m²)]
+  double linear_density = 0.0;     ///< ρA [kg/m]
+  double cross_section = 0.0;      ///< A, fluid that a length of wire displaces [m²]
   /** κ̄ at the edge's two ends, in space, along the binormal [1/m]. */
   std::array<Eigen::Vector3d, 2> rest_curvature{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< force per length of wire [N/m]
+  Eigen::Vector2d material_curvature = Eigen::Vector2d::Zero();  ///< rest curvature in the material frame [1/m]
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();                ///< force per length of wire [N/m]
 };
 
 /** How an end of the mixed rod is held: at its node. */
@@ -34,7 +36,7 @@ struct MixedEnd
 };
 
 /** Cuts a wire at the given arc lengths into edges of the mixed rod, properties averaged over each edge; loads and rest
- *  curvature are left zero.
+ *  curvature in space are left zero.
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */
 std::vector<MixedEdge> mixedEdges(const Wire& wire, const std::vector<double>& position);
 

@@ -15,8 +15,9 @@ constexpr double kShiftGrowth = 30.0;
 class Statics
 {
 public:
-  Statics(const MixedRod& rod, const StaticsSettings& settings, State& state, StaticsReport& report)
-    : rod_(rod), settings_(settings), state_(state), report_(report)
+  Statics(MixedRod& rod, const StaticsSettings& settings, const TwistBoundary* twist, State& state,
+          StaticsReport& report)
+    : rod_(rod), settings_(settings), boundary_(twist), state_(state), report_(report)
   {
     double flexibility = 0.0;
     for (const MixedEdge& edge : rod.edges())
@@ -46,7 +47,11 @@ private:
   {
     base_.reset(rod_.size(state_));
     gradient_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+    if (boundary_)
+      twist_.relax(rod_, *boundary_, state_);
     rod_.assemble(state_, gradient_, base_);
+    if (boundary_)
+      twist_.assemble(rod_, state_, gradient_, base_);
     for (const NodalForce& load : forces)
       for (int axis = 0; axis < 3; ++axis)
         gradient_[rod_.positionRow(state_, load.node) + axis] -= share * load.force[axis];
@@ -107,8 +112,10 @@ private:
     return motion;
   }
 
-  const MixedRod& rod_;
+  MixedRod& rod_;
   const StaticsSettings& settings_;
+  const TwistBoundary* boundary_;
+  MixedTwist twist_;
   State& state_;
   StaticsReport& report_;
   double length_, unit_, shift_;
@@ -119,10 +126,10 @@ private:
 }  // namespace
 
 StaticsReport solveStatics(MixedRod& rod, const std::vector<NodalForce>& forces, const StaticsSettings& settings,
-                           State& state)
+                           State& state, const TwistBoundary* twist)
 {
   StaticsReport report;
-  Statics statics(rod, settings, state, report);
+  Statics statics(rod, settings, twist, state, report);
   const std::vector<MixedEdge> full = rod.edges();
   report.converged = true;
   for (int step = 1; step <= settings.load_steps; ++step)
@@ -138,7 +145,7 @@ StaticsReport solveStatics(MixedRod& rod, const std::vector<NodalForce>& forces,
     report.converged = report.converged && statics.converge(forces, share);
   }
   for (int j = 0; j + 1 < rod.nodes(); ++j)
-    rod.edge(j) = full[j];
+    rod.edge(j).load = full[j].load;
   return report;
 }
 

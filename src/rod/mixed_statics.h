@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/mixed_rod.h"
+#include "rod/mixed_twist.h"
 
 namespace endovascular_sim::rod
 {
@@ -30,8 +30,10 @@ struct StaticsReport
  *  that of a stable equilibrium (a minimum in x), so the solution found is stable.
  *  @param rod edge loads and rest curvatures are scaled with the load during continuation and end as given
  *  @param forces on the nodes, in space [N]
+ *  @param twist with it the rest curvature is that of the material frames, which are relaxed before every iteration;
+ *    convergence is then linear, because second derivatives leave the frames' answer out
  *  @param state start (rod.straight(…), say) and result */
 StaticsReport solveStatics(MixedRod& rod, const std::vector<NodalForce>& forces, const StaticsSettings& settings,
-                           State& state);
+                           State& state, const TwistBoundary* twist = nullptr);
 
 }  // namespace endovascular_sim::rod

@@ -174,9 +174,9 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
   begin_ = state.position;
   placePrescribedNodes(state, input.inserted_length, dt);
   state.rotation = input.rotation;
-  std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
+    relaxTwist(state, input.tip_torque);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
       assemble(state, input, dt, solve == 0);
@@ -195,11 +195,34 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
   return true;
 }
 
+void MixedStepper::relaxTwist(State& state, double tip_torque)
+{
+  last_tip_torque_ = tip_torque;
+  twist_active_ = MixedTwist::matters(model_, tip_torque);
+  if (!twist_active_)
+  {
+    std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
+    state.hand_torque = 0.0;
+    return;
+  }
+  PhaseTimer::Scope scope(*timer_, Phase::kTwist);
+  TwistBoundary boundary;
+  boundary.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
+  boundary.tangent = boundary_.direction;
+  boundary.director = boundary_.director;
+  boundary.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.0;
+  boundary.rotation = state.rotation;
+  boundary.tip_torque = tip_torque;
+  twist_.relax(model_, boundary, state);
+}
+
 void MixedStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve)
 {
   base_.reset(model_.size(state));
   gradient_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   model_.assemble(state, gradient_, base_);
+  if (twist_active_)
+    twist_.assemble(model_, state, gradient_, base_);
   addInertia(state, dt);
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     addNodeTerms(i, state, dt, first_solve);
@@ -361,10 +384,12 @@ void MixedStepper::finish(State& state, double dt) const
 Energy MixedStepper::energy(const State& state)
 {
   Energy energy;
+  PhaseTimer unused;
+  timer_ = &unused;
+  State relaxed = state;
+  relaxTwist(relaxed, last_tip_torque_);
+  energy.twist = twist_active_ ? twist_.energy(model_, relaxed) : 0.0;
   energy.bending = model_.bendingEnergy(state);
-  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
-    energy.stretch +=
-        0.5 * rod_.rest_length[j] * model_.edges()[j].axial_compliance * state.tension[j] * state.tension[j];
   return energy;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/mixed_rod.h"
+#include "rod/mixed_twist.h"
 #include "rod/stepper.h"
 
 namespace endovascular_sim::rod
@@ -19,8 +19,7 @@ namespace endovascular_sim::rod
 class MixedStepper : public Stepper
 {
 public:
-  /** @param wire the same that @p rod was cut from; its sections should end at nodes
-   *  @throws std::invalid_argument for what the scheme does not simulate: see supports() */
+  /** @param wire the same that @p rod was cut from; its sections should end at nodes */
   MixedStepper(const Wire& wire, Discretisation rod, Boundary boundary, Environment environment,
                StepperSettings settings);
 
@@ -46,6 +45,7 @@ private:
   double bodyPosition(int node, double inserted_length) const;
   int firstNode(double inserted_length) const;
 
+  void relaxTwist(State& state, double tip_torque);
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
   void addInertia(const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
@@ -62,6 +62,9 @@ private:
   const Environment environment_;
   const StepperSettings settings_;
   MixedRod model_;
+  MixedTwist twist_;
+  bool twist_active_ = false;
+  double last_tip_torque_ = 0.0;
   std::vector<std::array<double, 2>> mass_;
   std::vector<Eigen::Vector3d> weight_;  ///< under buoyancy, at every node [N]
   contact::ContactSet contacts_;

@@ -71,6 +71,22 @@ std::unique_ptr<rod::AdaptiveSampling> makeSampling(const Scene& scene, const En
   return std::make_unique<rod::AdaptiveSampling>(scene.instrument.wire, boundaryOf(scene, entry), settings, ahead);
 }
 
+bool isStill(const DriveProfile& profile)
+{
+  return profile.points.empty() && profile.amplitude == 0.0;
+}
+
+/** Only `kkt` moves a held far end, or holds its twist. */
+void checkFarEnd(const Scene& scene)
+{
+  const DistalScene& distal = scene.distal;
+  if (scene.solver.scheme == "kkt" ||
+      (!distal.twist_held && isStill(distal.displacement) && isStill(distal.tilt) && isStill(distal.rotation)))
+    return;
+  throw InputError(scene.file, "solver.scheme",
+                   "'" + scene.solver.scheme + "' does not move a far end or hold its twist; use kkt");
+}
+
 std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discretisation nodes,
                                                const rod::Boundary& boundary, const rod::Environment& environment,
                                                const rod::StepperSettings& settings)
@@ -80,17 +96,16 @@ std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discreti
   { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
   if (scene.vessel)
     refuse("contact with a vessel");
-  if (wire.curvedTipLength() > 0.0)
-    refuse("a pre-curved wire");
   for (const PointLoad& load : scene.loads.point_loads)
-    if (load.torque != 0.0)
-      refuse("a torque at the tip");
+    if (load.torque != 0.0 && scene.distal_end == EndCondition::kClamped)
+      refuse("a torque at a clamped tip");
   return std::make_unique<rod::MixedStepper>(wire, std::move(nodes), boundary, environment, settings);
 }
 
 std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry,
                                           const rod::AdaptiveSampling* sampling)
 {
+  checkFarEnd(scene);
   rod::Environment environment;
   environment.gravity = scene.loads.gravity;
   environment.fluid_density = scene.loads.fluid_density;
