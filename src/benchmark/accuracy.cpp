@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "benchmark/reference_rows.h"
 #include "benchmark/static_cases.h"
 #include "common/error.h"
 
@@ -65,11 +66,12 @@ std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& 
   for (const StaticCase& problem : problems)
     for (const std::string& scheme : schemes())
     {
-      progress(done / static_cast<double>(problems.size() * schemes().size()), problem.name + ", " + scheme);
+      progress(0.5 * done / static_cast<double>(problems.size() * schemes().size()), problem.name + ", " + scheme);
       addRows(section.table, problem, scheme, options.quick);
       done += 1.0;
     }
-  return {section};
+  const auto second_half = [&progress](double share, const std::string& what) { progress(0.5 + 0.5 * share, what); };
+  return {section, referenceRows(options, second_half)};
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -12,7 +12,8 @@ namespace
 
 constexpr int kMaxHalvings = 3;
 constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
-constexpr double kEdgeCompliance = 1e-16;  // s²: m of stretch per N of tension and kg of a node; nothing, but no zero pivot
+/** m of stretch per N of tension and kg of a node [s²]: nothing, but no zero pivot. */
+constexpr double kEdgeCompliance = 1e-16;
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
