@@ -218,7 +218,7 @@ Propagation swing(const std::string& scheme, int nodes, double turn, double& fre
   BenchWire wire;
   wire.scheme = scheme;
   wire.nodes = nodes;
-  wire.strain_tolerance = 1e-12;
+  wire.strain_tolerance = 5e-5;
   const double line_density = wire.density * M_PI * wire.radius * wire.radius;
   frequency = 1.875104068711961 * 1.875104068711961 * std::sqrt(wire.bending_stiffness / line_density) /
               (wire.length * wire.length);
