@@ -16,7 +16,7 @@ std::vector<int> nodeCounts(const std::string& scheme, bool quick)
 {
   if (scheme == "mixed")
     return quick ? std::vector<int>{9, 17, 25} : std::vector<int>{5, 7, 9, 13, 17, 25, 50, 100};
-  return quick ? std::vector<int>{25, 100} : std::vector<int>{25, 50, 100, 200, 380};
+  return quick ? std::vector<int>{25, 100} : std::vector<int>{25, 50, 100, 200, 380, 800, 1400};
 }
 
 /** Points that others reach, measured on one core (shared/peers.md has the conditions): ms per step, static error / L.

@@ -52,6 +52,15 @@ StepReport PaperStepper::step(State& state, const StepInput& input, double dt, s
   return report;
 }
 
+/** The wire waits for new contacts before it moves on. */
+bool PaperStepper::resample(const Discretisation& rod)
+{
+  rod_ = rod;
+  contacts_.features.clear();
+  contacts_valid_ = false;
+  return true;
+}
+
 void PaperStepper::hold(State& state)
 {
   state = backup_;

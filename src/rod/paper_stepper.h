@@ -35,6 +35,7 @@ public:
   const contact::ContactSet& contactSet() const override { return contacts_; }
   void invalidateContacts() override { contacts_valid_ = false; }
   const Discretisation& discretisation() const override { return rod_; }
+  bool resample(const Discretisation& rod) override;
 
 private:
   static constexpr int kBandwidth = 8;

@@ -216,5 +216,23 @@ TEST(AdaptiveSampling, SamplesABenchWireToo)
   }
 }
 
+TEST(AdaptiveSampling, ServesTheSchemeOfThePaperToo)
+{
+  Bench bench({"sampling={kind: adaptive}", "solver.scheme=paper", "solver.time_step=0.0002", "drive.speed=0.1"});
+  const int nodes = bench.simulation.discretisation().nodes();
+  int changes = 0;
+  for (int k = 0; k < 3000; ++k)
+  {
+    const int before = bench.simulation.discretisation().nodes();
+    bench.step();
+    ASSERT_TRUE(bench.simulation.report().solved) << "step " << k;
+    ASSERT_LT(bench.simulation.report().max_strain, 1e-4) << "step " << k;
+    changes += bench.simulation.discretisation().nodes() != before;
+  }
+  EXPECT_GT(changes, 0) << "of " << nodes << " nodes";
+  EXPECT_NEAR(wireMass(bench.simulation.discretisation()),
+              wireMass(rod::discretiseUniformly(bench.scene.instrument.wire, 100)), 1e-15);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::session
