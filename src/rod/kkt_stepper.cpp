@@ -283,8 +283,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
   base_.reset(4 * (n - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   base_.at(kIdleRow, kIdleRow) = -scale_;
-  for (int i = first_ + 1; i + 1 < n; ++i)
-    addBending(i, state, dt);
+  addAllBending(state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addConstraint(j, state, dt);
   for (int i = first_; i < n; ++i)
@@ -295,59 +294,81 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
         base_rhs_[row(load.node) + axis] += dt * dt * load.force[axis];
 }
 
-void KktStepper::addBending(int node, const State& state, double dt)
+/** What the bending of a node and of the one after it depends on; @p second is the same node where none is left. */
+BendingPairInput KktStepper::bendingInput(int first, int second, const State& state, double dt) const
 {
-  const Eigen::Vector3d e = state.position[node] - state.position[node - 1];
-  const Eigen::Vector3d g = state.position[node + 1] - state.position[node];
-  const CurvatureBinormal kb(e, g, rod_.rest_length[node - 1] * rod_.rest_length[node]);
-  const double weight = dt * dt * rod_.bending_stiffness[node] / rod_.cell_length[node];
-  Eigen::Vector3d strain = kb.value;
-  if (twist_active_ && node >= twist_.firstCurved())
-    strain -= twist_.restCurvatureBinormal(node);
-  const Eigen::Vector3d by_before = weight * kb.transposeBefore(strain);
-  const Eigen::Vector3d by_after = weight * kb.transposeAfter(strain);
-  Eigen::Vector3d proximal = -by_before;
-  Eigen::Vector3d distal = by_after;
-  if (twist_active_ && twist_.torque(node) != 0.0)
+  const std::vector<Eigen::Vector3d>& x = state.position;
+  BendingPairInput in;
+  in.e = PairVector::of(x[first] - x[first - 1], x[second] - x[second - 1]);
+  in.g = PairVector::of(x[first + 1] - x[first], x[second + 1] - x[second]);
+  const Pair before{rod_.rest_length[first - 1], rod_.rest_length[second - 1]};
+  const Pair after{rod_.rest_length[first], rod_.rest_length[second]};
+  in.rest_product = before * after;
+  in.weight = dt * dt * Pair{rod_.bending_stiffness[first], rod_.bending_stiffness[second]} /
+              Pair{rod_.cell_length[first], rod_.cell_length[second]};
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  if (!twist_active_)
   {
-    // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
-    const Eigen::Vector3d torque = (0.5 * dt * dt * twist_.torque(node)) * kb.value;
-    proximal -= torque / rod_.rest_length[node - 1];
-    distal += torque / rod_.rest_length[node];
+    in.rest = PairVector::of(none, none);
+    in.torque_before = in.torque_after = Pair{0.0, 0.0};
+    return in;
   }
-  const BendingHessian hessian(kb, weight);
-  const Eigen::Matrix3d& a = hessian.before_before;
-  const Eigen::Matrix3d& b = hessian.before_after;
-  const Eigen::Matrix3d& c = hessian.after_after;
-  double* rhs = base_rhs_.data() + row(node - 1);
-#pragma GCC unroll 3
-  for (int axis = 0; axis < 3; ++axis)
+  const int curved = twist_.firstCurved();
+  in.rest = PairVector::of(first >= curved ? twist_.restCurvatureBinormal(first) : none,
+                           second >= curved ? twist_.restCurvatureBinormal(second) : none);
+  // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
+  const Pair torque = 0.5 * dt * dt * Pair{twist_.torque(first), twist_.torque(second)};
+  in.torque_before = torque / before;
+  in.torque_after = torque / after;
+  return in;
+}
+
+void KktStepper::addAllBending(const State& state, double dt)
+{
+  const int last = rod_.nodes() - 2;
+  for (int i = first_ + 1; i <= last; i += 2)
+    addBending(i, std::min(i + 1, last), BendingPair(bendingInput(i, std::min(i + 1, last), state, dt)));
+}
+
+/** Adds the first node's terms, and the second's where it is another node. */
+void KktStepper::addBending(int first, int second, const BendingPair& bending)
+{
+  const auto& a = bending.before_before;
+  const auto& b = bending.before_after;
+  const auto& c = bending.after_after;
+  for (int lane = 0; lane <= second - first; ++lane)
   {
-    rhs[axis] -= proximal[axis];
-    rhs[axis + 4] += proximal[axis] + distal[axis];
-    rhs[axis + 8] -= distal[axis];
-  }
-  double* column0 = base_.column(row(node - 1));
-  double* column1 = base_.column(row(node));
-  double* column2 = base_.column(row(node + 1));
+    const int proximal_row = row(first + lane - 1);
+    double* rhs = base_rhs_.data() + proximal_row;
 #pragma GCC unroll 3
-  for (int col = 0; col < 3; ++col)
-  {
-    // Entry of a line below the column's diagonal; a node's rows lie 4 below those of the node before.
-    double* from0 = column0 + col * Matrix::kStride - col;
-    double* from1 = column1 + col * Matrix::kStride - col;
-    double* from2 = column2 + col * Matrix::kStride - col;
-#pragma GCC unroll 3
-    for (int line = 0; line < 3; ++line)
+    for (int axis = 0; axis < 3; ++axis)
     {
-      from0[line + 4] += b(col, line) - a(line, col);
-      from0[line + 8] -= b(col, line);
-      from1[line + 4] += b(col, line) - c(line, col);
-      if (line < col)
-        continue;
-      from0[line] += a(line, col);
-      from1[line] += a(line, col) - b(line, col) - b(col, line) + c(line, col);
-      from2[line] += c(line, col);
+      rhs[axis] -= bending.proximal[axis][lane];
+      rhs[axis + 4] += bending.proximal[axis][lane] + bending.distal[axis][lane];
+      rhs[axis + 8] -= bending.distal[axis][lane];
+    }
+#pragma GCC unroll 3
+    for (int col = 0; col < 3; ++col)
+    {
+      // Entry of a line below the column's diagonal; a node's rows lie 4 below those of the node before.
+      double* from0 = base_.column(proximal_row) + col * Matrix::kStride - col;
+      double* from1 = from0 + 4 * Matrix::kStride;
+      double* from2 = from1 + 4 * Matrix::kStride;
+#pragma GCC unroll 3
+      for (int line = 0; line < 3; ++line)
+      {
+        const int low = std::max(line, col);
+        const int high = std::min(line, col);
+        const double across = b[col][line][lane];
+        from0[line + 4] += across - a[low][high][lane];
+        from0[line + 8] -= across;
+        from1[line + 4] += across - c[low][high][lane];
+        if (line < col)
+          continue;
+        from0[line] += a[line][col][lane];
+        from1[line] += a[line][col][lane] - b[line][col][lane] - across + c[line][col][lane];
+        from2[line] += c[line][col][lane];
+      }
     }
   }
 }
@@ -518,8 +539,7 @@ std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const Step
   relaxTwist(state, input);
   base_.reset(4 * (rod_.nodes() - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
-  for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
-    addBending(i, state, 1.0);
+  addAllBending(state, 1.0);
   std::vector<Eigen::Vector3d> gradient(state.position.size(), Eigen::Vector3d::Zero());
   for (int i = first_; i < rod_.nodes(); ++i)
     for (int axis = 0; axis < 3; ++axis)

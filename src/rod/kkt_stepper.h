@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/banded_ldlt.h"
+#include "rod/bending_pair.h"
 #include "rod/sparse_solver.h"
 #include "rod/stepper.h"
 #include "rod/twist.h"
@@ -61,7 +62,9 @@ private:
   void relaxTwist(State& state, const StepInput& input);
 
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
-  void addBending(int node, const State& state, double dt);
+  void addAllBending(const State& state, double dt);
+  BendingPairInput bendingInput(int first, int second, const State& state, double dt) const;
+  void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
   void addFriction(int node, const State& state, const Eigen::Vector3d& travel, const Eigen::Vector3d& velocity,
