@@ -167,7 +167,7 @@ std::string counted(std::map<std::string, std::map<std::string, int>>& counts)
 
 std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress& progress)
 {
-  const int max_steps = options.quick ? 600 : 3000;
+  const int max_steps = options.quick ? 600 : 1500;
   Section single{"stability_factors", "Hard cases, one factor at a time", "", Table(kColumns), ""};
   auto counts = run(oneAtATime(options.quick), single.table, max_steps, progress, 0.0, 0.4);
   single.text =
