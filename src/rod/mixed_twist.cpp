@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr int kMaxIterations = 200;
 constexpr double kMaxTurn = 0.3;                 // rad per iteration: a snap-through is followed, not jumped over
-constexpr double kConverged = 1e-12;             // rad
+constexpr double kConverged = 1e-10;             // rad
 constexpr double kRigid = 1e-6;                  // of an edge's twist flexibility, where the hand turns it
 constexpr double kGauss = 0.288675134594812882;  // √3/6: of an edge's length, from its middle
 
@@ -55,7 +55,8 @@ void MixedTwist::transportBishopFrame(const MixedRod& rod, const TwistBoundary& 
       edges_[j].bishop = director;
       edges_[j].bishop_normal = tangent.cross(director);
       const double share = (begin + edge.length - boundary.position) / edge.length;
-      edges_[j].flexibility = edge.twist_flexibility * std::max(kRigid, std::min(1.0, share));
+      edges_[j].share = std::max(0.0, std::min(1.0, share));
+      edges_[j].flexibility = edge.twist_flexibility * std::max(kRigid, edges_[j].share);
     }
     begin += edge.length;
   }
@@ -66,7 +67,7 @@ void MixedTwist::placeRestCurvature(const MixedRod& rod, const State& state, int
 {
   const MixedEdge& edge = rod.edges()[j];
   Edge& e = edges_[j];
-  if (edge.material_curvature.isZero(0.0))
+  if (edge.material_curvature.isZero(0.0) || e.share == 0.0)
   {
     e.gauss = e.end = {Vector3d::Zero(), Vector3d::Zero()};
     e.turn.setZero();
@@ -76,7 +77,7 @@ void MixedTwist::placeRestCurvature(const MixedRod& rod, const State& state, int
   const double s = std::sin(state.twist_angle[j]);
   const Vector3d m1 = c * e.bishop + s * e.bishop_normal;
   const Vector3d m2 = c * e.bishop_normal - s * e.bishop;
-  const Vector3d middle = edge.material_curvature.x() * m2 - edge.material_curvature.y() * m1;
+  const Vector3d middle = e.share * (edge.material_curvature.x() * m2 - edge.material_curvature.y() * m1);
   const Vector3d bend = 0.5 * edge.flexibility * (state.moment[j] + state.moment[j + 1]) + middle;
   e.turn = kGauss * edge.length * bend;
   const double twist = 0.5 * e.flexibility * (torque_[j] + torque_[j + 1]);
@@ -183,9 +184,8 @@ void MixedTwist::evaluate(const MixedRod& rod, const State& state)
   }
 }
 
-/** One Newton step for torques and angles, left in rhs_.
- *  @param angles_too false: the angles stay */
-void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state, bool angles_too)
+/** One Newton step for torques and angles, left in rhs_. */
+void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state)
 {
   const int last = rod.nodes() - 2;
   matrix_.reset(2 * (last + 1 - first_));
@@ -221,8 +221,6 @@ void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const
     // The tiny term keeps the matrix regular where nothing holds the twist.
     matrix_.at(1, 1) += 1e-9 / (rod.length() * edges_[first_].flexibility);
   }
-  for (int j = first_; !angles_too && j <= last; ++j)
-    matrix_.prescribe(2 * (j - first_) + 1, 0.0, 1.0, rhs_);
   matrix_.factorise();
   matrix_.solve(rhs_);
 }
@@ -233,21 +231,23 @@ void MixedTwist::relax(MixedRod& rod, const TwistBoundary& boundary, State& stat
   first_ = state.first_node;
   edges_.resize(static_cast<std::size_t>(n));
   corrections_.resize(static_cast<std::size_t>(n));
+  rhs_.assign(static_cast<std::size_t>(2 * (n - first_)), 0.0);
   torque_.assign(static_cast<std::size_t>(n), boundary.tip_torque);
   transportBishopFrame(rod, boundary, state);
-  // The torque that belongs to the angles as they are, then the curvature that belongs to both and to the moments.
-  for (int pass = 0; pass < 2; ++pass)
+  // The torque that the angles as they are would have in equilibrium, then the curvature that belongs to both and to
+  // the moments.
+  for (int pass = 0; pass < 3; ++pass)
   {
     for (int j = first_; j + 1 < n; ++j)
       placeRestCurvature(rod, state, j);
     findCurvature(rod, state);
-    solve(rod, boundary, state, false);
-    for (int j = first_; pass == 0 && j + 1 < n; ++j)
-      torque_[j] += rhs_[2 * (j - first_)];
+    evaluate(rod, state);
+    for (int j = n - 2; pass < 2 && j >= first_; --j)
+      torque_[j] = torque_[j + 1] - edges_[j].spin.dot(edges_[j].tangent);
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration)
   {
-    solve(rod, boundary, state, true);
+    solve(rod, boundary, state);
     double largest = 0.0;
     for (int j = first_; j + 1 < n; ++j)
       largest = std::max(largest, std::abs(rhs_[2 * (j - first_) + 1]));
