@@ -198,7 +198,10 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
     }
     if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance && !contacts_.foundUnknown())
       break;
-    report.capped += solve + 1 == settings_.max_solves;
+    const bool last = solve + 1 == settings_.max_solves;
+    report.capped += last;
+    if (last && !restoreLengths(state, input, dt, report))
+      return false;
   }
   finish(state, dt);
   return true;

@@ -56,6 +56,7 @@ private:
   void addSpring(const State& state, std::size_t index);
   bool solveActiveSet(const State& state, double dt, StepReport& report, bool& shifted);
   bool factoriseAndSolve(const State& state, double shift, StepReport& report);
+  bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   double truncation(const State& state, StepReport& report);
   void accept(State& state, double factor) const;
   double largestStrain(const State& state) const;
@@ -79,7 +80,8 @@ private:
   std::vector<double> gradient_, rhs_;
   NodalContacts::Motion motion_;        ///< the last solve's increments of the nodes [m]
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
-  std::vector<State> backup_;           ///< per depth of halving
+  std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
+  std::vector<State> backup_;  ///< per depth of halving
 };
 
 }  // namespace endovascular_sim::rod

@@ -18,7 +18,9 @@ constexpr double kFirstShift = 1.0;  // of the inertia, when a factorisation is 
 constexpr double kShiftGrowth = 30.0;
 constexpr double kMostShift = 1e6;
 constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
-constexpr double kLeastForce = 1e-9;    // N: a wall force below it has no friction
+constexpr int kMaxRestoringSolves = 4;
+constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
+constexpr double kLeastForce = 1e-9;         // N: a wall force below it has no friction
 
 }  // namespace
 
@@ -113,6 +115,41 @@ bool MixedStepper::factoriseAndSolve(const State& state, double shift, StepRepor
     return false;
   matrix_.solve(rhs_);
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
+}
+
+/** After a step that was accepted unfinished (a snap that the trust region cut short): brings the edges back to their
+ *  lengths without moving on, by solves over a small fraction of the step from rest. */
+bool MixedStepper::restoreLengths(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  restore_begin_ = begin_;
+  restore_velocity_ = state.velocity;
+  const double fraction = kRestoringFraction * dt;
+  bool solved = true;
+  for (int solve = 0; solve < kMaxRestoringSolves && solved; ++solve)
+  {
+    if (largestStrain(state) <= settings_.strain_tolerance)
+      break;
+    begin_ = state.position;
+    std::fill(state.velocity.begin(), state.velocity.end(), Vector3d::Zero());
+    contacts_.prepare(state, fraction);
+    assemble(state, input, fraction, true);
+    ++report.solves;
+    bool shifted = false;
+    solved = solveActiveSet(state, fraction, report, shifted);
+    if (!solved)
+      break;
+    const double factor = truncation(state, report);
+    for (int i = state.first_node; i < rod_.nodes(); ++i)
+    {
+      state.position[i] += factor * motion_[i];
+      state.moment[i] += factor * increment(model_.momentRow(state, i));
+    }
+    if (contacts_.present())
+      contacts_.detect(state, report);
+  }
+  begin_ = restore_begin_;
+  state.velocity = restore_velocity_;
+  return solved;
 }
 
 double MixedStepper::truncation(const State& state, StepReport& report)

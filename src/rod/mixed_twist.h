@@ -67,6 +67,7 @@ private:
 
   void transportBishopFrame(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
   void placeRestCurvature(const MixedRod& rod, const State& state, int edge);
+  static void extrapolate(Edge& edge);
   void findCurvature(const MixedRod& rod, const State& state);
   void evaluate(const MixedRod& rod, const State& state);
   void solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
