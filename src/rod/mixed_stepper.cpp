@@ -11,10 +11,6 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int kMaxHalvings = 3;
-constexpr double kFirstShift = 1.0;  // of the inertia, when a factorisation is not that of a minimum
-constexpr double kShiftGrowth = 30.0;
-constexpr int kMaxShifts = 5;
-constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
 
 EndHold atNode(const Boundary& boundary, EndHold hold)
 {
@@ -58,6 +54,7 @@ MixedStepper::MixedStepper(const Wire& wire, Discretisation rod, Boundary bounda
     boundary_(std::move(boundary)),
     environment_(std::move(environment)),
     settings_(settings),
+    contacts_(rod_, boundary_, settings_),
     model_(mixedEdges(wire, rod_.position), {atNode(boundary_, boundary_.proximal), boundary_.direction},
            {boundary_.distal, boundary_.direction})
 {
@@ -69,6 +66,7 @@ MixedStepper::MixedStepper(const Wire& wire, Discretisation rod, Boundary bounda
     density.push_back(edge.linear_density);
     immersed.push_back(edge.linear_density - environment_.fluid_density * edge.cross_section);
   }
+  motion_.assign(rod_.position.size(), Vector3d::Zero());
   mass_ = massMatrix(model_, density);
   const MassMatrix weight = massMatrix(model_, immersed);
   for (std::size_t i = 0; i < weight.size(); ++i)
@@ -127,10 +125,11 @@ void MixedStepper::placePrescribedNodes(State& state, double inserted_length, do
   }
 }
 
-StepReport MixedStepper::step(State& state, const StepInput& input, double dt, std::uint32_t&, contact::ContactSource*,
-                              PhaseTimer& timer)
+StepReport MixedStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
+                              contact::ContactSource* contacts, PhaseTimer& timer)
 {
   timer_ = &timer;
+  contacts_.beginStep(input, contacts, pass, timer);
   StepReport report;
   if (!advance(state, input, dt, 0, report))
     report.solved = false;
@@ -146,6 +145,7 @@ bool MixedStepper::advance(State& state, const StepInput& input, double dt, int 
   if (solveStep(state, input, dt, report))
     return true;
   state = backup_[depth];
+  contacts_.invalidate();
   if (depth == kMaxHalvings)
   {
     hold(state, depth);
@@ -167,6 +167,7 @@ void MixedStepper::hold(State& state, int depth)
   state = backup_[depth];
   for (Vector3d& velocity : state.velocity)
     velocity.setZero();
+  contacts_.invalidate();
 }
 
 bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
@@ -174,22 +175,33 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
   begin_ = state.position;
   placePrescribedNodes(state, input.inserted_length, dt);
   state.rotation = input.rotation;
+  contacts_.refresh(state, report);
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     relaxTwist(state, input.tip_torque);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
+      contacts_.prepare(state, dt);
       assemble(state, input, dt, solve == 0);
     }
     ++report.solves;
     bool shifted = false;
-    if (!factoriseAndSolve(state, dt, report, shifted))
+    if (!solveActiveSet(state, dt, report, shifted))
       return false;
     const double factor = truncation(state, report);
     accept(state, factor);
-    if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance)
+    if (contacts_.present())
+    {
+      contacts_.detect(state, report);
+      if (contacts_.set().stale)
+        break;  // one solve per step is all that old contacts are good for
+    }
+    if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance && !contacts_.foundUnknown())
       break;
-    report.capped += solve + 1 == settings_.max_solves;
+    const bool last = solve + 1 == settings_.max_solves;
+    report.capped += last;
+    if (last && !restoreLengths(state, input, dt, report))
+      return false;
   }
   finish(state, dt);
   return true;
@@ -271,7 +283,7 @@ void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d&
       base_.at(r + line, r + col) += block(line, col);
 }
 
-/** Weight, drag of the fluid, and the introducer's guide. */
+/** Weight, drag of the fluid, friction, and the introducer's guide. */
 void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const double beyond = bodyPosition(node, state.inserted_length);
@@ -295,68 +307,11 @@ void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool fi
     block += across;
     force += across * (state.position[node] - boundary_.origin);
   }
+  if (!state.wall_force[node].isZero(0.0))
+    addFriction(node, state, dt, first_solve, block, force);
   addBlock(state, node, block);
   for (int axis = 0; axis < 3; ++axis)
     gradient_[model_.positionRow(state, node) + axis] += force[axis];
-}
-
-/** Solves for the increments. A matrix without the inertia of a minimum gets more mass, which shortens the step. */
-bool MixedStepper::factoriseAndSolve(const State& state, double dt, StepReport& report, bool& shifted)
-{
-  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
-  double shift = 0.0;
-  for (int attempt = 0; attempt < kMaxShifts; ++attempt)
-  {
-    matrix_.copyFrom(base_);
-    rhs_ = gradient_;
-    for (double& value : rhs_)
-      value = -value;
-    for (int i = state.first_node; shift > 0.0 && i < rod_.nodes(); ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        matrix_.at(model_.positionRow(state, i) + axis, model_.positionRow(state, i) + axis) +=
-            shift * rod_.mass[i] / (dt * dt);
-    model_.prescribeEnds(state, matrix_, rhs_);
-    for (int i = state.first_node; boundary_.introducer && i < rod_.nodes() && isPrescribed(i, state); ++i)
-    {
-      model_.prescribe(model_.positionRow(state, i), 1.0, matrix_, rhs_);
-      if (i > state.first_node)
-        matrix_.prescribe(model_.tensionRow(state, i - 1), 0.0, -1.0, rhs_);
-    }
-    ++report.factorisations;
-    if (matrix_.factorise() == model_.negativePivots(state))
-    {
-      matrix_.solve(rhs_);
-      return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
-    }
-    shifted = true;
-    shift = std::max(kFirstShift, kShiftGrowth * shift);
-  }
-  return false;
-}
-
-double MixedStepper::truncation(const State& state, StepReport& report) const
-{
-  double largest_turn = 0.0;
-  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
-  {
-    const Vector3d change = increment(model_.positionRow(state, j + 1)) - increment(model_.positionRow(state, j));
-    largest_turn = std::max(largest_turn, change.norm() / rod_.rest_length[j]);
-  }
-  if (largest_turn <= settings_.max_rotation)
-    return 1.0;
-  ++report.truncations;
-  return settings_.max_rotation / largest_turn;
-}
-
-void MixedStepper::accept(State& state, double factor) const
-{
-  for (int i = state.first_node; i < rod_.nodes(); ++i)
-  {
-    state.position[i] += factor * increment(model_.positionRow(state, i));
-    state.moment[i] += factor * increment(model_.momentRow(state, i));
-  }
-  for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
-    state.tension[j] += factor * rhs_[model_.tensionRow(state, j)];
 }
 
 /** Of the edges that are free to keep their lengths. */

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/mixed_twist.h"
+#include "rod/nodal_contacts.h"
 #include "rod/stepper.h"
 
 namespace endovascular_sim::rod
@@ -13,9 +14,9 @@ namespace endovascular_sim::rod
  *
  *  Inertia is nodal except at ends and jumps of density or edge length: there Euler–Maclaurin's end term, written as a
  *  convex combination of lumped and consistent mass, keeps it fourth order (third at a jump). Weight acts through the
- *  same matrix, so that a free wire falls without bending; other forces act at nodes. A solve that would turn an edge
- * too far is truncated and the same step is solved again; a factorisation without the inertia of a minimum is shifted;
- * then the step is halved. */
+ *  same matrix, so that a free wire falls without bending; other forces act at nodes; contact is that of the chords
+ * (nodal_contacts.h). A solve that would turn an edge too far is truncated and the same step is solved again; a
+ * factorisation without the inertia of a minimum is shifted; then the step is halved. */
 class MixedStepper : public Stepper
 {
 public:
@@ -27,8 +28,8 @@ public:
   StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override;
-  const contact::ContactSet& contactSet() const override { return contacts_; }
-  void invalidateContacts() override {}
+  const contact::ContactSet& contactSet() const override { return contacts_.set(); }
+  void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return rod_; }
 
   /** Mass matrix of the simulated part, as it couples nodes: entry [i][0] of node i itself, [i][1] with node i + 1
@@ -50,8 +51,13 @@ private:
   void addInertia(const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
   void addBlock(const State& state, int node, const Eigen::Matrix3d& block);
-  bool factoriseAndSolve(const State& state, double dt, StepReport& report, bool& shifted);
-  double truncation(const State& state, StepReport& report) const;
+  void addFriction(int node, const State& state, double dt, bool first_solve, Eigen::Matrix3d& block,
+                   Eigen::Vector3d& force) const;
+  void addSpring(const State& state, std::size_t index);
+  bool solveActiveSet(const State& state, double dt, StepReport& report, bool& shifted);
+  bool factoriseAndSolve(const State& state, double shift, StepReport& report);
+  bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
+  double truncation(const State& state, StepReport& report);
   void accept(State& state, double factor) const;
   double largestStrain(const State& state) const;
   void finish(State& state, double dt) const;
@@ -61,19 +67,21 @@ private:
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;
+  NodalContacts contacts_;
   MixedRod model_;
   MixedTwist twist_;
   bool twist_active_ = false;
   double last_tip_torque_ = 0.0;
   std::vector<std::array<double, 2>> mass_;
   std::vector<Eigen::Vector3d> weight_;  ///< under buoyancy, at every node [N]
-  contact::ContactSet contacts_;
   PhaseTimer* timer_ = nullptr;
 
   MixedRod::Matrix base_, matrix_;
   std::vector<double> gradient_, rhs_;
+  NodalContacts::Motion motion_;        ///< the last solve's increments of the nodes [m]
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
-  std::vector<State> backup_;           ///< per depth of halving
+  std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
+  std::vector<State> backup_;  ///< per depth of halving
 };
 
 }  // namespace endovascular_sim::rod

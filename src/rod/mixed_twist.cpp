@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr int kMaxIterations = 200;
 constexpr double kMaxTurn = 0.3;                 // rad per iteration: a snap-through is followed, not jumped over
-constexpr double kConverged = 1e-12;             // rad
+constexpr double kConverged = 1e-8;              // rad
 constexpr double kRigid = 1e-6;                  // of an edge's twist flexibility, where the hand turns it
 constexpr double kGauss = 0.288675134594812882;  // √3/6: of an edge's length, from its middle
 
@@ -23,9 +23,18 @@ constexpr double kGauss = 0.288675134594812882;  // √3/6: of an edge's length,
 Vector3d turned(const Vector3d& v, const Vector3d& w)
 {
   const double square = w.squaredNorm();
-  const double angle = std::sqrt(square);
-  const double s = angle > 1e-4 ? std::sin(angle) / angle : 1.0 - square / 6.0;
-  const double c = angle > 1e-4 ? (1.0 - std::cos(angle)) / square : 0.5 - square / 24.0;
+  double s, c;  // sin φ/φ and (1 − cos φ)/φ²
+  if (square < 0.04)
+  {
+    s = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
+    c = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)));
+  }
+  else
+  {
+    const double angle = std::sqrt(square);
+    s = std::sin(angle) / angle;
+    c = (1.0 - std::cos(angle)) / square;
+  }
   const Vector3d across = w.cross(v);
   return v + s * across + c * w.cross(across);
 }
@@ -55,7 +64,8 @@ void MixedTwist::transportBishopFrame(const MixedRod& rod, const TwistBoundary& 
       edges_[j].bishop = director;
       edges_[j].bishop_normal = tangent.cross(director);
       const double share = (begin + edge.length - boundary.position) / edge.length;
-      edges_[j].flexibility = edge.twist_flexibility * std::max(kRigid, std::min(1.0, share));
+      edges_[j].share = std::max(0.0, std::min(1.0, share));
+      edges_[j].flexibility = edge.twist_flexibility * std::max(kRigid, edges_[j].share);
     }
     begin += edge.length;
   }
@@ -66,7 +76,7 @@ void MixedTwist::placeRestCurvature(const MixedRod& rod, const State& state, int
 {
   const MixedEdge& edge = rod.edges()[j];
   Edge& e = edges_[j];
-  if (edge.material_curvature.isZero(0.0))
+  if (edge.material_curvature.isZero(0.0) || e.share == 0.0)
   {
     e.gauss = e.end = {Vector3d::Zero(), Vector3d::Zero()};
     e.turn.setZero();
@@ -76,16 +86,21 @@ void MixedTwist::placeRestCurvature(const MixedRod& rod, const State& state, int
   const double s = std::sin(state.twist_angle[j]);
   const Vector3d m1 = c * e.bishop + s * e.bishop_normal;
   const Vector3d m2 = c * e.bishop_normal - s * e.bishop;
-  const Vector3d middle = edge.material_curvature.x() * m2 - edge.material_curvature.y() * m1;
+  const Vector3d middle = e.share * (edge.material_curvature.x() * m2 - edge.material_curvature.y() * m1);
   const Vector3d bend = 0.5 * edge.flexibility * (state.moment[j] + state.moment[j + 1]) + middle;
   e.turn = kGauss * edge.length * bend;
   const double twist = 0.5 * e.flexibility * (torque_[j] + torque_[j + 1]);
-  for (int side = 0; side < 2; ++side)
-  {
-    const double sign = side == 0 ? -edge.length : edge.length;
-    e.gauss[side] = turned(turned(middle, kGauss * sign * twist * e.tangent), kGauss * sign * bend);
-    e.end[side] = turned(turned(middle, 0.5 * sign * twist * e.tangent), 0.5 * sign * bend);
-  }
+  const Vector3d twisted = (kGauss * edge.length * twist) * e.tangent;
+  e.gauss = {turned(turned(middle, -twisted), -e.turn), turned(turned(middle, twisted), e.turn)};
+  extrapolate(e);
+}
+
+/** κ̄ at the ends, linear through the Gauss points. */
+void MixedTwist::extrapolate(Edge& edge)
+{
+  const Vector3d mean = 0.5 * (edge.gauss[0] + edge.gauss[1]);
+  const Vector3d slope = (3.0 * kGauss) * (edge.gauss[1] - edge.gauss[0]);
+  edge.end = {mean - slope, mean + slope};
 }
 
 /** κ at the edges' ends from moment and rest curvature. At a node the torque acts along the chords' bisector, not the
@@ -96,10 +111,7 @@ void MixedTwist::findCurvature(const MixedRod& rod, const State& state)
   for (int j = first_; j <= last; ++j)
     for (int side = 0; side < 2; ++side)
     {
-      const double sign = (side == 0 ? -3.0 : 3.0) * kGauss;
-      const Edge& e = edges_[j];
-      const Vector3d rest = 0.5 * (e.gauss[0] + e.gauss[1]) + sign * (e.gauss[1] - e.gauss[0]);
-      edges_[j].curvature[side] = rod.edges()[j].flexibility * state.moment[j + side] + rest;
+      edges_[j].curvature[side] = rod.edges()[j].flexibility * state.moment[j + side] + edges_[j].end[side];
     }
   for (int i = first_; i <= last; ++i)
   {
@@ -183,9 +195,8 @@ void MixedTwist::evaluate(const MixedRod& rod, const State& state)
   }
 }
 
-/** One Newton step for torques and angles, left in rhs_.
- *  @param angles_too false: the angles stay */
-void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state, bool angles_too)
+/** One Newton step for torques and angles, left in rhs_. */
+void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state)
 {
   const int last = rod.nodes() - 2;
   matrix_.reset(2 * (last + 1 - first_));
@@ -221,8 +232,6 @@ void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const
     // The tiny term keeps the matrix regular where nothing holds the twist.
     matrix_.at(1, 1) += 1e-9 / (rod.length() * edges_[first_].flexibility);
   }
-  for (int j = first_; !angles_too && j <= last; ++j)
-    matrix_.prescribe(2 * (j - first_) + 1, 0.0, 1.0, rhs_);
   matrix_.factorise();
   matrix_.solve(rhs_);
 }
@@ -233,21 +242,24 @@ void MixedTwist::relax(MixedRod& rod, const TwistBoundary& boundary, State& stat
   first_ = state.first_node;
   edges_.resize(static_cast<std::size_t>(n));
   corrections_.resize(static_cast<std::size_t>(n));
+  rhs_.assign(static_cast<std::size_t>(2 * (n - first_)), 0.0);
   torque_.assign(static_cast<std::size_t>(n), boundary.tip_torque);
   transportBishopFrame(rod, boundary, state);
-  // The torque that belongs to the angles as they are, then the curvature that belongs to both and to the moments.
+  // The torque that the angles as they are would have in equilibrium, then the curvature that belongs to both and to
+  // the moments.
   for (int pass = 0; pass < 2; ++pass)
   {
     for (int j = first_; j + 1 < n; ++j)
       placeRestCurvature(rod, state, j);
     findCurvature(rod, state);
-    solve(rod, boundary, state, false);
-    for (int j = first_; pass == 0 && j + 1 < n; ++j)
-      torque_[j] += rhs_[2 * (j - first_)];
+    if (pass == 0)
+      evaluate(rod, state);
+    for (int j = n - 2; pass == 0 && j >= first_; --j)
+      torque_[j] = torque_[j + 1] - edges_[j].spin.dot(edges_[j].tangent);
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration)
   {
-    solve(rod, boundary, state, true);
+    solve(rod, boundary, state);
     double largest = 0.0;
     for (int j = first_; j + 1 < n; ++j)
       largest = std::max(largest, std::abs(rhs_[2 * (j - first_) + 1]));
@@ -266,11 +278,7 @@ void MixedTwist::relax(MixedRod& rod, const TwistBoundary& boundary, State& stat
   evaluate(rod, state);
   state.hand_torque = boundary.held ? -torque_[first_] : 0.0;
   for (int j = first_; j + 1 < n; ++j)
-  {
-    const Vector3d middle = 0.5 * (edges_[j].gauss[0] + edges_[j].gauss[1]);
-    const Vector3d slope = 3.0 * kGauss * (edges_[j].gauss[1] - edges_[j].gauss[0]);
-    rod.edge(j).rest_curvature = {middle - slope, middle + slope};
-  }
+    rod.edge(j).rest_curvature = edges_[j].end;
 }
 
 void MixedTwist::assemble(const MixedRod& rod, const State& state, std::vector<double>& gradient,

@@ -34,7 +34,8 @@ public:
   static bool matters(const MixedRod& rod, double tip_torque);
 
   /** Relaxes state.twist_angle, sets state.hand_torque and the rest curvatures of the rod's edges in space.
-   *  @param boundary its position says where along the wire the twist begins to count: edges before it are rigid */
+   *  @param boundary its position says where along the wire the twist begins to count: edges before it neither twist
+   *  nor bend by themselves */
   void relax(MixedRod& rod, const TwistBoundary& boundary, State& state);
 
   /** Adds what the torque and the turning rest curvature contribute at the state last relaxed. */
@@ -60,14 +61,16 @@ private:
     std::array<Eigen::Vector3d, 2> by_end;     ///< −Σ T ∂C/∂κ at the ends [N·m·m]
     Eigen::Vector3d spin;                      ///< derivative of L by a rotation of the edge's frame [N·m]
     Eigen::Vector3d turn;                      ///< from the chord's frame to the second Gauss point's [rad]
+    double share;                              ///< of the edge that lies beyond the held place
     double flexibility;                        ///< 1/GJ, next to none before the held place [1/(N·m²)]
   };
 
   void transportBishopFrame(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
   void placeRestCurvature(const MixedRod& rod, const State& state, int edge);
+  static void extrapolate(Edge& edge);
   void findCurvature(const MixedRod& rod, const State& state);
   void evaluate(const MixedRod& rod, const State& state);
-  void solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state, bool angles_too);
+  void solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
   double holonomy(const MixedRod& rod, int node);
 
   int first_ = 0;

@@ -94,8 +94,6 @@ std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discreti
   const rod::Wire& wire = scene.instrument.wire;
   const auto refuse = [&scene](const std::string& why)
   { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
-  if (scene.vessel)
-    refuse("contact with a vessel");
   for (const PointLoad& load : scene.loads.point_loads)
     if (load.torque != 0.0 && scene.distal_end == EndCondition::kClamped)
       refuse("a torque at a clamped tip");

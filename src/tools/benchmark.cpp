@@ -170,8 +170,9 @@ constexpr auto kLimits = R"(## Limits
 - `kkt` and `paper` are of second order in space: 100 nodes give 1e-4 L on strongly bent wires. `mixed` is of fourth order for
   nodal and distributed loads, rest curvature in the plane of bending and joints of sections at nodes; where a pre-curved wire
   twists out of its plane it is of second order, with errors some hundred times below those of `kkt`.
-- `mixed` knows no vessel, no introducer and no adaptive sampling yet, so it is not the default: scenes that need them
-  are refused by name.
+- `mixed` has contact by its nodes: chords touch the wall, not arcs, so a bent wall needs edges as short as those of `kkt`
+  and each costs twice as much; it keeps its nodes (no adaptive sampling). So `kkt` stays the default; `mixed` wins wherever
+  loads act at nodes and shapes are smooth.
 - Backward Euler is of first order in time and takes energy from fast modes. Twist is quasi-static.
 - `paper` has no trust region: a wall stops it only by depth, and at steps of 1 ms a stiff wire leaves through it.
 - On facetted meshes a stiff tip snaps over ridges; when it does depends on every detail. Runs are compared before the first

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rod/stepper.h"
+
+namespace endovascular_sim::rod
+{
+
+/** Contact of a rod whose unknowns include its nodes' positions, apart from how its matrix is laid out: contact sets
+ *  asked for and kept, one-sided springs with an active set, the trust region by free distances, lagged wall forces.
+ *  The rules are those of docs/CONTACT.md. What touches is the chord between two nodes. */
+class NodalContacts
+{
+public:
+  /** A one-sided spring between the wall and a point of an edge. */
+  struct Spring
+  {
+    int node = 0;            ///< the edge's first node
+    double weight0 = 0.0;    ///< share of that node
+    double weight1 = 0.0;    ///< share of the next one
+    double stiffness = 0.0;  ///< [N/m]
+    bool active = false;
+  };
+  using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
+
+  /** @param rod, boundary, settings must outlive this */
+  NodalContacts(const Discretisation& rod, const Boundary& boundary, const StepperSettings& settings)
+    : rod_(rod), boundary_(boundary), settings_(settings)
+  {
+  }
+
+  /** @param source null without a vessel */
+  void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
+
+  bool present() const { return source_ != nullptr; }
+  const contact::ContactSet& set() const { return contacts_; }
+  void invalidate() { valid_ = false; }
+
+  /** Asks for the state's contacts. */
+  void detect(const State& state, StepReport& report);
+
+  /** The same where the last answer is missing or old. */
+  void refresh(const State& state, StepReport& report);
+
+  /** Springs for the present contacts; active are those that the velocity would close within @p dt. */
+  void prepare(const State& state, double dt);
+
+  std::size_t count() const { return springs_.size(); }
+  const Spring& spring(std::size_t index) const { return springs_[index]; }
+  const contact::Feature& feature(std::size_t index) const { return contacts_.features[index]; }
+
+  /** After a solve: closes and opens springs, later passes only close.
+   *  @return true when something changed */
+  bool updateActiveSet(const Motion& motion, int pass);
+
+  /** Share of the motion, at most @p factor, in which no point moves further than its free distance. */
+  double truncation(const State& state, const Motion& motion, double factor, StepReport& report);
+
+  /** Sets the state's wall forces from the springs after an accepted motion. */
+  void updateWallForces(State& state, const Motion& motion) const;
+
+  /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
+  bool foundUnknown() const;
+
+private:
+  double approach(std::size_t index, const Motion& motion) const;
+  double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
+  double staleTruncation(const Motion& motion);
+  void ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report);
+
+  const Discretisation& rod_;
+  const Boundary& boundary_;
+  const StepperSettings& settings_;
+  contact::ContactSet contacts_, previous_contacts_, free_distances_;
+  std::vector<Spring> springs_, previous_springs_;
+  bool valid_ = false;
+  bool step_is_stale_ = false;
+  double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
+  contact::Query query_;
+  contact::ContactSource* source_ = nullptr;
+  PhaseTimer* timer_ = nullptr;
+  std::uint32_t* pass_ = nullptr;
+  std::uint64_t step_ = 0;
+  std::uint32_t substep_ = 0;
+};
+
+}  // namespace endovascular_sim::rod

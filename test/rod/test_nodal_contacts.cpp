@@ -1,0 +1,139 @@
+#include "rod/nodal_contacts.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "rod/mixed_stepper.h"
+#include "rod_fixtures.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr double kEi = 4.9469e-5;
+constexpr double kRadius = 1.8e-4;
+constexpr double kFriction = 0.2;
+
+/** The plane z = 0 below the wire. */
+class Floor : public contact::ContactSource
+{
+public:
+  void detect(const contact::Query& query, contact::ContactSet& set) override
+  {
+    set.features.clear();
+    set.first_edge = query.first_node;
+    set.free_distance.clear();
+    const int n = static_cast<int>(query.nodes.size());
+    for (int i = 0; i < n; ++i)
+    {
+      const double gap = query.nodes[i].z() - query.radius[i];
+      if (i + 1 < n)
+        set.free_distance.push_back(std::max(0.0, std::min(gap, query.nodes[i + 1].z() - query.radius[i + 1])));
+      if (gap > query.margin)
+        continue;
+      contact::Feature feature;
+      feature.edge = query.first_node + std::min(i, n - 2);
+      feature.parameter = i == n - 1 ? 1.0 : 0.0;
+      feature.point = Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
+      feature.normal = Vector3d::UnitZ();
+      feature.gap = gap;
+      feature.friction = kFriction;
+      feature.id = 3 * i;
+      set.features.push_back(feature);
+    }
+    set.stale = false;
+  }
+};
+
+struct Bench
+{
+  Floor floor;
+  MixedStepper stepper;
+  State state;
+  PhaseTimer timer;
+
+  static Boundary freeBoundary(double height)
+  {
+    Boundary boundary;
+    boundary.introducer = false;
+    boundary.origin = Vector3d(0.0, 0.0, height);
+    return boundary;
+  }
+
+  static Environment gravity()
+  {
+    Environment environment;
+    environment.gravity = Vector3d(0.0, 0.0, -9.81);
+    return environment;
+  }
+
+  explicit Bench(double height)
+    : stepper(uniformWire(0.1, kEi, kRadius, 7900.0), discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), 21),
+              freeBoundary(height), gravity(), StepperSettings()),
+      state(stepper.initialState(0.0, 0.0))
+  {
+  }
+
+  void run(double dt, int steps)
+  {
+    for (int k = 0; k < steps; ++k)
+    {
+      std::uint32_t pass = 0;
+      StepInput input;
+      input.step = static_cast<std::uint64_t>(k);
+      ASSERT_TRUE(stepper.step(state, input, dt, pass, &floor, timer).solved);
+    }
+  }
+
+  double weight() const
+  {
+    double sum = 0.0;
+    for (const double mass : stepper.discretisation().mass)
+      sum += 9.81 * mass;
+    return sum;
+  }
+};
+
+TEST(NodalContacts, AFallenWireLiesOnTheFloorWhichCarriesItsWeight)
+{
+  Bench bench(2e-3);
+  bench.run(1e-3, 400);
+  Vector3d force = Vector3d::Zero();
+  for (std::size_t i = 0; i < bench.state.position.size(); ++i)
+  {
+    force += bench.state.wall_force[i];
+    EXPECT_GT(bench.state.position[i].z(), kRadius - 1e-6);
+    EXPECT_LT(bench.state.position[i].z(), kRadius + 1e-6);
+  }
+  EXPECT_NEAR(force.z(), bench.weight(), 1e-6 * bench.weight());
+}
+
+TEST(NodalContacts, AFastWireDoesNotTunnel)
+{
+  Bench bench(20e-3);
+  for (Vector3d& velocity : bench.state.velocity)
+    velocity = Vector3d(0.0, 0.0, -20.0);  // 20 mm per step
+  bench.run(1e-3, 50);
+  for (const Vector3d& position : bench.state.position)
+    EXPECT_GT(position.z(), kRadius - 1e-5);
+}
+
+TEST(NodalContacts, ASlidingWireIsBrakedByCoulombFriction)
+{
+  Bench bench(kRadius);
+  bench.run(1e-3, 50);
+  for (Vector3d& velocity : bench.state.velocity)
+    velocity = Vector3d(0.2, 0.1, 0.0);
+  const double before = bench.state.velocity[10].norm();
+  bench.run(1e-3, 40);
+  EXPECT_NEAR(bench.state.velocity[10].norm(), before - kFriction * 9.81 * 0.04, 1e-3);
+  bench.run(1e-3, 200);
+  EXPECT_LT(bench.state.velocity[10].norm(), 1e-4);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rod
