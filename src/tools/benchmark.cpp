@@ -80,9 +80,9 @@ std::vector<Section> speed(const StudyOptions& options, const Progress& progress
 
 constexpr Study kStudies[] = {{"accuracy", "Accuracy", accuracyStudy},
                               {"work-precision", "Work and precision", workPrecisionStudy},
-                              {"stability", "Stability", stabilityStudy},
                               {"speed", "Speed", speed},
-                              {"sampling", "Adaptive sampling", samplingSections}};
+                              {"sampling", "Adaptive sampling", samplingSections},
+                              {"stability", "Stability", stabilityStudy}};
 
 struct Options
 {
