@@ -16,19 +16,22 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sep
   return line;
 }
 
+/** Cells with commas between quotes, as CSV has them. */
+std::vector<std::string> quoted(std::vector<std::string> cells)
+{
+  for (std::string& cell : cells)
+    if (cell.find(',') != std::string::npos)
+      cell = '"' + cell + '"';
+  return cells;
+}
+
 }  // namespace
 
 std::string Table::csv() const
 {
-  std::string text = joined(columns_, ",") + "\n";
+  std::string text = joined(quoted(columns_), ",") + "\n";
   for (const std::vector<std::string>& row : rows_)
-  {
-    std::vector<std::string> cells = row;
-    for (std::string& cell : cells)
-      if (cell.find(',') != std::string::npos)
-        cell = '"' + cell + '"';
-    text += joined(cells, ",") + "\n";
-  }
+    text += joined(quoted(row), ",") + "\n";
   return text;
 }
 

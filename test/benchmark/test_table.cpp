@@ -11,10 +11,10 @@ namespace
 
 TEST(Table, WritesCommasInCellsBetweenQuotes)
 {
-  Table table({"a", "b"});
+  Table table({"a", "b, c"});
   table.add({"1", "x, y"});
-  EXPECT_EQ(table.csv(), "a,b\n1,\"x, y\"\n");
-  EXPECT_EQ(table.markdown(), "| a | b |\n|---|---|\n| 1 | x, y |\n");
+  EXPECT_EQ(table.csv(), "a,\"b, c\"\n1,\"x, y\"\n");
+  EXPECT_EQ(table.markdown(), "| a | b, c |\n|---|---|\n| 1 | x, y |\n");
 }
 
 TEST(Table, LeavesACellWithoutAValueEmpty)
