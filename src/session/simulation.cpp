@@ -4,10 +4,7 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "rod/kkt_stepper.h"
-#include "rod/mixed_stepper.h"
-#include "rod/paper_stepper.h"
-#include "vessel/centreline_curvature.h"
+#include "session/make_stepper.h"
 
 namespace endovascular_sim::session
 {
@@ -19,111 +16,6 @@ constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
-constexpr double kSamplingPeriod = 10e-3;        // s between two looks at the wire's shape
-
-rod::EndHold hold(EndCondition condition)
-{
-  switch (condition)
-  {
-    case EndCondition::kPinned:
-      return rod::EndHold::kPinned;
-    case EndCondition::kClamped:
-      return rod::EndHold::kClamped;
-    case EndCondition::kFree:
-      break;
-  }
-  return rod::EndHold::kFree;
-}
-
-rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
-{
-  rod::Boundary boundary;
-  boundary.introducer = scene.introducer;
-  boundary.origin = entry.position;
-  boundary.direction = entry.direction;
-  boundary.director = entry.d1;
-  boundary.guide_length = scene.solver.guide_length;
-  boundary.proximal = hold(scene.proximal_end);
-  boundary.distal = hold(scene.distal_end);
-  boundary.distal_twist_held = scene.distal.twist_held;
-  return boundary;
-}
-
-std::uint64_t stepsIn(double seconds, const Scene& scene)
-{
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds / scene.solver.time_step)));
-}
-
-std::unique_ptr<rod::AdaptiveSampling> makeSampling(const Scene& scene, const EntryPose& entry,
-                                                    const vessel::CentrelineTree* centreline)
-{
-  if (scene.sampling.kind != SamplingKind::kAdaptive)
-    return nullptr;
-  rod::SamplingSettings settings;
-  settings.min_edge = scene.sampling.min_edge;
-  settings.max_edge = scene.sampling.max_edge;
-  settings.turn_per_edge = scene.sampling.turn_per_edge;
-  settings.min_age = static_cast<int>(stepsIn(scene.sampling.min_age, scene) / stepsIn(kSamplingPeriod, scene));
-  rod::CurvatureAhead ahead;
-  if (centreline != nullptr && !centreline->branches.empty())
-    ahead = [curvature = vessel::CentrelineCurvature(*centreline)](const Eigen::Vector3d& place)
-    { return curvature.at(place); };
-  return std::make_unique<rod::AdaptiveSampling>(scene.instrument.wire, boundaryOf(scene, entry), settings, ahead);
-}
-
-bool isStill(const DriveProfile& profile)
-{
-  return profile.points.empty() && profile.amplitude == 0.0;
-}
-
-/** Only `kkt` moves a held far end, or holds its twist. */
-void checkFarEnd(const Scene& scene)
-{
-  const DistalScene& distal = scene.distal;
-  if (scene.solver.scheme == "kkt" ||
-      (!distal.twist_held && isStill(distal.displacement) && isStill(distal.tilt) && isStill(distal.rotation)))
-    return;
-  throw InputError(scene.file, "solver.scheme",
-                   "'" + scene.solver.scheme + "' does not move a far end or hold its twist; use kkt");
-}
-
-std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discretisation nodes,
-                                               const rod::Boundary& boundary, const rod::Environment& environment,
-                                               const rod::StepperSettings& settings)
-{
-  const rod::Wire& wire = scene.instrument.wire;
-  const auto refuse = [&scene](const std::string& why)
-  { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
-  for (const PointLoad& load : scene.loads.point_loads)
-    if (load.torque != 0.0 && scene.distal_end == EndCondition::kClamped)
-      refuse("a torque at a clamped tip");
-  return std::make_unique<rod::MixedStepper>(wire, std::move(nodes), boundary, environment, settings);
-}
-
-std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry,
-                                          const rod::AdaptiveSampling* sampling)
-{
-  checkFarEnd(scene);
-  rod::Environment environment;
-  environment.gravity = scene.loads.gravity;
-  environment.fluid_density = scene.loads.fluid_density;
-  environment.drag_coefficient = scene.loads.drag_coefficient;
-  environment.damping = scene.loads.damping;
-  rod::StepperSettings settings;
-  settings.linear_solver = scene.solver.linear_solver;
-  settings.max_solves = scene.solver.max_newton;
-  settings.strain_tolerance = scene.solver.strain_tolerance;
-  settings.contact_stiffness = scene.solver.contact_stiffness;
-  settings.contact_margin = scene.solver.contact_margin;
-  rod::Discretisation wire = sampling != nullptr
-                                 ? sampling->discretisation()
-                                 : rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes);
-  if (scene.solver.scheme == "paper")
-    return std::make_unique<rod::PaperStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
-  if (scene.solver.scheme == "mixed")
-    return makeMixedStepper(scene, std::move(wire), boundaryOf(scene, entry), environment, settings);
-  return std::make_unique<rod::KktStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
-}
 
 }  // namespace
 
@@ -133,7 +25,7 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
     contacts_(contacts),
     sampling_(makeSampling(scene, entry, centreline)),
-    sampling_every_(stepsIn(kSamplingPeriod, scene)),
+    sampling_every_(samplingInterval(scene)),
     stepper_(makeStepper(scene, entry, sampling_.get()))
 {
   if (sampling_ && !stepper_->resample(sampling_->discretisation()))
