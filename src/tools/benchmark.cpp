@@ -171,7 +171,7 @@ constexpr auto kLimits = R"(## Limits
   nodal and distributed loads, rest curvature in the plane of bending and joints of sections at nodes; where a pre-curved wire
   twists out of its plane it is of second order, with errors some hundred times below those of `kkt`.
 - `mixed` has contact by its nodes: chords touch the wall, not arcs, so a bent wall needs edges as short as those of `kkt`
-  and each costs twice as much; it keeps its nodes (no adaptive sampling). So `kkt` stays the default; `mixed` wins wherever
+  and each costs three times as much; it keeps its nodes (no adaptive sampling). So `kkt` stays the default; `mixed` wins wherever
   loads act at nodes and shapes are smooth.
 - Backward Euler is of first order in time and takes energy from fast modes. Twist is quasi-static.
 - `paper` has no trust region: a wall stops it only by depth, and at steps of 1 ms a stiff wire leaves through it.
