@@ -225,8 +225,9 @@ Propagation swing(const std::string& scheme, int nodes, double turn, double& fre
   wire.time_step = turn / frequency;
   BenchRun run(sceneText(wire));
   rod::State state = run.simulation().state();
-  for (Eigen::Vector3d& x : state.position)
-    x.y() = 1e-5 * wire.length * firstMode(std::max(0.0, x.x() / wire.length));
+  const std::size_t first_free = scheme == "mixed" ? 1 : 2;
+  for (std::size_t i = first_free; i < state.position.size(); ++i)
+    state.position[i].y() = 1e-5 * wire.length * firstMode(state.position[i].x() / wire.length);
   run.simulation().setState(state);
   constexpr int kSteps = 160;
   std::vector<double> amplitude;
