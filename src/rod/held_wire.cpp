@@ -24,7 +24,6 @@ bool HeldWire::isPrescribed(int node, const State& state) const
          (boundary_.distal == EndHold::kClamped && node == last - 1);
 }
 
-/** With an introducer, the last but one of the prescribed nodes: two of them hold position and direction. */
 int HeldWire::firstSimulatedNode(double inserted_length) const
 {
   int first = 0;

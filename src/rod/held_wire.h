@@ -43,10 +43,13 @@ public:
   /** The nodes of the query: those beyond the introducer's mouth. */
   void describe(const State& state, contact::Query& query) const;
 
-private:
+  /** Where and how the twist is held, the far end left free. */
   TwistBoundary twistBoundary(const State& state, double tip_torque) const;
+
+  /** With an introducer, the last but one of the prescribed nodes: two of them hold position and direction. */
   int firstSimulatedNode(double inserted_length) const;
 
+private:
   const Discretisation& rod_;
   const Boundary& boundary_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod/bending.h"
+#include "rod/held_wire.h"
 
 namespace endovascular_sim::rod
 {
@@ -42,30 +42,15 @@ KktStepper::KktStepper(Discretisation rod, Boundary boundary, Environment enviro
 
 double KktStepper::bodyPosition(int node, double inserted_length) const
 {
-  return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
+  return HeldWire(rod_, boundary_).bodyPosition(node, inserted_length);
 }
 
 State KktStepper::initialState(double inserted_length, double rotation) const
 {
-  State state;
-  const auto n = static_cast<std::size_t>(rod_.nodes());
-  state.inserted_length = inserted_length;
-  state.rotation = rotation;
-  state.position.resize(n);
-  state.velocity.assign(n, Eigen::Vector3d::Zero());
-  state.tension.assign(n - 1, 0.0);
-  state.twist_angle.assign(n - 1, rotation);
-  state.wall_force.assign(n, Eigen::Vector3d::Zero());
-  state.friction_coefficient.assign(n, 0.0);
-  for (int i = 0; i < rod_.nodes(); ++i)
-    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
-  if (boundary_.introducer)
-    while (state.first_node + 3 < rod_.nodes() &&
-           bodyPosition(state.first_node + 2, inserted_length) < -boundary_.guide_length)
-      ++state.first_node;
+  State state = HeldWire(rod_, boundary_).initialState(inserted_length, rotation);
   const Eigen::Vector3d& last = state.position.back();
-  state.distal_anchor =
-      boundary_.distal == EndHold::kClamped ? Eigen::Vector3d(0.5 * (last + state.position[n - 2])) : last;
+  const Eigen::Vector3d& before = state.position[state.position.size() - 2];
+  state.distal_anchor = boundary_.distal == EndHold::kClamped ? Eigen::Vector3d(0.5 * (last + before)) : last;
   return state;
 }
 
@@ -85,11 +70,8 @@ void KktStepper::placePrescribedNodes(State& state, double inserted_length, doub
   state.inserted_length = inserted_length;
   if (boundary_.introducer)
   {
-    int first = 0;
-    while (first + 3 < rod_.nodes() && bodyPosition(first + 2, inserted_length) < -boundary_.guide_length)
-      ++first;
-    state.first_node = first;
-    for (int i = first; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
+    state.first_node = HeldWire(rod_, boundary_).firstSimulatedNode(inserted_length);
+    for (int i = state.first_node; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
     {
       if (isDistalHeld(i))
         break;
@@ -104,13 +86,7 @@ void KktStepper::placePrescribedNodes(State& state, double inserted_length, doub
 
 TwistBoundary KktStepper::twistBoundary(const State& state, const StepInput& input) const
 {
-  TwistBoundary twist;
-  twist.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
-  twist.tangent = boundary_.direction;
-  twist.director = boundary_.director;
-  twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.5 * rod_.rest_length[0];
-  twist.rotation = state.rotation;
-  twist.tip_torque = input.tip_torque;
+  TwistBoundary twist = HeldWire(rod_, boundary_).twistBoundary(state, input.tip_torque);
   twist.edge_torque = &input.edge_torque;
   twist.tip_held = boundary_.distal == EndHold::kClamped && boundary_.distal_twist_held;
   twist.tip_director = distalRotation(state) * boundary_.director;
@@ -506,28 +482,11 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
 
 Energy KktStepper::energy(const State& state)
 {
-  Energy energy;
   State relaxed = state;
   PhaseTimer unused;
   timer_ = &unused;
-  first_ = state.first_node;
   relaxTwist(relaxed, last_input_);
-  energy.twist = twist_active_ ? twist_.energy() : 0.0;
-  for (int i = first_ + 1; i + 1 < rod_.nodes(); ++i)
-  {
-    const CurvatureBinormal kb(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                               rod_.rest_length[i - 1] * rod_.rest_length[i]);
-    double strain = kb.value.squaredNorm();
-    if (twist_active_ && i >= twist_.firstCurved())
-      strain += rod_.rest_curvature[i].squaredNorm() - 2.0 * kb.value.dot(twist_.restCurvatureBinormal(i));
-    energy.bending += 0.5 * rod_.bending_stiffness[i] / rod_.cell_length[i] * strain;
-  }
-  for (int j = first_; j + 1 < rod_.nodes(); ++j)
-  {
-    const double strain = (state.position[j + 1] - state.position[j]).norm() / rod_.rest_length[j] - 1.0;
-    energy.stretch += 0.5 * rod_.axial_stiffness[j] * strain * strain * rod_.rest_length[j];
-  }
-  return energy;
+  return elasticEnergy(rod_, state, twist_active_ ? &twist_ : nullptr);
 }
 
 std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const StepInput& input)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod/held_wire.h"
 #include "rod/kkt_stepper.h"
 
 // The part of the scheme that deals with contact: active set, trust region, lagged wall forces, asking for contact
@@ -264,12 +265,7 @@ void KktStepper::ask(const State& state, bool want_free_distance, contact::Conta
   query_.pass = *pass_;
   query_.want_free_distance = want_free_distance;
   query_.margin = settings_.contact_margin;
-  query_.first_node = first_;
-  while (query_.first_node < rod_.nodes() && boundary_.introducer &&
-         bodyPosition(query_.first_node, state.inserted_length) < 0.0)
-    ++query_.first_node;
-  query_.nodes.assign(state.position.begin() + query_.first_node, state.position.end());
-  query_.radius.assign(rod_.radius.begin() + query_.first_node, rod_.radius.end());
+  HeldWire(rod_, boundary_).describe(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)
