@@ -156,7 +156,7 @@ def draw_sampling(folder):
         return
     figure, axes = panels(len(cases))
     for axis, ((case,), rows) in zip(axes, cases.items()):
-        for row in rows:
+        for row in rows[1:]:  # the first one is the reference itself
             curve(axis, [row], 'µs per step', 'RMS distance [mm]', marker='*' if 'adaptive' in row['sampling'] else 'o',
                   linestyle='', markersize=13 if 'adaptive' in row['sampling'] else 7, label=row['sampling'])
         finish(axis, case, 'µs per step', 'RMS distance to uniform 0.125 mm [mm]')
