@@ -39,16 +39,17 @@ BenchRun::BenchRun(const std::string& scene_text, const std::vector<std::string>
   : scene_(session::parseScene(scene_text, "benchmark", overrides))
 {
   session::EntryPose entry;
+  vessel::Vessel vessel;
   if (scene_.vessel)
   {
-    const vessel::Vessel vessel = session::buildVessel(*scene_.vessel, scene_.entry, scene_.file);
+    vessel = session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::centrelineUse(scene_));
     entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
     wall_ = std::make_unique<contact::Detector>(vessel.mesh,
                                                 contact::WallLaw{scene_.vessel->stiffness, scene_.vessel->friction});
   }
   else
     entry = session::resolveEntry(scene_.entry, scene_.file);
-  simulation_ = std::make_unique<session::Simulation>(scene_, entry, wall_.get());
+  simulation_ = std::make_unique<session::Simulation>(scene_, entry, wall_.get(), &vessel.centreline);
   forgetEnergy();
 }
 

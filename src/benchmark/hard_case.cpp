@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr double kTravel = 0.06;          // m of the channel that the wire is pushed through
+constexpr double kHandTurn = 59.0;        // rad/s, just below the fastest hand
 constexpr double kMaxStrain = 1e-3;       // what still counts as good
 constexpr double kMaxPenetration = 1e-4;  // m
 constexpr double kEnergyShare = 0.02;     // of the largest energy: what the trapezoidal work may miss
@@ -26,9 +27,13 @@ double channelRadius(const HardCase& hard)
   return std::clamp(0.1 * hard.bend_radius, 0.8e-3, 3e-3);
 }
 
+/** Time for the way and for the turns; @p max_steps cuts it short. */
 double duration(const HardCase& hard, int max_steps)
 {
-  return std::min(max_steps * hard.time_step, std::max(20.0 * hard.time_step, kTravel / std::max(hard.speed, 1e-9)));
+  const double way = kTravel / std::max(hard.speed, 1e-9);
+  const double turning = 2.0 * M_PI * hard.turns / kHandTurn;
+  const double whole = std::max({20.0 * hard.time_step, way, turning});
+  return hard.whole ? whole : std::min(max_steps * hard.time_step, whole);
 }
 
 void writeWire(std::ostream& out, const HardCase& hard, double radius)
@@ -149,7 +154,11 @@ Verdict judge(const HardCase& hard, int max_steps)
     BenchRun run(sceneText(hard));
     const double time = duration(hard, max_steps);
     if (hard.disturbance == 0.0 && hard.nearly_folded == 0.0)
-      return verdictOf(run.advance(time));
+    {
+      Verdict verdict = verdictOf(run.advance(time));
+      verdict.turned = run.simulation().state().rotation / (2.0 * M_PI);
+      return verdict;
+    }
     run.advance(0.5 * time);
     disturb(run.simulation(), hard);
     run.forgetEnergy();

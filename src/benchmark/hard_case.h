@@ -20,14 +20,15 @@ struct HardCase
   double tip_radius = 0.012;          ///< of the J [m]; 0: straight
   int nodes = 150;
   std::string sampling;      ///< YAML that replaces the uniform nodes; empty: uniform
+  bool whole = false;        ///< runs until the way and the turns are done, whatever the limit of steps
   bool reverses = false;     ///< pushes, then pulls at once, then pushes
   double disturbance = 0.0;  ///< by which every node is moved once, at random [m]
   double nearly_folded =
       0.0;  ///< angle that is left between two neighbouring edges folded onto each other [rad]; 0: none
 };
 
-/** Scene text of the case. The channel's radius is a tenth of the bend's, within 0.8 and 3 mm; the wire's is a third.
- */
+/** Scene text of the case. The channel's radius is a tenth of the bend's, within 0.8 and 3 mm; the wire's is a third of
+ *  it, at most 0.4 mm. */
 std::string sceneText(const HardCase& hard);
 
 /** What became of a case. */
@@ -43,6 +44,7 @@ struct Verdict
   int truncated = 0;
   int refused = 0;
   int steps = 0;
+  double turned = 0.0;  ///< turns of the handle that were reached
 };
 
 /** Runs a case for at most @p max_steps and judges it: no NaN, strain ≤ 1e-3, penetration ≤ 0.1 mm, nothing outside,

@@ -117,7 +117,9 @@ Section paperTable(const StudyOptions& options, const Progress& progress)
   section.text =
       "All in µs, medians, one core; the wire lies in a channel with two bends, pushed and turned, all nodes in the "
       "solver. "
-      "The paper's phases were measured on its own machine (2.93 GHz) and do not add up to its totals, so they are "
+      "The paper's phases were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not add up to its totals, "
+      "so they "
+      "are "
       "compared phase "
       "by phase; inextensibility is part of `kkt`'s solve, and of `paper`'s it is the projection. The whole frame is "
       "one step, the "

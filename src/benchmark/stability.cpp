@@ -15,8 +15,8 @@ namespace
 {
 
 const std::vector<std::string> kColumns = {
-    "case",          "scheme", "verdict",         "reason", "strain",    "penetration [mm]",
-    "energy excess", "steps",  "solves per step", "halved", "cut short", "refused"};
+    "case",  "scheme", "verdict",         "reason", "strain",    "penetration [mm]", "energy excess",
+    "steps", "turned", "solves per step", "halved", "cut short", "refused"};
 const std::vector<std::string> kCompared = {"kkt", "paper"};
 constexpr int kSampleSteps = 600;  // at most, of a sample of the hypercube
 
@@ -24,8 +24,8 @@ void addRow(Table& table, const HardCase& hard, const Verdict& verdict)
 {
   table.add({hard.label, hard.scheme, verdict.word, verdict.reason, number(verdict.max_strain),
              number(1e3 * verdict.penetration), number(std::max(0.0, verdict.energy_excess), 2),
-             std::to_string(verdict.steps), number(verdict.solves), std::to_string(verdict.halved),
-             std::to_string(verdict.truncated), std::to_string(verdict.refused)});
+             std::to_string(verdict.steps), number(verdict.turned, 2), number(verdict.solves),
+             std::to_string(verdict.halved), std::to_string(verdict.truncated), std::to_string(verdict.refused)});
 }
 
 template <typename Value, typename Set>
@@ -50,7 +50,12 @@ std::vector<HardCase> oneAtATime(bool quick)
   vary<double>(cases, "Δt", "ms", 1e3, {5e-5, 5e-4, 2e-3, 5e-3, 1e-2, 2e-2},
                [](HardCase& h, double v) { h.time_step = v; });
   vary<double>(cases, "speed", "mm/s", 1e3, {1e-3, 0.1, 0.5}, [](HardCase& h, double v) { h.speed = v; });
-  vary<double>(cases, "twist", "turns", 1.0, {5.0, 20.0, 100.0}, [](HardCase& h, double v) { h.turns = v; });
+  vary<double>(cases, "twist", "turns", 1.0, {5.0, 20.0, 100.0},
+               [](HardCase& h, double v)
+               {
+                 h.turns = v;
+                 h.whole = true;
+               });
   vary<double>(cases, "bend of radius", "mm", 1e3, {2e-3, 5e-3, 1e-2},
                [](HardCase& h, double v)
                {
