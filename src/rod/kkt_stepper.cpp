@@ -169,6 +169,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   state.rotation = input.rotation;
   if (source_ && (!contacts_valid_ || contacts_.stale))
     detect(state, report);
+  settleOffsets(state);
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     relaxTwist(state, input);
@@ -195,6 +196,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       return false;
   }
   finish(state, dt);
+  fadeOffsets(state, dt);
   return true;
 }
 
@@ -282,16 +284,20 @@ BendingPairInput KktStepper::bendingInput(int first, int second, const State& st
   in.rest_product = before * after;
   in.weight = dt * dt * Pair{rod_.bending_stiffness[first], rod_.bending_stiffness[second]} /
               Pair{rod_.cell_length[first], rod_.cell_length[second]};
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  Eigen::Vector3d first_rest = state.curvature_offset[first];
+  Eigen::Vector3d second_rest = state.curvature_offset[second];
   if (!twist_active_)
   {
-    in.rest = PairVector::of(none, none);
+    in.rest = PairVector::of(first_rest, second_rest);
     in.torque_before = in.torque_after = Pair{0.0, 0.0};
     return in;
   }
   const int curved = twist_.firstCurved();
-  in.rest = PairVector::of(first >= curved ? twist_.restCurvatureBinormal(first) : none,
-                           second >= curved ? twist_.restCurvatureBinormal(second) : none);
+  if (first >= curved)
+    first_rest += twist_.restCurvatureBinormal(first);
+  if (second >= curved)
+    second_rest += twist_.restCurvatureBinormal(second);
+  in.rest = PairVector::of(first_rest, second_rest);
   // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
   const Pair torque = 0.5 * dt * dt * Pair{twist_.torque(first), twist_.torque(second)};
   in.torque_before = torque / before;

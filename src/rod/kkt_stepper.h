@@ -42,11 +42,21 @@ private:
   /** A contact as the solver uses it. */
   struct ActiveContact
   {
-    int node;        ///< the edge's first node
-    double weight0;  ///< share of that node
-    double weight1;  ///< share of the next one
-    double stiffness;
-    bool active;
+    int node = 0;            ///< the edge's first node
+    double weight0 = 0.0;    ///< share of that node
+    double weight1 = 0.0;    ///< share of the next one
+    double stiffness = 0.0;  ///< [N/m]
+    double gap = 0.0;        ///< that the wall's law sees [m]
+    double force = 0.0;      ///< after an accepted solve [N]
+    bool active = false;
+  };
+
+  /** What a contact did before the nodes changed. */
+  struct CarriedContact
+  {
+    std::int64_t id;  ///< of the feature
+    double place;     ///< along the wire [m]
+    double force;     ///< [N]
   };
 
   bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
@@ -82,6 +92,12 @@ private:
   void updateEndForces(State& state, double dt) const;
   Eigen::Vector3d forceOnHold(int node, double dt) const;
   void updateWallForces(State& state);
+  ActiveContact springOf(const contact::Feature& feature) const;
+  void carryContacts();
+  void settleOffsets(State& state);
+  void settleOffset(const contact::Feature& feature, std::vector<double>& offset) const;
+  double carriedForce(const contact::Feature& feature) const;
+  void fadeOffsets(State& state, double dt);
   double foldTruncation(const State& state, double factor) const;
   double freeDistanceTruncation(const State& state, StepReport& report);
   double staleTruncation();
@@ -114,6 +130,9 @@ private:
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
   bool contacts_valid_ = false;
   std::vector<ActiveContact> active_, previous_active_;
+  std::vector<CarriedContact> carried_;  ///< from a change of nodes to the next step
+  std::vector<bool> fresh_;              ///< nodes whose edges have changed
+  bool fading_ = true;                   ///< the state may have offsets
   contact::Query query_;
   contact::ContactSource* source_ = nullptr;
   PhaseTimer* timer_ = nullptr;

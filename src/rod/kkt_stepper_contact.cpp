@@ -17,7 +17,13 @@ constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that 
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
-constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kLargestOffset = 50e-6;  // m
+constexpr int kOffsetSweeps = 30;
+constexpr double kSlightWeight = 0.01;  // squared, of fresh nodes in a contact that then does not ask for an offset
+constexpr double kOffsetTime = 10e-3;   // s in which an offset fades to 1/e
+constexpr double kNoOffset = 1e-10;     // m
+constexpr double kNoTurn = 1e-9;        // rad
+constexpr double kShift = 10.0;         // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
 
@@ -51,7 +57,7 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
 void KktStepper::addContact(const contact::Feature& feature, const ActiveContact& contact, double dt)
 {
   const double stiffness = dt * dt * contact.stiffness;
-  const double push = -stiffness * feature.gap;
+  const double push = -stiffness * contact.gap;
   const int r0 = row(contact.node);
   const int r1 = contact.weight1 > 0.0 ? row(contact.node + 1) : r0;
   for (int col = 0; col < 3; ++col)
@@ -87,7 +93,7 @@ bool KktStepper::updateActiveSet(int active_pass)
   bool changed = false;
   for (std::size_t c = 0; c < active_.size(); ++c)
   {
-    const bool active = contacts_.features[c].gap + contactMotion(c) < 0.0;
+    const bool active = active_[c].gap + contactMotion(c) < 0.0;
     if (active == active_[c].active || (!active && active_pass >= kOnlyAddFromPass))
       continue;
     active_[c].active = active;
@@ -96,26 +102,111 @@ bool KktStepper::updateActiveSet(int active_pass)
   return changed;
 }
 
+KktStepper::ActiveContact KktStepper::springOf(const contact::Feature& feature) const
+{
+  ActiveContact contact;
+  contact.node = feature.edge;
+  contact.weight0 = 1.0 - feature.parameter;
+  contact.weight1 = feature.parameter;
+  contact.stiffness = settings_.contact_stiffness;
+  contact.gap = feature.gap;
+  if (contact.weight0 <= 0.0 && contact.node + 2 < rod_.nodes())
+  {
+    ++contact.node;
+    std::swap(contact.weight0, contact.weight1);
+  }
+  const int second = std::min(contact.node + 1, rod_.nodes() - 1);
+  if (std::isfinite(feature.stiffness))
+    contact.stiffness = feature.stiffness *
+                        (contact.weight0 * rod_.cell_length[contact.node] + contact.weight1 * rod_.cell_length[second]);
+  return contact;
+}
+
 void KktStepper::prepareContacts(const State& state, double dt)
 {
   active_.clear();
   for (const contact::Feature& feature : contacts_.features)
   {
-    ActiveContact contact{feature.edge, 1.0 - feature.parameter, feature.parameter, settings_.contact_stiffness, false};
-    if (contact.weight0 <= 0.0 && contact.node + 2 < rod_.nodes())
-    {
-      ++contact.node;
-      std::swap(contact.weight0, contact.weight1);
-    }
+    ActiveContact contact = springOf(feature);
     const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-    if (std::isfinite(feature.stiffness))
-      contact.stiffness = feature.stiffness * (contact.weight0 * rod_.cell_length[contact.node] +
-                                               contact.weight1 * rod_.cell_length[second]);
     const Eigen::Vector3d velocity =
         contact.weight0 * state.velocity[contact.node] + contact.weight1 * state.velocity[second];
-    contact.active = feature.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
+    contact.gap += contact.weight0 * state.wall_offset[contact.node] + contact.weight1 * state.wall_offset[second];
+    contact.active = contact.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     active_.push_back(contact);
   }
+}
+
+/** After a change of nodes: contacts go on with the forces that they had. A node that was put between two others would
+ *  else be pushed at once by the wall that the arc, but not the chord, reaches into. */
+void KktStepper::settleOffsets(State& state)
+{
+  fresh_.assign(state.wall_offset.size(), false);
+  bool changed = false;
+  for (int i = first_; i < rod_.nodes(); ++i)
+    if (std::isnan(state.wall_offset[i]))
+    {
+      changed = fresh_[i] = true;
+      state.wall_offset[i] = 0.0;
+    }
+  for (int sweep = 0; changed && sweep < kOffsetSweeps; ++sweep)
+    for (const contact::Feature& feature : contacts_.features)
+      settleOffset(feature, state.wall_offset);
+  carried_.clear();
+}
+
+/** Moves the offsets of the fresh nodes at a contact to where it pushes with the force that it had, or, if it had none,
+ *  no more (Kaczmarz's method: two contacts may share their nodes). */
+void KktStepper::settleOffset(const contact::Feature& feature, std::vector<double>& offset) const
+{
+  const ActiveContact contact = springOf(feature);
+  const int second = std::min(contact.node + 1, rod_.nodes() - 1);
+  const double weight0 = fresh_[contact.node] ? contact.weight0 : 0.0;
+  const double weight1 = fresh_[second] ? contact.weight1 : 0.0;
+  const double weight = weight0 * weight0 + weight1 * weight1;
+  if (weight < kSlightWeight)
+    return;
+  const double force = carriedForce(feature);
+  const double missing = -feature.gap - force / contact.stiffness - contact.weight0 * offset[contact.node] -
+                         contact.weight1 * offset[second];
+  if (force <= 0.0 && missing <= 0.0)
+    return;
+  const auto move = [&](int node, double share)
+  { offset[node] = std::max(-kLargestOffset, std::min(kLargestOffset, offset[node] + share * missing)); };
+  move(contact.node, weight0 / weight);
+  move(second, weight1 / weight);
+}
+
+/** Force that a contact had before the change of nodes; 0 when it is new [N]. */
+double KktStepper::carriedForce(const contact::Feature& feature) const
+{
+  const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
+  double force = 0.0;
+  double nearest = 0.5 * rod_.rest_length[feature.edge];
+  for (const CarriedContact& carried : carried_)
+  {
+    const double distance = std::abs(carried.place - place);
+    if (carried.id != feature.id || distance >= nearest)
+      continue;
+    nearest = distance;
+    force = carried.force;
+  }
+  return force;
+}
+
+/** Lets the offsets of contacts and moments fade, so that the wire settles to its new nodes unnoticed. */
+void KktStepper::fadeOffsets(State& state, double dt)
+{
+  if (!fading_)
+    return;
+  fading_ = false;
+  const double left = std::exp(-dt / kOffsetTime);
+  for (double& offset : state.wall_offset)
+    offset = std::abs(offset) < kNoOffset ? 0.0 : left * offset;
+  for (Eigen::Vector3d& offset : state.curvature_offset)
+    offset *= offset.squaredNorm() < kNoTurn * kNoTurn ? 0.0 : left;
+  for (std::size_t i = 0; i < state.wall_offset.size() && !fading_; ++i)
+    fading_ = state.wall_offset[i] != 0.0 || !state.curvature_offset[i].isZero(0.0);
 }
 
 double KktStepper::truncation(const State& state, StepReport& report)
@@ -220,8 +311,9 @@ void KktStepper::updateWallForces(State& state)
   for (std::size_t c = 0; c < active_.size(); ++c)
   {
     const contact::Feature& feature = contacts_.features[c];
-    const double force = -active_[c].stiffness * (feature.gap + contactMotion(c));
-    if (!active_[c].active || force <= 0.0)
+    const double force = -active_[c].stiffness * (active_[c].gap + contactMotion(c));
+    active_[c].force = active_[c].active ? std::max(0.0, force) : 0.0;
+    if (active_[c].force <= 0.0)
       continue;
     for (int side = 0; side < 2; ++side)
     {
@@ -289,8 +381,23 @@ bool KktStepper::resample(const Discretisation& rod)
     else
       moveToSampling(feature, rod);
   contacts_valid_ = contacts_valid_ && same;
+  carryContacts();
+  fading_ = true;
   rod_ = rod;
   return true;
+}
+
+/** Keeps what the last step's contacts pushed with, by their places along the wire. */
+void KktStepper::carryContacts()
+{
+  carried_.clear();
+  for (std::size_t c = 0; c < previous_active_.size(); ++c)
+  {
+    const contact::Feature& feature = previous_contacts_.features[c];
+    if (previous_active_[c].force > 0.0)
+      carried_.push_back({feature.id, rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge],
+                          previous_active_[c].force});
+  }
 }
 
 /** A contact stays at its place along the wire: it serves where the next set comes too late. */

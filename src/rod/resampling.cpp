@@ -1,7 +1,10 @@
 #include "rod/resampling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+
+#include "rod/bending.h"
 
 namespace endovascular_sim::rod
 {
@@ -16,6 +19,14 @@ Eigen::Vector3d curvatureVector(const Discretisation& rod, const State& state, i
   const std::vector<Eigen::Vector3d>& x = state.position;
   return ((x[node + 1] - x[node]) / rod.rest_length[node] - (x[node] - x[node - 1]) / rod.rest_length[node - 1]) /
          rod.cell_length[node];
+}
+
+/** True when the edges at a node have not changed. */
+bool sameEdges(const Discretisation& from, int node, const Discretisation& to, int new_node)
+{
+  const auto edge = [](const Discretisation& rod, int j)
+  { return j >= 0 && j + 1 < rod.nodes() ? rod.rest_length[j] : 0.0; };
+  return edge(from, node - 1) == edge(to, new_node - 1) && edge(from, node) == edge(to, new_node);
 }
 
 /** Middle of the arc over an edge. */
@@ -102,10 +113,13 @@ void Resampling::carry(const Wire& wire, const Discretisation& from, const Discr
   next_.velocity.resize(n);
   next_.wall_force.resize(n);
   next_.friction_coefficient.resize(n);
+  next_.wall_offset.assign(n, std::nan(""));
+  next_.curvature_offset.assign(n, Eigen::Vector3d::Zero());
   next_.tension.resize(n - 1);
   next_.twist_angle.resize(n - 1);
   carryEdges(from, state);
   carryNodes(from, to, state);
+  carryMoments(from, to, state);
   std::swap(state, next_);
 }
 
@@ -141,14 +155,44 @@ void Resampling::carryNodes(const Discretisation& from, const Discretisation& to
       continue;
     next_.position[k] = state.position[i];
     next_.velocity[k] = state.velocity[i];
-    next_.wall_force[k] = state.wall_force[i] * (to.cell_length[k] / from.cell_length[i]);
+    next_.wall_force[k] = state.wall_force[i];
+    if (sameEdges(from, i, to, k))
+      next_.wall_offset[k] = state.wall_offset[i];
     next_.friction_coefficient[k] = state.friction_coefficient[i];
   }
   for (const Change& change : changes_)
     if (change.split)
       insert(change, from, state);
     else
-      remove(change, from, to, state);
+      remove(change, to, state);
+}
+
+/** A node goes on with the moment that it had, a new one with the mean of its neighbours. */
+void Resampling::carryMoments(const Discretisation& from, const Discretisation& to, const State& state)
+{
+  const auto binormal = [](const Discretisation& rod, const State& of, int node) -> Eigen::Vector3d
+  {
+    if (node <= of.first_node || node + 1 >= rod.nodes())
+      return Eigen::Vector3d::Zero();
+    return CurvatureBinormal(of.position[node] - of.position[node - 1], of.position[node + 1] - of.position[node],
+                             rod.rest_length[node - 1] * rod.rest_length[node])
+        .value;
+  };
+  const auto curvature = [&](int node) -> Eigen::Vector3d
+  { return (binormal(from, state, node) - state.curvature_offset[node]) / from.cell_length[node]; };
+  const auto setCurvature = [&](int node, const Eigen::Vector3d& value)
+  { next_.curvature_offset[node] = binormal(to, next_, node) - to.cell_length[node] * value; };
+  for (int i = 0; i < from.nodes(); ++i)
+    if (new_node_[i] >= 0)
+    {
+      if (sameEdges(from, i, to, new_node_[i]))
+        next_.curvature_offset[new_node_[i]] = state.curvature_offset[i];
+      else
+        setCurvature(new_node_[i], curvature(i));
+    }
+  for (const Change& change : changes_)
+    if (change.split)
+      setCurvature(change.fine, 0.5 * (curvature(change.coarse) + curvature(change.coarse + 1)));
 }
 
 void Resampling::insert(const Change& change, const Discretisation& from, const State& state)
@@ -158,14 +202,11 @@ void Resampling::insert(const Change& change, const Discretisation& from, const 
   next_.position[k] = arcMiddle(from, state, a);
   next_.velocity[k] = (change.mass_before * state.velocity[a] + change.mass_after * state.velocity[a + 1]) /
                       (change.mass_before + change.mass_after);
-  const Eigen::Vector3d before = (change.cell_before / from.cell_length[a]) * state.wall_force[a];
-  const Eigen::Vector3d after = (change.cell_after / from.cell_length[a + 1]) * state.wall_force[a + 1];
-  next_.wall_force[k] = before + after;
-  next_.friction_coefficient[k] =
-      before.squaredNorm() > after.squaredNorm() ? state.friction_coefficient[a] : state.friction_coefficient[a + 1];
+  next_.wall_force[k].setZero();
+  next_.friction_coefficient[k] = std::max(state.friction_coefficient[a], state.friction_coefficient[a + 1]);
 }
 
-void Resampling::remove(const Change& change, const Discretisation& from, const Discretisation& to, const State& state)
+void Resampling::remove(const Change& change, const Discretisation& to, const State& state)
 {
   const int gone = change.fine;
   const int k = change.coarse;
@@ -173,14 +214,11 @@ void Resampling::remove(const Change& change, const Discretisation& from, const 
   const Eigen::Vector3d mean =
       (change.mass_before * state.velocity[gone - 1] + change.mass_after * state.velocity[gone + 1]) / mass;
   const Eigen::Vector3d kick = mass / (to.mass[k] + to.mass[k + 1]) * (state.velocity[gone] - mean);
-  const Eigen::Vector3d mean_force = (change.cell_before / from.cell_length[gone - 1]) * state.wall_force[gone - 1] +
-                                     (change.cell_after / from.cell_length[gone + 1]) * state.wall_force[gone + 1];
-  const Eigen::Vector3d beyond = (state.wall_force[gone] - mean_force) / (to.cell_length[k] + to.cell_length[k + 1]);
   for (int side = 0; side < 2; ++side)
   {
     const bool was_free = state.wall_force[gone - 1 + 2 * side].isZero(0.0);
     next_.velocity[k + side] += kick;
-    next_.wall_force[k + side] += to.cell_length[k + side] * beyond;
+    next_.wall_force[k + side] += 0.5 * state.wall_force[gone];
     if (was_free)
       next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
   }

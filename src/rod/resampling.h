@@ -17,7 +17,9 @@ namespace endovascular_sim::rod
  *  - Linear momentum is conserved. A new node moves with the mean of its neighbours, each weighted with the mass it
  *    gives; a node that goes gives that mean back and shares what its momentum had beyond it. Splitting loses the
  *    kinetic energy of the mean, ½ m_a m_b/(m_a + m_b) |v_a − v_b|² of the masses given; merging returns no more.
- *  - The wall's force is treated likewise as a force per length, so that its sum is conserved.
+ *  - Nodes keep their moments and the wall's forces; a new one gets the mean moment of its neighbours and no force, one
+ *    that goes gives them half of its force each. What the new shape asks for beyond that is set as offsets of the
+ *    curvature and, by the stepper that knows the contacts, of the gaps: they fade over some steps.
  *  - Tension is that of the edge, twist is interpolated; merging takes the mean. */
 class Resampling
 {
@@ -44,7 +46,8 @@ private:
   void carryEdges(const Discretisation& from, const State& state);
   void carryNodes(const Discretisation& from, const Discretisation& to, const State& state);
   void insert(const Change& change, const Discretisation& from, const State& state);
-  void remove(const Change& change, const Discretisation& from, const Discretisation& to, const State& state);
+  void remove(const Change& change, const Discretisation& to, const State& state);
+  void carryMoments(const Discretisation& from, const Discretisation& to, const State& state);
 
   State next_;
   std::vector<Change> changes_;

@@ -35,8 +35,13 @@ struct State
   std::vector<double> twist_angle;           ///< material frame against Bishop frame [rad], n−1
   std::vector<Eigen::Vector3d> wall_force;   ///< normal force of the wall on each node [N], n
   std::vector<double> friction_coefficient;  ///< of the contact that pushes on each node, n
-  double hand_force = 0.0;                   ///< axial force of the wire on the hand, positive when it pushes back [N]
-  double hand_torque = 0.0;                  ///< torque that the hand holds about the wire's axis [N·m]
+  /** By how much each node's contacts count as further from the wall than they are [m], n: a change of nodes must not
+   *  change forces. It fades. Not a number where the nodes have changed since the last step. */
+  std::vector<double> wall_offset;
+  /** Curvature binormal in space that does not bend back at each node [1], n: as above, for moments. */
+  std::vector<Eigen::Vector3d> curvature_offset;
+  double hand_force = 0.0;   ///< axial force of the wire on the hand, positive when it pushes back [N]
+  double hand_torque = 0.0;  ///< torque that the hand holds about the wire's axis [N·m]
 
   EndMotion distal;            ///< where the held distal end is
   double tip_transport = 0.0;  ///< angle from the Bishop frame to a held tip's director, over full turns [rad]

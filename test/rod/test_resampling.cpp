@@ -63,6 +63,8 @@ State wildState(const Discretisation& rod)
     state.wall_force.push_back(i % 4 == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                           : Eigen::Vector3d(0.1 * std::sin(200.0 * s), 0.05, 0.3 * s));
     state.friction_coefficient.push_back(0.1);
+    state.wall_offset.push_back(0.0);
+    state.curvature_offset.emplace_back(Eigen::Vector3d::Zero());
   }
   for (int j = 0; j + 1 < rod.nodes(); ++j)
   {
@@ -175,6 +177,43 @@ TEST(Resampling, ConservesMassMomentumAndTheWallsForceBothWays)
   bench.resampling.carry(bench.wire, bench.fine, bench.coarse, state);
   EXPECT_LT((momentum(bench.coarse, state) - second_momentum).norm(), 1e-14 * second_momentum.norm());
   EXPECT_LT((sumOf(state.wall_force) - second_force).norm(), 1e-14);
+}
+
+Eigen::Vector3d bentCurvature(const Discretisation& rod, const State& state, int node)
+{
+  const CurvatureBinormal kb(state.position[node] - state.position[node - 1],
+                             state.position[node + 1] - state.position[node],
+                             rod.rest_length[node - 1] * rod.rest_length[node]);
+  return (kb.value - state.curvature_offset[node]) / rod.cell_length[node];
+}
+
+TEST(Resampling, LeavesEveryNodeTheMomentThatItHadAndGivesANewOneItsNeighboursMean)
+{
+  Bench bench({2, 9, 16, 17, 25});
+  State state = wildState(bench.coarse);
+  // A kink, as where a contact pushes: the arc through it cannot have its curvature.
+  state.position[10] += Eigen::Vector3d(2e-5, 1e-5, 0.0);
+  const State before = state;
+  bench.resampling.carry(bench.wire, bench.coarse, bench.fine, state);
+  int k = 0;
+  double offsets = 0.0;
+  for (int i = 1; i + 1 < bench.coarse.nodes(); ++i)
+  {
+    while (bench.fine.position[k] < bench.coarse.position[i])
+      ++k;
+    const Eigen::Vector3d here = bentCurvature(bench.coarse, before, i);
+    EXPECT_LT((bentCurvature(bench.fine, state, k) - here).norm(), 1e-9 * here.norm()) << i;
+    offsets += state.curvature_offset[k].norm();
+    if (k == 0 || bench.fine.position[k - 1] == bench.coarse.position[i - 1] || i == 1)
+      continue;
+    const Eigen::Vector3d mean = 0.5 * (bentCurvature(bench.coarse, before, i - 1) + here);
+    EXPECT_LT((bentCurvature(bench.fine, state, k - 1) - mean).norm(), 1e-9 * mean.norm()) << i;
+  }
+  EXPECT_GT(offsets, 1e-3);
+  State merged = state;
+  bench.resampling.carry(bench.wire, bench.fine, bench.coarse, merged);
+  for (int i = 1; i + 1 < bench.coarse.nodes(); ++i)
+    EXPECT_LT(merged.curvature_offset[i].norm(), 1e-12) << i;
 }
 
 TEST(Resampling, GainsNoKineticEnergyBySplittingAndOnlyWhatASplitLostByMerging)
