@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <random>
 #include <sstream>
+#include <thread>
 
 #include "benchmark/hard_case.h"
 
@@ -141,22 +143,47 @@ std::string described(const HardCase& hard)
          std::to_string(hard.nodes) + " nodes";
 }
 
-/** Runs all cases with all schemes; returns how many came to which verdict. */
-std::map<std::string, std::map<std::string, int>> run(std::vector<HardCase> cases, Table& table, int max_steps,
+/** Runs all cases with all schemes, as many at a time as there are processors; returns how many came to which verdict.
+ */
+std::map<std::string, std::map<std::string, int>> run(const std::vector<HardCase>& cases, Table& table, int max_steps,
                                                       const Progress& progress, double begin, double end)
 {
-  std::map<std::string, std::map<std::string, int>> counts;
-  double done = 0.0;
+  std::vector<HardCase> jobs;
   for (const std::string& scheme : kCompared)
-    for (HardCase& hard : cases)
+    for (HardCase hard : cases)
     {
       hard.scheme = scheme;
-      progress(begin + (end - begin) * done++ / static_cast<double>(cases.size() * kCompared.size()),
-               scheme + ", " + hard.label);
-      const Verdict verdict = judge(hard, max_steps);
-      ++counts[scheme][verdict.word];
-      addRow(table, hard, verdict);
+      jobs.push_back(hard);
     }
+  std::vector<Verdict> verdicts(jobs.size());
+  std::size_t next = 0;
+  std::mutex mutex;
+  const auto work = [&]()
+  {
+    while (true)
+    {
+      std::unique_lock<std::mutex> lock(mutex);
+      if (next == jobs.size())
+        return;
+      const std::size_t job = next++;
+      progress(begin + (end - begin) * static_cast<double>(job) / static_cast<double>(jobs.size()),
+               jobs[job].scheme + ", " + jobs[job].label);
+      lock.unlock();
+      verdicts[job] = judge(jobs[job], max_steps);
+    }
+  };
+  std::vector<std::thread> workers;
+  for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k)
+    workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers)
+    worker.join();
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (std::size_t job = 0; job < jobs.size(); ++job)
+  {
+    ++counts[jobs[job].scheme][verdicts[job].word];
+    addRow(table, jobs[job], verdicts[job]);
+  }
   return counts;
 }
 
