@@ -147,6 +147,11 @@ std::string sceneText(const HardCase& hard)
   return out.str();
 }
 
+double expectedWork(const HardCase& hard, int max_steps)
+{
+  return hard.nodes * duration(hard, max_steps) / hard.time_step;
+}
+
 Verdict judge(const HardCase& hard, int max_steps)
 {
   try

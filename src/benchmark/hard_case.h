@@ -47,6 +47,9 @@ struct Verdict
   double turned = 0.0;  ///< turns of the handle that were reached
 };
 
+/** Nodes times steps: what a run will take, roughly. */
+double expectedWork(const HardCase& hard, int max_steps);
+
 /** Runs a case for at most @p max_steps and judges it: no NaN, strain ≤ 1e-3, penetration ≤ 0.1 mm, nothing outside,
  *  no more energy than the work put in. */
 Verdict judge(const HardCase& hard, int max_steps);

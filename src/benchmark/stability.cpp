@@ -155,6 +155,12 @@ std::map<std::string, std::map<std::string, int>> run(const std::vector<HardCase
       hard.scheme = scheme;
       jobs.push_back(hard);
     }
+  // The longest ones first, so that no processor waits for one at the end.
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b)
+                   { return expectedWork(jobs[a], max_steps) > expectedWork(jobs[b], max_steps); });
   std::vector<Verdict> verdicts(jobs.size());
   std::size_t next = 0;
   std::mutex mutex;
@@ -165,8 +171,8 @@ std::map<std::string, std::map<std::string, int>> run(const std::vector<HardCase
       std::unique_lock<std::mutex> lock(mutex);
       if (next == jobs.size())
         return;
-      const std::size_t job = next++;
-      progress(begin + (end - begin) * static_cast<double>(job) / static_cast<double>(jobs.size()),
+      const std::size_t job = order[next];
+      progress(begin + (end - begin) * static_cast<double>(next++) / static_cast<double>(jobs.size()),
                jobs[job].scheme + ", " + jobs[job].label);
       lock.unlock();
       verdicts[job] = judge(jobs[job], max_steps);

@@ -15,6 +15,7 @@ constexpr double kMaxHandSpeed = 1.0;            // m/s
 constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
+constexpr double kTravelPerEdge = 0.25;          // of the shortest edge: more counts as its rotation
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
 
 }  // namespace
@@ -32,6 +33,10 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     throw InputError(scene.file, "sampling.kind",
                      "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
   const rod::Discretisation& wire = stepper_->discretisation();
+  max_travel_ = scene.solver.max_travel_per_substep;
+  if (!sampling_)
+    max_travel_ =
+        std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
   // The introducer's guide must stay filled: the wire's end cannot be pushed into it.
   max_insertion_ = wire.length() - scene.solver.guide_length - 3.0 * wire.rest_length.front();
   if (scene.introducer && scene.drive.initial_insertion > max_insertion_)
@@ -124,7 +129,7 @@ void Simulation::step(const HandCommand& command)
   const double travel = std::max(std::abs(motion.insertion), (to.displacement - from.displacement).norm());
   const double turn =
       std::max({std::abs(motion.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
-  const double substeps_wanted = std::max(travel / scene_.solver.max_travel_per_substep, turn / kMaxRotationPerSubstep);
+  const double substeps_wanted = std::max(travel / max_travel_, turn / kMaxRotationPerSubstep);
   const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
   const double insertion = state_.inserted_length;
   const double rotation = state_.rotation;

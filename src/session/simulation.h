@@ -85,6 +85,7 @@ private:
   double slipped_rotation_ = 0.0;   ///< [rad]
   double grip_ = 1.0;               ///< on pushing, 1 firm to 0 slipping
   double turning_grip_ = 1.0;       ///< on turning
+  double max_travel_ = 0.0;         ///< of the hand in one sub-step [m]
   double max_insertion_ = 0.0;      ///< [m]
 };
 
