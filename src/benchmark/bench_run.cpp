@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "session/run_result.h"
 #include "session/scene_vessel.h"
@@ -16,6 +17,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kCheckInterval = 0.1;    // s of the scene between looks with the exact distance
 constexpr double kBeyondAllBounds = 1e3;  // m or m/s
+
+double simulatedMass(const session::Simulation& simulation)
+{
+  const std::vector<double>& mass = simulation.discretisation().mass;
+  return std::accumulate(mass.begin() + simulation.state().first_node, mass.end(), 0.0);
+}
 
 double kineticEnergy(const session::Simulation& simulation)
 {
@@ -60,6 +67,7 @@ void BenchRun::forgetEnergy()
   const rod::Energy energy = simulation_->energy();
   first_energy_ = energy.bending + energy.twist + kineticEnergy(*simulation_);
   work_ = 0.0;
+  last_mass_ = simulatedMass(*simulation_);
 }
 
 RunSummary BenchRun::advance(double seconds)
@@ -107,8 +115,13 @@ void BenchRun::observe(RunSummary& summary)
   summary.mean_hand_force += state.hand_force;
   summary.finite = isFinite(state);
   // Trapezoidal: the force changes during the step.
+  const double speed = (state.inserted_length - last_insertion_) / scene_.solver.time_step;
+  const double mass = simulatedMass(*simulation_);
   work_ += 0.5 * (last_force_ + state.hand_force) * (state.inserted_length - last_insertion_) +
            0.5 * (last_torque_ + state.hand_torque) * (state.rotation - last_rotation_);
+  // Wire that comes into the guide has been set in motion outside.
+  work_ += 0.5 * (mass - last_mass_) * speed * speed;
+  last_mass_ = mass;
   last_insertion_ = state.inserted_length;
   last_rotation_ = state.rotation;
   last_force_ = state.hand_force;

@@ -60,6 +60,7 @@ private:
   double work_ = 0.0;  ///< that the hand has put in [J]
   double last_insertion_ = 0.0;
   double last_rotation_ = 0.0;
+  double last_mass_ = 0.0;  ///< of the simulated part [kg]
   double last_force_ = 0.0;
   double last_torque_ = 0.0;
   double first_energy_ = 0.0;

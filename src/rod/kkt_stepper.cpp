@@ -14,6 +14,7 @@ constexpr int kMaxHalvings = 3;
 constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
 /** m of stretch per N of tension and kg of a node [s²]: nothing, but no zero pivot. */
 constexpr double kEdgeCompliance = 1e-16;
+constexpr double kEnergyGrowth = 1.1;
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
@@ -131,7 +132,7 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   if (static_cast<int>(backup_.size()) <= depth)
     backup_.resize(static_cast<std::size_t>(depth) + 1);
   backup_[depth] = state;
-  if (solveStep(state, input, dt, report))
+  if (solveStep(state, input, dt, report) && (depth == kMaxHalvings || !gainedEnergy(state, depth, dt)))
     return true;
   state = backup_[depth];
   contacts_valid_ = false;
@@ -149,6 +150,34 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
     return true;
   hold(state, depth);
   return false;
+}
+
+/** Whether a step that was accepted unfinished has more energy than it began with and the hand gave: a snap that was
+ *  too violent for the step. */
+bool KktStepper::gainedEnergy(const State& state, int depth, double dt)
+{
+  if (!capped_)
+    return false;
+  const State& before = backup_[depth];
+  const double travel = state.inserted_length - before.inserted_length;
+  const double turn = state.rotation - before.rotation;
+  double mass = 0.0;
+  double kinetic = 0.0;
+  double kinetic_before = 0.0;
+  for (int i = first_; i < rod_.nodes(); ++i)
+  {
+    mass += rod_.mass[i];
+    kinetic += 0.5 * rod_.mass[i] * state.velocity[i].squaredNorm();
+    kinetic_before += 0.5 * rod_.mass[i] * before.velocity[i].squaredNorm();
+  }
+  const double given = std::abs(state.hand_force * travel) + std::abs(state.hand_torque * turn) +
+                       0.5 * mass * (travel / dt) * (travel / dt);
+  PhaseTimer* const timer = timer_;
+  const Energy elastic_before = energy(before);
+  const Energy elastic = energy(state);
+  timer_ = timer;
+  const double allowed = kEnergyGrowth * (kinetic_before + elastic_before.bending + elastic_before.twist) + given;
+  return kinetic + elastic.bending + elastic.twist > allowed;
 }
 
 /** Refused: the wire stays where it was, at rest, and the caller is told. */
@@ -170,6 +199,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   if (source_ && (!contacts_valid_ || contacts_.stale))
     detect(state, report);
   settleOffsets(state);
+  capped_ = false;
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     relaxTwist(state, input);
@@ -191,6 +221,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     strain_ = maxStrain(rod_, state);
     if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !foundUnknownContact())
       break;
+    capped_ = last;
     report.capped += last;
     if (last && (!restoreLengths(state, input, dt, report) || maxStrain(rod_, state) > kLargestStrain))
       return false;

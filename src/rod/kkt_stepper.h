@@ -60,6 +60,7 @@ private:
   };
 
   bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
+  bool gainedEnergy(const State& state, int depth, double dt);
   void hold(State& state, int depth);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
@@ -93,6 +94,7 @@ private:
   Eigen::Vector3d forceOnHold(int node, double dt) const;
   void updateWallForces(State& state);
   ActiveContact springOf(const contact::Feature& feature) const;
+  static void harden(ActiveContact& contact);
   void carryContacts();
   void settleOffsets(State& state);
   void settleOffset(const contact::Feature& feature, std::vector<double>& offset) const;
@@ -139,6 +141,7 @@ private:
   std::uint32_t* pass_ = nullptr;
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
+  bool capped_ = false;  ///< the last step was accepted unfinished
   double strain_ = 0.0;  ///< largest of the last accepted iterate
   StepInput last_input_;
 

@@ -23,7 +23,9 @@ constexpr double kSlightWeight = 0.01;  // squared, of fresh nodes in a contact 
 constexpr double kOffsetTime = 10e-3;   // s in which an offset fades to 1/e
 constexpr double kNoOffset = 1e-10;     // m
 constexpr double kNoTurn = 1e-9;        // rad
-constexpr double kShift = 10.0;         // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kHardDepth = 3e-5;     // m
+constexpr double kHardening = 10.0;
+constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
 
@@ -122,6 +124,18 @@ KktStepper::ActiveContact KktStepper::springOf(const contact::Feature& feature) 
   return contact;
 }
 
+/** A rigid wall's spring hardens where the wire is pressed deeper than snaps and jams of ordinary wires press it: the
+ *  spring becomes the tangent at the present depth. A stiffer one throughout would make the force noisy. */
+void KktStepper::harden(ActiveContact& contact)
+{
+  const double beyond = -contact.gap - kHardDepth;
+  if (beyond <= 0.0)
+    return;
+  const double force = contact.stiffness * (kHardDepth + kHardening * beyond);
+  contact.stiffness *= kHardening;
+  contact.gap = -force / contact.stiffness;
+}
+
 void KktStepper::prepareContacts(const State& state, double dt)
 {
   active_.clear();
@@ -132,6 +146,8 @@ void KktStepper::prepareContacts(const State& state, double dt)
     const Eigen::Vector3d velocity =
         contact.weight0 * state.velocity[contact.node] + contact.weight1 * state.velocity[second];
     contact.gap += contact.weight0 * state.wall_offset[contact.node] + contact.weight1 * state.wall_offset[second];
+    if (!std::isfinite(feature.stiffness))
+      harden(contact);
     contact.active = contact.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     active_.push_back(contact);
   }

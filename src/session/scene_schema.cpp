@@ -19,6 +19,7 @@ constexpr double kSameLength = 1e-9;
 
 // Least edge of adaptive sampling over the hand's travel in a sub-step.
 constexpr double kTravelsPerEdge = 4.0;
+constexpr double kEdgePerGuide = 0.5;
 
 // Of the wire's length: the shortest edge that sampling may make.
 constexpr double kShortestEdge = 2e-5;
@@ -85,12 +86,30 @@ void checkBenchDrive(const SceneFields& fields, const Scene& scene)
     fields.refuse("proximal_end", "is not clamped, so that the drive has no hold; set proximal_end: clamped");
 }
 
-/** Nodes pass the end of the introducer's guide one after another: an edge must outlast the hand's travel. */
+/** Nodes pass the end of the introducer's guide one after another: an edge must outlast the hand's travel, and a guide
+ *  that holds the wire at less than two nodes lets go of it in jumps. */
 void checkEdges(const SceneFields& fields, const Scene& scene)
 {
+  if (!scene.introducer)
+    return;
+  const double longest = kEdgePerGuide * scene.solver.guide_length;
+  if (scene.sampling.kind == SamplingKind::kUniform)
+  {
+    const auto fewest = static_cast<int>(std::ceil(scene.instrument.wire.length() / longest)) + 1;
+    if (scene.sampling.nodes < fewest)
+      fields.refuse("sampling.nodes",
+                    "makes edges too long for the introducer's guide, which is to hold two; must be "
+                    "at least " +
+                        std::to_string(fewest));
+    return;
+  }
+  if (scene.sampling.max_edge > longest)
+    fields.refuse("sampling.max_edge",
+                  "is too long for the introducer's guide, which is to hold two edges; must be at "
+                  "most half of solver.guide_length, " +
+                      std::to_string(longest) + " m");
   const double shortest = kTravelsPerEdge * scene.solver.max_travel_per_substep;
-  if (scene.introducer && scene.sampling.kind == SamplingKind::kAdaptive &&
-      scene.sampling.min_edge < shortest - kSameLength)
+  if (scene.sampling.min_edge < shortest - kSameLength)
     fields.refuse("sampling.min_edge",
                   "is too short for what the hand may travel in a sub-step; must be at least 4 times "
                   "solver.max_travel_per_substep, " +

@@ -78,6 +78,8 @@ const std::vector<Refusal> kRefusals = {
     {"bad_edges_of_uniform_sampling.yaml", "sampling.min_edge (line 13)", "belongs to adaptive sampling"},
     {"bad_max_edge.yaml", "sampling.max_edge (line 14)", "less than min_edge"},
     {"bad_tiny_min_edge.yaml", "sampling.min_edge (line 14)", "more than 100000 nodes"},
+    {"bad_too_few_nodes_for_the_guide.yaml", "sampling.nodes (line 13)", "at least 23"},
+    {"bad_max_edge_for_the_guide.yaml", "sampling.max_edge (line 14)", "at most half of solver.guide_length"},
     {"bad_min_edge_of_a_fast_hand.yaml", "sampling.min_edge (line 14)", "at least 4 times"},
     {"bad_duplicate_key.yaml", "duration (line 3)", "keep one of the two"},
     {"bad_broken_yaml.yaml", "line 13", "not valid YAML"},
