@@ -70,8 +70,12 @@ std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& 
       addRows(section.table, problem, scheme, options.quick);
       done += 1.0;
     }
-  const auto second_half = [&progress](double share, const std::string& what) { progress(0.5 + 0.5 * share, what); };
-  return {section, referenceRows(options, second_half)};
+  const auto references = [&progress](double share, const std::string& what) { progress(0.5 + 0.3 * share, what); };
+  const auto contact = [&progress](double share, const std::string& what) { progress(0.8 + 0.2 * share, what); };
+  std::vector<Section> sections = {section};
+  sections.push_back(referenceRows(options, references));
+  sections.push_back(contactRows(options, contact));
+  return sections;
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -104,12 +104,6 @@ bool HeldWire::relaxTwist(QuasiStaticTwist& twist, State& state, double tip_torq
   return true;
 }
 
-double HeldWire::handForce(const State& state) const
-{
-  const bool two_held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
-  return -state.tension[state.first_node + (two_held ? 1 : 0)];
-}
-
 void HeldWire::describe(const State& state, contact::Query& query) const
 {
   query.first_node = state.first_node;

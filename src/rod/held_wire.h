@@ -37,9 +37,6 @@ public:
    *  @return true when the twist acts on the centreline */
   bool relaxTwist(QuasiStaticTwist& twist, State& state, double tip_torque, PhaseTimer& timer) const;
 
-  /** Axial force on the hand: minus the tension of the first edge that can move [N]. */
-  double handForce(const State& state) const;
-
   /** The nodes of the query: those beyond the introducer's mouth. */
   void describe(const State& state, contact::Query& query) const;
 

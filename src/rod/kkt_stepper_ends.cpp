@@ -1,7 +1,6 @@
-#include <algorithm>
-
 #include <Eigen/Geometry>
 
+#include "rod/end_forces.h"
 #include "rod/kkt_stepper.h"
 
 // The part of the scheme that deals with held ends: where the distal one is, and the forces on both.
@@ -44,33 +43,17 @@ void KktStepper::placeDistalEnd(State& state, const EndMotion& motion, double dt
   }
 }
 
-/** Force of the wire on what holds a node: what is left of the node's own equation at the solution. */
+/** Force of the wire on what holds a node: what is left of the node's own equation at the solution [N]. */
 Eigen::Vector3d KktStepper::forceOnHold(int node, double dt) const
 {
-  Eigen::Vector3d force;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int line = row(node) + axis;
-    double sum = base_rhs_[line];
-    for (int k = std::max(0, line - kBandwidth); k <= std::min(base_.size() - 1, line + kBandwidth); ++k)
-      sum -= base_.at(std::max(line, k), std::min(line, k)) * rhs_[k];
-    force[axis] = sum / (dt * dt);
-  }
-  return force;
+  return remainder(base_, Eigen::Vector3d(base_rhs_.data() + row(node)), rhs_, row(node)) / (dt * dt);
 }
 
-/** The force at the hand is taken from the equations of the held nodes, not from an edge's multiplier: in a bent edge
- *  that one holds a part of the bending too. */
 void KktStepper::updateEndForces(State& state, double dt) const
 {
-  const int last = rod_.nodes() - 1;
-  state.proximal_force.setZero();
-  state.distal_force.setZero();
-  for (int i = last; isDistalHeld(i); --i)
-    state.distal_force += forceOnHold(i, dt);
-  for (int i = first_; i <= last && isPrescribed(i, state) && !isDistalHeld(i); ++i)
-    state.proximal_force += forceOnHold(i, dt);
-  state.hand_force = -boundary_.direction.dot(state.proximal_force);
+  rod::updateEndForces(
+      state, boundary_, [this, &state](int node) { return isPrescribed(node, state); },
+      [this, dt](int node) { return forceOnHold(node, dt); });
 }
 
 }  // namespace endovascular_sim::rod

@@ -121,6 +121,7 @@ void MixedStepper::placePrescribedNodes(State& state, double inserted_length, do
       state.moment[i].setZero();
     state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
     state.velocity[i] = speed * boundary_.direction;
+    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
     state.wall_force[i].setZero();
   }
 }
@@ -327,13 +328,9 @@ double MixedStepper::largestStrain(const State& state) const
 void MixedStepper::finish(State& state, double dt) const
 {
   const double inverse = 1.0 / dt;
-  int first_free_edge = state.first_node;
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
-    else if (i < rod_.nodes() - 1)
-      first_free_edge = boundary_.introducer ? i : first_free_edge;
-  state.hand_force = -state.tension[first_free_edge];
 }
 
 Energy MixedStepper::energy(const State& state)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod/end_forces.h"
 #include "rod/mixed_stepper.h"
 
 // The part of the scheme that solves an assembled system: contact springs and friction, inertia of the matrix, trust
@@ -173,8 +174,16 @@ void MixedStepper::accept(State& state, double factor) const
   for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
     state.tension[j] += factor * rhs_[model_.tensionRow(state, j)];
   // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
-  if (factor == 1.0)
-    contacts_.updateWallForces(state, motion_);
+  if (factor < 1.0)
+    return;
+  contacts_.updateWallForces(state, motion_);
+  updateEndForces(
+      state, boundary_, [this, &state](int node) { return isPrescribed(node, state); },
+      [this, &state](int node)
+      {
+        const int row = model_.positionRow(state, node);
+        return remainder(base_, -Vector3d(gradient_.data() + row), rhs_, row);
+      });
 }
 
 }  // namespace endovascular_sim::rod

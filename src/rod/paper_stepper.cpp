@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rod/bending.h"
+#include "rod/end_forces.h"
 #include "rod/stretching.h"
 
 namespace endovascular_sim::rod
@@ -250,6 +251,8 @@ void PaperStepper::addNodeTerms(int node, const State& state, double dt)
 /** Rows of prescribed nodes, factorisation, solution. */
 bool PaperStepper::solve(const State& state, double dt, StepReport& report)
 {
+  base_.copyFrom(matrix_);
+  base_rhs_ = rhs_;
   for (int i = first_; i < rod_.nodes(); ++i)
     for (int axis = 0; inverse_mass_[i] == 0.0 && axis < 3; ++axis)
       matrix_.prescribe(row(i) + axis, dt * state.velocity[i][axis], rod_.mass[i], rhs_);
@@ -291,9 +294,24 @@ bool PaperStepper::project(State& state, double dt, StepReport& report)
     state.tension[j] += projection_.tension(j) / (dt * dt);
   for (int i = first_; i < rod_.nodes(); ++i)
     state.velocity[i] = (state.position[i] - begin_[i]) / dt;
-  state.hand_force = heldWire().handForce(state);
+  updateEndForces(
+      state, boundary_, [this](int node) { return inverse_mass_[node] == 0.0; },
+      [this, dt](int node) { return forceOnHold(node, dt); });
   updateWallForces(state, dt);
   return true;
+}
+
+/** Force of the wire on what holds a node [N]: what the linear step leaves of its equation, and what the projection
+ *  pulls at it along the edges that it found. */
+Eigen::Vector3d PaperStepper::forceOnHold(int node, double dt) const
+{
+  Eigen::Vector3d force = remainder(base_, Eigen::Vector3d(base_rhs_.data() + row(node)), rhs_, row(node));
+  for (int edge = std::max(first_, node - 1); edge <= std::min(node, rod_.nodes() - 2); ++edge)
+  {
+    const Eigen::Vector3d found = begin_[edge + 1] + displacement(edge + 1) - begin_[edge] - displacement(edge);
+    force += (edge == node ? 1.0 : -1.0) * projection_.tension(edge) * found.normalized();
+  }
+  return force / (dt * dt);
 }
 
 Energy PaperStepper::energy(const State& state)

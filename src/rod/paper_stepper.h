@@ -66,6 +66,7 @@ private:
   void addBlock(int row_node, int col_node, const Eigen::Matrix3d& block);
   bool solve(const State& state, double dt, StepReport& report);
   bool project(State& state, double dt, StepReport& report);
+  Eigen::Vector3d forceOnHold(int node, double dt) const;
   void updateWallForces(State& state, double dt);
 
   int row(int node) const { return 3 * (node - first_); }
@@ -91,8 +92,9 @@ private:
   double last_tip_torque_ = 0.0;
 
   int first_ = 0;  ///< first simulated node
-  BandedLdlt<kBandwidth> matrix_;
+  BandedLdlt<kBandwidth> base_, matrix_;
   CholmodSolver cholmod_;
+  std::vector<double> base_rhs_;
   std::vector<double> rhs_;  ///< then the displacements of the linear step [m]
   std::vector<Spring> springs_;
   std::vector<double> inverse_mass_;

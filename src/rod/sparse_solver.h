@@ -15,6 +15,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /** LU factorisation with partial pivoting by SuiteSparse's KLU: any regular square matrix, saddle matrices among them.
  *
+ *  Its pivots say nothing about inertia (an unsymmetric LU has no signature): a saddle matrix goes unchecked for it.
  *  The general path and the check of the banded kernel, not the fast one: it allocates at every factorisation. The
  *  ordering is found anew only when the pattern of nonzeros has changed. */
 class KluSolver

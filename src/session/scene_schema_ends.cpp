@@ -107,6 +107,10 @@ void visitEnds(SceneFields& fields, Scene& scene)
 
 void checkEnds(const SceneFields& fields, const Scene& scene)
 {
+  if (scene.introducer && scene.distal_end != EndCondition::kFree && scene.solver.scheme != "kkt")
+    fields.refuse("distal_end", "scheme '" + scene.solver.scheme +
+                                    "' does not hold a far end behind an introducer; set distal_end: free, or "
+                                    "solver.scheme: kkt");
   if (scene.distal.twist_held)
     for (std::size_t k = 0; k < scene.loads.point_loads.size(); ++k)
       if (scene.loads.point_loads[k].torque != 0.0)

@@ -81,8 +81,7 @@ inline int settle(Stepper& stepper, State& state, StepInput input, double dt, do
  *  on the energy. Long steps first, then shorter ones, because the constraints yield by 1e-10·tension·Δt².
  *  @param dt of the long steps, about the inverse of the lowest frequency [s]
  *  @return false when it still moves by more than 1e-13 m per step at the end */
-inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput input, double dt,
-                               contact::ContactSource* contacts = nullptr)
+inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput input, double dt)
 {
   PhaseTimer timer;
   std::vector<Eigen::Vector3d> before;
@@ -96,7 +95,7 @@ inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput inpu
       before = state.position;
       for (Eigen::Vector3d& velocity : state.velocity)
         velocity.setZero();
-      if (!stepper.step(state, input, step, pass, contacts, timer).solved)
+      if (!stepper.step(state, input, step, pass, nullptr, timer).solved)
         return false;
       ++input.step;
       double motion = 0.0;

@@ -249,61 +249,6 @@ TEST(ReferencesStatics, AnArcUnderAnOutOfPlaneLoadBendsAndTwistsLikeTheKirchhoff
   EXPECT_NEAR(orderOf(fine, finest), 2.0, 0.1);
 }
 
-/** A frictionless channel between the planes y = 0 and y = height for the wire's axis. */
-class Channel : public contact::ContactSource
-{
-public:
-  explicit Channel(double height) : height_(height) {}
-
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    set.stale = false;
-    set.first_edge = query.first_node;
-    set.free_distance.assign(query.nodes.size() - 1, 1.0);
-    set.features.clear();
-    for (std::size_t i = 0; i < query.nodes.size(); ++i)
-      for (const bool ceiling : {false, true})
-      {
-        const Eigen::Vector3d& x = query.nodes[i];
-        const bool last = i + 1 == query.nodes.size();
-        contact::Feature feature;
-        feature.edge = query.first_node + static_cast<int>(i) - (last ? 1 : 0);
-        feature.parameter = last ? 1.0 : 0.0;
-        feature.normal = Eigen::Vector3d(0.0, ceiling ? -1.0 : 1.0, 0.0);
-        feature.gap = ceiling ? height_ - x.y() : x.y();
-        feature.point = Eigen::Vector3d(x.x(), ceiling ? height_ : 0.0, x.z());
-        feature.id = static_cast<std::int64_t>(2 * i + (ceiling ? 1 : 0));
-        set.features.push_back(feature);
-      }
-  }
-
-private:
-  double height_;
-};
-
-/** Force of the ceiling on the tip, F l²/EI, of a wire of length l with natural curvature k0 in a channel of height h:
- *  clamped on the floor. */
-double ceilingForce(double curvature, double height, int nodes)
-{
-  const double length = 0.02;
-  Wire wire = uniformWire(clampedLength(length, nodes), kEi, kRadius, kDensity);
-  wire.sections[0].rest_curvature = Eigen::Vector2d(curvature / length, 0.0);
-  StepperSettings settings = exactSettings();
-  settings.contact_stiffness = 1e6;
-  KktStepper stepper(discretiseUniformly(wire, nodes), clampAtOrigin(length, nodes), Environment(), settings);
-  State state = stepper.initialState(0.0, 0.0);
-  Channel channel(height * length);
-  EXPECT_TRUE(relaxToEquilibrium(stepper, state, StepInput(), 3e-4, &channel));
-  return state.wall_force.back().norm() * length * length / kEi;
-}
-
-// References 06 b, non-linear: with k0 l = 1, h/l = 0.1 a part of the wire lies on the floor; with h/l = 0.3 none does.
-TEST(ReferencesStatics, AJTipPushesOnTheWallOfAStraightChannelAsTheElasticaDoes)
-{
-  EXPECT_NEAR(ceilingForce(1.0, 0.1, 101), 1.312420794870624, 0.005 * 1.312420794870624);
-  EXPECT_NEAR(ceilingForce(1.0, 0.3, 101), 0.6228358256021349, 0.005 * 0.6228358256021349);
-}
-
 // ------------------------------------------------------------------------------------------- unit energies
 
 // References 11: three nodes with a turn of p: E h/EI = 2 tan²(p/2).
