@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod/held_wire.h"
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -168,12 +170,7 @@ void NodalContacts::ask(const State& state, bool want_free_distance, contact::Co
   query_.pass = *pass_;
   query_.want_free_distance = want_free_distance;
   query_.margin = settings_.contact_margin;
-  query_.first_node = state.first_node;
-  const double outside = rod_.length() - state.inserted_length;
-  while (query_.first_node < rod_.nodes() && boundary_.introducer && rod_.position[query_.first_node] < outside)
-    ++query_.first_node;
-  query_.nodes.assign(state.position.begin() + query_.first_node, state.position.end());
-  query_.radius.assign(rod_.radius.begin() + query_.first_node, rod_.radius.end());
+  HeldWire(rod_, boundary_).describe(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)
@@ -199,6 +196,29 @@ bool NodalContacts::foundUnknown() const
       return true;
   }
   return false;
+}
+
+void NodalContacts::resample(const Discretisation& to)
+{
+  const int added = to.nodes() - rod_.nodes();
+  const bool same =
+      query_.first_node + added >= 0 && std::equal(rod_.position.begin() + query_.first_node, rod_.position.end(),
+                                                   to.position.begin() + query_.first_node + added, to.position.end());
+  for (contact::Feature& feature : contacts_.features)
+    if (same)
+      feature.edge += added;
+    else
+      moveToSampling(feature, to);
+  valid_ = valid_ && same;
+}
+
+void NodalContacts::moveToSampling(contact::Feature& feature, const Discretisation& to) const
+{
+  const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
+  const auto after = std::upper_bound(to.position.begin(), to.position.end() - 1, place);
+  feature.edge = std::max(0, static_cast<int>(after - to.position.begin()) - 1);
+  const double parameter = (place - to.position[feature.edge]) / to.rest_length[feature.edge];
+  feature.parameter = std::max(0.0, std::min(1.0, parameter));
 }
 
 }  // namespace endovascular_sim::rod

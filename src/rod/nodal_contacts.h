@@ -33,6 +33,8 @@ public:
     : rod_(rod), boundary_(boundary), settings_(settings)
   {
   }
+  NodalContacts(const NodalContacts&) = delete;  // it refers to its owner's members
+  NodalContacts& operator=(const NodalContacts&) = delete;
 
   /** @param source null without a vessel */
   void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
@@ -67,7 +69,13 @@ public:
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
   bool foundUnknown() const;
 
+  /** Takes the contacts to another sampling of the wire, before the rod is changed: where the nodes that were asked
+   *  about stay the same ones, so do their contacts; elsewhere they keep their place along the wire, for when the next
+   *  set comes too late. */
+  void resample(const Discretisation& to);
+
 private:
+  void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   double approach(std::size_t index, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
   double staleTruncation(const Motion& motion);
