@@ -128,7 +128,7 @@ std::vector<HardCase> latinHypercube(int samples)
     hard.bend_radius = scaled(2e-3, 0.06, share[4][k]);
     hard.tip_radius = scaled(2e-3, 0.02, share[5][k]);
     // At least two edges per radius of the bend: coarser ones cannot follow it.
-    hard.nodes = static_cast<int>(scaled(std::max(10.0, 2.0 * 0.15 / hard.bend_radius), 1000.0, share[6][k]));
+    hard.nodes = static_cast<int>(scaled(std::max(20.0, 2.0 * 0.15 / hard.bend_radius), 1000.0, share[6][k]));
     cases.push_back(hard);
   }
   return cases;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rod/held_wire.h"
+#include "rod/resampling.h"
 
 namespace endovascular_sim::rod
 {
@@ -112,13 +113,9 @@ void KktStepper::relaxTwist(State& state, const StepInput& input)
 StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                             contact::ContactSource* contacts, PhaseTimer& timer)
 {
-  if (input.step != step_ || input.substep == 0)
-    step_is_stale_ = false;
-  source_ = contacts;
+  contacts_.beginStep(input, contacts, pass, timer);
   timer_ = &timer;
-  pass_ = &pass;
-  step_ = input.step;
-  substep_ = input.substep;
+  motion_.resize(state.position.size());
   last_input_ = input;
   StepReport report;
   if (!advance(state, input, dt, 0, report))
@@ -135,7 +132,7 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   if (solveStep(state, input, dt, report) && (depth == kMaxHalvings || !gainedEnergy(state, depth, dt)))
     return true;
   state = backup_[depth];
-  contacts_valid_ = false;
+  contacts_.invalidate();
   if (depth == kMaxHalvings)
   {
     hold(state, depth);
@@ -186,7 +183,7 @@ void KktStepper::hold(State& state, int depth)
   state = backup_[depth];
   for (Eigen::Vector3d& velocity : state.velocity)
     velocity.setZero();
-  contacts_valid_ = false;
+  contacts_.invalidate();
   strain_ = maxStrain(rod_, state);
 }
 
@@ -196,16 +193,15 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   placePrescribedNodes(state, input.inserted_length, dt);
   placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
-  if (source_ && (!contacts_valid_ || contacts_.stale))
-    detect(state, report);
-  settleOffsets(state);
+  contacts_.refresh(state, report);
+  contacts_.settle(state);
   capped_ = false;
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     relaxTwist(state, input);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
-      prepareContacts(state, dt);
+      contacts_.prepare(state, dt);
       assemble(state, input, dt, solve == 0);
     }
     ++report.solves;
@@ -214,12 +210,12 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     const bool last = solve + 1 == settings_.max_solves;
     const double factor = truncation(state, report);
     accept(state, dt, factor);
-    if (source_)
-      detect(state, report);
-    if (source_ && contacts_.stale)
+    if (contacts_.present())
+      contacts_.detect(state, report);
+    if (contacts_.present() && contacts_.set().stale)
       break;  // one solve per step is all that old contacts are good for
     strain_ = maxStrain(rod_, state);
-    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !foundUnknownContact())
+    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !contacts_.foundUnknown())
       break;
     capped_ = last;
     report.capped += last;
@@ -227,7 +223,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       return false;
   }
   finish(state, dt);
-  fadeOffsets(state, dt);
+  if (fading_)
+    fading_ = fadeOffsets(state, dt);
   return true;
 }
 
@@ -245,7 +242,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     begin_ = state.position;
     std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
     const double fraction = kRestoringFraction * dt;
-    prepareContacts(state, fraction);
+    contacts_.prepare(state, fraction);
     assemble(state, input, fraction, true);
     ++report.solves;
     solved = solveActiveSet(state, fraction, report);
@@ -253,9 +250,9 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
       break;
     const double factor = truncation(state, report);
     for (int i = first_; i < rod_.nodes(); ++i)
-      state.position[i] += factor * increment(i);
-    if (source_)
-      detect(state, report);
+      state.position[i] += factor * motion_[i];
+    if (contacts_.present())
+      contacts_.detect(state, report);
   }
   begin_ = restore_begin_;
   state.velocity = restore_velocity_;

@@ -4,6 +4,7 @@
 
 #include "rod/banded_ldlt.h"
 #include "rod/bending_pair.h"
+#include "rod/nodal_contacts.h"
 #include "rod/sparse_solver.h"
 #include "rod/stepper.h"
 #include "rod/twist.h"
@@ -27,8 +28,8 @@ public:
   StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override;
-  const contact::ContactSet& contactSet() const override { return contacts_; }
-  void invalidateContacts() override { contacts_valid_ = false; }
+  const contact::ContactSet& contactSet() const override { return contacts_.set(); }
+  void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return rod_; }
   bool resample(const Discretisation& rod) override;
 
@@ -38,26 +39,6 @@ public:
 private:
   static constexpr int kBandwidth = 10;
   using Matrix = BandedLdlt<kBandwidth, 4>;
-
-  /** A contact as the solver uses it. */
-  struct ActiveContact
-  {
-    int node = 0;            ///< the edge's first node
-    double weight0 = 0.0;    ///< share of that node
-    double weight1 = 0.0;    ///< share of the next one
-    double stiffness = 0.0;  ///< [N/m]
-    double gap = 0.0;        ///< that the wall's law sees [m]
-    double force = 0.0;      ///< after an accepted solve [N]
-    bool active = false;
-  };
-
-  /** What a contact did before the nodes changed. */
-  struct CarriedContact
-  {
-    std::int64_t id;  ///< of the feature
-    double place;     ///< along the wire [m]
-    double force;     ///< [N]
-  };
 
   bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
   bool gainedEnergy(const State& state, int depth, double dt);
@@ -85,29 +66,12 @@ private:
   void prescribeNodes(const State& state);
   bool solveActiveSet(const State& state, double dt, StepReport& report);
   bool factoriseAndSolve(const State& state, StepReport& report);
-  void addContact(const contact::Feature& feature, const ActiveContact& contact, double dt);
-  bool updateActiveSet(int active_pass);
-  void prepareContacts(const State& state, double dt);
+  void addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt);
   double truncation(const State& state, StepReport& report);
   void accept(State& state, double dt, double factor);
   void updateEndForces(State& state, double dt) const;
   Eigen::Vector3d forceOnHold(int node, double dt) const;
-  void updateWallForces(State& state);
-  ActiveContact springOf(const contact::Feature& feature) const;
-  static void harden(ActiveContact& contact);
-  void carryContacts();
-  void settleOffsets(State& state);
-  void settleOffset(const contact::Feature& feature, std::vector<double>& offset) const;
-  double carriedForce(const contact::Feature& feature) const;
-  void fadeOffsets(State& state, double dt);
   double foldTruncation(const State& state, double factor) const;
-  double freeDistanceTruncation(const State& state, StepReport& report);
-  double staleTruncation();
-  void detect(const State& state, StepReport& report);
-  void ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report);
-  bool foundUnknownContact() const;
-  double contactMotion(std::size_t index) const;
-  void moveToSampling(contact::Feature& feature, const Discretisation& rod) const;
   double bodyPosition(int node, double inserted_length) const;
   void finish(State& state, double dt);
 
@@ -127,20 +91,10 @@ private:
 
   QuasiStaticTwist twist_;
   bool twist_active_ = false;
-  contact::ContactSet contacts_, previous_contacts_, free_distances_;
-  bool step_is_stale_ = false;
-  double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
-  bool contacts_valid_ = false;
-  std::vector<ActiveContact> active_, previous_active_;
-  std::vector<CarriedContact> carried_;  ///< from a change of nodes to the next step
-  std::vector<bool> fresh_;              ///< nodes whose edges have changed
-  bool fading_ = true;                   ///< the state may have offsets
-  contact::Query query_;
-  contact::ContactSource* source_ = nullptr;
+  NodalContacts contacts_{rod_, boundary_, settings_};
+  NodalContacts::Motion motion_;  ///< of the last solve, n
   PhaseTimer* timer_ = nullptr;
-  std::uint32_t* pass_ = nullptr;
-  std::uint64_t step_ = 0;
-  std::uint32_t substep_ = 0;
+  bool fading_ = true;   ///< the state may have offsets
   bool capped_ = false;  ///< the last step was accepted unfinished
   double strain_ = 0.0;  ///< largest of the last accepted iterate
   StepInput last_input_;

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod/held_wire.h"
 #include "rod/kkt_stepper.h"
 
-// The part of the scheme that deals with contact: active set, trust region, lagged wall forces, asking for contact
-// sets.
+// The part of the scheme that solves an assembled system: contact springs with their active set, trust region.
 
 namespace endovascular_sim::rod
 {
@@ -13,18 +11,9 @@ namespace
 {
 
 constexpr int kMaxActiveSetPasses = 8;
-constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
-constexpr double kLargestOffset = 50e-6;  // m
-constexpr int kOffsetSweeps = 30;
-constexpr double kSlightWeight = 0.01;  // squared, of fresh nodes in a contact that then does not ask for an offset
-constexpr double kOffsetTime = 10e-3;   // s in which an offset fades to 1/e
-constexpr double kNoOffset = 1e-10;     // m
-constexpr double kNoTurn = 1e-9;        // rad
-constexpr double kHardDepth = 3e-5;     // m
-constexpr double kHardening = 10.0;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
@@ -37,9 +26,9 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
   {
     matrix_.copyFrom(base_);
     rhs_ = base_rhs_;
-    for (std::size_t c = 0; c < active_.size(); ++c)
-      if (active_[c].active)
-        addContact(contacts_.features[c], active_[c], dt);
+    for (std::size_t c = 0; c < contacts_.count(); ++c)
+      if (contacts_.spring(c).active)
+        addContact(contacts_.feature(c), contacts_.spring(c), dt);
     for (int i = first_; shift > 0.0 && i < rod_.nodes(); ++i)
       for (int axis = 0; axis < 3; ++axis)
         matrix_.at(row(i) + axis, row(i) + axis) += shift * rod_.mass[i];
@@ -50,13 +39,15 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
       shift = kShift;
       continue;
     }
-    if (!updateActiveSet(active_pass))
+    for (int i = first_; i < rod_.nodes(); ++i)
+      motion_[i] = increment(i);
+    if (!contacts_.updateActiveSet(motion_, active_pass))
       return true;
   }
   return true;
 }
 
-void KktStepper::addContact(const contact::Feature& feature, const ActiveContact& contact, double dt)
+void KktStepper::addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt)
 {
   const double stiffness = dt * dt * contact.stiffness;
   const double push = -stiffness * contact.gap;
@@ -80,176 +71,25 @@ void KktStepper::addContact(const contact::Feature& feature, const ActiveContact
   }
 }
 
-double KktStepper::contactMotion(std::size_t index) const
-{
-  const ActiveContact& contact = active_[index];
-  const Eigen::Vector3d& normal = contacts_.features[index].normal;
-  double motion = contact.weight0 * normal.dot(increment(contact.node));
-  if (contact.weight1 > 0.0)
-    motion += contact.weight1 * normal.dot(increment(contact.node + 1));
-  return motion;
-}
-
-bool KktStepper::updateActiveSet(int active_pass)
-{
-  bool changed = false;
-  for (std::size_t c = 0; c < active_.size(); ++c)
-  {
-    const bool active = active_[c].gap + contactMotion(c) < 0.0;
-    if (active == active_[c].active || (!active && active_pass >= kOnlyAddFromPass))
-      continue;
-    active_[c].active = active;
-    changed = true;
-  }
-  return changed;
-}
-
-KktStepper::ActiveContact KktStepper::springOf(const contact::Feature& feature) const
-{
-  ActiveContact contact;
-  contact.node = feature.edge;
-  contact.weight0 = 1.0 - feature.parameter;
-  contact.weight1 = feature.parameter;
-  contact.stiffness = settings_.contact_stiffness;
-  contact.gap = feature.gap;
-  if (contact.weight0 <= 0.0 && contact.node + 2 < rod_.nodes())
-  {
-    ++contact.node;
-    std::swap(contact.weight0, contact.weight1);
-  }
-  const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-  if (std::isfinite(feature.stiffness))
-    contact.stiffness = feature.stiffness *
-                        (contact.weight0 * rod_.cell_length[contact.node] + contact.weight1 * rod_.cell_length[second]);
-  return contact;
-}
-
-/** A rigid wall's spring hardens where the wire is pressed deeper than snaps and jams of ordinary wires press it: the
- *  spring becomes the tangent at the present depth. A stiffer one throughout would make the force noisy. */
-void KktStepper::harden(ActiveContact& contact)
-{
-  const double beyond = -contact.gap - kHardDepth;
-  if (beyond <= 0.0)
-    return;
-  const double force = contact.stiffness * (kHardDepth + kHardening * beyond);
-  contact.stiffness *= kHardening;
-  contact.gap = -force / contact.stiffness;
-}
-
-void KktStepper::prepareContacts(const State& state, double dt)
-{
-  active_.clear();
-  for (const contact::Feature& feature : contacts_.features)
-  {
-    ActiveContact contact = springOf(feature);
-    const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-    const Eigen::Vector3d velocity =
-        contact.weight0 * state.velocity[contact.node] + contact.weight1 * state.velocity[second];
-    contact.gap += contact.weight0 * state.wall_offset[contact.node] + contact.weight1 * state.wall_offset[second];
-    if (!std::isfinite(feature.stiffness))
-      harden(contact);
-    contact.active = contact.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
-    active_.push_back(contact);
-  }
-}
-
-/** After a change of nodes: contacts go on with the forces that they had. A node that was put between two others would
- *  else be pushed at once by the wall that the arc, but not the chord, reaches into. */
-void KktStepper::settleOffsets(State& state)
-{
-  fresh_.assign(state.wall_offset.size(), false);
-  bool changed = false;
-  for (int i = first_; i < rod_.nodes(); ++i)
-    if (std::isnan(state.wall_offset[i]))
-    {
-      changed = fresh_[i] = true;
-      state.wall_offset[i] = 0.0;
-    }
-  for (int sweep = 0; changed && sweep < kOffsetSweeps; ++sweep)
-    for (const contact::Feature& feature : contacts_.features)
-      settleOffset(feature, state.wall_offset);
-  carried_.clear();
-}
-
-/** Moves the offsets of the fresh nodes at a contact to where it pushes with the force that it had, or, if it had none,
- *  no more (Kaczmarz's method: two contacts may share their nodes). */
-void KktStepper::settleOffset(const contact::Feature& feature, std::vector<double>& offset) const
-{
-  const ActiveContact contact = springOf(feature);
-  const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-  const double weight0 = fresh_[contact.node] ? contact.weight0 : 0.0;
-  const double weight1 = fresh_[second] ? contact.weight1 : 0.0;
-  const double weight = weight0 * weight0 + weight1 * weight1;
-  if (weight < kSlightWeight)
-    return;
-  const double force = carriedForce(feature);
-  const double missing = -feature.gap - force / contact.stiffness - contact.weight0 * offset[contact.node] -
-                         contact.weight1 * offset[second];
-  if (force <= 0.0 && missing <= 0.0)
-    return;
-  const auto move = [&](int node, double share)
-  { offset[node] = std::max(-kLargestOffset, std::min(kLargestOffset, offset[node] + share * missing)); };
-  move(contact.node, weight0 / weight);
-  move(second, weight1 / weight);
-}
-
-/** Force that a contact had before the change of nodes; 0 when it is new [N]. */
-double KktStepper::carriedForce(const contact::Feature& feature) const
-{
-  const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
-  double force = 0.0;
-  double nearest = 0.5 * rod_.rest_length[feature.edge];
-  for (const CarriedContact& carried : carried_)
-  {
-    const double distance = std::abs(carried.place - place);
-    if (carried.id != feature.id || distance >= nearest)
-      continue;
-    nearest = distance;
-    force = carried.force;
-  }
-  return force;
-}
-
-/** Lets the offsets of contacts and moments fade, so that the wire settles to its new nodes unnoticed. */
-void KktStepper::fadeOffsets(State& state, double dt)
-{
-  if (!fading_)
-    return;
-  fading_ = false;
-  const double left = std::exp(-dt / kOffsetTime);
-  for (double& offset : state.wall_offset)
-    offset = std::abs(offset) < kNoOffset ? 0.0 : left * offset;
-  for (Eigen::Vector3d& offset : state.curvature_offset)
-    offset *= offset.squaredNorm() < kNoTurn * kNoTurn ? 0.0 : left;
-  for (std::size_t i = 0; i < state.wall_offset.size() && !fading_; ++i)
-    fading_ = state.wall_offset[i] != 0.0 || !state.curvature_offset[i].isZero(0.0);
-}
-
 double KktStepper::truncation(const State& state, StepReport& report)
 {
   double factor = 1.0;
-  bool far = false;
   double largest_turn = 0.0;  // squared, until all are seen
-  const double margin = settings_.contact_margin;
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
   {
     // Along the edge the solve restores what the hand's motion took from a short one: no rotation.
     const Eigen::Vector3d edge = state.position[j + 1] - state.position[j];
-    const Eigen::Vector3d change = increment(j + 1) - increment(j);
+    const Eigen::Vector3d change = motion_[j + 1] - motion_[j];
     const double along = change.dot(edge);
     const double across = std::max(0.0, change.squaredNorm() - along * along / edge.squaredNorm());
     largest_turn = std::max(largest_turn, across / (rod_.rest_length[j] * rod_.rest_length[j]));
-    far = far || increment(j).squaredNorm() > margin * margin || increment(j + 1).squaredNorm() > margin * margin;
   }
   largest_turn = std::sqrt(largest_turn);
   if (largest_turn > settings_.max_rotation)
     factor = settings_.max_rotation / largest_turn;
   if (largest_turn > kQuietTurn)
     factor = foldTruncation(state, factor);
-  if (source_ && contacts_.stale)
-    factor = std::min(factor, staleTruncation());
-  else if (source_ && far)
-    factor = std::min(factor, freeDistanceTruncation(state, report));
+  factor = contacts_.truncation(state, motion_, factor, report);
   report.truncations += factor < 1.0;
   return factor;
 }
@@ -265,8 +105,8 @@ double KktStepper::foldTruncation(const State& state, double factor) const
     {
       const Eigen::Vector3d e = state.position[i] - state.position[i - 1];
       const Eigen::Vector3d g = state.position[i + 1] - state.position[i];
-      const Eigen::Vector3d new_e = e + factor * (increment(i) - increment(i - 1));
-      const Eigen::Vector3d new_g = g + factor * (increment(i + 1) - increment(i));
+      const Eigen::Vector3d new_e = e + factor * (motion_[i] - motion_[i - 1]);
+      const Eigen::Vector3d new_g = g + factor * (motion_[i + 1] - motion_[i]);
       // 1 + cos of the turning angle: 2 for a straight wire, 0 for a fold.
       const double now = 1.0 + e.dot(g) / std::sqrt(e.squaredNorm() * g.squaredNorm());
       const double then = 1.0 + new_e.dot(new_g) / std::sqrt(new_e.squaredNorm() * new_g.squaredNorm());
@@ -279,169 +119,26 @@ double KktStepper::foldTruncation(const State& state, double factor) const
   return factor;
 }
 
-double KktStepper::freeDistanceTruncation(const State& state, StepReport& report)
-{
-  ask(state, true, free_distances_, report);
-  double factor = 1.0;
-  for (int j = query_.first_node; j + 1 < rod_.nodes(); ++j)
-  {
-    const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
-    const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
-    const double allowed = std::max(settings_.contact_margin, known ? free_distances_.free_distance[e] : 0.0);
-    const double motion = std::max(increment(j).norm(), increment(j + 1).norm());
-    if (motion > allowed)
-      factor = std::min(factor, allowed / motion);
-  }
-  return factor;
-}
-
-/** Old features cover only the margin around the state they were found at: all motion since then is spent from it. */
-double KktStepper::staleTruncation()
-{
-  double motion = 0.0;
-  for (int i = query_.first_node; i < rod_.nodes(); ++i)
-    motion = std::max(motion, increment(i).norm());
-  const double factor = motion > stale_budget_ ? stale_budget_ / motion : 1.0;
-  stale_budget_ -= factor * motion;
-  return factor;
-}
-
 void KktStepper::accept(State& state, double dt, double factor)
 {
   for (int i = first_; i < rod_.nodes(); ++i)
-    state.position[i] += factor * increment(i);
+    state.position[i] += factor * motion_[i];
   if (factor < 1.0)
     return;
   // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
   const double to_force = scale_ / (dt * dt);
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
     state.tension[j] = to_force * rhs_[multiplierRow(j)];
-  updateWallForces(state);
+  contacts_.updateWallForces(state, motion_);
   updateEndForces(state, dt);
-}
-
-void KktStepper::updateWallForces(State& state)
-{
-  for (int i = first_; i < rod_.nodes(); ++i)
-    state.wall_force[i].setZero();
-  for (std::size_t c = 0; c < active_.size(); ++c)
-  {
-    const contact::Feature& feature = contacts_.features[c];
-    const double force = -active_[c].stiffness * (active_[c].gap + contactMotion(c));
-    active_[c].force = active_[c].active ? std::max(0.0, force) : 0.0;
-    if (active_[c].force <= 0.0)
-      continue;
-    for (int side = 0; side < 2; ++side)
-    {
-      const double weight = side == 0 ? active_[c].weight0 : active_[c].weight1;
-      if (weight <= 0.0)
-        continue;
-      const int node = active_[c].node + side;
-      state.wall_force[node] += (weight * force) * feature.normal;
-      state.friction_coefficient[node] = std::isnan(rod_.friction[node]) ? feature.friction : rod_.friction[node];
-    }
-  }
-}
-
-void KktStepper::detect(const State& state, StepReport& report)
-{
-  std::swap(contacts_, previous_contacts_);
-  std::swap(active_, previous_active_);
-  ask(state, false, contacts_, report);
-  contacts_valid_ = true;
-  if (!contacts_.stale)
-  {
-    stale_budget_ = settings_.contact_margin;
-    return;
-  }
-  contacts_.features = previous_contacts_.features;
-  for (contact::Feature& feature : contacts_.features)
-  {
-    const double t = feature.parameter;
-    const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
-    const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
-    const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
-    feature.gap = feature.normal.dot(axis - feature.point) - radius;
-  }
-}
-
-void KktStepper::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
-{
-  PhaseTimer::Scope scope(*timer_, Phase::kCollision);
-  query_.step = step_;
-  query_.substep = substep_;
-  query_.pass = *pass_;
-  query_.want_free_distance = want_free_distance;
-  query_.margin = settings_.contact_margin;
-  HeldWire(rod_, boundary_).describe(state, query_);
-  // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
-  answer.stale = step_is_stale_;
-  if (!step_is_stale_)
-    source_->detect(query_, answer);
-  if (answer.stale && !step_is_stale_)
-    report.first_stale_pass = *pass_;
-  step_is_stale_ = answer.stale;
-  ++*pass_;
 }
 
 bool KktStepper::resample(const Discretisation& rod)
 {
-  // Where the nodes that were asked about are still the same ones, so are their contacts.
-  const int added = rod.nodes() - rod_.nodes();
-  const bool same = query_.first_node + added >= 0 &&
-                    std::equal(rod_.position.begin() + query_.first_node, rod_.position.end(),
-                               rod.position.begin() + query_.first_node + added, rod.position.end());
-  for (contact::Feature& feature : contacts_.features)
-    if (same)
-      feature.edge += added;
-    else
-      moveToSampling(feature, rod);
-  contacts_valid_ = contacts_valid_ && same;
-  carryContacts();
+  contacts_.resample(rod);
   fading_ = true;
   rod_ = rod;
   return true;
-}
-
-/** Keeps what the last step's contacts pushed with, by their places along the wire. */
-void KktStepper::carryContacts()
-{
-  carried_.clear();
-  for (std::size_t c = 0; c < previous_active_.size(); ++c)
-  {
-    const contact::Feature& feature = previous_contacts_.features[c];
-    if (previous_active_[c].force > 0.0)
-      carried_.push_back({feature.id, rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge],
-                          previous_active_[c].force});
-  }
-}
-
-/** A contact stays at its place along the wire: it serves where the next set comes too late. */
-void KktStepper::moveToSampling(contact::Feature& feature, const Discretisation& rod) const
-{
-  const double place = rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
-  const auto after = std::upper_bound(rod.position.begin(), rod.position.end() - 1, place);
-  feature.edge = std::max(0, static_cast<int>(after - rod.position.begin()) - 1);
-  const double parameter = (place - rod.position[feature.edge]) / rod.rest_length[feature.edge];
-  feature.parameter = std::max(0.0, std::min(1.0, parameter));
-}
-
-/** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
-bool KktStepper::foundUnknownContact() const
-{
-  for (const contact::Feature& feature : contacts_.features)
-  {
-    if (feature.gap >= -settings_.penetration_tolerance)
-      continue;
-    bool known = false;
-    for (std::size_t c = 0; c < previous_active_.size() && !known; ++c)
-      known = previous_active_[c].active && previous_contacts_.features[c].id == feature.id &&
-              std::abs(previous_contacts_.features[c].edge + previous_contacts_.features[c].parameter - feature.edge -
-                       feature.parameter) < 1.0;
-    if (!known)
-      return true;
-  }
-  return false;
 }
 
 }  // namespace endovascular_sim::rod

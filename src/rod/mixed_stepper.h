@@ -58,7 +58,7 @@ private:
   bool factoriseAndSolve(const State& state, double shift, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   double truncation(const State& state, StepReport& report);
-  void accept(State& state, double factor) const;
+  void accept(State& state, double factor);
   double largestStrain(const State& state) const;
   void finish(State& state, double dt) const;
   Eigen::Vector3d increment(int row) const { return {rhs_[row], rhs_[row + 1], rhs_[row + 2]}; }

@@ -164,7 +164,7 @@ double MixedStepper::truncation(const State& state, StepReport& report)
   return factor;
 }
 
-void MixedStepper::accept(State& state, double factor) const
+void MixedStepper::accept(State& state, double factor)
 {
   for (int i = state.first_node; i < rod_.nodes(); ++i)
   {

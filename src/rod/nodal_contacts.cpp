@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod/held_wire.h"
+
 namespace endovascular_sim::rod
 {
 namespace
 {
 
+constexpr double kHardDepth = 3e-5;  // m
+constexpr double kHardening = 10.0;
 constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
 
 }  // namespace
@@ -30,24 +34,51 @@ void NodalContacts::refresh(const State& state, StepReport& report)
     detect(state, report);
 }
 
+NodalContacts::Spring NodalContacts::springOf(const contact::Feature& feature) const
+{
+  Spring spring;
+  spring.node = feature.edge;
+  spring.weight0 = 1.0 - feature.parameter;
+  spring.weight1 = feature.parameter;
+  spring.stiffness = settings_.contact_stiffness;
+  spring.gap = feature.gap;
+  if (spring.weight0 <= 0.0 && spring.node + 2 < rod_.nodes())
+  {
+    ++spring.node;
+    std::swap(spring.weight0, spring.weight1);
+  }
+  const int second = std::min(spring.node + 1, rod_.nodes() - 1);
+  if (std::isfinite(feature.stiffness))
+    spring.stiffness = feature.stiffness *
+                       (spring.weight0 * rod_.cell_length[spring.node] + spring.weight1 * rod_.cell_length[second]);
+  return spring;
+}
+
+/** A rigid wall's spring hardens where the wire is pressed deeper than snaps and jams of ordinary wires press it: the
+ *  spring becomes the tangent at the present depth. A stiffer one throughout would make the force noisy. */
+void NodalContacts::harden(Spring& spring)
+{
+  const double beyond = -spring.gap - kHardDepth;
+  if (beyond <= 0.0)
+    return;
+  const double force = spring.stiffness * (kHardDepth + kHardening * beyond);
+  spring.stiffness *= kHardening;
+  spring.gap = -force / spring.stiffness;
+}
+
 void NodalContacts::prepare(const State& state, double dt)
 {
   springs_.clear();
   for (const contact::Feature& feature : contacts_.features)
   {
-    Spring spring{feature.edge, 1.0 - feature.parameter, feature.parameter, settings_.contact_stiffness, false};
-    if (spring.weight0 <= 0.0 && spring.node + 2 < rod_.nodes())
-    {
-      ++spring.node;
-      std::swap(spring.weight0, spring.weight1);
-    }
+    Spring spring = springOf(feature);
     const int second = std::min(spring.node + 1, rod_.nodes() - 1);
-    if (std::isfinite(feature.stiffness))
-      spring.stiffness = feature.stiffness *
-                         (spring.weight0 * rod_.cell_length[spring.node] + spring.weight1 * rod_.cell_length[second]);
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
-    spring.active = feature.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
+    spring.gap += spring.weight0 * state.wall_offset[spring.node] + spring.weight1 * state.wall_offset[second];
+    if (!std::isfinite(feature.stiffness))
+      harden(spring);
+    spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     springs_.push_back(spring);
   }
 }
@@ -68,7 +99,7 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass)
   bool changed = false;
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
-    const bool active = contacts_.features[c].gap + approach(c, motion) < 0.0;
+    const bool active = springs_[c].gap + approach(c, motion) < 0.0;
     if (active == springs_[c].active || (!active && pass >= kOnlyAddFromPass))
       continue;
     springs_[c].active = active;
@@ -116,15 +147,16 @@ double NodalContacts::staleTruncation(const Motion& motion)
   return factor;
 }
 
-void NodalContacts::updateWallForces(State& state, const Motion& motion) const
+void NodalContacts::updateWallForces(State& state, const Motion& motion)
 {
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     state.wall_force[i].setZero();
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
     const contact::Feature& feature = contacts_.features[c];
-    const double force = -springs_[c].stiffness * (feature.gap + approach(c, motion));
-    if (!springs_[c].active || force <= 0.0)
+    const double force = -springs_[c].stiffness * (springs_[c].gap + approach(c, motion));
+    springs_[c].force = springs_[c].active ? std::max(0.0, force) : 0.0;
+    if (springs_[c].force <= 0.0)
       continue;
     for (int side = 0; side < 2; ++side)
     {
@@ -168,12 +200,7 @@ void NodalContacts::ask(const State& state, bool want_free_distance, contact::Co
   query_.pass = *pass_;
   query_.want_free_distance = want_free_distance;
   query_.margin = settings_.contact_margin;
-  query_.first_node = state.first_node;
-  const double outside = rod_.length() - state.inserted_length;
-  while (query_.first_node < rod_.nodes() && boundary_.introducer && rod_.position[query_.first_node] < outside)
-    ++query_.first_node;
-  query_.nodes.assign(state.position.begin() + query_.first_node, state.position.end());
-  query_.radius.assign(rod_.radius.begin() + query_.first_node, rod_.radius.end());
+  HeldWire(rod_, boundary_).describe(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)

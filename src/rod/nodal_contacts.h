@@ -24,6 +24,8 @@ public:
     double weight0 = 0.0;    ///< share of that node
     double weight1 = 0.0;    ///< share of the next one
     double stiffness = 0.0;  ///< [N/m]
+    double gap = 0.0;        ///< that the wall's law sees [m]
+    double force = 0.0;      ///< after an accepted solve [N]
     bool active = false;
   };
   using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
@@ -33,6 +35,8 @@ public:
     : rod_(rod), boundary_(boundary), settings_(settings)
   {
   }
+  NodalContacts(const NodalContacts&) = delete;  // it refers to its owner's members
+  NodalContacts& operator=(const NodalContacts&) = delete;
 
   /** @param source null without a vessel */
   void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
@@ -62,12 +66,35 @@ public:
   double truncation(const State& state, const Motion& motion, double factor, StepReport& report);
 
   /** Sets the state's wall forces from the springs after an accepted motion. */
-  void updateWallForces(State& state, const Motion& motion) const;
+  void updateWallForces(State& state, const Motion& motion);
 
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
   bool foundUnknown() const;
 
+  /** Takes the contacts to another sampling of the wire, before the rod is changed: where the nodes that were asked
+   *  about stay the same ones, so do their contacts; elsewhere they keep their place along the wire, for when the next
+   *  set comes too late. */
+  void resample(const Discretisation& to);
+
+  /** After a change of nodes and the next detection: sets the state's wall offsets where they are not a number, so that
+   *  contacts go on with the forces that they had. */
+  void settle(State& state);
+
 private:
+  /** What a contact did before the nodes changed. */
+  struct Carried
+  {
+    std::int64_t id;  ///< of the feature
+    double place;     ///< along the wire [m]
+    double force;     ///< [N]
+  };
+
+  Spring springOf(const contact::Feature& feature) const;
+  static void harden(Spring& spring);
+  void carry();
+  void settleOffset(const contact::Feature& feature, std::vector<double>& offset) const;
+  double carriedForce(const contact::Feature& feature) const;
+  void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   double approach(std::size_t index, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
   double staleTruncation(const Motion& motion);
@@ -78,6 +105,8 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
+  std::vector<Carried> carried_;  ///< from a change of nodes to the next step
+  std::vector<bool> fresh_;       ///< nodes whose edges have changed
   bool valid_ = false;
   bool step_is_stale_ = false;
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]

@@ -11,6 +11,10 @@ namespace endovascular_sim::rod
 namespace
 {
 
+constexpr double kOffsetTime = 10e-3;  // s in which an offset fades to 1/e
+constexpr double kNoOffset = 1e-10;    // m
+constexpr double kNoTurn = 1e-9;       // rad
+
 /** Curvature vector dt/ds at an inner node [1/m]; zero where the wire is not simulated on both sides. */
 Eigen::Vector3d curvatureVector(const Discretisation& rod, const State& state, int node)
 {
@@ -222,6 +226,23 @@ void Resampling::remove(const Change& change, const Discretisation& to, const St
     if (was_free)
       next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
   }
+}
+
+bool fadeOffsets(State& state, double dt)
+{
+  bool left = false;
+  const double share = std::exp(-dt / kOffsetTime);
+  for (double& offset : state.wall_offset)
+  {
+    offset = std::abs(offset) < kNoOffset ? 0.0 : share * offset;
+    left = left || offset != 0.0;
+  }
+  for (Eigen::Vector3d& offset : state.curvature_offset)
+  {
+    offset *= offset.squaredNorm() < kNoTurn * kNoTurn ? 0.0 : share;
+    left = left || !offset.isZero(0.0);
+  }
+  return left;
 }
 
 }  // namespace endovascular_sim::rod

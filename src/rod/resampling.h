@@ -54,4 +54,8 @@ private:
   std::vector<int> new_node_;  ///< of each old one; −1: it goes
 };
 
+/** Lets the offsets of gaps and curvatures fade, so that the wire settles to its new nodes unnoticed.
+ *  @return true while any are left */
+bool fadeOffsets(State& state, double dt);
+
 }  // namespace endovascular_sim::rod
