@@ -13,9 +13,10 @@ namespace endovascular_sim::benchmark
 Measured ceilingForce(const std::string& scheme, double turn, double height, int nodes);
 
 /** Tension over slack tension, T2/T1, of a stiff wire drawn over a peg of radius R by 90°, friction 0.3,
- *  EI/(T1 R²) = 0.1. */
+ *  EI/(T1 R²) = 0.1.
+ *  @param speed at which it is drawn [m/s] */
 constexpr double kCapstanRatio = 1.5773414787761537;
-Measured capstanRatio(const std::string& scheme, int nodes);
+Measured capstanRatio(const std::string& scheme, int nodes, double speed);
 
 /** Mean forces at the hand over those of ½EIκ², frictionless, clearance a hundredth of the bend's radius. */
 struct Insertion
