@@ -252,5 +252,47 @@ TEST(MixedTwist, MovingWireComesToRestAtTheStaticShape)
   EXPECT_GT(stepper.energy(state).twist, 0.0);
 }
 
+// A J of 3 mm, opened straight, on edges that turn by 0.7 rad each: it snaps back within few steps, which the trust
+// region cuts short, and comes to rest as a semicircle.
+TEST(MixedTwist, ACoarseJThatWasStraightSnapsBackToASemicircle)
+{
+  Wire wire = uniformWire(0.01, 5e-6, 4.445e-4, 6450.0);
+  wire.sections[0].torsional_stiffness = 5e-6 / 1.3;
+  wire.sections.push_back(wire.sections[0]);
+  wire.sections[1].length = 0.003 * M_PI;
+  wire.sections[1].rest_curvature = Eigen::Vector2d(1.0 / 0.003, 0.0);
+  Boundary boundary;
+  boundary.introducer = false;
+  boundary.proximal = EndHold::kClamped;
+  Environment environment;
+  environment.damping = 200.0;
+  const std::vector<double> position = {0.0,
+                                        0.0025,
+                                        0.005,
+                                        0.0075,
+                                        0.01,
+                                        0.01 + 0.25 * wire.sections[1].length,
+                                        0.01 + 0.5 * wire.sections[1].length,
+                                        0.01 + 0.75 * wire.sections[1].length,
+                                        wire.length()};
+  StepperSettings settings;
+  settings.max_solves = 4;
+  MixedStepper stepper(wire, discretise(wire, position), boundary, environment, settings);
+  State state = stepper.initialState(0.0, 0.0);
+  PhaseTimer timer;
+  int capped = 0;
+  for (int k = 0; k < 400; ++k)
+  {
+    std::uint32_t pass = 0;
+    const StepReport report = stepper.step(state, StepInput(), 1e-3, pass, nullptr, timer);
+    ASSERT_TRUE(report.solved);
+    ASSERT_LT(report.max_strain, 1e-3);
+    capped += report.capped;
+  }
+  EXPECT_GT(capped, 0);
+  const Vector3d exact = boundary.origin + 0.01 * boundary.direction + 0.006 * boundary.director;
+  EXPECT_LT((state.position.back() - exact).norm(), 2e-5);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rod
