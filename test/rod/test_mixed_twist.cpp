@@ -1,5 +1,7 @@
 #include "rod/mixed_twist.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -250,6 +252,74 @@ TEST(MixedTwist, MovingWireComesToRestAtTheStaticShape)
   EXPECT_LT((state.position.back() - rest.position.back()).norm(), 1e-8);
   EXPECT_NEAR(state.hand_torque, rest.hand_torque, 1e-7);
   EXPECT_GT(stepper.energy(state).twist, 0.0);
+}
+
+/** Largest difference between the assembled second derivatives and those of the gradient by finite differences, the
+ * twist relaxed anew for each: of moments' rows by positions, positions' by positions, and both by moments. In units of
+ * what each block is to the solution: 1/h, EI/h³, and h/EI or 1/h. */
+std::array<double, 3> jacobianErrors(int edges)
+{
+  MixedRod rod = steppedRod(edges);
+  const TwistBoundary twist;
+  const State rest = equilibrium(rod, kSteppedForce, twist);
+  const int size = rod.size(rest);
+  const auto assembled = [&](const State& at, std::vector<double>& gradient, MixedRod::Matrix& hessian)
+  {
+    State state = at;
+    MixedTwist relaxed;
+    for (int pass = 0; pass < 3; ++pass)
+      relaxed.relax(rod, twist, state);
+    gradient.assign(static_cast<std::size_t>(size), 0.0);
+    hessian.reset(size);
+    rod.assemble(state, gradient, hessian);
+    relaxed.assemble(rod, state, gradient, hessian);
+  };
+  std::vector<double> gradient;
+  MixedRod::Matrix hessian, unused;
+  assembled(rest, gradient, hessian);
+  std::array<double, 3> worst{};
+  const double h = 1.0 / edges;
+  for (int i = 2; i < edges; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool by_moment : {false, true})
+      {
+        std::vector<double> plus, minus;
+        State state = rest;
+        double& value = by_moment ? state.moment[i][axis] : state.position[i][axis];
+        const double middle = value;
+        value = middle + 1e-6;
+        assembled(state, plus, unused);
+        value = middle - 1e-6;
+        assembled(state, minus, unused);
+        const int col = (by_moment ? rod.momentRow(rest, i) : rod.positionRow(rest, i)) + axis;
+        for (int node = i - 1; node <= std::min(edges - 1, i + 1); ++node)
+          for (const bool of_moment : {false, true})
+            for (int other = 0; other < 3; ++other)
+            {
+              const int row = (of_moment ? rod.momentRow(rest, node) : rod.positionRow(rest, node)) + other;
+              const double exact = (plus[row] - minus[row]) / 2e-6;
+              const double found = hessian.at(std::max(row, col), std::min(row, col));
+              if (!by_moment && of_moment)
+                worst[0] = std::max(worst[0], h * std::abs(found - exact));
+              if (!by_moment && !of_moment)
+                worst[1] = std::max(worst[1], h * h * h * std::abs(found - exact));
+              if (by_moment)
+                worst[2] = std::max(worst[2], (of_moment ? 1.0 / h : h) * std::abs(found - exact));
+            }
+      }
+  return worst;
+}
+
+TEST(MixedTwist, SecondDerivativesAreTheGradientsButForTermsThatVanishWithTheEdgeLength)
+{
+  const auto coarse = jacobianErrors(16);
+  const auto fine = jacobianErrors(32);
+  EXPECT_LT(coarse[0], 6e-3);  // 0.04 without the turn of the rest curvature with its chord
+  for (int block = 0; block < 3; ++block)
+  {
+    EXPECT_LT(coarse[block], 0.12);
+    EXPECT_GT(order(coarse[block], fine[block]), 0.8);
+  }
 }
 
 // A J of 3 mm, opened straight, on edges that turn by 0.7 rad each: it snaps back within few steps, which the trust
