@@ -27,13 +27,19 @@ Vector3d across(const Vector3d& v, const Vector3d& axis)
   return v - v.dot(axis) * axis;
 }
 
+/** Turning angle vector between unit vectors [rad]. */
+Vector3d turnBetween(const Vector3d& from, const Vector3d& to)
+{
+  return AngleOverSine(std::max(TurningAngle::kFolded, from.dot(to))).value * from.cross(to);
+}
+
 void add(std::vector<double>& vector, int row, const Vector3d& value)
 {
   for (int axis = 0; axis < 3; ++axis)
     vector[static_cast<std::size_t>(row + axis)] += value[axis];
 }
 
-/** Twist of the node's two edges by torques as they are [rad]. */
+/** Share of an edge's twist that belongs to one of its ends, from the torques there and at the other [rad]. */
 double twistOfEdge(double h, double flexibility, double near, double far)
 {
   return h * flexibility / 6.0 * (2.0 * near + far);
@@ -317,7 +323,7 @@ void MixedTwist::assembleNode(const MixedRod& rod, const State& state, int i, st
   const Vector3d frame_after = has_after ? Vector3d(edges_[i].end[0].col(2)) : rod.distal().tangent;
   const TurningAngle chords(has_before ? Vector3d(state.position[i] - state.position[i - 1]) : rod.proximal().tangent,
                             has_after ? Vector3d(state.position[i + 1] - state.position[i]) : rod.distal().tangent);
-  Vector3d tilt = TurningAngle(frame_before, frame_after).value - chords.value;
+  Vector3d tilt = turnBetween(frame_before, frame_after) - chords.value;
   Vector3d force = Vector3d::Zero();
   if (has_before)
   {
