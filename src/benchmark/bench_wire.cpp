@@ -25,12 +25,13 @@ double median(std::vector<double> values)
   return *middle;
 }
 
-void writeSection(std::ostream& out, const BenchWire& wire, double length, bool curved)
+/** @param stiffness EI, of bending_stiffness */
+void writeSection(std::ostream& out, const BenchWire& wire, double length, double stiffness, bool curved)
 {
   out << "    - length: " << length << "\n      radius: " << wire.radius
       << "\n      material: steel\n      density: " << wire.density
-      << "\n      bending_stiffness: " << wire.bending_stiffness
-      << "\n      torsional_stiffness: " << wire.torsion_ratio * wire.bending_stiffness << "\n";
+      << "\n      bending_stiffness: " << stiffness * wire.bending_stiffness
+      << "\n      torsional_stiffness: " << wire.torsion_ratio * stiffness * wire.bending_stiffness << "\n";
   if (curved && wire.rest_curvature != 0.0)
     out << "      rest_curvature: [" << wire.rest_curvature << ", 0]\n";
 }
@@ -60,8 +61,11 @@ std::string sceneText(const BenchWire& wire)
       << "introducer: false\nproximal_end: clamped\ndistal_end: " << (both_clamped ? "clamped" : "free") << "\n"
       << "instrument:\n  name: wire\n  sections:\n";
   if (half_edge > 0.0)
-    writeSection(out, wire, half_edge, false);
-  writeSection(out, wire, wire.length + (both_clamped ? half_edge : 0.0), true);
+    writeSection(out, wire, half_edge, wire.near_stiffness, false);
+  const bool stepped = wire.near_stiffness != 1.0;
+  if (stepped)
+    writeSection(out, wire, 0.5 * wire.length, wire.near_stiffness, true);
+  writeSection(out, wire, (stepped ? 0.5 : 1.0) * wire.length + (both_clamped ? half_edge : 0.0), 1.0, true);
   out << "loads:\n  gravity: [0, " << -wire.gravity << ", 0]\n  damping: " << wire.damping << "\n";
   if (!wire.tip_force.isZero(0.0))
     out << "  point_loads:\n    - force: [" << wire.tip_force.x() << ", " << wire.tip_force.y() << ", "

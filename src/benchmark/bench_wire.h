@@ -18,6 +18,7 @@ struct BenchWire
   double length = 0.1;                                  ///< of the free part [m]
   double radius = 1.8e-4;                               ///< [m]
   double bending_stiffness = 1e-4;                      ///< EI [N·m²]
+  double near_stiffness = 1.0;                          ///< EI of the half next to the clamp, of bending_stiffness
   double torsion_ratio = 1.0;                           ///< GJ/EI
   double density = 7900.0;                              ///< [kg/m³]
   double gravity = 0.0;                                 ///< along −y [m/s²]

@@ -52,17 +52,27 @@ StaticCase arc(const std::string& name, double angle, const Eigen::Vector3d& loa
   return problem;
 }
 
+/** A wire curved throughout whose half next to the clamp is four times as stiff, bent in space. */
+StaticCase steppedArc()
+{
+  StaticCase problem = arc("curved wire, EI 4 : 1 at the middle, bent in space", 1.0, {-0.4, 0.7, 2.0},
+                           {0.7691562357214236, 0.49857958885297754, 0.19955662871176527});
+  problem.wire.near_stiffness = 4.0;
+  return problem;
+}
+
 }  // namespace
 
 std::vector<StaticCase> staticCases()
 {
-  // references/references.json: sections 01, 02, 06a, 06c.
+  // references/references.json: sections 01, 02, 06a, 06c; that of the stepped wire by the same equations as 06c.
   const double angle = 0.25 * M_PI;
   return {elastica(1.0, 0.9435667637166234, 0.3017207737998133),
           elastica(10.0, 0.44500440224624865, 0.8106090248802966),
           heavyElastica(10.0, 0.6563537612385988, 0.7001997155143129),
           arc("quarter circle, in-plane tip force PL²/EI = 1", 0.5 * M_PI, {0.0, -1.0, 0.0},
               {0.804105101290247, 0.4818706970436423, 0.0}),
+          steppedArc(),
           arc("45° arc, out-of-plane tip force FR²/EI = 3.6", angle, {0.0, 0.0, 3.6 * angle * angle},
               Eigen::Vector3d(0.5877968539120596, 0.2224503474206913, 0.4018828383798087) / angle)};
 }

@@ -340,7 +340,8 @@ Energy MixedStepper::energy(const State& state)
   timer_ = &unused;
   State relaxed = state;
   relaxTwist(relaxed, last_tip_torque_);
-  energy.twist = twist_active_ ? twist_.energy(model_, relaxed) : 0.0;
+  if (twist_active_)
+    return twist_.energy(relaxed);
   energy.bending = model_.bendingEnergy(state);
   return energy;
 }

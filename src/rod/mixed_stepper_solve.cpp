@@ -132,6 +132,7 @@ bool MixedStepper::restoreLengths(State& state, const StepInput& input, double d
       break;
     begin_ = state.position;
     std::fill(state.velocity.begin(), state.velocity.end(), Vector3d::Zero());
+    relaxTwist(state, input.tip_torque);
     contacts_.prepare(state, fraction);
     assemble(state, input, fraction, true);
     ++report.solves;

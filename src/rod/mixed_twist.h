@@ -11,22 +11,19 @@
 namespace endovascular_sim::rod
 {
 
-/** Quasi-static twist of the mixed rod: torque T at nodes, linear along edges, and the mean angle θ of every edge's
- *  material frame against the Bishop frame transported along the chords.
+/** Quasi-static twist of the mixed rod, fourth order in h: torque T at nodes, one angle θ per edge of the material
+ * frame that goes with the chord against the Bishop frame transported along the chords.
  *
- *  To L of mixed_rod.h it adds Σ_i T_i (θ^i − θ^{i−1} − C_i) − Σ_j h/(6GJ) (T_j² + T_j T_{j+1} + T_{j+1}²) − (torque at
- *  the tip)·θ, stationary in T and θ, and turns the rest curvature with the frames:
- *  - C_i = t·κ×κ′ times (h_a + h_b)(h_a² + h_a h_b + h_b²)/48, at a clamp h³/48: by how much the chords' Bishop frame
- *    turns against the curve's own at a node;
- *  - κ̄ is evaluated at an edge's two Gauss points, in the edge's frame turned by ∓(√3/6) h times the mean curvature and
- *    twist, and handed to the rod as the linear function through both.
+ *  The whole moment at a node is m = M + T τ, τ along the bisector of the chords. In equilibrium
+ *  - moment is balanced exactly: the force in an edge is u×(m_{j+1} − m_j)/|e| + λu and (m_{j+1} − m_j)·u =
+ *    h³/12 q·κ, which gives T from the tip on;
+ *  - the material frames that edge_shape.h finds for the end of one edge and the beginning of the next are the same at
+ *    the node between: about the tangent this is the equation for θ, across it the one for M.
+ *  L of mixed_rod.h is left as it is; assemble() adds what these equations have beyond its gradient.
  *
- *  The angles are relaxed at fixed curvature of the centreline (so at fixed x, not at fixed M); the rod's Newton method
- *  then runs at fixed angles, without the twist's answer in its second derivatives.
- *
- *  Order, measured: 4 where the frames do not turn (rest curvature bent in its plane); about 3 under a torque at a free
- *  tip; 2 for rest curvature bent out of its plane, where the torque varies along the wire (the moments at nodes then
- *  carry a share of it, of the order h², that these terms do not return). */
+ *  The angles are relaxed at fixed curvature of the centreline (so at fixed x, not at fixed M), the torque's change by
+ *  the angles being that of the energy −∫EI κ·κ̄, which follows a snap-through; the rod's Newton method then runs at
+ *  fixed angles, without the twist's answer in its second derivatives. */
 class MixedTwist
 {
 public:
@@ -38,15 +35,18 @@ public:
    *  nor bend by themselves */
   void relax(MixedRod& rod, const TwistBoundary& boundary, State& state);
 
-  /** Adds what the torque and the turning rest curvature contribute at the state last relaxed. */
+  /** Adds what the torque and the frames contribute at the state last relaxed. */
   void assemble(const MixedRod& rod, const State& state, std::vector<double>& gradient,
                 MixedRod::Matrix& hessian) const;
 
   /** Torque at a node [N·m]. */
   double torque(int node) const { return torque_[static_cast<std::size_t>(node)]; }
 
-  /** Energy of the twist alone, ½∫T²/GJ [J]; of the state last relaxed. */
-  double energy(const MixedRod& rod, const State& state) const;
+  /** The whole moment at a node, in space [N·m]. */
+  const Eigen::Vector3d& moment(int node) const { return moment_[static_cast<std::size_t>(node)]; }
+
+  /** Elastic energies [J]; of the state last relaxed, fourth order in h. */
+  Energy energy(const State& state) const;
 
 private:
   using Matrix = BandedLdlt<2>;
@@ -55,28 +55,41 @@ private:
   struct Edge
   {
     Eigen::Vector3d tangent, bishop, bishop_normal;
-    std::array<Eigen::Vector3d, 2> curvature;  ///< κ at the ends, fixed while the angles relax [1/m]
-    std::array<Eigen::Vector3d, 2> gauss;      ///< κ̄ at the Gauss points [1/m]
-    std::array<Eigen::Vector3d, 2> end;        ///< κ̄ at the ends [1/m]
-    std::array<Eigen::Vector3d, 2> by_end;     ///< −Σ T ∂C/∂κ at the ends [N·m·m]
-    Eigen::Vector3d spin;                      ///< derivative of L by a rotation of the edge's frame [N·m]
-    Eigen::Vector3d turn;                      ///< from the chord's frame to the second Gauss point's [rad]
-    double share;                              ///< of the edge that lies beyond the held place
-    double flexibility;                        ///< 1/GJ, next to none before the held place [1/(N·m²)]
+    std::array<Eigen::Matrix3d, 2> end;  ///< material frames at the ends, in space
+    Eigen::Vector3d curvature;           ///< in the middle, in space [1/m]
+    Eigen::Vector3d rest_curvature;      ///< in the material frame [1/m]
+    Energy energy;                       ///< [J]
+    double inverse;                      ///< of the chord's length [1/m]
+    double share;                        ///< of the edge that lies beyond the held place
+    double flexibility;                  ///< 1/GJ, next to none before the held place [1/(N·m²)]
+    double load_torque;                  ///< (m_{j+1} − m_j)·u [N·m]
+    double angle;                        ///< θ before it relaxes [rad]
+    double rise;                         ///< T_{j+1} − T_j there [N·m]
+    double sine, cosine;  ///< of θ's change in T_{j+1} − T_j, from the energy of bending at fixed curvature [N·m]
   };
 
   void transportBishopFrame(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
-  void placeRestCurvature(const MixedRod& rod, const State& state, int edge);
-  static void extrapolate(Edge& edge);
-  void findCurvature(const MixedRod& rod, const State& state);
-  void evaluate(const MixedRod& rod, const State& state);
+  void findAxes(const MixedRod& rod, const State& state);
+  void findTorque(const State& state, double tip_torque);
+  void findMoments(const MixedRod& rod, const State& state);
+  void shapeEdge(const MixedRod& rod, const State& state, int edge);
+  void evaluate(const MixedRod& rod, const State& state, double tip_torque);
+  void linearise(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
+  double twistMismatch(const TwistBoundary& boundary, int node) const;
+  double twistBetween(const MixedRod& rod, const State& state, int node) const;
   void solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state);
-  double holonomy(const MixedRod& rod, int node);
+  void assembleForce(const MixedRod& rod, const State& state, int edge, std::vector<double>& gradient) const;
+  Eigen::Vector3d bendOfEdge(const MixedRod& rod, const State& state, int edge, int side) const;
+  void assembleNode(const MixedRod& rod, const State& state, int node, std::vector<double>& gradient) const;
+  void assembleRestCurvature(const MixedRod& rod, const State& state, int edge, MixedRod::Matrix& hessian) const;
 
   int first_ = 0;
+  double angle_before_ = 0.0;  ///< of the frame that holds the wire [rad]
   std::vector<Edge> edges_;
   std::vector<double> torque_;
-  std::vector<Eigen::Vector3d> corrections_;  ///< bending moment less M, at nodes [N·m]
+  std::vector<double> missing_;          ///< twist at nodes that the frames ask for beyond that of the torques [rad]
+  std::vector<Eigen::Vector3d> axis_;    ///< τ
+  std::vector<Eigen::Vector3d> moment_;  ///< m [N·m]
   Matrix matrix_;
   std::vector<double> rhs_;
 };

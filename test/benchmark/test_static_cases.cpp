@@ -33,8 +33,6 @@ TEST(StaticCases, OfTheMixedRodConvergeWithFourthOrder)
 {
   for (const StaticCase& problem : staticCases())
   {
-    if (problem.wire.tip_force.z() != 0.0)
-      continue;  // out of its plane a pre-curved wire twists, and the twist is of second order
     const double coarse = errorOf(problem, "mixed", 13);
     const double fine = errorOf(problem, "mixed", 25);
     EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.2) << problem.name;
