@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <ros/ros.h>
 #include <visualization_msgs/Marker.h>
 
+#include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
+#include "nodes/support/vessel_conversions.h"
 #include "session/tube_mesh.h"
+#include "session/wall_heat.h"
 
 namespace endovascular_sim::nodes
 {
@@ -22,6 +27,8 @@ constexpr int kTubeSides = 8;                 ///< corners of the drawn wire's c
 constexpr std::size_t kTipPathPoints = 2000;  ///< the path keeps its newest points
 constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two of them [m]
 constexpr double kTipPathWidth = 0.6e-3;      ///< [m]
+constexpr double kHeatRadius = 2e-3;          ///< over which a touched triangle's colour fades [m]
+constexpr double kHeatInset = 0.1e-3;         ///< of the coloured triangles from the wall, into the lumen [m]
 
 Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
 {
@@ -52,23 +59,41 @@ visualization_msgs::Marker marker(const std_msgs::Header& header, const char* na
   return result;
 }
 
-/** Draws the wire, its tip's path and, from a recording, the vessel. */
+std_msgs::ColorRGBA toColour(const session::Colour& colour, double alpha)
+{
+  std_msgs::ColorRGBA result;
+  result.r = colour.red;
+  result.g = colour.green;
+  result.b = colour.blue;
+  result.a = static_cast<float>(alpha);
+  return result;
+}
+
+/** Draws the wire, its tip's path, what the wall has borne and, from a recording, the vessel. */
 class Visualization
 {
 public:
   explicit Visualization(ros::NodeHandle& node, const ros::NodeHandle& parameters)
     : full_scale_(parameters.param("force_full_scale", 0.1)),
       radius_scale_(parameters.param("radius_scale", 1.5)),
+      heat_of_(parameters.param<std::string>("heat_of", "peak")),
+      heat_full_scale_(parameters.param("heat_full_scale", 0.1)),
       wire_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
-      tip_path_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true))
+      tip_path_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
+      heat_marker_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true))
   {
     const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
     rod_ = node.subscribe(names::kRodStateVisual, 2, &Visualization::drawWire, this, no_delay);
-    if (parameters.param("draw_vessel", false))
+    if (heat_of_ != "peak" && heat_of_ != "integral" && heat_of_ != "time_over_threshold")
     {
-      vessel_marker_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
-      vessel_ = node.subscribe(names::kVesselMesh, 1, &Visualization::drawVessel, this, no_delay);
+      ROS_WARN("visualization: ~heat_of is '%s'; must be peak, integral or time_over_threshold: showing the peak",
+               heat_of_.c_str());
+      heat_of_ = "peak";
     }
+    if (parameters.param("draw_vessel", false))
+      vessel_marker_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
+    vessel_ = node.subscribe(names::kVesselMesh, 1, &Visualization::receiveVessel, this, no_delay);
+    force_map_ = node.subscribe(names::kContactForceMap, 1, &Visualization::receiveForceMap, this, no_delay);
   }
 
 private:
@@ -106,11 +131,7 @@ private:
       double force = 0.0;
       if (i < state.contact_force.size())
         force = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
-      const session::Colour colour = session::forceColour(force, full_scale_);
-      colours[i].r = colour.red;
-      colours[i].g = colour.green;
-      colours[i].b = colour.blue;
-      colours[i].a = 1.0F;
+      colours[i] = toColour(session::forceColour(force, full_scale_), 1.0);
     }
     return colours;
   }
@@ -134,6 +155,43 @@ private:
     tip_path_.publish(line);
   }
 
+  void receiveVessel(const VesselMesh& vessel)
+  {
+    heat_ = std::make_unique<session::WallHeat>(fromMessage(vessel), kHeatRadius, kHeatInset);
+    vessel_hash_ = vessel.content_hash;
+    if (newest_map_)
+      drawHeat(*newest_map_);  // it came before the vessel
+    if (vessel_marker_)
+      drawVessel(vessel);
+  }
+
+  void receiveForceMap(const ContactForceMapConstPtr& map)
+  {
+    newest_map_ = map;
+    if (heat_)
+      drawHeat(*map);
+  }
+
+  void drawHeat(const ContactForceMap& map)
+  {
+    if (map.content_hash != vessel_hash_)
+      return;
+    const bool of_peak = heat_of_ == "peak";
+    const session::HeatPatch patch = heat_->patch(map.triangles, of_peak                  ? map.peak
+                                                                 : heat_of_ == "integral" ? map.integral
+                                                                                          : map.time_over_threshold);
+    visualization_msgs::Marker heat = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
+    heat.points.resize(patch.corners.size());
+    std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
+    for (const double value : patch.values)
+      // Small values fade into the wall; the colour's first stop, grey, is for the wire.
+      heat.colors.push_back(toColour(session::forceColour(std::max(value, heat_full_scale_ / 3.0), heat_full_scale_),
+                                     std::min(1.0, 3.0 * value / heat_full_scale_)));
+    if (heat.points.empty())
+      heat.action = visualization_msgs::Marker::DELETE;  // a session that has begun again
+    heat_marker_.publish(heat);
+  }
+
   void drawVessel(const VesselMesh& vessel)
   {
     visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
@@ -152,13 +210,20 @@ private:
 
   double full_scale_;
   double radius_scale_;
+  std::string heat_of_;
+  double heat_full_scale_;  ///< [N], [N·s] or [s]
+  std::unique_ptr<session::WallHeat> heat_;
+  std::uint64_t vessel_hash_ = 0;
+  ContactForceMapConstPtr newest_map_;
   double last_time_ = -1.0;
   std::deque<geometry_msgs::Point> path_;
   ros::Publisher wire_;
   ros::Publisher tip_path_;
+  ros::Publisher heat_marker_;
   ros::Publisher vessel_marker_;
   ros::Subscriber rod_;
   ros::Subscriber vessel_;
+  ros::Subscriber force_map_;
 };
 
 }  // namespace

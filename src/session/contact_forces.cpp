@@ -19,10 +19,10 @@ Eigen::Vector3d frictionOn(const rod::State& state, int node)
 
 }  // namespace
 
-std::vector<WallContact> wallContacts(const Simulation& simulation)
+void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts)
 {
   const rod::State& state = simulation.state();
-  std::vector<WallContact> contacts;
+  contacts.clear();
   for (int i = state.first_node; i < simulation.discretisation().nodes(); ++i)
   {
     if (state.wall_force[i].isZero(0.0))
@@ -31,18 +31,27 @@ std::vector<WallContact> wallContacts(const Simulation& simulation)
     contact.normal_force = state.wall_force[i];
     contact.friction_force = frictionOn(state, i);
     contact.position = state.position[i];
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const contact::Feature& feature : simulation.contactSet().features)
-    {
-      const bool touches = feature.edge + (feature.parameter > 0.5 ? 1 : 0) == i;
-      if (!touches || feature.gap >= smallest)
-        continue;
-      smallest = feature.gap;
-      contact.position = feature.point;
-      contact.triangle = feature.triangle;
-    }
+    contact.node = i;
+    contact.gap = std::numeric_limits<double>::infinity();
     contacts.push_back(contact);
   }
+  for (const contact::Feature& feature : simulation.contactSet().features)
+  {
+    const int node = feature.edge + (feature.parameter > 0.5 ? 1 : 0);
+    const auto contact = std::lower_bound(contacts.begin(), contacts.end(), node,
+                                          [](const WallContact& c, int wanted) { return c.node < wanted; });
+    if (contact == contacts.end() || contact->node != node || feature.gap >= contact->gap)
+      continue;
+    contact->gap = feature.gap;
+    contact->position = feature.point;
+    contact->triangle = feature.triangle;
+  }
+}
+
+std::vector<WallContact> wallContacts(const Simulation& simulation)
+{
+  std::vector<WallContact> contacts;
+  wallContacts(simulation, contacts);
   return contacts;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/hash.h"
+#include "session/wall_force_report.h"
 
 namespace endovascular_sim::session
 {
@@ -114,6 +115,12 @@ void SessionReport::addContacts(double largest, std::size_t count)
   contact_count_.add(static_cast<double>(count));
 }
 
+void SessionReport::setWallForces(WallForceSummary summary, std::size_t triangles)
+{
+  wall_forces_ = std::move(summary);
+  touched_triangles_ = triangles;
+}
+
 void SessionReport::addDiagnostic(const std::string& node, const std::string& key, const std::string& value)
 {
   diagnostics_[node][key] = value;
@@ -182,6 +189,7 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
   report["hand_torque"] = summary(hand_torque_);
   report["contact_force"] = summary(contact_force_);
   report["contacts"] = summary(contact_count_);
+  report["wall_forces"] = wall_forces_ ? toJson(*wall_forces_, touched_triangles_) : Json(nullptr);
   report["inserted_length"] = inserted_length_.final();
   report["tip_position"] = tip_ ? vectorOf(*tip_) : Json(nullptr);
   report["tip_path_length"] = tip_path_;

@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "session/wall_force_map.h"
+
 namespace endovascular_sim::session
 {
 
@@ -79,6 +81,10 @@ public:
   /** Largest contact force at one moment [N] and the number of contacts that carry force. */
   void addContacts(double largest, std::size_t count);
 
+  /** What the wall has borne so far, in place of what was told before.
+   *  @param triangles how many were touched */
+  void setWallForces(WallForceSummary summary, std::size_t triangles);
+
   /** Widens the vessel's bounding box by a vertex, patient frame [m]. */
   void addVesselPoint(const Eigen::Vector3d& point) { vessel_box_.extend(point); }
 
@@ -119,6 +125,8 @@ private:
   RunningValue inserted_length_;
   RunningValue contact_force_;
   RunningValue contact_count_;
+  std::optional<WallForceSummary> wall_forces_;
+  std::size_t touched_triangles_ = 0;
   std::optional<Eigen::Vector3d> tip_;
   double tip_path_ = 0.0;
   std::size_t nodes_ = 0;

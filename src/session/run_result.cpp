@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "session/wall_force_report.h"
+
 namespace endovascular_sim::session
 {
 namespace
@@ -89,7 +91,7 @@ void RunResult::checkOutside(const Simulation& simulation, const contact::Detect
   nodes_outside_ = std::max(nodes_outside_, outside);
 }
 
-std::string RunResult::json(Simulation& simulation) const
+std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_forces) const
 {
   const rod::State& state = simulation.state();
   const std::size_t n = state.position.size();
@@ -119,6 +121,7 @@ std::string RunResult::json(Simulation& simulation) const
       {"proximal_force", toJson(state.proximal_force)},
       {"distal_force", toJson(state.distal_force)},
       {"distal_torque", state.distal_torque},
+      {"wall_forces", wall_forces ? toJson(wall_forces->summary(), wall_forces->touched().size()) : Json(nullptr)},
       {"energy", {{"bending", energy.bending}, {"twist", energy.twist}, {"stretch", energy.stretch}}},
       {"solver",
        {{"solves", work_.solves},

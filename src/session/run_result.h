@@ -7,6 +7,7 @@
 #include "contact/detector.h"
 #include "session/report.h"
 #include "session/simulation.h"
+#include "session/wall_force_map.h"
 
 namespace endovascular_sim::session
 {
@@ -37,8 +38,9 @@ public:
   /** Counts the nodes beyond the introducer that are outside the wall; costs a search per node. */
   void checkOutside(const Simulation& simulation, const contact::Detector& wall);
 
-  /** The result as JSON (docs/SIMULATE.md). */
-  std::string json(Simulation& simulation) const;
+  /** The result as JSON (docs/SIMULATE.md).
+   *  @param wall_forces of all steps; null without a vessel */
+  std::string json(Simulation& simulation, const WallForceMap* wall_forces = nullptr) const;
 
   int nodesOutside() const { return nodes_outside_; }
   std::uint64_t refusedSteps() const { return refused_; }

@@ -200,6 +200,9 @@ struct RecordScene
 {
   double pose_rate = 30.0;         ///< [Hz]
   double trajectory_rate = 100.0;  ///< rows of trajectory.csv per second [Hz]
+  /** Normal force of one contact above which its time is counted [N]. 0.1 N is about the tip load (10 gf) of wires that
+   *  are made to penetrate occlusions; what steers through a healthy vessel should stay well below it. */
+  double wall_force_threshold = 0.1;
 };
 
 /** One scene: everything a run depends on. Read from one YAML file; docs/SCENES.md lists every key. */

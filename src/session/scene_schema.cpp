@@ -58,6 +58,7 @@ void visitRecord(SceneFields& fields, RecordScene& record)
 {
   fields.number("pose_rate", record.pose_rate, "Hz", Range::positive());
   fields.number("trajectory_rate", record.trajectory_rate, "Hz", Range::positive());
+  fields.number("wall_force_threshold", record.wall_force_threshold, "N", Range::nonNegative());
 }
 
 /** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer. */

@@ -1,11 +1,14 @@
 #!/usr/bin/python3
-"""Draws the results of a session or of `simulate`: forces.png and tip_path.png from trajectory.csv."""
+"""Draws the results of a session or of `simulate`: forces.png and tip_path.png from trajectory.csv, and wall_forces.png
+from wall_forces.csv and vessel_points.csv where they are."""
 
 import argparse
 import csv
 import os
 import sys
 
+AXES = {"x": "x, to the left [mm]", "y": "y, to the back [mm]", "z": "z, to the head [mm]"}
+VIEWS = (("x", "z", "from the front"), ("y", "z", "from the side"), ("x", "y", "from below"))
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
 
 
@@ -39,6 +42,19 @@ def read_trajectory(path):
     return columns
 
 
+def read_columns(path, names):
+    """Columns of a CSV file as lists of floats; nothing where there is no such file or it holds something else."""
+    if not os.path.isfile(path):
+        return None
+    with open(path, newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    try:
+        return {name: [float(row[name]) for row in rows] for name in names}
+    except (KeyError, TypeError, ValueError):
+        print("plot_results.py: %s: not plotted: not a number in every column" % path, file=sys.stderr)
+        return None
+
+
 def plot_forces(pyplot, data, path):
     """Force and torque at the hand over time, force over insertion."""
     figure, axes = pyplot.subplots(2, 2, figsize=(11, 7), constrained_layout=True)
@@ -62,19 +78,37 @@ def plot_forces(pyplot, data, path):
 
 def plot_tip_path(pyplot, data, path):
     """The tip's path from the front, from the side and from above (patient frame)."""
-    labels = {"tip_x": "x, to the left [mm]", "tip_y": "y, to the back [mm]", "tip_z": "z, to the head [mm]"}
-    views = (("tip_x", "tip_z", "from the front"), ("tip_y", "tip_z", "from the side"), ("tip_x", "tip_y", "from below"))
     figure, axes = pyplot.subplots(1, 3, figsize=(13, 5), constrained_layout=True)
-    for axis, (across, up, title) in zip(axes, views):
-        horizontal = [1e3 * value for value in data[across]]
-        vertical = [1e3 * value for value in data[up]]
+    for axis, (across, up, title) in zip(axes, VIEWS):
+        horizontal = [1e3 * value for value in data["tip_" + across]]
+        vertical = [1e3 * value for value in data["tip_" + up]]
         axis.plot(horizontal, vertical, linewidth=0.9)
         axis.plot(horizontal[0], vertical[0], "o", label="start")
         axis.plot(horizontal[-1], vertical[-1], "s", label="end")
-        axis.set(xlabel=labels[across], ylabel=labels[up], title=title)
+        axis.set(xlabel=AXES[across], ylabel=AXES[up], title=title)
         axis.set_aspect("equal", adjustable="datalim")
         axis.grid(alpha=0.3)
     axes[0].legend()
+    figure.savefig(path, dpi=120)
+    pyplot.close(figure)
+
+
+def plot_wall_forces(pyplot, wall, forces, path):
+    """The vessel as grey points with the touched places on it, coloured by the largest force at one contact."""
+    from matplotlib.colors import LinearSegmentedColormap
+    # As in rviz; the end of the scale is the largest force of the run.
+    colours = LinearSegmentedColormap.from_list("force", ["#ffe633", "#ff800d", "#d90d0d"])
+    order = sorted(range(len(forces["peak"])), key=lambda k: forces["peak"][k])  # the largest on top
+    peaks = [forces["peak"][k] for k in order]
+    figure, axes = pyplot.subplots(1, 3, figsize=(13, 5), constrained_layout=True)
+    for axis, (across, up, title) in zip(axes, VIEWS):
+        axis.plot([1e3 * value for value in wall[across]], [1e3 * value for value in wall[up]], ".", color="0.8",
+                  markersize=1.5, markeredgewidth=0)
+        touched = axis.scatter([1e3 * forces[across][k] for k in order], [1e3 * forces[up][k] for k in order], c=peaks,
+                               s=14, linewidths=0, cmap=colours, vmin=0.0, vmax=max(peaks, default=1.0), zorder=2)
+        axis.set(xlabel=AXES[across], ylabel=AXES[up], title=title)
+        axis.set_aspect("equal", adjustable="datalim")
+    figure.colorbar(touched, ax=axes, label="largest force at one contact [N]", shrink=0.8)
     figure.savefig(path, dpi=120)
     pyplot.close(figure)
 
@@ -97,6 +131,10 @@ def main():
         os.makedirs(out, exist_ok=True)
         plot_forces(pyplot, data, os.path.join(out, "forces.png"))
         plot_tip_path(pyplot, data, os.path.join(out, "tip_path.png"))
+        forces = read_columns(os.path.join(arguments.folder, "wall_forces.csv"), ("x", "y", "z", "peak"))
+        wall = read_columns(os.path.join(arguments.folder, "vessel_points.csv"), ("x", "y", "z"))
+        if forces and wall:
+            plot_wall_forces(pyplot, wall, forces, os.path.join(out, "wall_forces.png"))
     except OSError as error:
         fail("%s" % error)
     return 0

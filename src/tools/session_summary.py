@@ -49,6 +49,12 @@ def summary_rows(report, device, folder):
         ("contact force, max", number(report["contact_force"]["max"], "%.3f", " N")),
         ("worst penetration", number(penetration(report), "%.3f", " mm", 1e3)),
     ]
+    wall = report.get("wall_forces")
+    if wall:
+        region = " in %s" % wall["peak_region"] if wall.get("peak_region") else ""
+        rows.append(("largest force on the wall", number(wall["peak"], "%.3f", " N") + region))
+        rows.append(("more than %s at one contact" % number(wall["threshold"], "%g", " N"),
+                     number(wall["time_over_threshold"], "%.3f", " s")))
     if device:
         latency = device.get("motion_to_force_ms") or {}
         rows.append(("motion to force at the device", "median %s, p99 %s" % (
@@ -92,7 +98,8 @@ def write_html(report, rows, fatal, remarks, folder):
     lines.append("</table>")
     lines += ["<p><strong>%s</strong></p>" % html.escape(text) for text in fatal]
     lines += ["<p>%s</p>" % html.escape(text) for text in remarks]
-    pictures = [name for name in ("rviz.png", "forces.png", "tip_path.png") if os.path.isfile(os.path.join(folder, name))]
+    pictures = [name for name in ("rviz.png", "wall_forces.png", "forces.png", "tip_path.png")
+                if os.path.isfile(os.path.join(folder, name))]
     frames = sorted(glob.glob(os.path.join(folder, "fluoroscopy", "*.png")))
     if frames:
         pictures.append("fluoroscopy/" + os.path.basename(frames[-1]))

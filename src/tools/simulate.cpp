@@ -15,6 +15,8 @@
 #include "session/scene_vessel.h"
 #include "session/simulation.h"
 #include "session/trajectory_file.h"
+#include "session/wall_force_map.h"
+#include "session/wall_force_report.h"
 
 namespace
 {
@@ -28,7 +30,7 @@ same trajectory bit for bit.
 
 usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
 
-  --out DIR             writes result.json, trajectory.csv and plots there; made when it is missing
+  --out DIR             writes result.json, trajectory.csv, wall_forces.csv and plots there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
@@ -161,8 +163,10 @@ session::TrajectoryRow rowOf(const session::Simulation& simulation)
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
+  std::unique_ptr<session::WallForceMap> wall_forces;
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
+  std::vector<Eigen::Vector3d> wall_points;
   std::uint64_t mesh_hash = 0;
 };
 
@@ -180,6 +184,8 @@ Surroundings build(const session::Scene& scene)
     std::cerr << vessel.source << ": " << note << "\n";
   made.entry = session::resolveEntry(scene.entry, vessel, scene.file);
   made.centreline = vessel.centreline;
+  made.wall_points = vessel.mesh.vertices;
+  made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh,
                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
@@ -187,7 +193,7 @@ Surroundings build(const session::Scene& scene)
 }
 
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
-         const contact::Detector* wall, session::RunResult& result, std::uint64_t steps)
+         const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
 {
   session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
   std::ofstream nodes;
@@ -198,6 +204,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   }
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
+  std::vector<session::WallContact> contacts;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
   for (std::uint64_t k = 1; k <= steps; ++k)
@@ -207,12 +214,17 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     const Clock::time_point before = Clock::now();
     simulation.step(command);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
+    if (surroundings.wall_forces)
+    {
+      session::wallContacts(simulation, contacts);
+      surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
+    }
     if (k % row_every != 0 && k != steps)
       continue;
     if (!trajectory.add(rowOf(simulation)))
       diskRefused(options.out + "/trajectory.csv");
-    if (wall)
-      result.checkOutside(simulation, *wall);
+    if (surroundings.wall)
+      result.checkOutside(simulation, *surroundings.wall);
     if (options.record_nodes)
       writeNodes(nodes, simulation);
     if (progress)
@@ -225,6 +237,16 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     diskRefused(options.out + "/trajectory.csv");
   if (options.record_nodes && !nodes.flush())
     diskRefused(options.out + "/nodes.csv");
+}
+
+void writeWallForces(const std::string& folder, const Surroundings& surroundings)
+{
+  const session::WallForceMap& map = *surroundings.wall_forces;
+  std::vector<session::WallForceRow> rows;
+  for (const session::WallForce& force : map.touched())
+    rows.push_back({force, map.centre(force.triangle), map.regionName(force.region)});
+  writeFile(folder + "/wall_forces.csv", session::wallForcesCsv(std::move(rows)));
+  writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
 }
 
 void plot(const Options& options)
@@ -245,10 +267,12 @@ int simulate(const Options& options)
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);
-  run(scene, options, simulation, surroundings.wall.get(), result, steps);
-  const std::string text = result.json(simulation);
+  run(scene, options, simulation, surroundings, result, steps);
+  const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
+  if (surroundings.wall_forces)
+    writeWallForces(options.out, surroundings);
   if (options.plots)
     plot(options);
   if (!options.quiet)

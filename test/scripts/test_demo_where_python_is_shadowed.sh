@@ -10,7 +10,7 @@ chmod +x "$folder/bin/python3"
 cd "$folder"
 
 PATH="$folder/bin:$PATH" "$repository/catkin_ws/demo" --scene tube --headless --seconds 1 --out results
-for file in session.bag report.json report.html scene.yaml trajectory.csv forces.png tip_path.png rviz.png; do
+for file in session.bag report.json report.html scene.yaml trajectory.csv forces.png tip_path.png wall_forces.csv wall_forces.png rviz.png; do
   [ -s "results/$file" ] || { echo "results/$file is missing or empty"; exit 1; }
 done
 

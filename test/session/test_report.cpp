@@ -108,6 +108,21 @@ TEST(SessionReport, KnowsTheBoxAroundTheVesselAndThatThereIsNone)
   EXPECT_EQ(parsed(report)["vessel_box"]["max"], json::array({1.0, 2.0, 3.0}));
 }
 
+TEST(SessionReport, TellsWhatTheWallHasBorneAndNothingWithoutAVessel)
+{
+  SessionReport report = reportOfSteps(1);
+  EXPECT_TRUE(parsed(report)["wall_forces"].is_null());
+  WallForceSummary summary;
+  summary.whole.peak = 0.1;
+  report.setWallForces(summary, 1);
+  summary.time = 2.0;
+  summary.whole.peak = 0.25;
+  report.setWallForces(summary, 3);
+  EXPECT_EQ(parsed(report)["wall_forces"]["peak"], 0.25);
+  EXPECT_EQ(parsed(report)["wall_forces"]["time"], 2.0);
+  EXPECT_EQ(parsed(report)["wall_forces"]["triangles"], 3);
+}
+
 TEST(SessionReport, IsJsonEvenWithoutAnyStepAndWithBrokenText)
 {
   SessionReport report = reportOfSteps(0);

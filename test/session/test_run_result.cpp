@@ -30,7 +30,7 @@ TEST(RunResult, HoldsEveryKeyThatIsPromised)
   const Json json = resultOf("straight_wire.yaml", 20);
   for (const char* key : {"steps", "dt", "nodes", "real_time_factor", "step_time_us", "worst_surface_penetration",
                           "nodes_outside", "max_strain", "inserted_length", "tip_position", "tip_tangent", "hand_force",
-                          "hand_torque", "energy", "trajectory_hash", "scene_hash", "mesh_hash"})
+                          "hand_torque", "energy", "wall_forces", "trajectory_hash", "scene_hash", "mesh_hash"})
     EXPECT_TRUE(json.contains(key)) << key;
   for (const char* phase : {"collision", "assembly", "solve", "sampling", "twist"})
     for (const char* statistic : {"mean", "median", "p99", "max"})

@@ -24,7 +24,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_unknown_key.yaml", "sovler (line 12)", "did you mean \"solver\"?"},
     {"bad_unknown_nested_key.yaml", "drive.speeed (line 14)", "did you mean \"speed\"?"},
     {"bad_unknown_key_without_neighbour.yaml", "record.colour_scheme (line 13)",
-     "known here: pose_rate, trajectory_rate"},
+     "known here: pose_rate, trajectory_rate, wall_force_threshold"},
     {"bad_misspelt_required_key.yaml", "instrument.sections.0.densty (line 9)", "did you mean \"density\"?"},
     {"bad_missing_instrument.yaml", "instrument (line 1)", "give a file"},
     {"bad_missing_instrument_file.yaml", "instrument (line 3)", "give the path of an existing file"},
@@ -105,6 +105,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_patient_behind_detector.yaml", "fluoroscopy.source_to_patient (line 13)", "less than source_to_detector"},
     {"bad_energy_outside_the_table.yaml", "fluoroscopy.energy (line 13)", "between 30 and 100"},
     {"bad_yes_for_true.yaml", "haptic_device (line 12)", "true or false"},
+    {"bad_negative_wall_force_threshold.yaml", "record.wall_force_threshold (line 13)", "zero or positive"},
     {"bad_negative_seed.yaml", "seed (line 3)", "zero or positive"},
 };
 

@@ -25,6 +25,8 @@ constexpr auto kWireMarker = "wire/marker";
 constexpr auto kTipPathMarker = "wire/tip_path";
 constexpr auto kContactSet = "contact/set";
 constexpr auto kContactForces = "contact/forces";
+constexpr auto kContactForceMap = "contact/force_map";
+constexpr auto kContactForceMarker = "contact/force_marker";
 
 constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kSessionInfo = "session/info";

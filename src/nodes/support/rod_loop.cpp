@@ -90,10 +90,9 @@ session::HandCommand RodLoop::nextCommand()
   return {scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
 }
 
-bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::CentrelineTree& centreline_tree)
+bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel)
 {
   ROS_INFO("rod_dynamics: waiting for the vessel");
-  vessel::Vessel vessel;
   const auto mesh = ros::topic::waitForMessage<VesselMesh>(names::kVesselMesh, node_);
   const auto centreline =
       mesh ? ros::topic::waitForMessage<VesselCentreline>(names::kVesselCentreline, node_) : nullptr;
@@ -103,19 +102,19 @@ bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::CentrelineTree& c
   vessel.centreline = fromMessage(*centreline);
   vessel.source = mesh->source;
   entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
-  centreline_tree = std::move(vessel.centreline);
+  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel, mesh->content_hash);
   return true;
 }
 
 bool RodLoop::makeSimulation()
 {
   session::EntryPose entry;
-  vessel::CentrelineTree centreline;
+  vessel::Vessel vessel;
   if (!scene_.vessel)
     entry = session::resolveEntry(scene_.entry, scene_.file);
-  else if (!waitForVessel(entry, centreline))
+  else if (!waitForVessel(entry, vessel))
     return false;
-  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &centreline);
+  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline);
   if (!contacts_)
     return true;
   ROS_INFO("rod_dynamics: waiting for the contact node");
@@ -170,6 +169,8 @@ bool RodLoop::run()
   }
   publisher_.publishOperatingState("DISABLED", "the session is over");
   publisher_.publishHand(used_, 0.0, 0.0);
+  if (forces_)
+    forces_->publishMap(*simulation_);
   stop = true;
   diagnostics.join();
   return true;
@@ -203,6 +204,8 @@ void RodLoop::stepOnce()
   force_share_ += simulation_->report().solved ? fade : -fade;
   force_share_ = std::max(0.0, std::min(1.0, force_share_));
   publisher_.publishStep(*simulation_, used_, force_share_);
+  if (forces_)
+    forces_->publishStep(*simulation_);
 }
 
 void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end)

@@ -9,6 +9,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
+#include "nodes/support/contact_force_publisher.h"
 #include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
@@ -52,7 +53,7 @@ private:
   };
 
   bool makeSimulation();
-  bool waitForVessel(session::EntryPose& entry, vessel::CentrelineTree& centreline_tree);
+  bool waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel);
   session::HandCommand nextCommand();
   void receiveCommand(const sensor_msgs::JointStateConstPtr& message);
   void waitForRecorder();
@@ -70,6 +71,7 @@ private:
   std::unique_ptr<RemoteContactSource> contacts_;
   std::unique_ptr<session::Simulation> simulation_;
   RodPublisher publisher_;
+  std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DirectCallbackQueue command_queue_;
   std::mutex command_mutex_;
   session::HandCommand command_;  ///< newest from the drive, guarded

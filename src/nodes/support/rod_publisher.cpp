@@ -8,7 +8,6 @@
 #include "endovascular_sim/OperatingState.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
-#include "session/contact_forces.h"
 #include "session/run_result.h"
 
 namespace endovascular_sim::nodes
@@ -30,14 +29,12 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   operating_ = node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true);
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
-  forces_ = node.advertise<ContactForces>(names::kContactForces, 2);
   hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
   hand_message_.position.resize(2);
   hand_message_.effort.resize(2);
   applied_message_.insertion.resize(1);
   applied_message_.rotation.resize(1);
   visual_message_.header.frame_id = names::kPatientFrame;
-  forces_message_.header.frame_id = names::kPatientFrame;
 }
 
 void RodPublisher::publishHand(const session::HandCommand& command, double force, double torque)
@@ -63,8 +60,6 @@ void RodPublisher::publishStep(const session::Simulation& simulation, const sess
     return;
   publishVisual(simulation);
   publishTip(simulation);
-  if (forces_.getNumSubscribers() > 0)
-    publishContactForces(simulation);
 }
 
 void RodPublisher::publishVisual(const session::Simulation& simulation)
@@ -91,23 +86,6 @@ void RodPublisher::publishVisual(const session::Simulation& simulation)
     message.contact_force.push_back(toVector(state.wall_force[i]));
   }
   visual_.publish(message);
-}
-
-void RodPublisher::publishContactForces(const session::Simulation& simulation)
-{
-  forces_message_.header.stamp = hand_message_.header.stamp;
-  forces_message_.step = simulation.steps() - 1;
-  forces_message_.contacts.clear();
-  for (const session::WallContact& contact : session::wallContacts(simulation))
-  {
-    ContactForce force;
-    force.position = toPoint(contact.position);
-    force.normal_force = toVector(contact.normal_force);
-    force.friction_force = toVector(contact.friction_force);
-    force.triangle = contact.triangle;
-    forces_message_.contacts.push_back(force);
-  }
-  forces_.publish(forces_message_);
 }
 
 void RodPublisher::publishTip(const session::Simulation& simulation)

@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "endovascular_sim/ContactForces.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "sensor_msgs/JointState.h"
@@ -36,16 +35,14 @@ public:
 
 private:
   void publishVisual(const session::Simulation& simulation);
-  void publishContactForces(const session::Simulation& simulation);
   void publishTip(const session::Simulation& simulation);
 
   std::uint64_t visual_every_;
-  ros::Publisher hand_, applied_, visual_, forces_, operating_;
+  ros::Publisher hand_, applied_, visual_, operating_;
   tf2_ros::TransformBroadcaster transforms_;
   sensor_msgs::JointState hand_message_;
   DriveApplied applied_message_;
   RodStateVisual visual_message_;
-  ContactForces forces_message_;
   std::string operating_state_;
 };
 

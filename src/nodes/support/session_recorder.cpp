@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 #include <sensor_msgs/image_encodings.h>
@@ -17,7 +18,10 @@
 #include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
+#include "nodes/support/contact_force_conversions.h"
 #include "nodes/support/names.h"
+#include "nodes/support/vessel_conversions.h"
+#include "session/wall_force_report.h"
 
 namespace endovascular_sim::nodes
 {
@@ -162,6 +166,7 @@ void SessionRecorder::subscribeToVessel()
   listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
   record<VesselCentreline>(names::kVesselCentreline, 1);
   listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
+  listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
 }
 
 void SessionRecorder::subscribeToFluoroscopy()
@@ -250,8 +255,18 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
     bag_.write(node_.resolveName(names::kContactForces), event);
 }
 
+void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>& event)
+{
+  if (finished_)
+    return;
+  force_map_ = event.getConstMessage();
+  report_.setWallForces(summaryFromMessage(*force_map_), force_map_->triangles.size());
+  bag_.write(node_.resolveName(names::kContactForceMap), event);
+}
+
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
+  vessel_ = event.getConstMessage();
   if (!info_published_)
   {
     info_.mesh_hash = event.getMessage()->content_hash;
@@ -362,6 +377,31 @@ void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrappe
   status.add("recording [bytes]", bag_.bytes());
 }
 
+bool SessionRecorder::writeWallForces() const
+{
+  if (!force_map_ || !vessel_ || force_map_->content_hash != vessel_->content_hash)
+    return true;
+  const vessel::TriangleMesh mesh = fromMessage(*vessel_);
+  std::vector<std::string> names(static_cast<std::size_t>(std::numeric_limits<std::uint16_t>::max()) + 1);
+  for (const ContactForceTotals& region : force_map_->regions)
+    names[region.region] = region.name;
+  std::vector<session::WallForceRow> rows;
+  for (const session::WallForce& force : touchedFromMessage(*force_map_))
+  {
+    if (force.triangle < 0 || force.triangle >= static_cast<int>(mesh.triangles.size()))
+      continue;
+    const Eigen::Vector3i& corners = mesh.triangles[static_cast<std::size_t>(force.triangle)];
+    const Eigen::Vector3d centre =
+        (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
+    rows.push_back({force, centre, names[regionToMessage(force.region)]});
+  }
+  std::ofstream forces(path("wall_forces.csv"));
+  std::ofstream points(path("vessel_points.csv"));
+  forces << session::wallForcesCsv(std::move(rows));
+  points << session::vesselPointsCsv(mesh.vertices);
+  return forces.flush() && points.flush();
+}
+
 bool SessionRecorder::finish()
 {
   if (finished_)
@@ -379,9 +419,12 @@ bool SessionRecorder::finish()
   std::ofstream file(path("report.json"));
   file << report_.json(outcome, error_);
   file.close();
+  const bool map_written = writeWallForces();
+  if (!map_written)
+    ROS_ERROR("[session] %s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
   if (!file)
     ROS_ERROR("[session] %s cannot be written: is the disk full?", path("report.json").c_str());
-  complete_ = static_cast<bool>(file) && rows_written && outcome.error.empty() && error_.empty();
+  complete_ = static_cast<bool>(file) && rows_written && map_written && outcome.error.empty() && error_.empty();
   ROS_INFO("[session] recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()),
            settings_.folder.c_str());
   return complete_;

@@ -13,6 +13,7 @@
 #include <sensor_msgs/JointState.h>
 #include <std_srvs/Trigger.h>
 
+#include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
@@ -78,12 +79,15 @@ private:
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
   void onJoints(const ros::MessageEvent<sensor_msgs::JointState const>& event);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
+  void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
   void onImage(const ros::MessageEvent<sensor_msgs::Image const>& event);
   void onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event);
   void onTimer(const ros::SteadyTimerEvent&);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
+  /** wall_forces.csv and vessel_points.csv. @return false when the disk refused them */
+  bool writeWallForces() const;
   void savePicture(const sensor_msgs::ImageConstPtr& image);
   /** True when the scene's last step is in, and the session is to end with it. */
   bool durationIsOver() const;
@@ -102,6 +106,8 @@ private:
   Throttle pose_;
   Throttle joints_;
   Throttle contacts_;
+  ContactForceMapConstPtr force_map_;  ///< the newest
+  VesselMeshConstPtr vessel_;
   std::uint64_t frames_ = 0;
   bool info_published_ = false;
   bool finished_ = false;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "vessel/centreline.h"
+
+namespace endovascular_sim::vessel
+{
+
+/** Tells to which branch of a centreline a point of the wall belongs. */
+class BranchFinder
+{
+public:
+  explicit BranchFinder(const CentrelineTree& tree);
+
+  /** The branch whose lumen is nearest: the least distance from the point to the branch's centreline minus the lumen's
+   *  radius there, so that the wall of a wide parent beside an ostium belongs to the parent although the child's
+   *  centreline begins inside it. Of equals the first in the tree.
+   *  @param point patient frame [m]
+   *  @return index into CentrelineTree::branches; −1 when the tree has no points */
+  int nearest(const Eigen::Vector3d& point) const;
+
+private:
+  /** What is needed to pass over a branch that is too far away. */
+  struct Bounds
+  {
+    Eigen::AlignedBox3d box;
+    double widest = 0.0;  ///< largest radius [m]
+  };
+
+  std::vector<CentrelineBranch> branches_;
+  std::vector<Bounds> bounds_;
+};
+
+}  // namespace endovascular_sim::vessel
