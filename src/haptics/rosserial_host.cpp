@@ -39,6 +39,7 @@ RosserialHost::RosserialHost(HostOptions options)
   : options_(std::move(options)),
     topics_(options_.types),
     motion_(options_.start),
+    shaper_(options_.shaping),
     force_(options_.limits),
     output_(options_.baud),
     sample_at_(kNever),
@@ -71,6 +72,7 @@ void RosserialHost::lineClosed(const std::string& reason)
   output_.clear();
   topics_.clear();
   motion_.hold();
+  shaper_.reset();
   force_.cut();
   forgetDeviceClock();
   updateState(0.0);
@@ -182,9 +184,11 @@ void RosserialHost::takeSample(const HandMotion& count, std::uint32_t time, std:
   if (!holds_wire)
   {
     motion_.hold();
+    shaper_.reset();
   }
   else if (const auto command = motion_.update(count))
   {
+    shaper_.sample(*command, time, now);
     sample_times_.add(*command, time);
     motion_out_.push_back({*command, time});
   }
@@ -205,8 +209,9 @@ void RosserialHost::commandForce(const HandForce& force, const HandMotion& cause
   {
     force_at_ = now;
     answered_time_ = sample_times_.find(caused_by).value_or(answered_time_);
+    const HandForce shaped = shaper_.shape(force, now);
     if (isTrusted(now))
-      force_.command(force, now);
+      force_.command(shaped, now);
     else
       force_.release(now);
   }
@@ -229,6 +234,7 @@ void RosserialHost::tick(double now, const WallTime& wall)
     linked_ = false;
     ++counters_.links_lost;
     motion_.hold();
+    shaper_.reset();
     force_.cut();
     forgetDeviceClock();
     urgent_ = true;
@@ -328,6 +334,7 @@ void RosserialHost::updateState(double now)
 Bytes RosserialHost::forceFrame(double now, const WallTime& wall)
 {
   const HandForce value = force_.advance(now);
+  shaper_.rendered(value, now);
   const TopicRegistry::Channel& channel = *topics_.force();
   HapticForce message;
   message.sample_time = answered_time_;

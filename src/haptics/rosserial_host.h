@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "haptics/force_output.h"
+#include "haptics/force_shaper.h"
 #include "haptics/motion_reference.h"
 #include "haptics/rosserial_messages.h"
 #include "haptics/rosserial_protocol.h"
@@ -31,6 +32,7 @@ struct HostOptions
 {
   std::vector<TopicType> types;
   ForceLimits limits;
+  ShaperSettings shaping;
   HostTiming timing;
   HandMotion start;   ///< the command at the first sample
   double baud = 0.0;  ///< of the line, to pace the frames; 0: not paced [bit/s]
@@ -91,6 +93,8 @@ public:
   const std::string& reason() const { return reason_; }
   /** What the device renders now. */
   const HandForce& renderedForce() const { return force_.value(); }
+  /** What the passivity controllers see and do. */
+  const ForceShaper& shaper() const { return shaper_; }
   const TopicRegistry& topics() const { return topics_; }
   const HostCounters& counters() const { return counters_; }
   const ParserCounters& parserCounters() const { return parser_.counters(); }
@@ -116,6 +120,7 @@ private:
   TopicRegistry topics_;
   MotionReference motion_;
   SampleTimes sample_times_;
+  ForceShaper shaper_;
   ForceOutput force_;
   WriteQueue output_;
   HostCounters counters_;

@@ -39,6 +39,8 @@ using haptics::DeviceState;
 constexpr double kLongestWait = 0.1;      ///< of the port's thread, to notice the end of the node [s]
 constexpr double kGoodbyeTime = 50e-3;    ///< for the last bytes to leave [s]
 constexpr double kBusyTime = 0.5;         ///< after the last motion [s]
+constexpr double kFrameBits = 210.0;      ///< of a sample or a force on the line
+constexpr double kDeviceDelay = 2e-3;     ///< of the device and this computer, rather too long than too short [s]
 constexpr unsigned long kTimerSlack = 1;  ///< of the kernel in the port's thread [ns]
 
 double steadyNow()
@@ -134,6 +136,19 @@ haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const sessio
   limits.torque = positive("torque_limit", std::min(limits.torque, scene.drive.torque_limit));
   limits.force_rate = positive("force_rate", limits.force_rate);
   limits.torque_rate = positive("torque_rate", limits.torque_rate);
+  haptics::ShaperSettings& shaping = options.host.shaping;
+  shaping.passivity = parameters.param("passivity", shaping.passivity);
+  shaping.cutoff = parameters.param("force_cutoff", shaping.cutoff);
+  if (!std::isfinite(shaping.cutoff) || shaping.cutoff < 0.0)
+    throw InputError("parameter server", parameters.resolveName("force_cutoff"), "must not be negative");
+  const double line = 2.0 * kFrameBits / static_cast<double>(options.baud);
+  shaping.insertion.delay = shaping.rotation.delay = positive("loop_delay", line + kDeviceDelay);
+  shaping.insertion.resolution = positive("insertion_resolution", shaping.insertion.resolution);
+  shaping.rotation.resolution = positive("rotation_resolution", shaping.rotation.resolution);
+  shaping.insertion.damping_limit = positive("damping_limit", shaping.insertion.damping_limit);
+  shaping.rotation.damping_limit = positive("turning_damping_limit", shaping.rotation.damping_limit);
+  shaping.insertion.force_limit = std::min(shaping.insertion.force_limit, limits.force);
+  shaping.rotation.force_limit = std::min(shaping.rotation.force_limit, limits.torque);
   return options;
 }
 
@@ -384,6 +399,15 @@ void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("frames dropped", host.output().dropped());
   status.add("force [N]", host.renderedForce().force);
   status.add("torque [N m]", host.renderedForce().torque);
+  const auto passivity = [&status](const std::string& name, const haptics::PassivityReport& report)
+  {
+    status.add(name + ": energy [J]", report.energy);
+    status.add(name + ": damping injected now", report.injected_damping);
+    status.add(name + ": dissipated [J]", report.dissipated);
+    status.add(name + ": times active", report.activations);
+  };
+  passivity("insertion", host.shaper().insertion());
+  passivity("rotation", host.shaper().rotation());
   status.add("refused topics", host.topics().refused().size());
   for (const auto& [id, refused] : host.topics().refused())
     status.add("refused " + refused.topic.name, refused.reason);

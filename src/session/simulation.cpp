@@ -27,7 +27,8 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     contacts_(contacts),
     sampling_(makeSampling(scene, entry, centreline)),
     sampling_every_(samplingInterval(scene)),
-    stepper_(makeStepper(scene, entry, sampling_.get()))
+    stepper_(makeStepper(scene, entry, sampling_.get())),
+    blind_hand_(scene.solver.contact_margin, scene.solver.time_step)
 {
   if (sampling_ && !stepper_->resample(sampling_->discretisation()))
     throw InputError(scene.file, "sampling.kind",
@@ -61,14 +62,19 @@ double Simulation::nextGrip(double grip, double wanted, double resistance, doubl
 HandCommand Simulation::allowedMotion(const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
+  const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
   HandCommand motion;
   if (!scene_.introducer)
   {
     const double most = kMaxHandTurn * dt;
-    motion.rotation = std::max(-most, std::min(most, command.rotation - state_.rotation));
+    const double turn = blind_hand_.follow({0.0, command.rotation - state_.rotation}, blind).rotation;
+    motion.rotation = std::max(-most, std::min(most, turn));
     return motion;
   }
-  double wanted = command.insertion - slipped_insertion_ - state_.inserted_length;
+  const HandCommand paced = blind_hand_.follow({command.insertion - slipped_insertion_ - state_.inserted_length,
+                                                command.rotation - slipped_rotation_ - state_.rotation},
+                                               blind);
+  double wanted = paced.insertion;
   wanted = std::max(-kMaxHandSpeed * dt, std::min(kMaxHandSpeed * dt, wanted));
   grip_ = nextGrip(grip_, wanted, state_.hand_force, scene_.drive.force_limit);
   motion.insertion = grip_ * wanted;
@@ -76,7 +82,7 @@ HandCommand Simulation::allowedMotion(const HandCommand& command)
   motion.insertion = reached - state_.inserted_length;
   slipped_insertion_ += wanted - motion.insertion;
 
-  double turn = command.rotation - slipped_rotation_ - state_.rotation;
+  double turn = paced.rotation;
   turn = std::max(-kMaxHandTurn * dt, std::min(kMaxHandTurn * dt, turn));
   turning_grip_ = nextGrip(turning_grip_, turn, state_.hand_torque, scene_.drive.torque_limit);
   motion.rotation = turning_grip_ * turn;
@@ -141,14 +147,17 @@ void Simulation::step(const HandCommand& command)
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     const double share = static_cast<double>(k) / substeps;
-    // Blind, the hand is held: what it commands meanwhile follows when contact sets come again.
-    const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
+    // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
+    const bool blind = k > 1 && travel > blind_hand_.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
     input.inserted_length = blind ? state_.inserted_length : insertion + share * motion.insertion;
     input.rotation = blind ? state_.rotation : rotation + share * motion.rotation;
     input.distal = blind ? state_.distal : rod::between(from, to, share);
     applyLoads(input);
     report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
   }
+  if (substeps > 1 && contacts_ != nullptr && stepper_->contactSet().stale)
+    blind_hand_.miss(
+        {insertion + motion.insertion - state_.inserted_length, rotation + motion.rotation - state_.rotation});
   ++steps_;
   state_hash_ = state_.hash();
   trajectory_.add(state_hash_);

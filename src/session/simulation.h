@@ -8,18 +8,12 @@
 #include "contact/contact_set.h"
 #include "rod/adaptive_sampling.h"
 #include "rod/stepper.h"
+#include "session/blind_hand.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
 
 namespace endovascular_sim::session
 {
-
-/** What the hand asks for at one step. */
-struct HandCommand
-{
-  double insertion = 0.0;  ///< [m]
-  double rotation = 0.0;   ///< [rad]
-};
 
 /** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
  * same commands give the same trajectory bit for bit. */
@@ -77,6 +71,7 @@ private:
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;
+  BlindHand blind_hand_;
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;

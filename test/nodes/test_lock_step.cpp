@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include <XmlRpcClient.h>
 #include <gtest/gtest.h>
@@ -43,8 +44,16 @@ public:
         ros::VoidConstPtr(), hints);
     hand_ = node_.subscribe<sensor_msgs::JointState>(
         nodes::names::kInstruments + instrument + nodes::names::kMeasuredJs, 10,
-        [this](const sensor_msgs::JointStateConstPtr& message) { force_ = message->effort.at(0); }, ros::VoidConstPtr(),
-        hints);
+        [this](const sensor_msgs::JointStateConstPtr& message)
+        {
+          const double force = message->effort.at(0);
+          const std::lock_guard<std::mutex> lock(mutex_);
+          if (force == 0.0 && force_ != 0.0)
+            zero_force_stamp_ = message->header.stamp.toSec();
+          largest_change_ = std::max(largest_change_, std::abs(force - force_));
+          force_ = force;
+        },
+        ros::VoidConstPtr(), hints);
     state_ = node_.subscribe<OperatingState>(
         nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
         [this](const OperatingStateConstPtr& message)
@@ -68,6 +77,13 @@ public:
     const std::lock_guard<std::mutex> lock(mutex_);
     return zero_force_stamp_ - last_step_stamp_;
   }
+
+  /** Largest change of the force from one message to the next since the last call [N]. */
+  double largestChange()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(largest_change_, 0.0);
+  }
   std::string operatingState() const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -81,6 +97,7 @@ private:
   std::string operating_;
   std::atomic<double> force_{0.0};
   double zero_force_stamp_ = 0.0;  ///< of the first zero force after the last one that was not [s]
+  double largest_change_ = 0.0;    ///< [N]
   double last_step_stamp_ = 0.0;   ///< [s]
   // Last, so that they end first: their callbacks run in another thread and use all of the above.
   ros::Subscriber applied_, hand_, state_;
@@ -169,14 +186,19 @@ TEST_F(LockStep, B_DeathOfTheContactNodePausesTakesTheForceAwayAndEndsWhenItRetu
   ASSERT_TRUE(eventually(10.0, [this] { return listener_->operatingState() == "ENABLED"; }));
   const std::uint64_t before = listener_->steps().rbegin()->first;
   ASSERT_NE(listener_->force(), 0.0);
+  const double peak = std::abs(listener_->force());
   ASSERT_TRUE(killNode("/contact"));
   ASSERT_TRUE(eventually(1.0, [this] { return listener_->operatingState() == "PAUSED"; }));
   ASSERT_TRUE(eventually(1.0, [this] { return listener_->force() == 0.0; }));
   // The ramp takes 30 ms; the rest is room for a busy machine.
+  EXPECT_GT(listener_->timeToZeroForce(), 0.0);
   EXPECT_LT(listener_->timeToZeroForce(), 0.1);
+  listener_->largestChange();
   EXPECT_TRUE(eventually(30.0, [this] { return listener_->operatingState() == "ENABLED"; }));
   EXPECT_TRUE(eventually(30.0, [&] { return listener_->steps().rbegin()->first > before + 500; }));
   EXPECT_TRUE(std::isfinite(listener_->force()));
+  // It comes back from zero by 1 % of the peak in a step; messages may be lost on a busy machine.
+  EXPECT_LT(listener_->largestChange(), 0.5 * peak + 5e-3);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "nodes/support/remote_contact_source.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
+#include "contact/contact_answer.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
 
@@ -14,13 +14,6 @@ namespace
 using Clock = std::chrono::steady_clock;
 constexpr double kSilentPatience = 0.1;  // of the patience, while the node has not answered
 constexpr int kQueue = 4;
-
-bool isFinite(const ContactFeature& f)
-{
-  return std::isfinite(f.parameter) && std::isfinite(f.gap) && std::isfinite(f.friction) && std::isfinite(f.point.x) &&
-         std::isfinite(f.point.y) && std::isfinite(f.point.z) && !std::isnan(f.stiffness) &&
-         std::abs(f.normal.x * f.normal.x + f.normal.y * f.normal.y + f.normal.z * f.normal.z - 1.0) < 1e-6;
-}
 
 }  // namespace
 
@@ -40,34 +33,23 @@ void RemoteContactSource::publish()
   publisher_.publish(query_);
 }
 
-/** An answer counts only when it is of the asked state and makes sense; anything else is dropped and counted. */
-bool RemoteContactSource::fits(const ContactSet& message) const
-{
-  if (message.step != query_.step || message.substep != query_.substep || message.pass != query_.pass)
-    return false;
-  const std::size_t edges = query_.nodes.empty() ? 0 : query_.nodes.size() - 1;
-  if (message.first_edge != query_.first_node || message.free_distance.size() != edges)
-    return false;
-  return std::all_of(message.features.begin(), message.features.end(),
-                     [&](const ContactFeature& feature)
-                     {
-                       return feature.edge >= static_cast<int>(query_.first_node) &&
-                              feature.edge < static_cast<int>(query_.first_node + edges) && feature.parameter >= 0.0 &&
-                              feature.parameter <= 1.0 && isFinite(feature);
-                     });
-}
-
+/** An answer counts only when it is the first to the asked state and makes sense; anything else is dropped and counted.
+ */
 void RemoteContactSource::receive(const ContactSetConstPtr& message)
 {
-  heard_ = true;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!fits(*message))
+    if (!has_answer_)
     {
-      ++odd_sets_;
-      return;
+      fromMessage(*message, answer_);
+      has_answer_ = contact::answers(asked_, answer_);
+      heard_ = heard_ || has_answer_;
+      odd_sets_ += !has_answer_;
     }
-    answer_ = message;
+    else
+      ++odd_sets_;
+    if (!has_answer_)
+      return;
   }
   answered_.notify_one();
 }
@@ -77,7 +59,8 @@ void RemoteContactSource::ask(const contact::Query& query)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     toMessage(query, query_);
-    answer_.reset();
+    asked_ = query;
+    has_answer_ = false;
   }
   publish();
 }
@@ -85,7 +68,7 @@ void RemoteContactSource::ask(const contact::Query& query)
 bool RemoteContactSource::waitForAnswer(double seconds)
 {
   std::unique_lock<std::mutex> lock(mutex_);
-  return answered_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return answer_ != nullptr; });
+  return answered_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return has_answer_; });
 }
 
 void RemoteContactSource::detect(const contact::Query& query, contact::ContactSet& set)
@@ -95,7 +78,8 @@ void RemoteContactSource::detect(const contact::Query& query, contact::ContactSe
   {
     silent_ = false;
     const std::lock_guard<std::mutex> lock(mutex_);
-    fromMessage(*answer_, set);
+    std::swap(set, answer_);  // what it gets for it may be overwritten: the next answer is to another query
+    set.stale = false;
     return;
   }
   if (!silent_)
@@ -111,6 +95,10 @@ bool RemoteContactSource::probe()
   {
     silent_ = false;
     return true;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_answer_ = false;
   }
   publish();
   return false;

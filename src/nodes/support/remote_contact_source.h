@@ -33,7 +33,7 @@ public:
   void startListening() { heard_ = false; }
 
   /** Asks the last query again without waiting.
-   *  @return whether the node has answered any query since the last call */
+   *  @return whether the node has answered it since the last call */
   bool probe();
 
   /** Waits until the contact node answers for the first time, or ROS ends. @return false when ROS ended */
@@ -46,7 +46,6 @@ public:
 
 private:
   void receive(const ContactSetConstPtr& message);
-  bool fits(const ContactSet& message) const;
   bool waitForAnswer(double seconds);
   void ask(const contact::Query& query);
   void publish();
@@ -57,8 +56,10 @@ private:
   double patience_;
   mutable std::mutex mutex_;
   std::condition_variable answered_;
-  RodState query_;             ///< guarded: the receiving thread compares answers with it
-  ContactSetConstPtr answer_;  ///< guarded
+  RodState query_;              ///< as it is published
+  contact::Query asked_;        ///< guarded: the receiving thread compares answers with it
+  contact::ContactSet answer_;  ///< guarded
+  bool has_answer_ = false;     ///< guarded
   std::atomic<bool> heard_{false};
   bool silent_ = false;
   std::chrono::steady_clock::time_point silent_since_;

@@ -203,7 +203,11 @@ void RodLoop::stepOnce()
   const double fade = scene_.solver.time_step / kRampTime;
   force_share_ += simulation_->report().solved ? fade : -fade;
   force_share_ = std::max(0.0, std::min(1.0, force_share_));
-  publisher_.publishStep(*simulation_, used_, force_share_);
+  const bool blind = simulation_->report().first_stale_pass != contact::kNoStalePass;
+  const double dt = scene_.solver.time_step;
+  told_force_ = force_share_ * force_bridge_.told(simulation_->state().hand_force, blind, dt);
+  told_torque_ = force_share_ * torque_bridge_.told(simulation_->state().hand_torque, blind, dt);
+  publisher_.publishStep(*simulation_, used_, told_force_, told_torque_);
   if (forces_)
     forces_->publishStep(*simulation_);
 }
@@ -234,8 +238,6 @@ void RodLoop::pause()
 {
   ++counters_.pauses;
   counters_.paused = true;
-  const double force = simulation_->state().hand_force;
-  const double torque = simulation_->state().hand_torque;
   publisher_.publishOperatingState("PAUSED", "the contact node does not answer");
   ROS_WARN("rod_dynamics: paused at step %lu: the contact node does not answer; going on when it does",
            static_cast<unsigned long>(simulation_->steps()));
@@ -245,10 +247,12 @@ void RodLoop::pause()
   {
     const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
     const double share = std::max(0.0, 1.0 - elapsed / kRampTime);
-    publisher_.publishHand(used_, share * force, share * torque);
+    publisher_.publishHand(used_, share * told_force_, share * told_torque_);
     sleepUntil(Clock::now() + period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
   counters_.paused = false;
+  force_bridge_.drop();
+  torque_bridge_.drop();
   if (!ros::ok())
     return;
   publisher_.publishOperatingState("ENABLED", "");

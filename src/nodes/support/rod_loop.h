@@ -14,6 +14,7 @@
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
 #include "nodes/support/rod_publisher.h"
+#include "session/force_bridge.h"
 #include "session/simulation.h"
 
 namespace endovascular_sim::nodes
@@ -78,6 +79,10 @@ private:
   session::HandCommand used_;     ///< by the last step
   ros::Subscriber command_subscriber_;
   double force_share_ = 1.0;  ///< of the force that is told; fades while steps are refused
+  session::ForceBridge force_bridge_{5e-3};
+  session::ForceBridge torque_bridge_{5e-5};
+  double told_force_ = 0.0;   ///< to the hand after the last step [N]
+  double told_torque_ = 0.0;  ///< [N·m]
   Counters counters_;
 };
 

@@ -45,10 +45,10 @@ void RodPublisher::publishHand(const session::HandCommand& command, double force
   hand_.publish(hand_message_);
 }
 
-void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command,
-                               double force_share)
+void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command, double force,
+                               double torque)
 {
-  publishHand(command, force_share * simulation.state().hand_force, force_share * simulation.state().hand_torque);
+  publishHand(command, force, torque);
   applied_message_.header.stamp = hand_message_.header.stamp;
   applied_message_.step = simulation.steps() - 1;
   applied_message_.insertion[0] = command.insertion;

@@ -19,9 +19,10 @@ class RodPublisher
 public:
   RodPublisher(ros::NodeHandle& node, const session::Scene& scene);
 
-  /** After a step: force, torque and the command it used, its hash; now and then the pictures' data.
-   *  @param force_share of the force that is told, 0 to 1 */
-  void publishStep(const session::Simulation& simulation, const session::HandCommand& command, double force_share);
+  /** After a step: force [N] and torque [N·m] for the hand and the command it used, its hash; now and then the
+   *  pictures' data. */
+  void publishStep(const session::Simulation& simulation, const session::HandCommand& command, double force,
+                   double torque);
 
   /** Whether somebody listens to every step. */
   bool isRecorded() const { return applied_.getNumSubscribers() > 0; }
