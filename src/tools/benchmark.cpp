@@ -167,16 +167,20 @@ std::string markdown(const Section& section)
 
 constexpr auto kLimits = R"(## Limits
 
-- `kkt` and `paper` are of second order in space: 100 nodes give 1e-4 L on strongly bent wires. `mixed` is of fourth order for
-  nodal and distributed loads, rest curvature, twist and joints of sections at nodes, in the plane and in space: on a 45° arc bent out of its plane its error
-  at 25 nodes is that of `kkt` at several thousand.
+- `kkt` and `paper` are of second order in space: 100 nodes give 1e-4 L on strongly bent wires. `mixed` is of fourth order
+  for nodal and distributed loads, rest curvature, twist and joints of sections at nodes, in the plane and in space: on a
+  45° arc bent out of its plane its error at 25 nodes is that of `kkt` at several thousand.
 - `mixed` has contact by its nodes: chords touch the wall, not arcs, so a bent wall needs edges as short as those of `kkt`
-  and each costs three times as much; it keeps its nodes (no adaptive sampling). So `kkt` stays the default; `mixed` wins wherever
-  loads act at nodes and shapes are smooth.
+  and each costs three times as much; it keeps its nodes, because an edge of it is accurate at several times the length
+  that the wall asks for. So `kkt` stays the default; `mixed` wins wherever loads act at nodes and shapes are smooth.
+- Adaptive sampling: `kkt` hides a change of nodes from the hand, `paper` does not.
 - Backward Euler is of first order in time and takes energy from fast modes. Twist is quasi-static.
-- `paper` has no trust region: a wall stops it only by depth, and at steps of 1 ms a stiff wire leaves through it.
-- On facetted meshes a stiff tip snaps over ridges; when it does depends on every detail. Runs are compared before the first
-  bifurcation, or as ensembles.
+- `paper` has no trust region: a wall stops it only by depth, and at steps of 1 ms a stiff wire leaves through it. Its
+  friction falls short where a node is slow.
+- A wire of which every node is moved at random by its edge's length, or that is folded back onto itself to less than 6°,
+  is held where it is and the step refused.
+- On facetted meshes a stiff tip snaps over ridges; when it does depends on every detail. Runs are compared before the
+  first bifurcation, or as ensembles.
 - Self-contact of the wire is out of scope.
 )";
 
