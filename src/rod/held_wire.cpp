@@ -45,6 +45,7 @@ State HeldWire::initialState(double inserted_length, double rotation) const
   state.twist_angle.assign(n - 1, rotation);
   state.wall_force.assign(n, Eigen::Vector3d::Zero());
   state.friction_coefficient.assign(n, 0.0);
+  state.friction_stretch.assign(n, Eigen::Vector3d::Zero());
   for (int i = 0; i < rod_.nodes(); ++i)
     state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
   state.first_node = firstSimulatedNode(inserted_length);

@@ -114,6 +114,7 @@ State MixedRod::straight(const Vector3d& origin, const Vector3d& direction) cons
   state.moment.assign(n, Vector3d::Zero());
   state.wall_force.assign(n, Vector3d::Zero());
   state.friction_coefficient.assign(n, 0.0);
+  state.friction_stretch.assign(n, Vector3d::Zero());
   state.tension.assign(n - 1, 0.0);
   state.twist_angle.assign(n - 1, 0.0);
   return state;

@@ -102,6 +102,7 @@ void Resampling::carry(const Wire& wire, const Discretisation& from, const Discr
   next_.velocity.resize(n);
   next_.wall_force.resize(n);
   next_.friction_coefficient.resize(n);
+  next_.friction_stretch.resize(n);
   next_.tension.resize(n - 1);
   next_.twist_angle.resize(n - 1);
   carryEdges(from, state);
@@ -143,6 +144,7 @@ void Resampling::carryNodes(const Discretisation& from, const Discretisation& to
     next_.velocity[k] = state.velocity[i];
     next_.wall_force[k] = state.wall_force[i] * (to.cell_length[k] / from.cell_length[i]);
     next_.friction_coefficient[k] = state.friction_coefficient[i];
+    next_.friction_stretch[k] = state.friction_stretch[i];
   }
   for (const Change& change : changes_)
     if (change.split)
@@ -163,6 +165,12 @@ void Resampling::insert(const Change& change, const Discretisation& from, const 
   next_.wall_force[k] = before + after;
   next_.friction_coefficient[k] =
       before.squaredNorm() > after.squaredNorm() ? state.friction_coefficient[a] : state.friction_coefficient[a + 1];
+  // Of two neighbours that touch, the mean by force: friction along the wire goes on as it was.
+  const double force = before.norm() + after.norm();
+  next_.friction_stretch[k].setZero();
+  if (force > 0.0)
+    next_.friction_stretch[k] =
+        (before.norm() * state.friction_stretch[a] + after.norm() * state.friction_stretch[a + 1]) / force;
 }
 
 void Resampling::remove(const Change& change, const Discretisation& from, const Discretisation& to, const State& state)
@@ -181,8 +189,10 @@ void Resampling::remove(const Change& change, const Discretisation& from, const 
     const bool was_free = state.wall_force[gone - 1 + 2 * side].isZero(0.0);
     next_.velocity[k + side] += kick;
     next_.wall_force[k + side] += to.cell_length[k + side] * beyond;
-    if (was_free)
-      next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
+    if (!was_free)
+      continue;
+    next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
+    next_.friction_stretch[k + side] = state.friction_stretch[gone];
   }
 }
 

@@ -18,6 +18,7 @@ namespace endovascular_sim::rod
  *    gives; a node that goes gives that mean back and shares what its momentum had beyond it. Splitting loses the
  *    kinetic energy of the mean, ½ m_a m_b/(m_a + m_b) |v_a − v_b|² of the masses given; merging returns no more.
  *  - The wall's force is treated likewise as a force per length, so that its sum is conserved.
+ *  - A new node's friction has the stretch of its neighbours'.
  *  - Tension is that of the edge, twist is interpolated; merging takes the mean. */
 class Resampling
 {

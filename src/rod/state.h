@@ -35,8 +35,10 @@ struct State
   std::vector<double> twist_angle;           ///< material frame against Bishop frame [rad], n−1
   std::vector<Eigen::Vector3d> wall_force;   ///< normal force of the wall on each node [N], n
   std::vector<double> friction_coefficient;  ///< of the contact that pushes on each node, n
-  double hand_force = 0.0;                   ///< axial force of the wire on the hand, positive when it pushes back [N]
-  double hand_torque = 0.0;                  ///< torque that the hand holds about the wire's axis [N·m]
+  /** How far the wall's friction has been dragged without sliding, at most StepperSettings::friction_slip [m], n. */
+  std::vector<Eigen::Vector3d> friction_stretch;
+  double hand_force = 0.0;   ///< axial force of the wire on the hand, positive when it pushes back [N]
+  double hand_torque = 0.0;  ///< torque that the hand holds about the wire's axis [N·m]
 
   EndMotion distal;            ///< where the held distal end is
   double tip_transport = 0.0;  ///< angle from the Bishop frame to a held tip's director, over full turns [rad]

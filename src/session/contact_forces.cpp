@@ -1,24 +1,11 @@
 #include "session/contact_forces.h"
 
-#include <algorithm>
 #include <limits>
+
+#include "rod/wall_friction.h"
 
 namespace endovascular_sim::session
 {
-namespace
-{
-
-Eigen::Vector3d frictionOn(const rod::State& state, int node)
-{
-  const double force = state.wall_force[node].norm();
-  const Eigen::Vector3d normal = state.wall_force[node] / force;
-  const Eigen::Vector3d sliding = state.velocity[node] - state.velocity[node].dot(normal) * normal;
-  const double slowest = rod::StepperSettings().friction_speed;  // slower sliding is shared out linearly
-  return -(state.friction_coefficient[node] * force / std::max(sliding.norm(), slowest)) * sliding;
-}
-
-}  // namespace
-
 std::vector<WallContact> wallContacts(const Simulation& simulation)
 {
   const rod::State& state = simulation.state();
@@ -29,7 +16,7 @@ std::vector<WallContact> wallContacts(const Simulation& simulation)
       continue;
     WallContact contact;
     contact.normal_force = state.wall_force[i];
-    contact.friction_force = frictionOn(state, i);
+    contact.friction_force = rod::frictionForce(state, i, rod::StepperSettings().friction_slip);
     contact.position = state.position[i];
     double smallest = std::numeric_limits<double>::infinity();
     for (const contact::Feature& feature : simulation.contactSet().features)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plane_wall.h"
 #include "rod/mixed_stepper.h"
 #include "rod_fixtures.h"
 
@@ -18,40 +19,9 @@ constexpr double kEi = 4.9469e-5;
 constexpr double kRadius = 1.8e-4;
 constexpr double kFriction = 0.2;
 
-/** The plane z = 0 below the wire. */
-class Floor : public contact::ContactSource
-{
-public:
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    set.features.clear();
-    set.first_edge = query.first_node;
-    set.free_distance.clear();
-    const int n = static_cast<int>(query.nodes.size());
-    for (int i = 0; i < n; ++i)
-    {
-      const double gap = query.nodes[i].z() - query.radius[i];
-      if (i + 1 < n)
-        set.free_distance.push_back(std::max(0.0, std::min(gap, query.nodes[i + 1].z() - query.radius[i + 1])));
-      if (gap > query.margin)
-        continue;
-      contact::Feature feature;
-      feature.edge = query.first_node + std::min(i, n - 2);
-      feature.parameter = i == n - 1 ? 1.0 : 0.0;
-      feature.point = Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
-      feature.normal = Vector3d::UnitZ();
-      feature.gap = gap;
-      feature.friction = kFriction;
-      feature.id = 3 * i;
-      set.features.push_back(feature);
-    }
-    set.stale = false;
-  }
-};
-
 struct Bench
 {
-  Floor floor;
+  PlaneWall floor{kFriction};
   MixedStepper stepper;
   State state;
   PhaseTimer timer;

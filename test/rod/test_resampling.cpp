@@ -63,6 +63,7 @@ State wildState(const Discretisation& rod)
     state.wall_force.push_back(i % 4 == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                           : Eigen::Vector3d(0.1 * std::sin(200.0 * s), 0.05, 0.3 * s));
     state.friction_coefficient.push_back(0.1);
+    state.friction_stretch.push_back(Eigen::Vector3d(1e-7 * i, 0.0, 0.0));
   }
   for (int j = 0; j + 1 < rod.nodes(); ++j)
   {
