@@ -76,6 +76,9 @@ public:
 
 private:
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
+  void listCrossings();
+  double lengthOf(int index) const;
+  double lengthTowards(int index, int edge, double place, int direction) const;
   double approach(std::size_t index, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
   double staleTruncation(const Motion& motion);
@@ -86,6 +89,7 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
+  std::vector<int> crossings_;  ///< compliant contacts between nodes, along the wire
   bool valid_ = false;
   bool step_is_stale_ = false;
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
