@@ -47,6 +47,7 @@ State HeldWire::initialState(double inserted_length, double rotation) const
   state.friction_coefficient.assign(n, 0.0);
   state.wall_offset.assign(n, 0.0);
   state.curvature_offset.assign(n, Eigen::Vector3d::Zero());
+  state.friction_stretch.assign(n, Eigen::Vector3d::Zero());
   for (int i = 0; i < rod_.nodes(); ++i)
     state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
   state.first_node = firstSimulatedNode(inserted_length);

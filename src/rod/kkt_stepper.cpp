@@ -262,6 +262,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
 
 void KktStepper::finish(State& state, double dt)
 {
+  friction_.finish(state, begin_);
   const double inverse = 1.0 / dt;
   for (int i = first_; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))
@@ -289,6 +290,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
   base_.reset(4 * (n - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   base_.at(kIdleRow, kIdleRow) = -scale_;
+  friction_.prepare(state, begin_, &rod_.mass, dt, first_solve);
   addAllBending(state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addConstraint(j, state, dt);
@@ -441,8 +443,6 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
     residual += drag * travel;
     addDiagonal(node, drag);
   }
-  if (!state.wall_force[node].isZero(0.0))
-    addFriction(node, state, travel, velocity, dt, residual);
   if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
   {
     const double depth = beyond / boundary_.guide_length;
@@ -454,21 +454,6 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
   }
   for (int axis = 0; axis < 3; ++axis)
     base_rhs_[row(node) + axis] -= residual[axis];
-}
-
-void KktStepper::addFriction(int node, const State& state, const Eigen::Vector3d& travel,
-                             const Eigen::Vector3d& velocity, double dt, Eigen::Vector3d& residual)
-{
-  const double normal_force = state.wall_force[node].norm();
-  const double friction = state.friction_coefficient[node];
-  if (friction <= 0.0 || normal_force < 1e-9)
-    return;
-  const Eigen::Vector3d normal = state.wall_force[node] / normal_force;
-  const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-  const double speed = std::max((along * velocity).norm(), settings_.friction_speed);
-  const Eigen::Matrix3d drag = (dt * friction * normal_force / speed) * along;
-  residual += drag * travel;
-  addBlock(node, drag);
 }
 
 void KktStepper::prescribeNodes(const State& state)

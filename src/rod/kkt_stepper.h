@@ -8,6 +8,7 @@
 #include "rod/sparse_solver.h"
 #include "rod/stepper.h"
 #include "rod/twist.h"
+#include "rod/wall_friction.h"
 
 namespace endovascular_sim::rod
 {
@@ -59,8 +60,7 @@ private:
   void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
-  void addFriction(int node, const State& state, const Eigen::Vector3d& travel, const Eigen::Vector3d& velocity,
-                   double dt, Eigen::Vector3d& residual);
+  void addFriction(const WallFriction::Term& term, double dt);
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
   void prescribeNodes(const State& state);
@@ -93,6 +93,7 @@ private:
   bool twist_active_ = false;
   NodalContacts contacts_{rod_, boundary_, settings_};
   NodalContacts::Motion motion_;  ///< of the last solve, n
+  WallFriction friction_{settings_.friction_slip};
   PhaseTimer* timer_ = nullptr;
   bool fading_ = true;   ///< the state may have offsets
   bool capped_ = false;  ///< the last step was accepted unfinished

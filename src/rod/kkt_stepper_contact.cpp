@@ -29,6 +29,8 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
     for (std::size_t c = 0; c < contacts_.count(); ++c)
       if (contacts_.spring(c).active)
         addContact(contacts_.feature(c), contacts_.spring(c), dt);
+    for (std::size_t k = 0; k < friction_.count(); ++k)
+      addFriction(friction_.term(k), dt);
     for (int i = first_; shift > 0.0 && i < rod_.nodes(); ++i)
       for (int axis = 0; axis < 3; ++axis)
         matrix_.at(row(i) + axis, row(i) + axis) += shift * rod_.mass[i];
@@ -41,7 +43,9 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
     }
     for (int i = first_; i < rod_.nodes(); ++i)
       motion_[i] = increment(i);
-    if (!contacts_.updateActiveSet(motion_, active_pass))
+    const bool contacts_changed = contacts_.updateActiveSet(motion_, active_pass);
+    const bool friction_changed = friction_.update(motion_, active_pass);
+    if (!contacts_changed && !friction_changed)
       return true;
   }
   return true;
@@ -68,6 +72,17 @@ void KktStepper::addContact(const contact::Feature& feature, const NodalContacts
     for (int line = 0; line < 3; ++line)
       matrix_.at(r1 + line, r0 + col) +=
           stiffness * contact.weight0 * contact.weight1 * feature.normal[line] * feature.normal[col];
+  }
+}
+
+void KktStepper::addFriction(const WallFriction::Term& term, double dt)
+{
+  const int r = row(term.node);
+  for (int col = 0; col < 3; ++col)
+  {
+    rhs_[r + col] -= dt * dt * term.pull[col];
+    for (int line = col; line < 3; ++line)
+      matrix_.at(r + line, r + col) += dt * dt * term.stiffness(line, col);
   }
 }
 

@@ -116,6 +116,7 @@ State MixedRod::straight(const Vector3d& origin, const Vector3d& direction) cons
   state.friction_coefficient.assign(n, 0.0);
   state.wall_offset.assign(n, 0.0);
   state.curvature_offset.assign(n, Eigen::Vector3d::Zero());
+  state.friction_stretch.assign(n, Vector3d::Zero());
   state.tension.assign(n - 1, 0.0);
   state.twist_angle.assign(n - 1, 0.0);
   return state;

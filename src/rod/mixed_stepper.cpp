@@ -237,6 +237,7 @@ void MixedStepper::assemble(const State& state, const StepInput& input, double d
   if (twist_active_)
     twist_.assemble(model_, state, gradient_, base_);
   addInertia(state, dt);
+  friction_.prepare(state, begin_, &rod_.mass, dt, first_solve);
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     addNodeTerms(i, state, dt, first_solve);
   for (const NodalForce& load : input.forces)
@@ -284,7 +285,7 @@ void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d&
       base_.at(r + line, r + col) += block(line, col);
 }
 
-/** Weight, drag of the fluid, friction, and the introducer's guide. */
+/** Weight, drag of the fluid, and the introducer's guide. */
 void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const double beyond = bodyPosition(node, state.inserted_length);
@@ -308,8 +309,6 @@ void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool fi
     block += across;
     force += across * (state.position[node] - boundary_.origin);
   }
-  if (!state.wall_force[node].isZero(0.0))
-    addFriction(node, state, dt, first_solve, block, force);
   addBlock(state, node, block);
   for (int axis = 0; axis < 3; ++axis)
     gradient_[model_.positionRow(state, node) + axis] += force[axis];
@@ -327,6 +326,7 @@ double MixedStepper::largestStrain(const State& state) const
 
 void MixedStepper::finish(State& state, double dt) const
 {
+  friction_.finish(state, begin_);
   const double inverse = 1.0 / dt;
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))

@@ -5,6 +5,7 @@
 #include "rod/mixed_twist.h"
 #include "rod/nodal_contacts.h"
 #include "rod/stepper.h"
+#include "rod/wall_friction.h"
 
 namespace endovascular_sim::rod
 {
@@ -51,8 +52,7 @@ private:
   void addInertia(const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
   void addBlock(const State& state, int node, const Eigen::Matrix3d& block);
-  void addFriction(int node, const State& state, double dt, bool first_solve, Eigen::Matrix3d& block,
-                   Eigen::Vector3d& force) const;
+  void addFriction(const State& state, const WallFriction::Term& term);
   void addSpring(const State& state, std::size_t index);
   bool solveActiveSet(const State& state, double dt, StepReport& report, bool& shifted);
   bool factoriseAndSolve(const State& state, double shift, StepReport& report);
@@ -68,6 +68,7 @@ private:
   const Environment environment_;
   const StepperSettings settings_;
   NodalContacts contacts_;
+  WallFriction friction_{settings_.friction_slip};
   MixedRod model_;
   MixedTwist twist_;
   bool twist_active_ = false;

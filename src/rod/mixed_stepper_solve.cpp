@@ -21,26 +21,18 @@ constexpr double kMostShift = 1e6;
 constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
 constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
-constexpr double kLeastForce = 1e-9;         // N: a wall force below it has no friction
 
 }  // namespace
 
-/** Coulomb friction with the lagged wall force, implicit along the wall, viscous below friction_speed. */
-void MixedStepper::addFriction(int node, const State& state, double dt, bool first_solve, Eigen::Matrix3d& block,
-                               Vector3d& force) const
+void MixedStepper::addFriction(const State& state, const WallFriction::Term& term)
 {
-  const double normal_force = state.wall_force[node].norm();
-  const double friction = state.friction_coefficient[node];
-  if (friction <= 0.0 || normal_force < kLeastForce)
-    return;
-  const Vector3d normal = state.wall_force[node] / normal_force;
-  const Vector3d travel = state.position[node] - begin_[node];
-  const Vector3d velocity = first_solve ? state.velocity[node] : Vector3d(travel / dt);
-  const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-  const double speed = std::max((along * velocity).norm(), settings_.friction_speed);
-  const Eigen::Matrix3d drag = (friction * normal_force / (speed * dt)) * along;
-  block += drag;
-  force += drag * travel;
+  const int r = model_.positionRow(state, term.node);
+  for (int col = 0; col < 3; ++col)
+  {
+    rhs_[r + col] -= term.pull[col];
+    for (int row = col; row < 3; ++row)
+      matrix_.at(r + row, r + col) += term.stiffness(row, col);
+  }
 }
 
 void MixedStepper::addSpring(const State& state, std::size_t index)
@@ -85,7 +77,9 @@ bool MixedStepper::solveActiveSet(const State& state, double dt, StepReport& rep
     }
     for (int i = state.first_node; i < rod_.nodes(); ++i)
       motion_[i] = increment(model_.positionRow(state, i));
-    if (!contacts_.updateActiveSet(motion_, pass))
+    const bool contacts_changed = contacts_.updateActiveSet(motion_, pass);
+    const bool friction_changed = friction_.update(motion_, pass);
+    if (!contacts_changed && !friction_changed)
       return true;
     ++pass;
   }
@@ -101,6 +95,8 @@ bool MixedStepper::factoriseAndSolve(const State& state, double shift, StepRepor
   for (std::size_t c = 0; c < contacts_.count(); ++c)
     if (contacts_.spring(c).active)
       addSpring(state, c);
+  for (std::size_t k = 0; k < friction_.count(); ++k)
+    addFriction(state, friction_.term(k));
   for (int i = state.first_node; shift > 0.0 && i < rod_.nodes(); ++i)
     for (int axis = 0; axis < 3; ++axis)
       matrix_.at(model_.positionRow(state, i) + axis, model_.positionRow(state, i) + axis) += shift * rod_.mass[i];

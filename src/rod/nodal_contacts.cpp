@@ -34,8 +34,9 @@ void NodalContacts::refresh(const State& state, StepReport& report)
     detect(state, report);
 }
 
-NodalContacts::Spring NodalContacts::springOf(const contact::Feature& feature) const
+NodalContacts::Spring NodalContacts::springOf(int index) const
 {
+  const contact::Feature& feature = contacts_.features[index];
   Spring spring;
   spring.node = feature.edge;
   spring.weight0 = 1.0 - feature.parameter;
@@ -47,10 +48,8 @@ NodalContacts::Spring NodalContacts::springOf(const contact::Feature& feature) c
     ++spring.node;
     std::swap(spring.weight0, spring.weight1);
   }
-  const int second = std::min(spring.node + 1, rod_.nodes() - 1);
   if (std::isfinite(feature.stiffness))
-    spring.stiffness = feature.stiffness *
-                       (spring.weight0 * rod_.cell_length[spring.node] + spring.weight1 * rod_.cell_length[second]);
+    spring.stiffness = feature.stiffness * lengthOf(index);
   return spring;
 }
 
@@ -69,9 +68,11 @@ void NodalContacts::harden(Spring& spring)
 void NodalContacts::prepare(const State& state, double dt)
 {
   springs_.clear();
-  for (const contact::Feature& feature : contacts_.features)
+  listCrossings();
+  for (std::size_t c = 0; c < contacts_.features.size(); ++c)
   {
-    Spring spring = springOf(feature);
+    const contact::Feature& feature = contacts_.features[c];
+    Spring spring = springOf(static_cast<int>(c));
     const int second = std::min(spring.node + 1, rod_.nodes() - 1);
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
@@ -81,6 +82,57 @@ void NodalContacts::prepare(const State& state, double dt)
     spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     springs_.push_back(spring);
   }
+}
+
+/** Contacts between the nodes, along the wire. */
+void NodalContacts::listCrossings()
+{
+  const std::vector<contact::Feature>& features = contacts_.features;
+  crossings_.clear();
+  for (std::size_t c = 0; c < features.size(); ++c)
+    if (std::isfinite(features[c].stiffness) && features[c].parameter > 0.0 && features[c].parameter < 1.0)
+      crossings_.push_back(static_cast<int>(c));
+  std::sort(
+      crossings_.begin(), crossings_.end(),
+      [&features](int a, int b)
+      {
+        const contact::Feature& f = features[a];
+        const contact::Feature& g = features[b];
+        return f.edge != g.edge ? f.edge < g.edge : f.parameter != g.parameter ? f.parameter < g.parameter : a < b;
+      });
+}
+
+/** Length of wire that a contact stands for: half the way to its neighbours, which are the nodes and the contacts
+ *  between nodes with the same part of the wall; so all of them together stand for the wire once [m]. */
+double NodalContacts::lengthOf(int index) const
+{
+  const contact::Feature& feature = contacts_.features[index];
+  const bool crossing = feature.parameter > 0.0 && feature.parameter < 1.0;
+  const int node = feature.edge + (feature.parameter >= 1.0 ? 1 : 0);
+  double length = 0.0;
+  if (crossing || node > 0)
+    length += lengthTowards(index, crossing ? node : node - 1, crossing ? feature.parameter : 1.0, -1);
+  if (crossing || node + 1 < rod_.nodes())
+    length += lengthTowards(index, node, crossing ? feature.parameter : 0.0, 1);
+  return length;
+}
+
+/** Half the distance on an edge from a contact at @p place to its next neighbour, forwards or backwards [m]. */
+double NodalContacts::lengthTowards(int index, int edge, double place, int direction) const
+{
+  const std::vector<contact::Feature>& features = contacts_.features;
+  double next = direction > 0 ? 1.0 : 0.0;
+  const auto begin = std::lower_bound(crossings_.begin(), crossings_.end(), edge,
+                                      [&features](int c, int wanted) { return features[c].edge < wanted; });
+  for (auto c = begin; c != crossings_.end() && features[*c].edge == edge; ++c)
+  {
+    const double other = features[*c].parameter;
+    const bool same_place = other == place && (direction > 0 ? *c > index : *c < index);
+    const bool beyond = direction > 0 ? other > place && other < next : other < place && other > next;
+    if (*c != index && (same_place || beyond) && features[*c].normal.dot(features[index].normal) > 0.0)
+      next = other;
+  }
+  return 0.5 * std::abs(next - place) * rod_.rest_length[edge];
 }
 
 /** Change of the gap by a motion. */

@@ -89,12 +89,15 @@ private:
     double force;     ///< [N]
   };
 
-  Spring springOf(const contact::Feature& feature) const;
+  Spring springOf(int index) const;
   static void harden(Spring& spring);
   void carry();
-  void settleOffset(const contact::Feature& feature, std::vector<double>& offset) const;
+  void settleOffset(int index, std::vector<double>& offset) const;
   double carriedForce(const contact::Feature& feature) const;
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
+  void listCrossings();
+  double lengthOf(int index) const;
+  double lengthTowards(int index, int edge, double place, int direction) const;
   double approach(std::size_t index, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
   double staleTruncation(const Motion& motion);
@@ -107,6 +110,7 @@ private:
   std::vector<Spring> springs_, previous_springs_;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
+  std::vector<int> crossings_;  ///< compliant contacts between nodes, along the wire
   bool valid_ = false;
   bool step_is_stale_ = false;
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]

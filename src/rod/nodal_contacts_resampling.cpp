@@ -65,17 +65,20 @@ void NodalContacts::settle(State& state)
       changed = fresh_[i] = true;
       state.wall_offset[i] = 0.0;
     }
+  if (changed)
+    listCrossings();
   for (int sweep = 0; changed && sweep < kOffsetSweeps; ++sweep)
-    for (const contact::Feature& feature : contacts_.features)
-      settleOffset(feature, state.wall_offset);
+    for (int c = 0; c < static_cast<int>(contacts_.features.size()); ++c)
+      settleOffset(c, state.wall_offset);
   carried_.clear();
 }
 
 /** Moves the offsets of the fresh nodes at a contact to where it pushes with the force that it had, or, if it had none,
  *  no more (Kaczmarz's method: two contacts may share their nodes). */
-void NodalContacts::settleOffset(const contact::Feature& feature, std::vector<double>& offset) const
+void NodalContacts::settleOffset(int index, std::vector<double>& offset) const
 {
-  const Spring contact = springOf(feature);
+  const contact::Feature& feature = contacts_.features[index];
+  const Spring contact = springOf(index);
   const int second = std::min(contact.node + 1, rod_.nodes() - 1);
   const double weight0 = fresh_[contact.node] ? contact.weight0 : 0.0;
   const double weight1 = fresh_[second] ? contact.weight1 : 0.0;

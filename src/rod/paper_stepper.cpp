@@ -145,6 +145,13 @@ void PaperStepper::assemble(const State& state, const StepInput& input, double d
     addBending(i, state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addStretch(j, state, dt);
+  friction_.prepare(state, begin_, nullptr, dt, true);  // with the impulse of the step before
+  for (std::size_t k = 0; k < friction_.count(); ++k)
+  {
+    const WallFriction::Term& term = friction_.term(k);
+    addForce(term.node, -dt * dt * term.pull);
+    addBlock(term.node, term.node, dt * dt * term.stiffness);
+  }
   for (int i = first_; i < n; ++i)
     addNodeTerms(i, state, dt);
   addContacts(state, dt);
@@ -236,15 +243,6 @@ void PaperStepper::addNodeTerms(int node, const State& state, double dt)
     block += across;
     addForce(node, across * (boundary_.origin - state.position[node]));
   }
-  const double normal_force = state.wall_force[node].norm();
-  if (normal_force > 0.0 && state.friction_coefficient[node] > 0.0)
-  {
-    // Coulomb's law with the impulse of the step before, viscous below friction_speed.
-    const Eigen::Vector3d normal = state.wall_force[node] / normal_force;
-    const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-    const double speed = std::max((along * velocity).norm(), settings_.friction_speed);
-    block += (dt * state.friction_coefficient[node] * normal_force / speed) * along;
-  }
   addBlock(node, node, block);
 }
 
@@ -298,6 +296,7 @@ bool PaperStepper::project(State& state, double dt, StepReport& report)
       state, boundary_, [this](int node) { return inverse_mass_[node] == 0.0; },
       [this, dt](int node) { return forceOnHold(node, dt); });
   updateWallForces(state, dt);
+  friction_.finish(state, begin_);
   return true;
 }
 

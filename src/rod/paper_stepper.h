@@ -8,6 +8,7 @@
 #include "rod/sparse_solver.h"
 #include "rod/stepper.h"
 #include "rod/twist.h"
+#include "rod/wall_friction.h"
 
 namespace endovascular_sim::rod
 {
@@ -97,6 +98,7 @@ private:
   std::vector<double> base_rhs_;
   std::vector<double> rhs_;  ///< then the displacements of the linear step [m]
   std::vector<Spring> springs_;
+  WallFriction friction_{settings_.friction_slip};
   std::vector<double> inverse_mass_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   State backup_;

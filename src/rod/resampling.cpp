@@ -119,6 +119,7 @@ void Resampling::carry(const Wire& wire, const Discretisation& from, const Discr
   next_.friction_coefficient.resize(n);
   next_.wall_offset.assign(n, std::nan(""));
   next_.curvature_offset.assign(n, Eigen::Vector3d::Zero());
+  next_.friction_stretch.resize(n);
   next_.tension.resize(n - 1);
   next_.twist_angle.resize(n - 1);
   carryEdges(from, state);
@@ -163,6 +164,7 @@ void Resampling::carryNodes(const Discretisation& from, const Discretisation& to
     if (sameEdges(from, i, to, k))
       next_.wall_offset[k] = state.wall_offset[i];
     next_.friction_coefficient[k] = state.friction_coefficient[i];
+    next_.friction_stretch[k] = state.friction_stretch[i];
   }
   for (const Change& change : changes_)
     if (change.split)
@@ -208,6 +210,13 @@ void Resampling::insert(const Change& change, const Discretisation& from, const 
                       (change.mass_before + change.mass_after);
   next_.wall_force[k].setZero();
   next_.friction_coefficient[k] = std::max(state.friction_coefficient[a], state.friction_coefficient[a + 1]);
+  // Of two neighbours that touch, the mean by force.
+  const double before = state.wall_force[a].norm();
+  const double after = state.wall_force[a + 1].norm();
+  next_.friction_stretch[k].setZero();
+  if (before + after > 0.0)
+    next_.friction_stretch[k] =
+        (before * state.friction_stretch[a] + after * state.friction_stretch[a + 1]) / (before + after);
 }
 
 void Resampling::remove(const Change& change, const Discretisation& to, const State& state)
@@ -223,8 +232,10 @@ void Resampling::remove(const Change& change, const Discretisation& to, const St
     const bool was_free = state.wall_force[gone - 1 + 2 * side].isZero(0.0);
     next_.velocity[k + side] += kick;
     next_.wall_force[k + side] += 0.5 * state.wall_force[gone];
-    if (was_free)
-      next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
+    if (!was_free)
+      continue;
+    next_.friction_coefficient[k + side] = state.friction_coefficient[gone];
+    next_.friction_stretch[k + side] = state.friction_stretch[gone];
   }
 }
 

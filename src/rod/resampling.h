@@ -20,6 +20,7 @@ namespace endovascular_sim::rod
  *  - Nodes keep their moments and the wall's forces; a new one gets the mean moment of its neighbours and no force, one
  *    that goes gives them half of its force each. What the new shape asks for beyond that is set as offsets of the
  *    curvature and, by the stepper that knows the contacts, of the gaps: they fade over some steps.
+ *  - A new node's friction has the stretch of its neighbours'.
  *  - Tension is that of the edge, twist is interpolated; merging takes the mean. */
 class Resampling
 {

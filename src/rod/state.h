@@ -35,6 +35,8 @@ struct State
   std::vector<double> twist_angle;           ///< material frame against Bishop frame [rad], n−1
   std::vector<Eigen::Vector3d> wall_force;   ///< normal force of the wall on each node [N], n
   std::vector<double> friction_coefficient;  ///< of the contact that pushes on each node, n
+  /** How far the wall's friction has been dragged without sliding, at most StepperSettings::friction_slip [m], n. */
+  std::vector<Eigen::Vector3d> friction_stretch;
   /** By how much each node's contacts count as further from the wall than they are [m], n: a change of nodes must not
    *  change forces. It fades. Not a number where the nodes have changed since the last step. */
   std::vector<double> wall_offset;

@@ -61,7 +61,7 @@ struct StepperSettings
   double contact_margin = 0.25e-3;      ///< features closer than this are listed [m]
   double penetration_tolerance = 3e-5;  ///< an unknown contact deeper than this is solved for again [m]
   double max_rotation = 0.3;            ///< of an edge in one solve [rad]
-  double friction_speed = 0.5e-3;       ///< below it Coulomb friction is viscous [m/s]
+  double friction_slip = 0.5e-6;        ///< a node dragged further over the wall begins to slide [m]
 };
 
 /** A force on one node [N]. */

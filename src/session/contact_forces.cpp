@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "rod/wall_friction.h"
+
 namespace endovascular_sim::session
 {
-namespace
-{
-
-Eigen::Vector3d frictionOn(const rod::State& state, int node)
-{
-  const double force = state.wall_force[node].norm();
-  const Eigen::Vector3d normal = state.wall_force[node] / force;
-  const Eigen::Vector3d sliding = state.velocity[node] - state.velocity[node].dot(normal) * normal;
-  const double slowest = rod::StepperSettings().friction_speed;  // slower sliding is shared out linearly
-  return -(state.friction_coefficient[node] * force / std::max(sliding.norm(), slowest)) * sliding;
-}
-
-}  // namespace
-
 void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts)
 {
   const rod::State& state = simulation.state();
@@ -29,7 +17,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
       continue;
     WallContact contact;
     contact.normal_force = state.wall_force[i];
-    contact.friction_force = frictionOn(state, i);
+    contact.friction_force = rod::frictionForce(state, i, rod::StepperSettings().friction_slip);
     contact.position = state.position[i];
     contact.node = i;
     contact.gap = std::numeric_limits<double>::infinity();

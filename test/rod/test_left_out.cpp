@@ -43,7 +43,7 @@ Environment vacuum()
 StepperSettings withoutContact()
 {
   StepperSettings settings;
-  settings.contact_stiffness = settings.contact_margin = settings.friction_speed = std::nan("");
+  settings.contact_stiffness = settings.contact_margin = settings.friction_slip = std::nan("");
   return settings;
 }
 

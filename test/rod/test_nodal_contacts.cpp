@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "plane_wall.h"
+#include "ridge_wall.h"
+#include "rod/kkt_stepper.h"
 #include "rod/mixed_stepper.h"
 #include "rod_fixtures.h"
 
@@ -18,40 +21,9 @@ constexpr double kEi = 4.9469e-5;
 constexpr double kRadius = 1.8e-4;
 constexpr double kFriction = 0.2;
 
-/** The plane z = 0 below the wire. */
-class Floor : public contact::ContactSource
-{
-public:
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    set.features.clear();
-    set.first_edge = query.first_node;
-    set.free_distance.clear();
-    const int n = static_cast<int>(query.nodes.size());
-    for (int i = 0; i < n; ++i)
-    {
-      const double gap = query.nodes[i].z() - query.radius[i];
-      if (i + 1 < n)
-        set.free_distance.push_back(std::max(0.0, std::min(gap, query.nodes[i + 1].z() - query.radius[i + 1])));
-      if (gap > query.margin)
-        continue;
-      contact::Feature feature;
-      feature.edge = query.first_node + std::min(i, n - 2);
-      feature.parameter = i == n - 1 ? 1.0 : 0.0;
-      feature.point = Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
-      feature.normal = Vector3d::UnitZ();
-      feature.gap = gap;
-      feature.friction = kFriction;
-      feature.id = 3 * i;
-      set.features.push_back(feature);
-    }
-    set.stale = false;
-  }
-};
-
 struct Bench
 {
-  Floor floor;
+  PlaneWall floor{kFriction};
   MixedStepper stepper;
   State state;
   PhaseTimer timer;
@@ -133,6 +105,61 @@ TEST(NodalContacts, ASlidingWireIsBrakedByCoulombFriction)
   EXPECT_NEAR(bench.state.velocity[10].norm(), before - kFriction * 9.81 * 0.04, 1e-3);
   bench.run(1e-3, 200);
   EXPECT_LT(bench.state.velocity[10].norm(), 1e-4);
+}
+
+/** Depth at the ridge of a stiff wire that is pressed on a compliant roof all along [m]. */
+double indentation(int nodes, double ridge, double load)
+{
+  constexpr double kLength = 0.1;
+  constexpr double kStiffness = 1e4;  // N/m²
+  Boundary boundary;
+  boundary.introducer = false;
+  boundary.origin = Vector3d(0.0, 0.0, kRadius);
+  Environment environment;
+  environment.damping = 100.0;
+  KktStepper stepper(discretiseUniformly(uniformWire(kLength, 1.0, kRadius, 7900.0), nodes), boundary, environment,
+                     StepperSettings());
+  RidgeWall wall(ridge, 1e-3, kStiffness);
+  State state = stepper.initialState(0.0, 0.0);
+  PhaseTimer timer;
+  StepInput input;
+  for (int i = 0; i < nodes; ++i)
+    input.forces.push_back({i, Vector3d(0.0, 0.0, -load * stepper.discretisation().cell_length[i] / kLength)});
+  for (int k = 0; k < 500; ++k)
+  {
+    input.step = static_cast<std::uint64_t>(k);
+    std::uint32_t pass = 0;
+    EXPECT_TRUE(stepper.step(state, input, 1e-3, pass, &wall, timer).solved);
+  }
+  double depth = 0.0;
+  for (int i = 0; i + 1 < nodes; ++i)
+  {
+    const double t = (ridge - state.position[i].x()) / (state.position[i + 1].x() - state.position[i].x());
+    if (t >= 0.0 && t <= 1.0)
+      depth = kRadius - ((1.0 - t) * state.position[i].z() + t * state.position[i + 1].z());
+  }
+  return depth;
+}
+
+TEST(NodalContacts, ACompliantWallGivesWayByTheSameForAnySamplingWhereTheWireCrossesARidge)
+{
+  // A rigid wire in touch all along: F = k ∫(depth − slope·|x|) dx about a ridge in its middle.
+  constexpr double kLoad = 0.1;
+  const double expected = kLoad / (1e4 * 0.1) + 1e-3 * 0.1 / 4.0;
+  for (const int nodes : {20, 40, 80})
+    EXPECT_NEAR(indentation(nodes, 0.05, kLoad), expected, 2e-3 * expected) << nodes;
+  // Wherever the ridge meets an edge: at its middle, near its end, and on a node.
+  const double off_centre = indentation(80, 0.0531, kLoad);
+  for (const int nodes : {20, 21, 40, 41})
+    EXPECT_NEAR(indentation(nodes, 0.0531, kLoad), off_centre, 1e-2 * off_centre) << nodes;
+}
+
+TEST(NodalContacts, ForceOfACompliantWallIsContinuousWhereARidgePassesANode)
+{
+  const double place = 0.1 * 20 / 40;  // of a node
+  const double before = indentation(41, place - 1e-7, 0.1);
+  EXPECT_NEAR(indentation(41, place, 0.1), before, 1e-4 * before);
+  EXPECT_NEAR(indentation(41, place + 1e-7, 0.1), before, 1e-4 * before);
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ State wildState(const Discretisation& rod)
     state.friction_coefficient.push_back(0.1);
     state.wall_offset.push_back(0.0);
     state.curvature_offset.emplace_back(Eigen::Vector3d::Zero());
+    state.friction_stretch.push_back(Eigen::Vector3d(1e-7 * i, 0.0, 0.0));
   }
   for (int j = 0; j + 1 < rod.nodes(); ++j)
   {
