@@ -16,6 +16,18 @@ constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
+constexpr double kFreeBand = 0.5;                // of the limit, beyond it, from where nothing holds at all
+
+/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. It
+ *  follows the force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every
+ *  change. Far beyond the limit it lets go at once: a fast hand would push millimetres in the delay. */
+double nextGrip(double grip, double wanted, double resistance, double limit, double dt)
+{
+  const double against = wanted > 0.0 ? resistance : -resistance;
+  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
+  const double firm = 1.0 - (against - limit) / (kFreeBand * limit);
+  return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
+}
 
 }  // namespace
 
@@ -44,38 +56,32 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     stepper_->resample(sampling_->discretisation());
 }
 
-/** Grip of the hand, 1 firm to 0 slipping, after a step in which the wire resisted the wanted motion. It follows the
- *  force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every change. */
-double Simulation::nextGrip(double grip, double wanted, double resistance, double limit) const
-{
-  const double against = wanted > 0.0 ? resistance : -resistance;
-  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
-  return grip + std::min(1.0, scene_.solver.time_step / kGripTime) * (target - grip);
-}
-
-HandCommand Simulation::allowedMotion(const HandCommand& command)
+/** What the hand asks for in a step, as far as it can move at all. */
+HandCommand Simulation::wantedMotion(const HandCommand& command) const
 {
   const double dt = scene_.solver.time_step;
-  HandCommand motion;
-  if (!scene_.introducer)
-  {
-    const double most = kMaxHandTurn * dt;
-    motion.rotation = std::max(-most, std::min(most, command.rotation - state_.rotation));
-    return motion;
-  }
-  double wanted = command.insertion - slipped_insertion_ - state_.inserted_length;
-  wanted = std::max(-kMaxHandSpeed * dt, std::min(kMaxHandSpeed * dt, wanted));
-  grip_ = nextGrip(grip_, wanted, state_.hand_force, scene_.drive.force_limit);
-  motion.insertion = grip_ * wanted;
-  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + motion.insertion));
-  motion.insertion = reached - state_.inserted_length;
-  slipped_insertion_ += wanted - motion.insertion;
+  HandCommand wanted;
+  wanted.rotation =
+      std::clamp(command.rotation - slipped_rotation_ - state_.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
+  if (scene_.introducer)
+    wanted.insertion = std::clamp(command.insertion - slipped_insertion_ - state_.inserted_length, -kMaxHandSpeed * dt,
+                                  kMaxHandSpeed * dt);
+  return wanted;
+}
 
-  double turn = command.rotation - slipped_rotation_ - state_.rotation;
-  turn = std::max(-kMaxHandTurn * dt, std::min(kMaxHandTurn * dt, turn));
-  turning_grip_ = nextGrip(turning_grip_, turn, state_.hand_torque, scene_.drive.torque_limit);
-  motion.rotation = turning_grip_ * turn;
-  slipped_rotation_ += turn - motion.rotation;
+/** What of a wanted motion reaches the wire in a sub-step of @p dt [s]: the grip answers in every one of them. */
+HandCommand Simulation::allowedMotion(const HandCommand& wanted, double dt)
+{
+  HandCommand motion = wanted;
+  if (!scene_.introducer)
+    return motion;
+  grip_ = nextGrip(grip_, wanted.insertion, state_.hand_force, scene_.drive.force_limit, dt);
+  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + grip_ * wanted.insertion));
+  motion.insertion = reached - state_.inserted_length;
+  slipped_insertion_ += wanted.insertion - motion.insertion;
+  turning_grip_ = nextGrip(turning_grip_, wanted.rotation, state_.hand_torque, scene_.drive.torque_limit, dt);
+  motion.rotation = turning_grip_ * wanted.rotation;
+  slipped_rotation_ += wanted.rotation - motion.rotation;
   return motion;
 }
 
@@ -118,16 +124,15 @@ void Simulation::step(const HandCommand& command)
 {
   timer_.reset();
   resample();
-  const HandCommand motion = allowedMotion(command);
+  const HandCommand wanted = wantedMotion(command);
   const rod::EndMotion from = state_.distal;
   const rod::EndMotion to = distalMotionAt(time() + scene_.solver.time_step);
-  const double travel = std::max(std::abs(motion.insertion), (to.displacement - from.displacement).norm());
+  const double travel = std::max(std::abs(wanted.insertion), (to.displacement - from.displacement).norm());
   const double turn =
-      std::max({std::abs(motion.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
+      std::max({std::abs(wanted.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
   const double substeps_wanted = std::max(travel / scene_.solver.max_travel_per_substep, turn / kMaxRotationPerSubstep);
   const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
-  const double insertion = state_.inserted_length;
-  const double rotation = state_.rotation;
+  const double dt = scene_.solver.time_step / substeps;
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
   for (int k = 1; k <= substeps; ++k)
@@ -135,14 +140,16 @@ void Simulation::step(const HandCommand& command)
     rod::StepInput input;
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
-    const double share = static_cast<double>(k) / substeps;
     // Blind, the hand is held: what it commands meanwhile follows when contact sets come again.
     const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
-    input.inserted_length = blind ? state_.inserted_length : insertion + share * motion.insertion;
-    input.rotation = blind ? state_.rotation : rotation + share * motion.rotation;
-    input.distal = blind ? state_.distal : rod::between(from, to, share);
+    HandCommand motion;
+    if (!blind)
+      motion = allowedMotion({wanted.insertion / substeps, wanted.rotation / substeps}, dt);
+    input.inserted_length = state_.inserted_length + motion.insertion;
+    input.rotation = state_.rotation + motion.rotation;
+    input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
-    report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
+    report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
   }
   ++steps_;
   state_hash_ = state_.hash();
