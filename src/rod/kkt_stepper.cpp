@@ -181,10 +181,9 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     if (!solveActiveSet(state, dt, report))
       return false;
     const bool last = solve + 1 == settings_.max_solves;
-    const double factor = truncation(state, report);
-    accept(state, dt, factor);
-    if (source_)
-      detect(state, report);
+    const double factor = move(state, truncation(state, report), report);
+    if (factor == 1.0)
+      accept(state, dt);
     if (source_ && contacts_.stale)
       break;  // one solve per step is all that old contacts are good for
     strain_ = maxStrain(rod_, state);
@@ -218,11 +217,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     solved = solveActiveSet(state, fraction, report);
     if (!solved)
       break;
-    const double factor = truncation(state, report);
-    for (int i = first_; i < rod_.nodes(); ++i)
-      state.position[i] += factor * increment(i);
-    if (source_)
-      detect(state, report);
+    move(state, truncation(state, report), report);
   }
   begin_ = restore_begin_;
   state.velocity = restore_velocity_;

@@ -78,7 +78,10 @@ private:
   bool updateActiveSet(int active_pass);
   void prepareContacts(const State& state, double dt);
   double truncation(const State& state, StepReport& report);
-  void accept(State& state, double dt, double factor);
+  double move(State& state, double factor, StepReport& report);
+  double deepest() const;
+  void addBacking();
+  void accept(State& state, double dt);
   void updateEndForces(State& state, double dt) const;
   Eigen::Vector3d forceOnHold(int node, double dt) const;
   void updateWallForces(State& state);

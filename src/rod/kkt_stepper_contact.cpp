@@ -17,7 +17,17 @@ constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that 
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
+constexpr double kBackingDepth = 40e-6;      // m into a rigid wall from where on it is stiffer
+constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
+constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
+constexpr double kDeepest = 80e-6;           // m into a rigid wall that no motion exceeds
+constexpr int kMaxDepthHalvings = 6;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
+
+bool isBacking(const contact::Feature& feature)
+{
+  return feature.id < 0;
+}
 
 }  // namespace
 
@@ -108,7 +118,9 @@ void KktStepper::prepareContacts(const State& state, double dt)
       std::swap(contact.weight0, contact.weight1);
     }
     const int second = std::min(contact.node + 1, rod_.nodes() - 1);
-    if (std::isfinite(feature.stiffness))
+    if (isBacking(feature))
+      contact.stiffness *= kBackingStiffness;
+    else if (std::isfinite(feature.stiffness))
       contact.stiffness = feature.stiffness * (contact.weight0 * rod_.cell_length[contact.node] +
                                                contact.weight1 * rod_.cell_length[second]);
     const Eigen::Vector3d velocity =
@@ -199,17 +211,81 @@ double KktStepper::staleTruncation()
   return factor;
 }
 
-void KktStepper::accept(State& state, double dt, double factor)
+/** Every wall gets stiff behind its surface, as a second feature there: a rigid one, whose spring would else give way
+ *  by force over stiffness, and a soft one, before the wire's axis reaches where no contact would be found any more. */
+void KktStepper::addBacking()
 {
+  const std::size_t count = contacts_.features.size();
+  for (std::size_t f = 0; f < count; ++f)
+  {
+    contact::Feature backing = contacts_.features[f];
+    const bool soft = std::isfinite(backing.stiffness);
+    const double radius = rod_.radius[backing.edge];
+    backing.gap += soft ? std::max(0.5 * radius, radius - kLeastCover) : kBackingDepth;
+    // A rigid wall's is of use only where its spring is pressed in already.
+    if (backing.gap > (soft ? settings_.contact_margin : 0.5 * kBackingDepth))
+      continue;
+    backing.id = -1 - backing.id;
+    contacts_.features.push_back(backing);
+  }
+}
+
+/** Largest depth in the present contacts with walls that do not give way [m]. */
+double KktStepper::deepest() const
+{
+  double depth = 0.0;
+  for (const contact::Feature& feature : contacts_.features)
+    if (isBacking(feature) || !std::isfinite(feature.stiffness))
+      depth = std::max(depth, -feature.gap);
+  return depth;
+}
+
+/** Moves the wire by a share of the solution and finds the contacts there. A motion that would put the wire deeper into
+ *  a rigid wall than it is, and deeper than is tolerated, is halved until it does not: from a state inside, whatever
+ * the solution is, only states inside are reached.
+ *  @return the share that was left */
+double KktStepper::move(State& state, double factor, StepReport& report)
+{
+  const double allowed = std::max(kDeepest, deepest());
+  double moved = factor;
   for (int i = first_; i < rod_.nodes(); ++i)
     state.position[i] += factor * increment(i);
-  if (factor < 1.0)
-    return;
-  // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
+  if (!source_)
+    return factor;
+  detect(state, report);
+  for (int halving = 0; !contacts_.stale && deepest() > allowed && moved > 0.0; ++halving)
+  {
+    const double shorter = halving < kMaxDepthHalvings ? 0.5 * moved : 0.0;
+    for (int i = first_; i < rod_.nodes(); ++i)
+      state.position[i] -= (moved - shorter) * increment(i);
+    moved = shorter;
+    ask(state, false, contacts_, report);
+    if (contacts_.stale)
+      stale_budget_ = 0.0;  // it is not known any more where this set was found
+    else
+      addBacking();
+  }
+  report.truncations += moved < factor;
+  return moved;
+}
+
+/** Lagged forces follow accepted solutions only: a truncated one is not an equilibrium. */
+void KktStepper::accept(State& state, double dt)
+{
   const double to_force = scale_ / (dt * dt);
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
     state.tension[j] = to_force * rhs_[multiplierRow(j)];
+  // The contacts that were solved with: the present ones are those after the motion.
+  const auto exchange = [this]
+  {
+    std::swap(contacts_, previous_contacts_);
+    std::swap(active_, previous_active_);
+  };
+  if (source_)
+    exchange();
   updateWallForces(state);
+  if (source_)
+    exchange();
   updateEndForces(state, dt);
 }
 
@@ -244,9 +320,12 @@ void KktStepper::detect(const State& state, StepReport& report)
   if (!contacts_.stale)
   {
     stale_budget_ = settings_.contact_margin;
+    addBacking();
     return;
   }
   contacts_.features = previous_contacts_.features;
+  contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
+                           contacts_.features.end());
   for (contact::Feature& feature : contacts_.features)
   {
     const double t = feature.parameter;
@@ -255,6 +334,7 @@ void KktStepper::detect(const State& state, StepReport& report)
     const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
     feature.gap = feature.normal.dot(axis - feature.point) - radius;
   }
+  addBacking();
 }
 
 void KktStepper::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
@@ -265,11 +345,19 @@ void KktStepper::ask(const State& state, bool want_free_distance, contact::Conta
   query_.pass = *pass_;
   query_.want_free_distance = want_free_distance;
   query_.margin = settings_.contact_margin;
-  HeldWire(rod_, boundary_).describe(state, query_);
+  const HeldWire held(rod_, boundary_);
+  held.describe(state, query_);
+  const double mouth = held.describeMouth(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)
+  {
     source_->detect(query_, answer);
+    // The first point stood inside of its edge.
+    for (contact::Feature& feature : answer.features)
+      if (feature.edge == query_.first_node)
+        feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
+  }
   if (answer.stale && !step_is_stale_)
     report.first_stale_pass = *pass_;
   step_is_stale_ = answer.stale;
