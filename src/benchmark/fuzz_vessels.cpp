@@ -173,7 +173,7 @@ FuzzVessels::FuzzVessels(const std::vector<std::string>& mesh_files)
   }
 }
 
-const FuzzVessel& FuzzVessels::keep(const std::string& name, vessel::Vessel vessel)
+FuzzVessel& FuzzVessels::keep(const std::string& name, vessel::Vessel vessel)
 {
   auto made = std::make_unique<FuzzVessel>();
   made->name = name;
@@ -183,7 +183,7 @@ const FuzzVessel& FuzzVessels::keep(const std::string& name, vessel::Vessel vess
   return *(kept_[name] = std::move(made));
 }
 
-const FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
+FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
 {
   if (kind == "channel")
     return *(channel_ = randomChannel(random));

@@ -8,6 +8,7 @@
 
 #include "benchmark/fuzz_random.h"
 #include "benchmark/wire_check.h"
+#include "contact/detector.h"
 #include "session/scene_vessel.h"
 #include "vessel/vessel.h"
 
@@ -21,8 +22,10 @@ struct FuzzVessel
   std::string detail;  ///< of a vessel that is made anew for every episode
   vessel::Vessel vessel;
   std::unique_ptr<WireCheck> check;
-  double narrowest = 1.0;  ///< radius of the narrowest lumen that is meant to be entered [m]
-  double tightest = 1.0;   ///< smallest radius of curvature, where it is known [m]
+  std::unique_ptr<contact::Detector> detector;  ///< of a rigid wall
+  int uses = 0;                                 ///< of the detector
+  double narrowest = 1.0;                       ///< radius of the narrowest lumen that is meant to be entered [m]
+  double tightest = 1.0;                        ///< smallest radius of curvature, where it is known [m]
 };
 
 /** The vessels that the fuzz goes round: channels at random, bifurcations at random, the generated anatomy, and every
@@ -39,10 +42,10 @@ public:
 
   /** A vessel of a kind; what @p random gives decides about channels and which bifurcation. Good until the next call.
    */
-  const FuzzVessel& get(const std::string& kind, FuzzRandom& random);
+  FuzzVessel& get(const std::string& kind, FuzzRandom& random);
 
 private:
-  const FuzzVessel& keep(const std::string& name, vessel::Vessel vessel);
+  FuzzVessel& keep(const std::string& name, vessel::Vessel vessel);
 
   std::vector<std::string> kinds_;
   std::vector<std::string> skipped_;

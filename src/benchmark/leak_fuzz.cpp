@@ -21,6 +21,8 @@ constexpr double kFastestTurn = 59.0;       // rad/s
 constexpr double kLargestTipMoment = 0.02;  // N·m that straighten a pre-curved tip; the stiff J of peer_wire has 0.0165
 constexpr double kSuspicious = 50e-6;       // m of depth that the solver sees: the wire is looked at
 constexpr int kLookEvery = 10;              // steps
+constexpr int kControlEvery = 10;           // looks: then one node is looked at by brute force too
+constexpr int kDetectorLife = 200;          // episodes
 constexpr double kDisagreement = 1e-9;      // m
 
 /** The random choices of an episode that make its scene. */
@@ -125,25 +127,65 @@ private:
   double turn_ = 0.0;
 };
 
-/** The wire from the introducer to the tip, with what a soft wall has given way by. */
+/** A vessel's detector with another law of the wall. */
+class WallSource : public contact::ContactSource
+{
+public:
+  WallSource(contact::Detector& detector, double stiffness, double friction)
+    : detector_(detector), stiffness_(stiffness), friction_(friction)
+  {
+  }
+
+  void detect(const contact::Query& query, contact::ContactSet& set) override
+  {
+    detector_.detect(query, set);
+    for (contact::Feature& feature : set.features)
+    {
+      feature.stiffness = stiffness_;
+      feature.friction = friction_;
+    }
+  }
+
+private:
+  contact::Detector& detector_;
+  double stiffness_;
+  double friction_;
+};
+
+/** The vessel's detector: what it remembers changes no result, but takes memory. */
+contact::Detector& detectorOf(FuzzVessel& vessel)
+{
+  if (!vessel.detector || ++vessel.uses % kDetectorLife == 0)
+    vessel.detector = std::make_unique<contact::Detector>(vessel.vessel.mesh, contact::WallLaw{});
+  return *vessel.detector;
+}
+
+/** The wire from the introducer to the tip, with what a soft wall has given way by: force over stiffness, from the
+ *  forces on the node and its neighbours, which share those of contacts between them; less than the wire's radius. */
 void insertedWire(const session::Simulation& simulation, double stiffness, std::vector<CheckedNode>& nodes)
 {
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
+  const auto given = [&](int node)
+  {
+    if (!std::isfinite(stiffness))
+      return 0.0;
+    double force = 0.0;
+    for (int i = std::max(0, node - 1); i <= std::min(wire.nodes() - 1, node + 1); ++i)
+      force += state.wall_force[i].norm();
+    return std::min(wire.radius[node], force / (stiffness * wire.cell_length[node]));
+  };
   const int first = session::firstInsertedNode(simulation);
   nodes.clear();
   if (first > state.first_node && first < wire.nodes())
   {
     // Where the wire leaves the introducer, inside of an edge.
     const double t = (wire.length() - state.inserted_length - wire.position[first - 1]) / wire.rest_length[first - 1];
-    nodes.push_back({(1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first], 0.0});
+    nodes.push_back({(1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first],
+                     std::max(given(first - 1), given(first))});
   }
   for (int i = first; i < wire.nodes(); ++i)
-  {
-    const double given =
-        std::isfinite(stiffness) ? state.wall_force[i].norm() / (stiffness * wire.cell_length[i]) : 0.0;
-    nodes.push_back({state.position[i], wire.radius[i], given});
-  }
+    nodes.push_back({state.position[i], wire.radius[i], given(i)});
 }
 
 /** Looks at the whole wire; one node of it is looked at by brute force too. */
@@ -168,6 +210,8 @@ void look(const session::Simulation& simulation, double stiffness, WireCheck& ch
       episode.depth_place +=
           finding.parameter * (nodes[finding.edge + 1].position - nodes[finding.edge].position).norm();
   }
+  if (episode.looks % kControlEvery != 1)
+    return;
   const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.looks) * 7 % nodes.size()].position;
   if (std::abs(check.signedDistance(one) - check.bruteSignedDistance(one)) > kDisagreement)
     throw std::logic_error("the check's tree of boxes and all triangles give different distances");
@@ -178,12 +222,12 @@ void look(const session::Simulation& simulation, double stiffness, WireCheck& ch
 FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number)
 {
   FuzzRandom random(settings.seed, number);
-  const FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
+  FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
   const Setup setup = randomSetup(vessel, random);
   const session::Scene scene = session::parseScene(sceneText(setup), "fuzz", settings.overrides);
   const session::EntryPose entry = randomEntry(vessel, random, setup.radius, 1.5 * kInitialInsertion);
-  contact::Detector detector(vessel.vessel.mesh, contact::WallLaw{setup.stiffness, setup.friction});
-  session::Simulation simulation(scene, entry, &detector, &vessel.vessel.centreline);
+  WallSource wall(detectorOf(vessel), setup.stiffness, setup.friction);
+  session::Simulation simulation(scene, entry, &wall, &vessel.vessel.centreline);
 
   FuzzEpisode episode;
   episode.number = number;

@@ -38,7 +38,7 @@ void WireCheck::note(const Edge& edge, double t, double signed_distance)
 {
   const double radius = (1.0 - t) * edge.begin->radius + t * edge.end->radius;
   const double allowance = std::max(edge.begin->allowance, edge.end->allowance);
-  finding_.outside = finding_.outside || signed_distance + allowance < 0.0;
+  finding_.outside = finding_.outside || signed_distance < 0.0;
   const double depth = radius - signed_distance - allowance;
   if (depth <= finding_.depth)
     return;

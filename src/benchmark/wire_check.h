@@ -22,7 +22,7 @@ struct CheckedNode
 struct WireFinding
 {
   bool finite = true;
-  bool outside = false;    ///< some point of the axis is out of the lumen by more than its allowance
+  bool outside = false;    ///< some point of the axis is out of the lumen
   double depth = 0.0;      ///< largest depth of the wire's surface beyond the wall, less the allowance [m]
   int edge = -1;           ///< where: edge j joins nodes j and j + 1
   double parameter = 0.0;  ///< and place on it
