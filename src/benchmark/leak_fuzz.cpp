@@ -7,6 +7,7 @@
 
 #include "benchmark/table.h"
 #include "contact/detector.h"
+#include "rod/kkt_stepper.h"
 #include "session/run_result.h"
 #include "session/simulation.h"
 
@@ -160,32 +161,25 @@ contact::Detector& detectorOf(FuzzVessel& vessel)
   return *vessel.detector;
 }
 
-/** The wire from the introducer to the tip, with what a soft wall has given way by: force over stiffness, from the
- *  forces on the node and its neighbours, which share those of contacts between them; less than the wire's radius. */
+/** The wire from the introducer to the tip. A soft wall is a spring without memory: up to its travel, every depth is
+ * its compliance. */
 void insertedWire(const session::Simulation& simulation, double stiffness, std::vector<CheckedNode>& nodes)
 {
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
-  const auto given = [&](int node)
-  {
-    if (!std::isfinite(stiffness))
-      return 0.0;
-    double force = 0.0;
-    for (int i = std::max(0, node - 1); i <= std::min(wire.nodes() - 1, node + 1); ++i)
-      force += state.wall_force[i].norm();
-    return std::min(wire.radius[node], force / (stiffness * wire.cell_length[node]));
-  };
   const int first = session::firstInsertedNode(simulation);
+  const auto add = [&](const Eigen::Vector3d& place, double radius) {
+    nodes.push_back({place, radius, std::isfinite(stiffness) ? rod::softWallTravel(radius) : 0.0});
+  };
   nodes.clear();
   if (first > state.first_node && first < wire.nodes())
   {
     // Where the wire leaves the introducer, inside of an edge.
     const double t = (wire.length() - state.inserted_length - wire.position[first - 1]) / wire.rest_length[first - 1];
-    nodes.push_back({(1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first],
-                     std::max(given(first - 1), given(first))});
+    add((1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first]);
   }
   for (int i = first; i < wire.nodes(); ++i)
-    nodes.push_back({state.position[i], wire.radius[i], given(i)});
+    add(state.position[i], wire.radius[i]);
 }
 
 /** Looks at the whole wire; one node of it is looked at by brute force too. */

@@ -11,6 +11,10 @@
 namespace endovascular_sim::rod
 {
 
+/** Depth of a wire's surface up to which a soft wall gives way by its stiffness; from there on it is rigid [m]. The
+ * wire's axis stays in the undeformed lumen. @param radius of the wire [m] */
+double softWallTravel(double radius);
+
 /** The `kkt` scheme (docs/PHYSICS.md): backward Euler as one banded saddle system per solve.
  *
  *  Unknowns are interleaved x0, –, x1, λ0, x2, λ1, …: half bandwidth 10, every multiplier after both its nodes, so LDLᵀ

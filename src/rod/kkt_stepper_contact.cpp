@@ -211,6 +211,11 @@ double KktStepper::staleTruncation()
   return factor;
 }
 
+double softWallTravel(double radius)
+{
+  return std::max(0.5 * radius, radius - kLeastCover);
+}
+
 /** Every wall gets stiff behind its surface, as a second feature there: a rigid one, whose spring would else give way
  *  by force over stiffness, and a soft one, before the wire's axis reaches where no contact would be found any more. */
 void KktStepper::addBacking()
@@ -221,7 +226,7 @@ void KktStepper::addBacking()
     contact::Feature backing = contacts_.features[f];
     const bool soft = std::isfinite(backing.stiffness);
     const double radius = rod_.radius[backing.edge];
-    backing.gap += soft ? std::max(0.5 * radius, radius - kLeastCover) : kBackingDepth;
+    backing.gap += soft ? softWallTravel(radius) : kBackingDepth;
     // A rigid wall's is of use only where its spring is pressed in already.
     if (backing.gap > (soft ? settings_.contact_margin : 0.5 * kBackingDepth))
       continue;
