@@ -54,16 +54,22 @@ std::array<double, Bvh::kSlabs> Bvh::slabCoordinates(const Eigen::Vector3d& p)
           p.y() + p.z(), p.x() - p.y(), p.x() - p.z(), p.y() - p.z()};
 }
 
-/** Lower bound of the distance from a point to an 18-DOP: the widest gap over its slabs [m]. */
-double Bvh::distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates)
+/** Lower bound of the distance from a point to an 18-DOP: the distance to the box of its axes or, where that is within
+ *  @p wanted, the widest gap over its diagonals when that is more [m]. The box decides most of all cases. */
+double Bvh::distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates, double wanted)
 {
-  double axial = 0.0;
+  const auto gap = [&](int slab)
+  { return std::max(0.0, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab])); };
+  const double x = gap(0);
+  const double y = gap(1);
+  const double z = gap(2);
+  const double box = std::sqrt(x * x + y * y + z * z);
+  if (box > wanted)
+    return box;
   double diagonal = 0.0;
-  for (int slab = 0; slab < 3; ++slab)
-    axial = std::max(axial, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab]));
   for (int slab = 3; slab < kSlabs; ++slab)
-    diagonal = std::max(diagonal, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab]));
-  return std::max(axial, diagonal * M_SQRT1_2);
+    diagonal = std::max(diagonal, gap(slab));
+  return std::max(box, diagonal * M_SQRT1_2);
 }
 
 void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const
@@ -75,7 +81,7 @@ void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>&
   while (top > 0)
   {
     const Node& node = nodes_[stack[--top]];
-    if (distanceBound(node, coordinates) > radius)
+    if (distanceBound(node, coordinates, radius) > kBoundRounding * radius)
       continue;
     if (node.left < 0)
       triangles.push_back(node.triangle);
@@ -127,8 +133,8 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
       offer(node.triangle);
       continue;
     }
-    Entry left{node.left, distanceBound(nodes_[node.left], coordinates)};
-    Entry right{node.left + 1, distanceBound(nodes_[node.left + 1], coordinates)};
+    Entry left{node.left, distanceBound(nodes_[node.left], coordinates, best.distance)};
+    Entry right{node.left + 1, distanceBound(nodes_[node.left + 1], coordinates, best.distance)};
     if (left.bound > right.bound)
       std::swap(left, right);
     stack[top++] = right;

@@ -48,7 +48,7 @@ private:
   };
 
   static std::array<double, kSlabs> slabCoordinates(const Eigen::Vector3d& p);
-  static double distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates);
+  static double distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates, double wanted);
 
   std::vector<Node> nodes_;
   const Wall* wall_;

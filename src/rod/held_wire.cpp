@@ -7,6 +7,12 @@
 
 namespace endovascular_sim::rod
 {
+namespace
+{
+
+constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: what stands out less than the rest of it is nothing
+
+}  // namespace
 
 double HeldWire::bodyPosition(int node, double inserted_length) const
 {
@@ -113,6 +119,20 @@ void HeldWire::describe(const State& state, contact::Query& query) const
     ++query.first_node;
   query.nodes.assign(state.position.begin() + query.first_node, state.position.end());
   query.radius.assign(rod_.radius.begin() + query.first_node, rod_.radius.end());
+}
+
+double HeldWire::describeMouth(const State& state, contact::Query& query) const
+{
+  const int edge = query.first_node - 1;
+  if (!boundary_.introducer || query.nodes.empty() || edge < state.first_node)
+    return 0.0;
+  const double t = -bodyPosition(edge, state.inserted_length) / rod_.rest_length[edge];
+  if (t > kLongestHiddenPart)
+    return 0.0;
+  query.nodes.insert(query.nodes.begin(), (1.0 - t) * state.position[edge] + t * state.position[edge + 1]);
+  query.radius.insert(query.radius.begin(), (1.0 - t) * rod_.radius[edge] + t * rod_.radius[edge + 1]);
+  query.first_node = edge;
+  return t;
 }
 
 Energy elasticEnergy(const Discretisation& rod, const State& state, const QuasiStaticTwist* twist)

@@ -40,6 +40,11 @@ public:
   /** The nodes of the query: those beyond the introducer's mouth. */
   void describe(const State& state, contact::Query& query) const;
 
+  /** Adds to a described query, as its first point, the place where the wire leaves the introducer's mouth, so that the
+   *  edge that is half inside meets the wall too.
+   *  @return the parameter of that place on its edge; 0 when nothing had to be added */
+  double describeMouth(const State& state, contact::Query& query) const;
+
   /** Where and how the twist is held, the far end left free. */
   TwistBoundary twistBoundary(const State& state, double tip_torque) const;
 

@@ -208,10 +208,9 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     if (!solveActiveSet(state, dt, report))
       return false;
     const bool last = solve + 1 == settings_.max_solves;
-    const double factor = truncation(state, report);
-    accept(state, dt, factor);
-    if (contacts_.present())
-      contacts_.detect(state, report);
+    const double factor = move(state, truncation(state, report), report);
+    if (factor == 1.0)
+      accept(state, dt);
     if (contacts_.present() && contacts_.set().stale)
       break;  // one solve per step is all that old contacts are good for
     strain_ = maxStrain(rod_, state);
@@ -248,11 +247,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     solved = solveActiveSet(state, fraction, report);
     if (!solved)
       break;
-    const double factor = truncation(state, report);
-    for (int i = first_; i < rod_.nodes(); ++i)
-      state.position[i] += factor * motion_[i];
-    if (contacts_.present())
-      contacts_.detect(state, report);
+    move(state, truncation(state, report), report);
   }
   begin_ = restore_begin_;
   state.velocity = restore_velocity_;

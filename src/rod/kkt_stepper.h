@@ -68,7 +68,8 @@ private:
   bool factoriseAndSolve(const State& state, StepReport& report);
   void addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt);
   double truncation(const State& state, StepReport& report);
-  void accept(State& state, double dt, double factor);
+  double move(State& state, double factor, StepReport& report);
+  void accept(State& state, double dt);
   void updateEndForces(State& state, double dt) const;
   Eigen::Vector3d forceOnHold(int node, double dt) const;
   double foldTruncation(const State& state, double factor) const;

@@ -14,6 +14,8 @@ constexpr int kMaxActiveSetPasses = 8;
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
+constexpr double kDeepest = 80e-6;  // m into a rigid wall that no motion exceeds
+constexpr int kMaxDepthHalvings = 6;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
@@ -134,13 +136,34 @@ double KktStepper::foldTruncation(const State& state, double factor) const
   return factor;
 }
 
-void KktStepper::accept(State& state, double dt, double factor)
+/** Moves the wire by a share of the solution and finds the contacts there. A motion that would put the wire deeper into
+ *  a rigid wall than it is, and deeper than is tolerated, is halved until it does not: from a state inside, whatever
+ *  the solution is, only states inside are reached.
+ *  @return the share that was left */
+double KktStepper::move(State& state, double factor, StepReport& report)
 {
   for (int i = first_; i < rod_.nodes(); ++i)
     state.position[i] += factor * motion_[i];
-  if (factor < 1.0)
-    return;
-  // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
+  if (!contacts_.present())
+    return factor;
+  const double allowed = std::max(kDeepest, contacts_.deepest());
+  double moved = factor;
+  contacts_.detect(state, report);
+  for (int halving = 0; !contacts_.set().stale && contacts_.deepest() > allowed && moved > 0.0; ++halving)
+  {
+    const double shorter = halving < kMaxDepthHalvings ? 0.5 * moved : 0.0;
+    for (int i = first_; i < rod_.nodes(); ++i)
+      state.position[i] -= (moved - shorter) * motion_[i];
+    moved = shorter;
+    contacts_.detectAgain(state, report);
+  }
+  report.truncations += moved < factor;
+  return moved;
+}
+
+/** Lagged forces follow accepted solutions only: a truncated one is not an equilibrium. */
+void KktStepper::accept(State& state, double dt)
+{
   const double to_force = scale_ / (dt * dt);
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
     state.tension[j] = to_force * rhs_[multiplierRow(j)];

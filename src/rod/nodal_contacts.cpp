@@ -10,11 +10,22 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kHardDepth = 3e-5;  // m
-constexpr double kHardening = 10.0;
+constexpr double kBackingDepth = 40e-6;      // m into a rigid wall from where on it is stiffer
+constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
+constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
 constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
 
+bool isBacking(const contact::Feature& feature)
+{
+  return feature.id < 0;
+}
+
 }  // namespace
+
+double softWallTravel(double radius)
+{
+  return std::max(0.5 * radius, radius - kLeastCover);
+}
 
 void NodalContacts::beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass,
                               PhaseTimer& timer)
@@ -48,25 +59,43 @@ NodalContacts::Spring NodalContacts::springOf(int index) const
     ++spring.node;
     std::swap(spring.weight0, spring.weight1);
   }
-  if (std::isfinite(feature.stiffness))
+  if (isBacking(feature))
+    spring.stiffness *= kBackingStiffness;
+  else if (std::isfinite(feature.stiffness))
     spring.stiffness = feature.stiffness * lengthOf(index);
   return spring;
 }
 
-/** A rigid wall's spring hardens where the wire is pressed deeper than snaps and jams of ordinary wires press it: the
- *  spring becomes the tangent at the present depth. A stiffer one throughout would make the force noisy. */
-void NodalContacts::harden(Spring& spring)
+/** Every wall gets stiff behind its surface, as a second feature there: a rigid one, whose spring would else give way
+ *  by force over stiffness, and a soft one, before the wire's axis reaches where no contact would be found any more. */
+void NodalContacts::addBacking()
 {
-  const double beyond = -spring.gap - kHardDepth;
-  if (beyond <= 0.0)
-    return;
-  const double force = spring.stiffness * (kHardDepth + kHardening * beyond);
-  spring.stiffness *= kHardening;
-  spring.gap = -force / spring.stiffness;
+  const std::size_t count = contacts_.features.size();
+  for (std::size_t f = 0; f < count; ++f)
+  {
+    contact::Feature backing = contacts_.features[f];
+    const bool soft = std::isfinite(backing.stiffness);
+    backing.gap += soft ? softWallTravel(rod_.radius[backing.edge]) : kBackingDepth;
+    // A rigid wall's is of use only where its spring is pressed in already.
+    if (backing.gap > (soft ? settings_.contact_margin : 0.5 * kBackingDepth))
+      continue;
+    backing.id = -1 - backing.id;
+    contacts_.features.push_back(backing);
+  }
+}
+
+double NodalContacts::deepest() const
+{
+  double depth = 0.0;
+  for (const contact::Feature& feature : contacts_.features)
+    if (isBacking(feature) || !std::isfinite(feature.stiffness))
+      depth = std::max(depth, -feature.gap);
+  return depth;
 }
 
 void NodalContacts::prepare(const State& state, double dt)
 {
+  moved_on_ = false;
   springs_.clear();
   listCrossings();
   for (std::size_t c = 0; c < contacts_.features.size(); ++c)
@@ -77,8 +106,6 @@ void NodalContacts::prepare(const State& state, double dt)
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
     spring.gap += spring.weight0 * state.wall_offset[spring.node] + spring.weight1 * state.wall_offset[second];
-    if (!std::isfinite(feature.stiffness))
-      harden(spring);
     spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     springs_.push_back(spring);
   }
@@ -90,7 +117,7 @@ void NodalContacts::listCrossings()
   const std::vector<contact::Feature>& features = contacts_.features;
   crossings_.clear();
   for (std::size_t c = 0; c < features.size(); ++c)
-    if (std::isfinite(features[c].stiffness) && features[c].parameter > 0.0 && features[c].parameter < 1.0)
+    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && features[c].parameter > 0.0 && features[c].parameter < 1.0)
       crossings_.push_back(static_cast<int>(c));
   std::sort(
       crossings_.begin(), crossings_.end(),
@@ -136,10 +163,8 @@ double NodalContacts::lengthTowards(int index, int edge, double place, int direc
 }
 
 /** Change of the gap by a motion. */
-double NodalContacts::approach(std::size_t index, const Motion& motion) const
+double NodalContacts::approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const
 {
-  const Spring& spring = springs_[index];
-  const Eigen::Vector3d& normal = contacts_.features[index].normal;
   double change = spring.weight0 * normal.dot(motion[spring.node]);
   if (spring.weight1 > 0.0)
     change += spring.weight1 * normal.dot(motion[spring.node + 1]);
@@ -151,7 +176,7 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass)
   bool changed = false;
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
-    const bool active = springs_[c].gap + approach(c, motion) < 0.0;
+    const bool active = springs_[c].gap + approach(springs_[c], contacts_.features[c].normal, motion) < 0.0;
     if (active == springs_[c].active || (!active && pass >= kOnlyAddFromPass))
       continue;
     springs_[c].active = active;
@@ -201,25 +226,37 @@ double NodalContacts::staleTruncation(const Motion& motion)
 
 void NodalContacts::updateWallForces(State& state, const Motion& motion)
 {
+  const std::vector<contact::Feature>& features = (moved_on_ ? previous_contacts_ : contacts_).features;
+  std::vector<Spring>& springs = moved_on_ ? previous_springs_ : springs_;
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     state.wall_force[i].setZero();
-  for (std::size_t c = 0; c < springs_.size(); ++c)
+  for (std::size_t c = 0; c < springs.size(); ++c)
   {
-    const contact::Feature& feature = contacts_.features[c];
-    const double force = -springs_[c].stiffness * (springs_[c].gap + approach(c, motion));
-    springs_[c].force = springs_[c].active ? std::max(0.0, force) : 0.0;
-    if (springs_[c].force <= 0.0)
+    Spring& spring = springs[c];
+    const contact::Feature& feature = features[c];
+    const double force = -spring.stiffness * (spring.gap + approach(spring, feature.normal, motion));
+    spring.force = spring.active ? std::max(0.0, force) : 0.0;
+    if (spring.force <= 0.0)
       continue;
     for (int side = 0; side < 2; ++side)
     {
-      const double weight = side == 0 ? springs_[c].weight0 : springs_[c].weight1;
+      const double weight = side == 0 ? spring.weight0 : spring.weight1;
       if (weight <= 0.0)
         continue;
-      const int node = springs_[c].node + side;
+      const int node = spring.node + side;
       state.wall_force[node] += (weight * force) * feature.normal;
       state.friction_coefficient[node] = std::isnan(rod_.friction[node]) ? feature.friction : rod_.friction[node];
     }
   }
+}
+
+void NodalContacts::detectAgain(const State& state, StepReport& report)
+{
+  ask(state, false, contacts_, report);
+  if (contacts_.stale)
+    stale_budget_ = 0.0;  // it is not known any more where this set was found
+  else
+    addBacking();
 }
 
 void NodalContacts::detect(const State& state, StepReport& report)
@@ -227,13 +264,16 @@ void NodalContacts::detect(const State& state, StepReport& report)
   std::swap(contacts_, previous_contacts_);
   std::swap(springs_, previous_springs_);
   ask(state, false, contacts_, report);
-  valid_ = true;
+  valid_ = moved_on_ = true;
   if (!contacts_.stale)
   {
     stale_budget_ = settings_.contact_margin;
+    addBacking();
     return;
   }
   contacts_.features = previous_contacts_.features;
+  contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
+                           contacts_.features.end());
   for (contact::Feature& feature : contacts_.features)
   {
     const double t = feature.parameter;
@@ -242,6 +282,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
     const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
     feature.gap = feature.normal.dot(axis - feature.point) - radius;
   }
+  addBacking();
 }
 
 void NodalContacts::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
@@ -252,11 +293,19 @@ void NodalContacts::ask(const State& state, bool want_free_distance, contact::Co
   query_.pass = *pass_;
   query_.want_free_distance = want_free_distance;
   query_.margin = settings_.contact_margin;
-  HeldWire(rod_, boundary_).describe(state, query_);
+  const HeldWire held(rod_, boundary_);
+  held.describe(state, query_);
+  const double mouth = held.describeMouth(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)
+  {
     source_->detect(query_, answer);
+    // The first point stood inside of its edge.
+    for (contact::Feature& feature : answer.features)
+      if (feature.edge == query_.first_node)
+        feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
+  }
   if (answer.stale && !step_is_stale_)
     report.first_stale_pass = *pass_;
   step_is_stale_ = answer.stale;

@@ -11,6 +11,10 @@
 namespace endovascular_sim::rod
 {
 
+/** Depth of a wire's surface up to which a soft wall gives way by its stiffness; from there on it is rigid [m]. The
+ *  wire's axis stays in the undeformed lumen. @param radius of the wire [m] */
+double softWallTravel(double radius);
+
 /** Contact of a rod whose unknowns include its nodes' positions, apart from how its matrix is laid out: contact sets
  *  asked for and kept, one-sided springs with an active set, the trust region by free distances, lagged wall forces.
  *  The rules are those of docs/CONTACT.md. What touches is the chord between two nodes. */
@@ -48,7 +52,13 @@ public:
   /** Asks for the state's contacts. */
   void detect(const State& state, StepReport& report);
 
-  /** The same where the last answer is missing or old. */
+  /** Once more for a state that was moved back; the last solve's contacts are kept. */
+  void detectAgain(const State& state, StepReport& report);
+
+  /** Largest depth in the present contacts with walls that do not give way [m]. */
+  double deepest() const;
+
+  /** Detects where the last answer is missing or old. */
   void refresh(const State& state, StepReport& report);
 
   /** Springs for the present contacts; active are those that the velocity would close within @p dt. */
@@ -65,7 +75,7 @@ public:
   /** Share of the motion, at most @p factor, in which no point moves further than its free distance. */
   double truncation(const State& state, const Motion& motion, double factor, StepReport& report);
 
-  /** Sets the state's wall forces from the springs after an accepted motion. */
+  /** Sets the state's wall forces from the springs of the last solve after its accepted motion. */
   void updateWallForces(State& state, const Motion& motion);
 
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
@@ -90,7 +100,7 @@ private:
   };
 
   Spring springOf(int index) const;
-  static void harden(Spring& spring);
+  void addBacking();
   void carry();
   void settleOffset(int index, std::vector<double>& offset) const;
   double carriedForce(const contact::Feature& feature) const;
@@ -98,7 +108,7 @@ private:
   void listCrossings();
   double lengthOf(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
-  double approach(std::size_t index, const Motion& motion) const;
+  double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
   double staleTruncation(const Motion& motion);
   void ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report);
@@ -112,6 +122,7 @@ private:
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
   std::vector<int> crossings_;  ///< compliant contacts between nodes, along the wire
   bool valid_ = false;
+  bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
   double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
   contact::Query query_;

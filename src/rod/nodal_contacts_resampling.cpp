@@ -47,7 +47,7 @@ void NodalContacts::carry()
   for (std::size_t c = 0; c < previous_springs_.size(); ++c)
   {
     const contact::Feature& feature = previous_contacts_.features[c];
-    if (previous_springs_[c].force > 0.0)
+    if (previous_springs_[c].force > 0.0 && feature.id >= 0)
       carried_.push_back({feature.id, rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge],
                           previous_springs_[c].force});
   }
@@ -78,6 +78,8 @@ void NodalContacts::settle(State& state)
 void NodalContacts::settleOffset(int index, std::vector<double>& offset) const
 {
   const contact::Feature& feature = contacts_.features[index];
+  if (feature.id < 0)
+    return;  // the stiff part behind a wall's surface moves with it
   const Spring contact = springOf(index);
   const int second = std::min(contact.node + 1, rod_.nodes() - 1);
   const double weight0 = fresh_[contact.node] ? contact.weight0 : 0.0;

@@ -17,6 +17,18 @@ constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kTravelPerEdge = 0.25;          // of the shortest edge: more counts as its rotation
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
+constexpr double kFreeBand = 0.5;                // of the limit, beyond it, from where nothing holds at all
+
+/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. It
+ *  follows the force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every
+ *  change. Far beyond the limit it lets go at once: a fast hand would push millimetres in the delay. */
+double nextGrip(double grip, double wanted, double resistance, double limit, double dt)
+{
+  const double against = wanted > 0.0 ? resistance : -resistance;
+  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
+  const double firm = 1.0 - (against - limit) / (kFreeBand * limit);
+  return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
+}
 
 }  // namespace
 
@@ -50,43 +62,33 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     stepper_->resample(sampling_->discretisation());
 }
 
-/** Grip of the hand, 1 firm to 0 slipping, after a step in which the wire resisted the wanted motion. It follows the
- *  force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every change. */
-double Simulation::nextGrip(double grip, double wanted, double resistance, double limit) const
-{
-  const double against = wanted > 0.0 ? resistance : -resistance;
-  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
-  return grip + std::min(1.0, scene_.solver.time_step / kGripTime) * (target - grip);
-}
-
-HandCommand Simulation::allowedMotion(const HandCommand& command)
+/** What the hand asks for in a step, as far as it can move at all. */
+HandCommand Simulation::wantedMotion(const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
   const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
-  HandCommand motion;
-  if (!scene_.introducer)
-  {
-    const double most = kMaxHandTurn * dt;
-    const double turn = blind_hand_.follow({0.0, command.rotation - state_.rotation}, blind).rotation;
-    motion.rotation = std::max(-most, std::min(most, turn));
-    return motion;
-  }
-  const HandCommand paced = blind_hand_.follow({command.insertion - slipped_insertion_ - state_.inserted_length,
-                                                command.rotation - slipped_rotation_ - state_.rotation},
-                                               blind);
-  double wanted = paced.insertion;
-  wanted = std::max(-kMaxHandSpeed * dt, std::min(kMaxHandSpeed * dt, wanted));
-  grip_ = nextGrip(grip_, wanted, state_.hand_force, scene_.drive.force_limit);
-  motion.insertion = grip_ * wanted;
-  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + motion.insertion));
-  motion.insertion = reached - state_.inserted_length;
-  slipped_insertion_ += wanted - motion.insertion;
+  HandCommand rest{0.0, command.rotation - slipped_rotation_ - state_.rotation};
+  if (scene_.introducer)
+    rest.insertion = command.insertion - slipped_insertion_ - state_.inserted_length;
+  HandCommand wanted = blind_hand_.follow(rest, blind);
+  wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
+  wanted.rotation = std::clamp(wanted.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
+  return wanted;
+}
 
-  double turn = paced.rotation;
-  turn = std::max(-kMaxHandTurn * dt, std::min(kMaxHandTurn * dt, turn));
-  turning_grip_ = nextGrip(turning_grip_, turn, state_.hand_torque, scene_.drive.torque_limit);
-  motion.rotation = turning_grip_ * turn;
-  slipped_rotation_ += turn - motion.rotation;
+/** What of a wanted motion reaches the wire in a sub-step of @p dt [s]: the grip answers in every one of them. */
+HandCommand Simulation::allowedMotion(const HandCommand& wanted, double dt)
+{
+  HandCommand motion = wanted;
+  if (!scene_.introducer)
+    return motion;
+  grip_ = nextGrip(grip_, wanted.insertion, state_.hand_force, scene_.drive.force_limit, dt);
+  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + grip_ * wanted.insertion));
+  motion.insertion = reached - state_.inserted_length;
+  slipped_insertion_ += wanted.insertion - motion.insertion;
+  turning_grip_ = nextGrip(turning_grip_, wanted.rotation, state_.hand_torque, scene_.drive.torque_limit, dt);
+  motion.rotation = turning_grip_ * wanted.rotation;
+  slipped_rotation_ += wanted.rotation - motion.rotation;
   return motion;
 }
 
@@ -129,16 +131,15 @@ void Simulation::step(const HandCommand& command)
 {
   timer_.reset();
   resample();
-  const HandCommand motion = allowedMotion(command);
+  const HandCommand wanted = wantedMotion(command);
   const rod::EndMotion from = state_.distal;
   const rod::EndMotion to = distalMotionAt(time() + scene_.solver.time_step);
-  const double travel = std::max(std::abs(motion.insertion), (to.displacement - from.displacement).norm());
+  const double travel = std::max(std::abs(wanted.insertion), (to.displacement - from.displacement).norm());
   const double turn =
-      std::max({std::abs(motion.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
+      std::max({std::abs(wanted.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
   const double substeps_wanted = std::max(travel / max_travel_, turn / kMaxRotationPerSubstep);
   const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
-  const double insertion = state_.inserted_length;
-  const double rotation = state_.rotation;
+  const double dt = scene_.solver.time_step / substeps;
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
   for (int k = 1; k <= substeps; ++k)
@@ -146,18 +147,18 @@ void Simulation::step(const HandCommand& command)
     rod::StepInput input;
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
-    const double share = static_cast<double>(k) / substeps;
     // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
     const bool blind = k > 1 && travel > blind_hand_.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
-    input.inserted_length = blind ? state_.inserted_length : insertion + share * motion.insertion;
-    input.rotation = blind ? state_.rotation : rotation + share * motion.rotation;
-    input.distal = blind ? state_.distal : rod::between(from, to, share);
+    const HandCommand part{wanted.insertion / substeps, wanted.rotation / substeps};
+    const HandCommand motion = blind ? HandCommand() : allowedMotion(part, dt);
+    if (blind)
+      blind_hand_.miss(part);
+    input.inserted_length = state_.inserted_length + motion.insertion;
+    input.rotation = state_.rotation + motion.rotation;
+    input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
-    report_.add(stepper_->step(state_, input, scene_.solver.time_step / substeps, pass, contacts_, timer_));
+    report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
   }
-  if (substeps > 1 && contacts_ != nullptr && stepper_->contactSet().stale)
-    blind_hand_.miss(
-        {insertion + motion.insertion - state_.inserted_length, rotation + motion.rotation - state_.rotation});
   ++steps_;
   state_hash_ = state_.hash();
   trajectory_.add(state_hash_);

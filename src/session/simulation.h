@@ -57,8 +57,8 @@ public:
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
 
 private:
-  double nextGrip(double grip, double wanted, double resistance, double limit) const;
-  HandCommand allowedMotion(const HandCommand& command);
+  HandCommand wantedMotion(const HandCommand& command);
+  HandCommand allowedMotion(const HandCommand& wanted, double dt);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();

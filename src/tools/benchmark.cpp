@@ -10,6 +10,7 @@
 #include <new>
 
 #include "benchmark/accuracy.h"
+#include "benchmark/contact_study.h"
 #include "benchmark/sampling_sections.h"
 #include "benchmark/speed.h"
 #include "benchmark/stability.h"
@@ -56,6 +57,7 @@ usage: benchmark STUDY --out DIR [--quick] [--vessel-mesh FILE]
                       work-precision  error against run time
                       stability       hard cases: good, refused or bad
                       speed           time per step, phase by phase, over the number of nodes
+                      contact         detection: bounding volumes, time per step, growth with the triangles
                       sampling        adaptive against uniform sampling
                       all             all of these
   --out DIR           writes a CSV per table, plots and VALIDATION.md there; made when it is missing
@@ -81,6 +83,7 @@ std::vector<Section> speed(const StudyOptions& options, const Progress& progress
 constexpr Study kStudies[] = {{"accuracy", "Accuracy", accuracyStudy},
                               {"work-precision", "Work and precision", workPrecisionStudy},
                               {"speed", "Speed", speed},
+                              {"contact", "Contact", contactStudy},
                               {"sampling", "Adaptive sampling", samplingSections},
                               {"stability", "Stability", stabilityStudy}};
 

@@ -149,6 +149,40 @@ def draw_speed(folder):
     save(figure, folder, 'speed.png')
 
 
+def draw_volumes(folder):
+    """Time of both queries per bounding volume, a panel per mesh."""
+    meshes = grouped(rows_of(folder, 'contact_volumes'), 'mesh', 'triangles')
+    if not meshes:
+        return
+    figure, axes = panels(len(meshes))
+    for axis, ((mesh, triangles), rows) in zip(axes, meshes.items()):
+        places = range(len(rows))
+        for shift, key in ((-0.2, 'collect [µs]'), (0.2, 'nearest [µs]')):
+            axis.bar([k + shift for k in places], [value(row, key) for row in rows], width=0.4, label=key)
+        axis.set_xticks(list(places))
+        axis.set_xticklabels([row['volume'] for row in rows], rotation=20, fontsize=8)
+        axis.set_ylabel('µs per query')
+        axis.set_title(f'{mesh}, {triangles} triangles', fontsize=10)
+        axis.legend(fontsize=8)
+    save(figure, folder, 'contact_volumes.png')
+
+
+def draw_growth(folder):
+    """Detection over the number of triangles of one surface."""
+    rows = rows_of(folder, 'contact_growth')
+    if not rows:
+        return
+    figure, axis = plt.subplots(figsize=(6, 4.5))
+    same = [row for row in rows if row['mesh'] == rows[0]['mesh']]
+    others = [row for row in rows if row['mesh'] != rows[0]['mesh']]
+    for key, colour in (('steady [µs]', 'tab:blue'), ('cold [µs]', 'tab:red'), ('nearest triangle [µs]', 'tab:green')):
+        curve(axis, same, 'triangles', key, color=colour, marker='o', label=key)
+        curve(axis, others, 'triangles', key, color=colour, marker='*', markersize=12, linestyle='')
+    finish(axis, '380 nodes on the wall; stars: aorta_coronary_female.obj', 'triangles', 'µs')
+    axis.legend(fontsize=8)
+    save(figure, folder, 'contact_growth.png')
+
+
 def draw_sampling(folder):
     """Distance to the reference over time per step, a panel per case."""
     cases = grouped(rows_of(folder, 'sampling_runs'), 'case')
@@ -169,7 +203,8 @@ def main():
     parser.add_argument('folder', type=pathlib.Path, help='where `benchmark` wrote its CSV files')
     folder = parser.parse_args().folder
     (folder / 'images' / 'validation').mkdir(parents=True, exist_ok=True)
-    for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_sampling):
+    for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_volumes, draw_growth,
+                 draw_sampling):
         draw(folder)
 
 
