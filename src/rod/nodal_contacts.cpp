@@ -13,7 +13,7 @@ namespace
 constexpr double kBackingDepth = 40e-6;      // m into a rigid wall from where on it is stiffer
 constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
-constexpr int kOnlyAddFromPass = 4;  // later passes only add contacts, so that the active set cannot cycle
+constexpr int kOnlyAddFromPass = 4;          // later passes only add contacts, so that the active set cannot cycle
 
 bool isBacking(const contact::Feature& feature)
 {
@@ -117,7 +117,8 @@ void NodalContacts::listCrossings()
   const std::vector<contact::Feature>& features = contacts_.features;
   crossings_.clear();
   for (std::size_t c = 0; c < features.size(); ++c)
-    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && features[c].parameter > 0.0 && features[c].parameter < 1.0)
+    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && features[c].parameter > 0.0 &&
+        features[c].parameter < 1.0)
       crossings_.push_back(static_cast<int>(c));
   std::sort(
       crossings_.begin(), crossings_.end(),

@@ -120,7 +120,7 @@ private:
   std::vector<Spring> springs_, previous_springs_;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
-  std::vector<int> crossings_;  ///< compliant contacts between nodes, along the wire
+  std::vector<int> crossings_;    ///< compliant contacts between nodes, along the wire
   bool valid_ = false;
   bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
