@@ -20,10 +20,32 @@ constexpr double kShortest = 4.0 / 5.0;
 constexpr double kLargestTurn = 0.5;
 constexpr double kOnWall = 1e-9;  // [m]
 
+class FieldWall : public RemeshWall
+{
+public:
+  explicit FieldWall(const VesselField& field) : field_(field) {}
+
+  /** Newton's method along the gradient. */
+  WallPoint onWall(const Eigen::Vector3d& start) const override
+  {
+    Eigen::Vector3d p = start;
+    FieldSample sample = field_.at(p);
+    for (int step = 0; step < 6 && std::abs(sample.distance) > kOnWall; ++step)
+    {
+      p -= sample.distance * sample.gradient / std::max(sample.gradient.squaredNorm(), 0.25);
+      sample = field_.at(p);
+    }
+    return {p, sample.gradient.normalized(), sample.facet};
+  }
+
+private:
+  const VesselField& field_;
+};
+
 class Remesher
 {
 public:
-  Remesher(const TriangleMesh& mesh, const VesselField& field) : mesh_(mesh), field_(field)
+  Remesher(const TriangleMesh& mesh, const RemeshWall& wall) : mesh_(mesh), wall_(wall)
   {
     for (int v = 0; v < mesh_.vertexCount(); ++v)
     {
@@ -54,26 +76,9 @@ private:
 
   double length(int a, int b) const { return (mesh_.position(a) - mesh_.position(b)).norm(); }
 
-  struct OnWall
-  {
-    Eigen::Vector3d position;
-    Eigen::Vector3d normal;
-    double facet;
-  };
+  WallPoint onWall(const Eigen::Vector3d& p) const { return wall_.onWall(p); }
 
-  /** Newton's method along the gradient. */
-  OnWall onWall(Eigen::Vector3d p) const
-  {
-    FieldSample sample = field_.at(p);
-    for (int step = 0; step < 6 && std::abs(sample.distance) > kOnWall; ++step)
-    {
-      p -= sample.distance * sample.gradient / std::max(sample.gradient.squaredNorm(), 0.25);
-      sample = field_.at(p);
-    }
-    return {p, sample.gradient.normalized(), sample.facet};
-  }
-
-  void put(int v, const OnWall& place)
+  void put(int v, const WallPoint& place)
   {
     mesh_.move(v, place.position);
     facet_[static_cast<std::size_t>(v)] = place.facet;
@@ -104,14 +109,14 @@ private:
         {
           if (length(a, b) <= kLongest * facet(a, b))
             return;
-          const OnWall middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
           mesh_.split(a, b, middle.position);
           facet_.push_back(middle.facet);
           normal_.push_back(middle.normal);
         });
   }
 
-  bool collapseIsGood(int a, int b, const OnWall& middle) const
+  bool collapseIsGood(int a, int b, const WallPoint& middle) const
   {
     for (const auto& [moved, other] : {std::pair<int, int>{a, b}, std::pair<int, int>{b, a}})
     {
@@ -141,7 +146,7 @@ private:
         {
           if (length(a, b) >= kShortest * facet(a, b) || !mesh_.canCollapse(a, b))
             return;
-          const OnWall middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
           if (!collapseIsGood(a, b, middle))
             return;
           mesh_.collapse(a, b, middle.position);
@@ -205,13 +210,13 @@ private:
         continue;
       const Eigen::Vector3d shift = middle / weights - mesh_.position(v);
       const Eigen::Vector3d& n = normalAt(v);
-      const OnWall place = onWall(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
+      const WallPoint place = onWall(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
       if (keepsFacesUpright(v, place))
         put(v, place);
     }
   }
 
-  bool keepsFacesUpright(int v, const OnWall& place) const
+  bool keepsFacesUpright(int v, const WallPoint& place) const
   {
     for (int t : mesh_.around(v))
     {
@@ -224,16 +229,21 @@ private:
   }
 
   EditableMesh mesh_;
-  const VesselField& field_;
+  const RemeshWall& wall_;
   std::vector<double> facet_;
   std::vector<Eigen::Vector3d> normal_;
 };
 
 }  // namespace
 
+TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall)
+{
+  return Remesher(mesh, wall).run();
+}
+
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field)
 {
-  return Remesher(mesh, field).run();
+  return remesh(mesh, FieldWall(field));
 }
 
 }  // namespace endovascular_sim::vessel

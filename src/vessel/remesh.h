@@ -1,15 +1,36 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "vessel/mesh.h"
 #include "vessel/vessel_field.h"
 
 namespace endovascular_sim::vessel
 {
 
-/** Makes the triangles of a closed two-manifold mesh even, at the field's facet length, with every vertex on the wall.
+/** A place on the wall. */
+struct WallPoint
+{
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d normal;    ///< unit, out of the lumen
+  double facet;              ///< edge length that the mesh should have there [m]
+};
+
+/** A surface that points near it can be laid onto. */
+class RemeshWall
+{
+public:
+  virtual ~RemeshWall() = default;
+  virtual WallPoint onWall(const Eigen::Vector3d& p) const = 0;
+};
+
+/** Makes the triangles of a closed two-manifold mesh even, at the wall's facet length, with every vertex on the wall.
  *
- *  Splits, collapses and flips of edges that keep the topology, tangential smoothing, and Newton projection on the
- * field (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary). */
+ *  Splits, collapses and flips of edges that keep the topology, tangential smoothing, and projection on the wall
+ *  (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary). */
+TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall);
+
+/** The same on the wall of a field, by Newton projection. */
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field);
 
 }  // namespace endovascular_sim::vessel

@@ -1,0 +1,93 @@
+#include "vessel/surface_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+void cut(const Corners& triangle, double spacing, std::vector<SurfaceSample>& samples)
+{
+  std::vector<Corners> open{triangle};
+  while (!open.empty())
+  {
+    const Corners t = open.back();
+    open.pop_back();
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm())
+        longest = k;
+    const Eigen::Vector3d& a = t[longest];
+    const Eigen::Vector3d& b = t[(longest + 1) % 3];
+    const Eigen::Vector3d& c = t[(longest + 2) % 3];
+    const Eigen::Vector3d twice = (b - a).cross(c - a);
+    if (!(twice.norm() > 0.0))
+      continue;
+    if ((b - a).norm() <= spacing)
+    {
+      samples.push_back({(a + b + c) / 3.0, twice.normalized(), 0.5 * twice.norm()});
+      continue;
+    }
+    const Eigen::Vector3d middle = 0.5 * (a + b);
+    open.push_back({a, middle, c});
+    open.push_back({middle, b, c});
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacing, std::size_t first, std::size_t last)
+{
+  std::vector<SurfaceSample> samples;
+  for (std::size_t t = first; t < std::min(last, mesh.triangles.size()); ++t)
+  {
+    const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
+    cut({at(0), at(1), at(2)}, spacing, samples);
+  }
+  return samples;
+}
+
+Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vector<double>& distances, double stated)
+{
+  Deviation deviation;
+  double area = 0.0;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+  {
+    area += samples[k].area;
+    deviation.rms += samples[k].area * distances[k] * distances[k];
+    if (distances[k] > stated)
+      deviation.beyond += samples[k].area;
+    if (distances[k] > deviation.largest)
+    {
+      deviation.largest = distances[k];
+      deviation.place = samples[k].point;
+    }
+  }
+  if (!(area > 0.0))
+    return deviation;
+  deviation.rms = std::sqrt(deviation.rms / area);
+  std::vector<std::size_t> order(samples.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b)
+            { return distances[a] < distances[b] || (distances[a] == distances[b] && a < b); });
+  double passed = 0.0;
+  for (std::size_t k : order)
+  {
+    passed += samples[k].area;
+    deviation.p99 = distances[k];
+    if (passed >= 0.99 * area)
+      break;
+  }
+  return deviation;
+}
+
+}  // namespace endovascular_sim::vessel
