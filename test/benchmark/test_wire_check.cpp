@@ -43,7 +43,7 @@ TEST(WireCheck, FindsTheDepthThatThousandsOfPointsAlongTheWireFindAmongAllTriang
   WireCheck check(mesh);
   FuzzRandom random(3, 1);
   int deep = 0;
-  for (int trial = 0; trial < 12; ++trial)
+  for (int trial = 0; trial < 40; ++trial)
   {
     std::vector<CheckedNode> nodes;
     for (int k = 0; k < 3; ++k)
