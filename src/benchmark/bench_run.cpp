@@ -51,8 +51,7 @@ BenchRun::BenchRun(const std::string& scene_text, const std::vector<std::string>
   {
     vessel = session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::centrelineUse(scene_));
     entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
-    wall_ = std::make_unique<contact::Detector>(vessel.mesh,
-                                                contact::WallLaw{scene_.vessel->stiffness, scene_.vessel->friction});
+    wall_ = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene_.vessel));
   }
   else
     entry = session::resolveEntry(scene_.entry, scene_.file);

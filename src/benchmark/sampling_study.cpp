@@ -119,7 +119,7 @@ Shape shapeOf(const session::Simulation& simulation)
 
 Run runOnce(const Setting& setting, const session::Scene& scene, const std::string& name)
 {
-  contact::Detector wall(setting.vessel.mesh, {scene.vessel->stiffness, scene.vessel->friction});
+  contact::Detector wall(setting.vessel.mesh, session::wallLaw(*scene.vessel));
   session::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
   Run run;
   run.result.sampling = name;
@@ -248,7 +248,7 @@ void compareForces(const Run& reference, Run& run, double time_step)
 /** Force of a step before which the sampling would have changed, had it not been kept from then on. */
 double forceWithoutResampling(const Setting& setting, const session::Scene& scene, std::size_t step)
 {
-  contact::Detector wall(setting.vessel.mesh, {scene.vessel->stiffness, scene.vessel->friction});
+  contact::Detector wall(setting.vessel.mesh, session::wallLaw(*scene.vessel));
   session::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
   for (std::size_t k = 0; k <= step; ++k)
   {

@@ -49,6 +49,14 @@ std::int64_t featureId(int index, FeatureKind kind)
 
 }  // namespace
 
+double WallLaw::frictionAt(const Eigen::Vector3d& place) const
+{
+  for (auto region = regions.rbegin(); region != regions.rend(); ++region)
+    if ((place - region->centre).squaredNorm() <= region->radius * region->radius)
+      return region->friction;
+  return friction;
+}
+
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
   : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_marked_(wall_.edges.size(), 0)
 {
@@ -229,6 +237,8 @@ void Detector::detect(const Query& query, ContactSet& set)
     detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
     detectEdge(query, i, set.features);
+  for (Feature& feature : set.features)
+    feature.friction = law_.frictionAt(feature.point);
 }
 
 void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const
@@ -304,7 +314,6 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
   feature.point = closest.point;
   feature.triangle = triangle;
   feature.stiffness = law_.stiffness;
-  feature.friction = law_.friction;
   // A foot point on the border of a flat neighbourhood is a face's too: neither neighbour would claim it otherwise.
   const bool foot_inside = closest.edge < 0 && closest.vertex < 0;
   if (foot_inside || (height >= 0.0 && (offset - height * normal).squaredNorm() < kConeTolerance * kConeTolerance))
@@ -437,7 +446,6 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   feature.parameter = pair.first;
   feature.triangle = edge.triangles[0];
   feature.stiffness = law_.stiffness;
-  feature.friction = law_.friction;
   feature.id = at_vertex ? featureId(vertex, kVertex) : featureId(wall_edge, kEdge);
   return true;
 }

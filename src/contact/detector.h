@@ -14,11 +14,23 @@
 namespace endovascular_sim::contact
 {
 
-/** The wall's mechanical law, the same everywhere. */
+/** The wall's mechanical law. */
 struct WallLaw
 {
   double stiffness = std::numeric_limits<double>::infinity();  ///< per length of wire [N/m²]; infinite: rigid
-  double friction = 0.0;                                       ///< Coulomb coefficient
+  double friction = 0.0;                                       ///< Coulomb coefficient outside all regions
+
+  /** A ball with a coefficient of its own. */
+  struct FrictionRegion
+  {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+    double radius = 0.0;                               ///< [m]
+    double friction = 0.0;                             ///< Coulomb coefficient
+  };
+  std::vector<FrictionRegion> regions;
+
+  /** Coefficient at a place of the wall: that of the last region which holds it. */
+  double frictionAt(const Eigen::Vector3d& place) const;
 };
 
 /** Finds the features of the wall near a wire: exact local minima of the distance between the wire's axis and the

@@ -13,6 +13,7 @@
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/vessel_conversions.h"
+#include "session/scene_vessel.h"
 
 namespace endovascular_sim::nodes
 {
@@ -34,7 +35,7 @@ public:
       ROS_INFO("contact: the scene %s has no vessel, so there is nothing to do", scene.name.c_str());
       return;
     }
-    law_ = {scene.vessel->stiffness, scene.vessel->friction};
+    law_ = session::wallLaw(*scene.vessel);
     publisher_ = node_.advertise<ContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     ros::NodeHandle direct(node_);

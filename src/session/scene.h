@@ -54,6 +54,15 @@ struct VesselScene
   double stiffness =
       std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]; infinite: rigid
   double friction = 0.0;                        ///< Coulomb coefficient [1]
+
+  /** A ball within which the wall has a coefficient of its own. Of several that hold a place, the last counts. */
+  struct FrictionRegion
+  {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< patient frame [m]
+    double radius = 0.0;                               ///< [m]
+    double friction = 0.0;                             ///< Coulomb coefficient [1]
+  };
+  std::vector<FrictionRegion> friction_regions;
 };
 
 /** Where the wire enters. A pose, or the centreline end nearest to a point. */

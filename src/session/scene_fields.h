@@ -48,6 +48,8 @@ public:
   virtual bool has(const std::string& key) = 0;
   /** Whether that value is a map. */
   virtual bool hasMap(const std::string& key) = 0;
+  /** Whether that value is a word: text that begins with a letter. */
+  virtual bool hasWord(const std::string& key) = 0;
 
   virtual void number(const std::string& key, double& value, const std::string& unit, const Range& range,
                       Need need = Need::kOptional) = 0;

@@ -1,6 +1,7 @@
 #include "session/scene_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -182,6 +183,13 @@ bool SceneReader::hasMap(const std::string& key)
 {
   const SceneNode* node = visit(key, Need::kOptional, "");
   return node != nullptr && node->kind == SceneNode::Kind::kMap;
+}
+
+bool SceneReader::hasWord(const std::string& key)
+{
+  const SceneNode* node = visit(key, Need::kOptional, "");
+  return node != nullptr && node->kind == SceneNode::Kind::kScalar && !node->text.empty() &&
+         std::isalpha(static_cast<unsigned char>(node->text.front())) != 0;
 }
 
 void SceneReader::number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need)

@@ -24,6 +24,7 @@ public:
   bool reading() const override { return true; }
   bool has(const std::string& key) override;
   bool hasMap(const std::string& key) override;
+  bool hasWord(const std::string& key) override;
   void number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need) override;
   void maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
   void integer(const std::string& key, int& value, int min, int max, Need need) override;

@@ -15,6 +15,8 @@ void visitScene(SceneFields& fields, Scene& scene);
 
 /** Parts of the schema. */
 void visitVessel(SceneFields& fields, VesselScene& vessel);
+/** The key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. Optional, it may stay NaN. */
+void visitFriction(SceneFields& fields, double& friction, Need need);
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
 void visitInstrument(SceneFields& fields, instrument::Instrument& instrument);
 void visitDrive(SceneFields& fields, DriveScene& drive);

@@ -83,7 +83,7 @@ void visitSection(SceneFields& fields, rod::Section& section, instrument::Materi
     fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
     fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
   }
-  fields.maybeNumber("friction", section.friction, "1", Range::nonNegative());
+  visitFriction(fields, section.friction, Need::kOptional);
   visitRestCurvature(fields, section);
 }
 

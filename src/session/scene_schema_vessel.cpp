@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "session/scene_schema.h"
@@ -6,6 +7,11 @@ namespace endovascular_sim::session
 {
 namespace
 {
+
+/** Coefficients of wet surfaces on a vessel's wall, the middles of the measured ranges: hydrophilic coatings 0.02–0.05,
+ *  PTFE 0.08–0.15, uncoated metal or polymer 0.2–0.3 (docs/SCENES.md). */
+const std::vector<std::string> kSurfaces = {"hydrophilic", "ptfe", "bare"};
+constexpr std::array<double, 3> kSurfaceFriction = {0.035, 0.115, 0.25};
 
 /** Rows of the rotation from the mesh's frame to the patient's, from head and left as seen in the mesh's frame. */
 Eigen::Matrix3d rotationFromBody(SceneFields& fields)
@@ -81,6 +87,21 @@ void visitMesh(SceneFields& fields, VesselScene& vessel)
   fields.boolean("repair", vessel.repair);
 }
 
+void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
+{
+  std::vector<VesselScene::FrictionRegion>& regions = vessel.friction_regions;
+  if (!fields.reading() && regions.empty())
+    return;
+  fields.list(
+      "friction_regions", regions.size(), [&regions](std::size_t size) { regions.resize(size); },
+      [&regions](SceneFields& region, std::size_t k)
+      {
+        region.vector3("centre", regions[k].centre, "m", Need::kRequired);
+        region.number("radius", regions[k].radius, "m", Range::positive(), Need::kRequired);
+        visitFriction(region, regions[k].friction, Need::kRequired);
+      });
+}
+
 /** Keys that only a mesh file has: told apart from unknown ones. */
 void refuseMeshKeys(SceneFields& fields)
 {
@@ -130,7 +151,22 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);
   fields.number("stiffness", vessel.stiffness, "N/m²", {0.0, std::numeric_limits<double>::max(), true, true});
-  fields.number("friction", vessel.friction, "1", Range::nonNegative(), Need::kRequired);
+  visitFriction(fields, vessel.friction, Need::kRequired);
+  visitFrictionRegions(fields, vessel);
+}
+
+void visitFriction(SceneFields& fields, double& friction, Need need)
+{
+  if (fields.reading() && fields.hasWord("friction"))
+  {
+    int surface = 0;
+    fields.choice("friction", surface, kSurfaces, need);
+    friction = kSurfaceFriction[static_cast<std::size_t>(surface)];
+  }
+  else if (need == Need::kRequired)
+    fields.number("friction", friction, "1", Range::nonNegative(), need);
+  else
+    fields.maybeNumber("friction", friction, "1", Range::nonNegative());
 }
 
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)

@@ -143,6 +143,16 @@ CentrelineUse centrelineUse(const Scene& scene)
   return scene.sampling.kind == SamplingKind::kAdaptive ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
 }
 
+contact::WallLaw wallLaw(const VesselScene& scene)
+{
+  contact::WallLaw law;
+  law.stiffness = scene.stiffness;
+  law.friction = scene.friction;
+  for (const VesselScene::FrictionRegion& region : scene.friction_regions)
+    law.regions.push_back({region.centre, region.radius, region.friction});
+  return law;
+}
+
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
                            CentrelineUse centreline)
 {

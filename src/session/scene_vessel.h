@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/detector.h"
 #include "session/scene.h"
 #include "vessel/vessel.h"
 
@@ -19,6 +20,9 @@ enum class CentrelineUse
 
 /** What a scene needs: adaptive sampling looks ahead along the centreline. */
 CentrelineUse centrelineUse(const Scene& scene);
+
+/** Stiffness and friction of a scene's wall. */
+contact::WallLaw wallLaw(const VesselScene& scene);
 
 /** Reads or makes the vessel of a scene: unit, check and repair, transform, smoothing.
  *  @param origin the scene's file, for errors

@@ -97,8 +97,7 @@ int replay(const std::string& file, bool keep_going)
       throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
     entry = session::resolveEntry(scene.entry, vessel, file);
     centreline = vessel.centreline;
-    detector = std::make_unique<contact::Detector>(vessel.mesh,
-                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+    detector = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
     contacts = std::make_unique<session::ReplayContactSource>(*detector);
   }
   else

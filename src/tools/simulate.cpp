@@ -187,8 +187,7 @@ Surroundings build(const session::Scene& scene)
   made.wall_points = vessel.mesh.vertices;
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
-  made.wall = std::make_unique<contact::Detector>(vessel.mesh,
-                                                  contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+  made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
   return made;
 }
 

@@ -172,6 +172,30 @@ TEST(Detector, FindsAWiresEdgeAcrossARidgeBetweenItsNodes)
   EXPECT_NEAR(crossing->parameter, 0.5, 1e-6);
 }
 
+TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
+{
+  WallLaw law;
+  law.friction = 0.1;
+  law.regions = {{Eigen::Vector3d(0.0, 0.0, 0.02), 12e-3, 0.3}};
+  Detector detector(bentTube(), law);
+  std::mt19937 random(9);
+  int inside = 0;
+  int outside = 0;
+  for (int trial = 0; trial < 30; ++trial)
+  {
+    ContactSet set;
+    detector.detect(randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 20), set);
+    for (const Feature& feature : set.features)
+    {
+      const bool in_region = (feature.point - law.regions[0].centre).norm() <= law.regions[0].radius;
+      EXPECT_EQ(feature.friction, in_region ? 0.3 : 0.1);
+      ++(in_region ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 10);
+  EXPECT_GT(outside, 10);
+}
+
 TEST(Detector, FreeDistancesNeverReachTheWall)
 {
   const vessel::TriangleMesh mesh = bentTube();

@@ -14,12 +14,14 @@
 #include <sensor_msgs/JointState.h>
 
 #include "contact/detector.h"
+#include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/OperatingState.h"
 #include "nodes/support/names.h"
 #include "nodes/support/scene_parameters.h"
 #include "session/replay_source.h"
 #include "session/simulation.h"
+#include "session/wall_force_map.h"
 
 namespace endovascular_sim
 {
@@ -40,6 +42,14 @@ public:
           const std::lock_guard<std::mutex> lock(mutex_);
           steps_[message->step] = *message;
           last_step_stamp_ = message->header.stamp.toSec();
+        },
+        ros::VoidConstPtr(), hints);
+    force_map_ = node_.subscribe<ContactForceMap>(
+        nodes::names::kContactForceMap, 100,
+        [this](const ContactForceMapConstPtr& message)
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          newest_map_ = message;
         },
         ros::VoidConstPtr(), hints);
     hand_ = node_.subscribe<sensor_msgs::JointState>(
@@ -70,6 +80,11 @@ public:
     return steps_;
   }
   double force() const { return force_; }
+  ContactForceMapConstPtr newestMap() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return newest_map_;
+  }
 
   /** From the last step before a pause to the first force of zero [s]. */
   double timeToZeroForce() const
@@ -94,13 +109,14 @@ private:
   ros::NodeHandle node_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, DriveApplied> steps_;
+  ContactForceMapConstPtr newest_map_;
   std::string operating_;
   std::atomic<double> force_{0.0};
   double zero_force_stamp_ = 0.0;  ///< of the first zero force after the last one that was not [s]
   double largest_change_ = 0.0;    ///< [N]
   double last_step_stamp_ = 0.0;   ///< [s]
   // Last, so that they end first: their callbacks run in another thread and use all of the above.
-  ros::Subscriber applied_, hand_, state_;
+  ros::Subscriber applied_, force_map_, hand_, state_;
 };
 
 template <typename Condition>
@@ -152,15 +168,24 @@ protected:
 TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
 {
   ASSERT_TRUE(eventually(30.0, [this] { return listener_->steps().size() > 2500; }));
+  ContactForceMapConstPtr map;
+  ASSERT_TRUE(eventually(30.0,
+                         [this, &map]
+                         {
+                           map = listener_->newestMap();
+                           return map && map->whole.integral > 0.0 && listener_->steps().count(map->step) > 0;
+                         }));
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
   const vessel::Vessel vessel =
-      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::centrelineUse(scene_));
-  contact::Detector detector(vessel.mesh, {scene_.vessel->stiffness, scene_.vessel->friction});
+      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, session::wallLaw(*scene_.vessel));
   session::ReplayContactSource source(detector);
   session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source,
                                  &vessel.centreline);
   // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
   std::uint64_t compared = 0;
+  session::WallForceMap wall_forces(scene_.record.wall_force_threshold, vessel);
+  bool maps_compared = false;
   while (simulation.steps() <= steps.rbegin()->first)
   {
     const auto known = steps.find(simulation.steps());
@@ -173,12 +198,22 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
       EXPECT_EQ(known->second.rotation.at(0), command.rotation);
     }
     simulation.step(command);
+    wall_forces.add(session::wallContacts(simulation), simulation.time(), scene_.solver.time_step);
+    if (simulation.steps() - 1 == map->step)
+    {
+      maps_compared = true;
+      const session::WallForceTotals whole = wall_forces.summary().whole;
+      EXPECT_EQ(map->whole.integral, whole.integral);
+      EXPECT_EQ(map->whole.peak, whole.peak);
+      EXPECT_EQ(map->triangles.size(), wall_forces.touched().size());
+    }
     if (known == steps.end())
       continue;
     ASSERT_EQ(known->second.state_hash, simulation.stateHash()) << "step " << known->first;
     ++compared;
   }
   EXPECT_GT(compared, 2000U);
+  EXPECT_TRUE(maps_compared);
 }
 
 TEST_F(LockStep, B_DeathOfTheContactNodePausesTakesTheForceAwayAndEndsWhenItReturns)

@@ -21,7 +21,7 @@ struct Bench
   explicit Bench(const std::vector<std::string>& overrides = {"sampling={kind: adaptive}"})
     : scene(loadScene(kTube, overrides)),
       vessel(buildVessel(*scene.vessel, scene.entry, scene.file, centrelineUse(scene))),
-      detector(vessel.mesh, contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction}),
+      detector(vessel.mesh, wallLaw(*scene.vessel)),
       source(detector),
       simulation(scene, resolveEntry(scene.entry, vessel, scene.file), &source, &vessel.centreline)
   {

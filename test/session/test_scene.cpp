@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/error.h"
+#include "session/scene_vessel.h"
 
 namespace endovascular_sim::session
 {
@@ -78,6 +79,13 @@ void expectSameScene(const Scene& a, const Scene& b)
     EXPECT_EQ(a.vessel->unit, b.vessel->unit);
     EXPECT_EQ(a.vessel->friction, b.vessel->friction);
     EXPECT_EQ(a.vessel->stiffness, b.vessel->stiffness);
+    ASSERT_EQ(a.vessel->friction_regions.size(), b.vessel->friction_regions.size());
+    for (std::size_t k = 0; k < a.vessel->friction_regions.size(); ++k)
+    {
+      EXPECT_EQ(text(a.vessel->friction_regions[k].centre), text(b.vessel->friction_regions[k].centre));
+      EXPECT_EQ(a.vessel->friction_regions[k].radius, b.vessel->friction_regions[k].radius);
+      EXPECT_EQ(a.vessel->friction_regions[k].friction, b.vessel->friction_regions[k].friction);
+    }
     EXPECT_EQ(text(a.vessel->transform.matrix()), text(b.vessel->transform.matrix()));
   }
   EXPECT_EQ(text(a.entry.position), text(b.entry.position));
@@ -111,6 +119,21 @@ TEST(Scene, OfEveryConfigFileSurvivesItsResolvedText)
     ++count;
   }
   EXPECT_GE(count, 6);
+}
+
+TEST(Scene, NamesSurfacesInsteadOfCoefficientsAndRegionsOfTheWall)
+{
+  const Scene scene =
+      loadScene(kScenes + "tube.yaml", {"vessel.friction=hydrophilic", "instrument.sections.0.friction=ptfe",
+                                        "vessel.friction_regions=[{centre: [0, 0, 0.1], radius: 0.02, friction: bare},"
+                                        " {centre: [0, 0, 0.11], radius: 0.01, friction: 0.4}]"});
+  EXPECT_EQ(scene.vessel->friction, 0.035);
+  EXPECT_EQ(scene.instrument.wire.sections[0].friction, 0.115);
+  const contact::WallLaw law = wallLaw(*scene.vessel);
+  EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.0}), 0.035);
+  EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.09}), 0.25);
+  EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.11}), 0.4);  // the last of two that overlap
+  expectSameScene(scene, parseScene(scene.resolved_yaml, scene.file));
 }
 
 TEST(Scene, KeepsEveryBitOfANumberInItsResolvedText)
@@ -276,6 +299,7 @@ TEST(Scene, HasEveryKeyInItsDocumentation)
   docs << file.rdbuf();
   const std::string tube =
       loadScene(kScenes + "tube.yaml", {"fluoroscopy={isocentre: [0,0,0]}", "instrument.sections.0.friction=0.1",
+                                        "vessel.friction_regions=[{centre: [0,0,0], radius: 1, friction: 1}]",
                                         "loads.point_loads=[{torque: 1}]"})
           .resolved_yaml;
   const std::string mesh = loadScene(kScenes + "mesh.yaml", {"vessel.mesh=" + someMesh()}).resolved_yaml;

@@ -27,8 +27,7 @@ struct Bench
       return;
     }
     vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
-    detector = std::make_unique<contact::Detector>(vessel.mesh,
-                                                   contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+    detector = std::make_unique<contact::Detector>(vessel.mesh, wallLaw(*scene.vessel));
     source = std::make_unique<ReplayContactSource>(*detector);
     simulation = std::make_unique<Simulation>(scene, resolveEntry(scene.entry, vessel, scene.file), source.get());
   }
