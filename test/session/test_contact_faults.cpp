@@ -132,7 +132,7 @@ struct Bench
   Bench(const std::string& name, unsigned seed, const std::vector<std::string>& overrides = {})
     : scene(loadScene(PROJECT_DIR "/config/scenes/" + name, overrides)),
       vessel(buildVessel(*scene.vessel, scene.entry, scene.file)),
-      detector(vessel.mesh, {scene.vessel->stiffness, scene.vessel->friction}),
+      detector(vessel.mesh, wallLaw(*scene.vessel)),
       source(detector, seed),
       simulation(scene, resolveEntry(scene.entry, vessel, scene.file), &source)
   {
@@ -248,7 +248,7 @@ TEST(ContactFaults, SilencesLeaveTheForceInTheAortaWithoutAJump)
 TEST(ContactFaults, ARunWithoutFaultsIsTheSameBitsBehindTheCheckOfAnswers)
 {
   Bench checked("tube.yaml", 1);
-  contact::Detector detector(checked.vessel.mesh, {checked.scene.vessel->stiffness, checked.scene.vessel->friction});
+  contact::Detector detector(checked.vessel.mesh, wallLaw(*checked.scene.vessel));
   Simulation direct(checked.scene, resolveEntry(checked.scene.entry, checked.vessel, checked.scene.file), &detector);
   for (int k = 0; k < 3000; ++k)
   {

@@ -217,7 +217,7 @@ TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
       loadScene(PROJECT_DIR "/config/scenes/tube.yaml",
                 {"record.wall_force_threshold=0.01", "drive.initial_insertion=0.05", "drive.travel=0.08"});
   const vessel::Vessel vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
-  contact::Detector wall(vessel.mesh, contact::WallLaw{scene.vessel->stiffness, scene.vessel->friction});
+  contact::Detector wall(vessel.mesh, wallLaw(*scene.vessel));
   Simulation simulation(scene, resolveEntry(scene.entry, vessel, scene.file), &wall);
   WallForceMap map(scene.record.wall_force_threshold, vessel);
   double integral = 0.0, peak = 0.0, peak_sum = 0.0;
