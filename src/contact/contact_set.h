@@ -30,7 +30,8 @@ struct Query
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
   std::uint32_t pass = 0;
-  bool want_free_distance = false;     ///< each edge's full free distance, not just the margin
+  /** Above 0, free distances up to this are asked for instead of features [m]; larger ones need not be told apart. */
+  double wanted_free_distance = 0.0;
   double margin = 0.0;                 ///< features closer than this to the wire's surface are listed [m]
   int first_node = 0;                  ///< index of nodes[0] in the whole wire
   std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]

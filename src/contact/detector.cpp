@@ -26,7 +26,6 @@ constexpr double kConeTolerance = 1e-12;          // m
 constexpr double kConeSlack = 1e-6;               // of the distance: crossings at the border of the normal cone count
 constexpr double kOnRidge = 1e-12;                // m
 constexpr double kEnd = 1e-3;                     // of a wire's edge: closer to a node the node's own features stand
-constexpr double kFarthest = 30e-3;               // m: free distances are not looked for beyond it
 
 enum FeatureKind
 {
@@ -220,7 +219,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.vessel_version = vessel_version_;
   set.first_edge = query.first_node;
   set.features.clear();
-  if (query.want_free_distance)
+  if (query.wanted_free_distance > 0.0)
   {
     freeDistances(query, set);
     return;
@@ -457,13 +456,18 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     nearest_.resize(whole, -1);
   // The distance to the wall is 1-Lipschitz, so both ends bound it along the edge: (d0 + d1 − |e|)/2.
   set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
+  double room = 0.0;  // of an edge beyond its free distance
+  for (std::size_t i = 1; i < query.nodes.size(); ++i)
+    room = std::max(
+        room, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
+  const double farthest = query.wanted_free_distance + room;
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
     int& near = nearest_[static_cast<std::size_t>(query.first_node) + i];
-    const Bvh::Nearest nearest = bvh_.nearest(query.nodes[i], kFarthest, near);
+    const Bvh::Nearest nearest = bvh_.nearest(query.nodes[i], farthest, near);
     const double distance = nearest.distance;
-    near = nearest.triangle;
+    near = nearest.triangle >= 0 ? nearest.triangle : near;
     if (i > 0)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();

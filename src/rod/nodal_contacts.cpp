@@ -193,23 +193,23 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
   if (contacts_.stale)
     return std::min(factor, staleTruncation(motion));
   for (int i = state.first_node; i < rod_.nodes(); ++i)
-    if (motion[i].norm() > settings_.contact_margin)
-      return std::min(factor, freeDistanceTruncation(state, motion, report));
+    if (factor * motion[i].norm() > settings_.contact_margin)
+      return freeDistanceTruncation(state, motion, factor, report);
   return factor;
 }
 
-double NodalContacts::freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report)
+double NodalContacts::freeDistanceTruncation(const State& state, const Motion& motion, double factor,
+                                             StepReport& report)
 {
-  ask(state, true, free_distances_, report);
-  double factor = 1.0;
+  askFreeDistances(state, motion, factor, report);
   for (int j = query_.first_node; j + 1 < rod_.nodes(); ++j)
   {
     const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
     const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
     const double allowed = std::max(settings_.contact_margin, known ? free_distances_.free_distance[e] : 0.0);
     const double farthest = std::max(motion[j].norm(), motion[j + 1].norm());
-    if (farthest > allowed)
-      factor = std::min(factor, allowed / farthest);
+    if (factor * farthest > allowed)
+      factor = allowed / farthest;
   }
   return factor;
 }
@@ -253,7 +253,7 @@ void NodalContacts::updateWallForces(State& state, const Motion& motion)
 
 void NodalContacts::detectAgain(const State& state, StepReport& report)
 {
-  ask(state, false, contacts_, report);
+  ask(state, contacts_, report);
   if (contacts_.stale)
     stale_budget_ = 0.0;  // it is not known any more where this set was found
   else
@@ -264,7 +264,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
 {
   std::swap(contacts_, previous_contacts_);
   std::swap(springs_, previous_springs_);
-  ask(state, false, contacts_, report);
+  ask(state, contacts_, report);
   valid_ = moved_on_ = true;
   if (!contacts_.stale)
   {
@@ -286,27 +286,56 @@ void NodalContacts::detect(const State& state, StepReport& report)
   addBacking();
 }
 
-void NodalContacts::ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report)
+void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepReport& report)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kCollision);
-  query_.step = step_;
-  query_.substep = substep_;
-  query_.pass = *pass_;
-  query_.want_free_distance = want_free_distance;
-  query_.margin = settings_.contact_margin;
+  query_.wanted_free_distance = 0.0;
   const HeldWire held(rod_, boundary_);
   held.describe(state, query_);
   const double mouth = held.describeMouth(state, query_);
+  send(answer, report);
+  if (answer.stale)
+    return;
+  // The first point stood inside of its edge.
+  for (contact::Feature& feature : answer.features)
+    if (feature.edge == query_.first_node)
+      feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
+}
+
+/** From the first edge on that moves further than the margin, whose features are known. */
+void NodalContacts::askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report)
+{
+  PhaseTimer::Scope scope(*timer_, Phase::kCollision);
+  const HeldWire held(rod_, boundary_);
+  held.describe(state, query_);
+  held.describeMouth(state, query_);
+  double farthest = 0.0;
+  int resting = query_.first_node;
+  for (int i = rod_.nodes() - 1; i >= query_.first_node; --i)
+  {
+    const double far = factor * motion[i].norm();
+    farthest = std::max(farthest, far);
+    if (far > settings_.contact_margin)
+      resting = i - 1;
+  }
+  const int skipped = std::max(0, resting - query_.first_node);
+  query_.first_node += skipped;
+  query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
+  query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
+  query_.wanted_free_distance = farthest;
+  send(free_distances_, report);
+}
+
+void NodalContacts::send(contact::ContactSet& answer, StepReport& report)
+{
+  query_.step = step_;
+  query_.substep = substep_;
+  query_.pass = *pass_;
+  query_.margin = settings_.contact_margin;
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)
-  {
     source_->detect(query_, answer);
-    // The first point stood inside of its edge.
-    for (contact::Feature& feature : answer.features)
-      if (feature.edge == query_.first_node)
-        feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
-  }
   if (answer.stale && !step_is_stale_)
     report.first_stale_pass = *pass_;
   step_is_stale_ = answer.stale;

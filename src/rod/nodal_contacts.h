@@ -109,9 +109,11 @@ private:
   double lengthOf(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
-  double freeDistanceTruncation(const State& state, const Motion& motion, StepReport& report);
+  double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
   double staleTruncation(const Motion& motion);
-  void ask(const State& state, bool want_free_distance, contact::ContactSet& answer, StepReport& report);
+  void ask(const State& state, contact::ContactSet& answer, StepReport& report);
+  void askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report);
+  void send(contact::ContactSet& answer, StepReport& report);
 
   const Discretisation& rod_;
   const Boundary& boundary_;

@@ -85,7 +85,6 @@ void PaperStepper::detect(const State& state, StepReport& report)
   query_.step = step_;
   query_.substep = substep_;
   query_.pass = *pass_;
-  query_.want_free_distance = false;
   query_.margin = settings_.contact_margin;
   heldWire().describe(state, query_);
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.

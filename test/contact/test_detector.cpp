@@ -196,7 +196,7 @@ TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
   EXPECT_GT(outside, 10);
 }
 
-TEST(Detector, FreeDistancesNeverReachTheWall)
+TEST(Detector, FreeDistancesNeverReachTheWallAndAreAsLongAsWanted)
 {
   const vessel::TriangleMesh mesh = bentTube();
   Detector detector(mesh, WallLaw{});
@@ -204,10 +204,16 @@ TEST(Detector, FreeDistancesNeverReachTheWall)
   for (int trial = 0; trial < 20; ++trial)
   {
     Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 6);
-    query.want_free_distance = true;
+    query.wanted_free_distance = trial % 2 == 0 ? 0.8e-3 : 30e-3;
     ContactSet set;
     detector.detect(query, set);
     for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
+    {
+      int unused = -1;
+      const double ends = bruteDistance(detector.wall(), query.nodes[e], unused) +
+                          bruteDistance(detector.wall(), query.nodes[e + 1], unused);
+      const double bound = 0.5 * (ends - (query.nodes[e + 1] - query.nodes[e]).norm()) - 0.4e-3;
+      EXPECT_GE(set.free_distance[e], std::min(query.wanted_free_distance, bound) - 1e-12);
       for (double t : {0.0, 0.25, 0.5, 0.75, 1.0})
       {
         int triangle = -1;
@@ -215,6 +221,7 @@ TEST(Detector, FreeDistancesNeverReachTheWall)
         const double clearance = bruteDistance(detector.wall(), p, triangle) - 0.4e-3;
         EXPECT_LE(set.free_distance[e], std::max(query.margin, clearance) + 1e-12);
       }
+    }
   }
 }
 

@@ -36,7 +36,7 @@ void toMessage(const contact::Query& query, RodState& message)
   message.step = query.step;
   message.substep = static_cast<std::uint16_t>(query.substep);
   message.pass = static_cast<std::uint16_t>(query.pass);
-  message.want_free_distance = query.want_free_distance;
+  message.wanted_free_distance = query.wanted_free_distance;
   message.margin = query.margin;
   message.first_node = static_cast<std::uint32_t>(query.first_node);
   message.radius = query.radius;
@@ -50,7 +50,7 @@ void fromMessage(const RodState& message, contact::Query& query)
   query.step = message.step;
   query.substep = message.substep;
   query.pass = message.pass;
-  query.want_free_distance = message.want_free_distance != 0;
+  query.wanted_free_distance = message.wanted_free_distance;
   query.margin = message.margin;
   query.first_node = static_cast<int>(message.first_node);
   query.radius = message.radius;

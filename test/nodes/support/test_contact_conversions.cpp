@@ -13,7 +13,7 @@ TEST(ContactConversions, AQueryComesBackBitForBit)
   query.step = 123456789012ULL;
   query.substep = 3;
   query.pass = 17;
-  query.want_free_distance = true;
+  query.wanted_free_distance = 2.5e-3;
   query.margin = 0.1 + 0.2;
   query.first_node = 41;
   query.nodes = {{0.1, 1.0 / 3.0, -7e-300}, {1e-3, -0.0, 5.0}};
@@ -25,7 +25,7 @@ TEST(ContactConversions, AQueryComesBackBitForBit)
   EXPECT_EQ(back.step, query.step);
   EXPECT_EQ(back.substep, query.substep);
   EXPECT_EQ(back.pass, query.pass);
-  EXPECT_EQ(back.want_free_distance, query.want_free_distance);
+  EXPECT_EQ(back.wanted_free_distance, query.wanted_free_distance);
   EXPECT_EQ(back.margin, query.margin);
   EXPECT_EQ(back.first_node, query.first_node);
   EXPECT_EQ(back.nodes, query.nodes);
