@@ -1,6 +1,7 @@
 #include "rod/kkt_stepper.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rod/held_wire.h"
@@ -291,6 +292,8 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
     addConstraint(j, state, dt);
   for (int i = first_; i < n; ++i)
     addNodeTerms(i, state, dt, first_solve);
+  if (boundary_.introducer)
+    addMouth(state, dt);
   for (const NodalForce& load : input.forces)
     if (load.node >= first_)
       for (int axis = 0; axis < 3; ++axis)
@@ -415,6 +418,47 @@ void KktStepper::addConstraint(int edge, const State& state, double dt)
   base_rhs_[rm] = -scale_ * (length - rod_.rest_length[edge]);
 }
 
+/** Where the wire passes the introducer's mouth, inside of an edge. */
+void KktStepper::addMouth(const State& state, double dt)
+{
+  int edge = first_;
+  while (edge + 2 < rod_.nodes() && bodyPosition(edge + 1, state.inserted_length) < 0.0)
+    ++edge;
+  const double share = -bodyPosition(edge, state.inserted_length) / rod_.rest_length[edge];
+  if (share >= 0.0 && share <= 1.0)
+    addSheath(edge, share, state, dt);
+}
+
+/** The introducer is a tube: a point of the wire in it, at a share of an edge, stays within the clearance, as near as
+ *  the contact stiffness makes it. */
+void KktStepper::addSheath(int edge, double share, const State& state, double dt)
+{
+  const std::array<double, 2> weight = {1.0 - share, share};
+  Eigen::Vector3d off = weight[0] * state.position[edge] - boundary_.origin;
+  if (share > 0.0)
+    off += share * state.position[edge + 1];
+  const Eigen::Vector3d lateral = off - boundary_.direction.dot(off) * boundary_.direction;
+  const double distance = lateral.norm();
+  if (distance <= boundary_.sheath_clearance)
+    return;
+  const Eigen::Vector3d outward = lateral / distance;
+  const double stiffness = dt * dt * settings_.contact_stiffness;
+  const double tilt = 1.0 - boundary_.sheath_clearance / distance;  // the normal turns with the point
+  const Eigen::Matrix3d radial = outward * outward.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose();
+  const Eigen::Matrix3d hessian = stiffness * (radial + tilt * (across - radial));
+  const Eigen::Vector3d force = (stiffness * (distance - boundary_.sheath_clearance)) * outward;
+  for (int end = 0; end < (share > 0.0 ? 2 : 1); ++end)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      base_rhs_[row(edge + end) + axis] -= weight[end] * force[axis];
+    addBlock(edge + end, weight[end] * weight[end] * hessian);
+  }
+  for (int col = 0; share > 0.0 && col < 3; ++col)
+    for (int line = 0; line < 3; ++line)
+      base_.at(row(edge + 1) + line, row(edge) + col) += weight[0] * weight[1] * hessian(line, col);
+}
+
 void KktStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const double mass = rod_.mass[node];
@@ -446,6 +490,7 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
         stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
     residual += across * (state.position[node] - boundary_.origin);
     addBlock(node, across);
+    addSheath(node, 0.0, state, dt);
   }
   for (int axis = 0; axis < 3; ++axis)
     base_rhs_[row(node) + axis] -= residual[axis];

@@ -59,6 +59,8 @@ private:
   BendingPairInput bendingInput(int first, int second, const State& state, double dt) const;
   void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const State& state, double dt);
+  void addMouth(const State& state, double dt);
+  void addSheath(int edge, double share, const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
   void addFriction(const WallFriction::Term& term, double dt);
   void addDiagonal(int node, double value);

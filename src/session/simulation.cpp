@@ -158,6 +158,8 @@ void Simulation::step(const HandCommand& command)
     input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
     report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
+    if (!report_.solved)
+      break;  // the wire stays where it is; the hand's motion is made up for in the steps that follow
   }
   ++steps_;
   state_hash_ = state_.hash();
