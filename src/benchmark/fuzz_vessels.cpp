@@ -208,7 +208,11 @@ session::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, dou
 {
   const double room = radius + 0.05e-3;
   if (vessel.name == "channel")
-    return session::EntryPose();  // its mesh begins behind the origin
+  {
+    session::EntryPose pose;  // its mesh begins behind the origin
+    pose.room = session::roomAround(pose.position, vessel.vessel.mesh);
+    return pose;
+  }
   const std::vector<vessel::CentrelineEnd> ends = vessel::centrelineEnds(vessel.vessel.centreline);
   for (int attempt = 0; attempt < kTries && !ends.empty(); ++attempt)
   {
@@ -220,6 +224,7 @@ session::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, dou
     bool free = true;
     for (int k = 0; k <= 10 && free; ++k)
       free = vessel.check->signedDistance(pose.position + 0.1 * k * length * pose.direction) > room;
+    pose.room = session::roomAround(pose.position, vessel.vessel.mesh);
     if (free)
       return pose;
   }

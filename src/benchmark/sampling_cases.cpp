@@ -91,6 +91,7 @@ std::vector<SamplingCase> samplingCases(const std::string& mesh, bool quick)
   std::vector<SamplingCase> cases;
   cases.push_back({"bent tube", kTube, quick ? 2.5 : 5.3});
   cases.back().turn_per_edge = 0.036;
+  cases.back().max_edge = 1.6e-3;
   cases.push_back({"coronary of the generated anatomy", kCoronary, quick ? 1.5 : 4.0});
   cases.back().turn_per_edge = 0.055;
   if (mesh.empty())

@@ -21,6 +21,8 @@ constexpr int kMaxRestoringSolves = 4;
 constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
 constexpr double kLargestStrain = 1e-2;      // that a step may leave, e.g. of a straight wire that is shortened
+constexpr double kSheathStiffness = 4e7;     // N/m², of the introducer's wall per length of wire
+constexpr double kMouthLength = 2.5e-3;      // m, of wire that the rim of its mouth stands for
 constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
 
 }  // namespace
@@ -429,8 +431,8 @@ void KktStepper::addMouth(const State& state, double dt)
     addSheath(edge, share, state, dt);
 }
 
-/** The introducer is a tube: a point of the wire in it, at a share of an edge, stays within the clearance, as near as
- *  the contact stiffness makes it. */
+/** The introducer is a tube: a point of the wire in it, at a share of an edge, stays within the clearance or near
+ *  it. */
 void KktStepper::addSheath(int edge, double share, const State& state, double dt)
 {
   const std::array<double, 2> weight = {1.0 - share, share};
@@ -442,7 +444,8 @@ void KktStepper::addSheath(int edge, double share, const State& state, double dt
   if (distance <= boundary_.sheath_clearance)
     return;
   const Eigen::Vector3d outward = lateral / distance;
-  const double stiffness = dt * dt * settings_.contact_stiffness;
+  const double length = share > 0.0 ? kMouthLength : rod_.cell_length[edge];
+  const double stiffness = dt * dt * kSheathStiffness * length;
   const double tilt = 1.0 - boundary_.sheath_clearance / distance;  // the normal turns with the point
   const Eigen::Matrix3d radial = outward * outward.transpose();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -31,8 +32,9 @@ struct Boundary
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();   ///< material direction d1 at rotation 0, unit, ⟂ direction
   double guide_length = 19e-3;                           ///< over which the introducer's lateral guide fades [m]
   double guide_stiffness = 5300.0;                       ///< at the guide's outer end, per length of wire [N/m²]
-  double sheath_clearance = 0.3e-3;                      ///< by which the wire may leave the guide's axis [m]
-  EndHold proximal = EndHold::kFree;                     ///< without an introducer; a clamp holds the twist too
+  /** By which the wire's axis may leave the guide's, at most what the vessel leaves to it in the mouth [m]. */
+  double sheath_clearance = std::numeric_limits<double>::infinity();
+  EndHold proximal = EndHold::kFree;  ///< without an introducer; a clamp holds the twist too
   EndHold distal = EndHold::kFree;
   bool distal_twist_held = false;  ///< of a clamped distal end
 };

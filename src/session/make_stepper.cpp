@@ -14,6 +14,9 @@ namespace endovascular_sim::session
 namespace
 {
 
+constexpr double kLeastClearance = 20e-6;  // m
+constexpr double kRoomShare = 0.9;         // of what the vessel leaves to the wire in the introducer's mouth
+
 constexpr double kSamplingPeriod = 10e-3;  // s between two looks at the wire's shape
 
 rod::EndHold hold(EndCondition condition)
@@ -30,6 +33,7 @@ rod::EndHold hold(EndCondition condition)
   return rod::EndHold::kFree;
 }
 
+/** The introducer is narrower than the vessel that it lies in. */
 rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
 {
   rod::Boundary boundary;
@@ -38,6 +42,10 @@ rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
   boundary.direction = entry.direction;
   boundary.director = entry.d1;
   boundary.guide_length = scene.solver.guide_length;
+  double radius = 0.0;
+  for (const rod::Section& section : scene.instrument.wire.sections)
+    radius = std::max(radius, section.radius);
+  boundary.sheath_clearance = std::max(kLeastClearance, kRoomShare * (entry.room - radius));
   boundary.proximal = hold(scene.proximal_end);
   boundary.distal = hold(scene.distal_end);
   boundary.distal_twist_held = scene.distal.twist_held;

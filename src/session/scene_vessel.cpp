@@ -1,5 +1,6 @@
 #include "session/scene_vessel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -13,6 +14,7 @@
 #include "vessel/mesh_reader.h"
 #include "vessel/mesh_repair.h"
 #include "vessel/subdivision.h"
+#include "vessel/triangle_point.h"
 #include "vessel/tube.h"
 
 namespace endovascular_sim::session
@@ -180,6 +182,18 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
   return vessel;
 }
 
+double roomAround(const Eigen::Vector3d& place, const vessel::TriangleMesh& mesh)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    nearest = std::min(
+        nearest,
+        (vessel::closestPointOnTriangle(place, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).point -
+         place)
+            .norm());
+  return nearest;
+}
+
 EntryPose resolveEntry(const EntryScene& entry, const std::string& origin)
 {
   return poseWithUp(entry.position, entry.direction, entry.up, origin);
@@ -201,6 +215,7 @@ EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, co
   else
     pose = resolveEntry(entry, origin);
   requireInside(pose, vessel, origin);
+  pose.room = roomAround(pose.position, vessel.mesh);
   return pose;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include <Eigen/Core>
@@ -33,10 +34,14 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
 /** Where the wire enters, and how it is turned there. */
 struct EntryPose
 {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< patient frame [m]
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector into the vessel
-  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();         ///< unit, at right angles to direction
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< patient frame [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();   ///< unit vector into the vessel
+  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();          ///< unit, at right angles to direction
+  double room = std::numeric_limits<double>::infinity();  ///< from the position to the wall [m]
 };
+
+/** Distance from a place to the mesh, by all its triangles [m]. */
+double roomAround(const Eigen::Vector3d& place, const vessel::TriangleMesh& mesh);
 
 /** The entry without a vessel: the scene's pose, d1 made orthogonal.
  *  @throws InputError when up and direction are parallel */
