@@ -22,7 +22,15 @@ double shearModulus(double young_modulus, double poisson_ratio);
  *  @param radius r [m] */
 Stiffness solidSection(double young_modulus, double shear_modulus, double radius);
 
-/** The Young's modulus [Pa] that gives a solid section of this radius [m] the bending stiffness EI [N·m²]. */
-double equivalentYoungModulus(double bending_stiffness, double radius);
+/** A tube: EI = E·π (r⁴ − i⁴)/4, GJ = G·π (r⁴ − i⁴)/2, EA = E·π (r² − i²).
+ *  @param young_modulus E of the wall [Pa]
+ *  @param shear_modulus G of the wall [Pa]
+ *  @param radius outer, r [m]
+ *  @param inner_radius i < r [m]; at 0 the section is solid */
+Stiffness hollowSection(double young_modulus, double shear_modulus, double radius, double inner_radius);
+
+/** The Young's modulus [Pa] that gives a section of this radius [m] the bending stiffness EI [N·m²].
+ *  @param inner_radius of a tube [m] */
+double equivalentYoungModulus(double bending_stiffness, double radius, double inner_radius = 0.0);
 
 }  // namespace endovascular_sim::instrument

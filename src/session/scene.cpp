@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "session/instrument_library.h"
 #include "session/scene_paths.h"
 #include "session/scene_reader.h"
 #include "session/scene_schema.h"
@@ -24,12 +25,12 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
   return nullptr;
 }
 
-/** Replaces `instrument: FILE` by the file's content, and `vessel: none` by nothing. */
+/** Replaces the name of an instrument by its file's content, and `vessel: none` by nothing. */
 void normalise(SceneNode& root, const std::string& file)
 {
   SceneNode* instrument = fieldOf(root, "instrument");
-  if (instrument != nullptr && instrument->kind == SceneNode::Kind::kScalar)
-    *instrument = readSceneTree(findSceneFile(*instrument, "instrument", file));
+  if (instrument != nullptr)
+    expandInstrument(*instrument, "instrument", file);
   for (const char* key : {"vessel", "fluoroscopy"})
   {
     SceneNode* part = fieldOf(root, key);

@@ -285,8 +285,8 @@ void visitScene(SceneFields& fields, Scene& scene)
   }
   fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
   if (fields.reading() && !fields.has("instrument"))
-    fields.refuse("instrument", "missing; give a file, e.g. instrument: instruments/guidewire_035_j.yaml, or its keys");
-  fields.map("instrument", [&scene](SceneFields& wire) { visitInstrument(wire, scene.instrument); });
+    fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
+  fields.map("instrument", [&scene](SceneFields& wire) { visitDrivenInstrument(wire, scene.instrument); });
   fields.map("drive", [&scene](SceneFields& drive) { visitDrive(drive, scene.drive); });
   if (fields.reading())
     scene.introducer = scene.drive.source != DriveSource::kNone;

@@ -18,7 +18,13 @@ void visitVessel(SceneFields& fields, VesselScene& vessel);
 /** The key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. Optional, it may stay NaN. */
 void visitFriction(SceneFields& fields, double& friction, Need need);
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
+/** Any instrument of the library. */
 void visitInstrument(SceneFields& fields, instrument::Instrument& instrument);
+/** One that a hand or a drive pushes: any but a stent by itself. */
+void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument);
+/** The balloon of a balloon catheter, and the stent on it or by itself. */
+void visitBalloon(SceneFields& fields, instrument::Instrument& instrument);
+void visitStent(SceneFields& fields, instrument::Instrument& instrument);
 void visitDrive(SceneFields& fields, DriveScene& drive);
 void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
 void visitEnds(SceneFields& fields, Scene& scene);

@@ -13,9 +13,11 @@ namespace
 
 // Numbers of instrument::Material.
 const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer"};
+// Numbers of instrument::Kind.
+const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
 
-/** EI, GJ and EA, each given directly or derived as for a solid cylinder. */
-void readStiffness(SceneFields& fields, rod::Section& section)
+/** EI, GJ and EA, each given directly or derived as for a cylinder with this lumen. */
+void readStiffness(SceneFields& fields, rod::Section& section, double inner_radius)
 {
   const auto exactly_one = [&fields](const std::vector<std::string>& keys)
   {
@@ -35,17 +37,17 @@ void readStiffness(SceneFields& fields, rod::Section& section)
   fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
   fields.number("young_modulus", young, "Pa", Range::positive());
   if (fields.has("bending_stiffness"))
-    young = instrument::equivalentYoungModulus(section.bending_stiffness, section.radius);
+    young = instrument::equivalentYoungModulus(section.bending_stiffness, section.radius, inner_radius);
   double poisson = 0.0;
   fields.number("poisson_ratio", poisson, "1", {-1.0, 0.5, true, false});
   double shear = instrument::shearModulus(young, poisson);
   fields.number("shear_modulus", shear, "Pa", Range::positive());
 
-  const instrument::Stiffness solid = instrument::solidSection(young, shear, section.radius);
+  const instrument::Stiffness derived = instrument::hollowSection(young, shear, section.radius, inner_radius);
   if (!fields.has("bending_stiffness"))
-    section.bending_stiffness = solid.bending;
-  section.torsional_stiffness = solid.torsional;
-  section.axial_stiffness = solid.axial;
+    section.bending_stiffness = derived.bending;
+  section.torsional_stiffness = derived.torsional;
+  section.axial_stiffness = derived.axial;
   fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
   fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
 }
@@ -69,14 +71,17 @@ void visitRestCurvature(SceneFields& fields, rod::Section& section)
     fields.refuse(key, "bends more tightly than the wire's own radius; must be less than 1/radius in 1/m");
 }
 
-void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material)
+void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
 {
   fields.number("length", section.length, "m", Range::positive(), Need::kRequired);
   fields.number("radius", section.radius, "m", Range::positive(), Need::kRequired);
+  if (fields.reading() && section.radius <= inner_radius)
+    fields.refuse("radius", "the lumen leaves no wall; must be greater than inner_radius, " +
+                                std::to_string(1e3 * inner_radius) + "e-3 m");
   fields.option("material", material, kMaterials, Need::kRequired);
   fields.number("density", section.density, "kg/m³", Range::positive(), Need::kRequired);
   if (fields.reading())
-    readStiffness(fields, section);
+    readStiffness(fields, section, inner_radius);
   else
   {
     fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
@@ -121,11 +126,53 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
   }
 }
 
+void visitMarkers(SceneFields& fields, instrument::Instrument& instrument)
+{
+  auto& markers = instrument.markers;
+  if (!fields.reading() && markers.empty())
+    return;
+  fields.list(
+      "markers", markers.size(), [&markers](std::size_t size) { markers.resize(size); },
+      [&](SceneFields& ring, std::size_t k)
+      {
+        instrument::Marker& marker = markers[k];
+        ring.number("from_tip", marker.from_tip, "m", Range::nonNegative(), Need::kRequired);
+        ring.number("length", marker.length, "m", Range::positive(), Need::kRequired);
+        ring.option("material", marker.material, kMaterials);
+        if (ring.reading() && marker.from_tip + marker.length > instrument.wire.length())
+          ring.refuse("from_tip", "the marker lies beyond the shaft; from_tip + length must be at most its length, " +
+                                      std::to_string(instrument.wire.length()) + " m");
+      });
+}
+
 bool isTopicName(const std::string& name)
 {
   return std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
          std::all_of(name.begin(), name.end(),
                      [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
+}
+
+void visitShaft(SceneFields& fields, instrument::Instrument& instrument)
+{
+  const bool solid = instrument.kind == instrument::Kind::kGuidewire;
+  if (!solid)
+    fields.number("inner_radius", instrument.inner_radius, "m", Range::positive(), Need::kRequired);
+  else if (fields.has("inner_radius"))
+    fields.refuse("inner_radius", "a guidewire has no lumen; remove it, or set kind: catheter");
+  auto& wire = instrument.wire;
+  fields.list(
+      "sections", wire.sections.size(),
+      [&](std::size_t size)
+      {
+        wire.sections.resize(size);
+        instrument.materials.resize(size);
+      },
+      [&](SceneFields& section, std::size_t k)
+      { visitSection(section, wire.sections[k], instrument.materials[k], instrument.inner_radius); },
+      Need::kRequired);
+  if (fields.has("tip"))
+    fields.map("tip", [&instrument](SceneFields& tip) { readTip(tip, instrument); });
+  visitMarkers(fields, instrument);
 }
 
 }  // namespace
@@ -135,18 +182,26 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
   fields.text("name", instrument.name, Need::kRequired);
   if (fields.reading() && !isTopicName(instrument.name))
     fields.refuse("name", "names topics, so it must be letters, digits and _ with a letter first");
-  auto& wire = instrument.wire;
-  fields.list(
-      "sections", wire.sections.size(),
-      [&](std::size_t size)
-      {
-        wire.sections.resize(size);
-        instrument.materials.resize(size);
-      },
-      [&](SceneFields& section, std::size_t k) { visitSection(section, wire.sections[k], instrument.materials[k]); },
-      Need::kRequired);
-  if (fields.has("tip"))
-    fields.map("tip", [&instrument](SceneFields& tip) { readTip(tip, instrument); });
+  fields.option("kind", instrument.kind, kKinds);
+  const bool is_stent = instrument.kind == instrument::Kind::kStent;
+  const bool is_balloon = instrument.kind == instrument::Kind::kBalloonCatheter;
+  if (!is_stent)
+    visitShaft(fields, instrument);
+  if (is_balloon)
+    visitBalloon(fields, instrument);
+  else if (fields.has("balloon"))
+    fields.refuse("balloon", "belongs to another kind; remove it, or set kind: balloon_catheter");
+  if (is_stent || (is_balloon && (fields.reading() ? fields.has("stent") : instrument.stent.has_value())))
+    visitStent(fields, instrument);
+  else if (!is_balloon && fields.has("stent"))
+    fields.refuse("stent", "needs a balloon that carries it; set kind: balloon_catheter, or stent");
+}
+
+void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument)
+{
+  visitInstrument(fields, instrument);
+  if (fields.reading() && instrument.kind == instrument::Kind::kStent)
+    fields.refuse("kind", "a stent has no shaft to push; name a balloon_catheter that carries it");
 }
 
 }  // namespace endovascular_sim::session

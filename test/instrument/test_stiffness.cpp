@@ -44,5 +44,17 @@ TEST(Stiffness, ComesBackFromTheEquivalentModulus)
   EXPECT_NEAR(equivalentYoungModulus(solidSection(123e9, 1.0, 2e-4).bending, 2e-4), 123e9, 1.0);
 }
 
+TEST(Stiffness, OfATubeIsTheOuterCylinderLessItsLumen)
+{
+  const double e = 1e9;
+  const double g = 0.4e9;
+  const Stiffness tube = hollowSection(e, g, 1e-3, 0.7e-3);
+  EXPECT_NEAR(tube.bending, e * M_PI * (1e-12 - 0.2401e-12) / 4.0, 1e-15);
+  EXPECT_NEAR(tube.torsional, g * M_PI * (1e-12 - 0.2401e-12) / 2.0, 1e-15);
+  EXPECT_NEAR(tube.axial, e * M_PI * (1e-6 - 0.49e-6), 1e-9);
+  EXPECT_NEAR(equivalentYoungModulus(tube.bending, 1e-3, 0.7e-3), e, 1e-3);
+  EXPECT_EQ(hollowSection(e, g, 1e-3, 0.0).bending, solidSection(e, g, 1e-3).bending);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::instrument

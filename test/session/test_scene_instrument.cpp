@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "session/scene.h"
 
@@ -71,19 +70,23 @@ TEST(SceneInstrument, BendsTheEndOfTheLastSections)
   EXPECT_TRUE(sections[2].rest_curvature.isZero(0.0));
 }
 
-TEST(SceneInstrument, OfEveryConfigFileIsAWire)
+TEST(SceneInstrument, OfATubeTakesStiffnessFromItsWall)
 {
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(PROJECT_DIR) + "/config/instruments"))
+  const double outer = std::pow(2e-4, 4) - std::pow(1.5e-4, 4);
+  const auto tube = [](const std::string& keys)
   {
-    const Scene scene = loadScene(kBench, {"instrument=" + entry.path().string()});
-    EXPECT_EQ(scene.instrument.materials.size(), scene.instrument.wire.sections.size());
-    EXPECT_GT(scene.instrument.wire.length(), 0.1) << entry.path();
-    for (const rod::Section& section : scene.instrument.wire.sections)
-    {
-      EXPECT_GT(section.bending_stiffness / section.torsional_stiffness, 1.0);
-      EXPECT_LT(section.bending_stiffness, 5e-3);
-    }
-  }
+    return loadScene(kBench, {"instrument={name: c, kind: catheter, inner_radius: 1.5e-4, sections: [{length: 0.1, "
+                              "radius: 2e-4, material: polymer, density: 1200, " +
+                              keys + "}]}"})
+        .instrument.wire.sections.at(0);
+  };
+  const rod::Section section = tube("young_modulus: 1e9, shear_modulus: 0.4e9");
+  EXPECT_NEAR(section.bending_stiffness, 1e9 * M_PI * outer / 4.0, 1e-18);
+  EXPECT_NEAR(section.torsional_stiffness, 0.4e9 * M_PI * outer / 2.0, 1e-18);
+  EXPECT_NEAR(section.axial_stiffness, 1e9 * M_PI * (4e-8 - 2.25e-8), 1e-9);
+  const rod::Section direct = tube("bending_stiffness: 1e-6, poisson_ratio: 0.25");
+  EXPECT_NEAR(direct.torsional_stiffness, 0.8e-6, 1e-18);
+  EXPECT_NEAR(direct.axial_stiffness, 4e-6 / outer * (4e-8 - 2.25e-8), 1e-9);
 }
 
 }  // namespace

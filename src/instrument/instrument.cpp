@@ -1,0 +1,25 @@
+#include "instrument/instrument.h"
+
+#include <algorithm>
+
+namespace endovascular_sim::instrument
+{
+
+double crossingRadius(const Instrument& instrument)
+{
+  double radius = 0.0;
+  for (const rod::Section& section : instrument.wire.sections)
+    radius = std::max(radius, section.radius);
+  if (instrument.balloon)
+    radius = std::max(radius, 0.5 * instrument.balloon->folded_diameter);
+  if (instrument.stent)
+    radius = std::max(radius, 0.5 * instrument.stent->crimped_diameter);
+  return radius;
+}
+
+bool fitsInside(const Instrument& inner, const Instrument& outer)
+{
+  return crossingRadius(inner) < outer.inner_radius;
+}
+
+}  // namespace endovascular_sim::instrument

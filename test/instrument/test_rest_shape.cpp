@@ -1,0 +1,119 @@
+#include "instrument/rest_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "instrument/tip_shape.h"
+#include "rod/equilibrium.h"
+
+namespace endovascular_sim::instrument
+{
+namespace
+{
+
+rod::Section sectionOf(double length, const Eigen::Vector2d& rest_curvature)
+{
+  rod::Section section;
+  section.length = length;
+  section.bending_stiffness = 100e-6;
+  section.torsional_stiffness = 80e-6;
+  section.axial_stiffness = 1e4;
+  section.radius = 5e-4;
+  section.density = 1200.0;
+  section.rest_curvature = rest_curvature;
+  return section;
+}
+
+Eigen::Vector2d straight()
+{
+  return Eigen::Vector2d::Zero();
+}
+
+/** The curves of a JL4 with a piece of its shaft. */
+rod::Wire hook()
+{
+  return {{sectionOf(0.05, straight()), sectionOf(0.015 * M_PI, arcCurvature(0.015, 0.0)), sectionOf(0.04, straight()),
+           sectionOf(0.003 * M_PI, arcCurvature(0.006, 0.0)), sectionOf(0.008, straight())}};
+}
+
+TEST(RestShape, OfAStraightWireIsALineAlongZ)
+{
+  const auto points = restShape({{sectionOf(0.1, straight()), sectionOf(0.05, straight())}}, 0.01);
+  ASSERT_EQ(points.size(), 16U);
+  for (const RestPoint& point : points)
+    EXPECT_LT((point.position - point.arc_length * Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+}
+
+TEST(RestShape, OfAnArcBendsAboutD1AtDirectionZero)
+{
+  // A quarter turn about x takes z to −y.
+  const auto points = restShape({{sectionOf(0.01 * M_PI, arcCurvature(0.02, 0.0))}}, 1e-3);
+  EXPECT_LT((points.back().position - Eigen::Vector3d(0.0, -0.02, 0.02)).norm(), 1e-15);
+  EXPECT_LT((points.back().tangent - Eigen::Vector3d(0.0, -1.0, 0.0)).norm(), 1e-15);
+  EXPECT_LT((points.back().d1 - Eigen::Vector3d::UnitX()).norm(), 1e-15);
+}
+
+TEST(RestShape, DoesNotDependOnTheSpacingOfItsPoints)
+{
+  rod::Wire wire = hook();
+  wire.sections[3].rest_curvature = arcCurvature(0.006, 0.9);
+  const RestPoint coarse = restShape(wire, 1.0).back();
+  const RestPoint fine = restShape(wire, 1e-4).back();
+  EXPECT_LT((coarse.position - fine.position).norm(), 1e-13);
+  EXPECT_LT((coarse.d1 - fine.d1).norm(), 1e-12);
+}
+
+TEST(RestShape, LeavesThePlaneWhereTheDirectionChanges)
+{
+  // A quarter turn about d1 = x, then a quarter turn about d2: the tangent is −y, d2 = z after the first, so the second
+  // turns −y about z to +x.
+  const auto points = restShape(
+      {{sectionOf(0.01 * M_PI, arcCurvature(0.02, 0.0)), sectionOf(0.01 * M_PI, arcCurvature(0.02, M_PI / 2.0))}},
+      1e-3);
+  const RestPoint& corner = points[points.size() / 2];
+  const Eigen::Vector3d d2 = corner.tangent.cross(corner.d1);
+  const Eigen::Vector3d tangent = d2.cross(corner.tangent);
+  EXPECT_LT((points.back().tangent - tangent).norm(), 1e-12);
+  EXPECT_NEAR(std::abs(points.back().tangent.x()), 1.0, 1e-12);
+}
+
+TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
+{
+  // Clamped at its hand's end, nothing else acts. The solver starts from the straight wire, the curvature is brought in
+  // by steps. The discrete rod's clamp acts at the middle of its first edge.
+  const rod::Wire wire = hook();
+  constexpr int kNodes = 400;
+  rod::EquilibriumProblem problem;
+  problem.rod = rod::discretiseUniformly(wire, kNodes);
+  problem.held.assign(kNodes, false);
+  problem.held[0] = problem.held[1] = true;
+  rod::Equilibrium shape;
+  for (const double s : problem.rod.position)
+    shape.position.push_back(s * Eigen::Vector3d::UnitZ());
+  for (int step = 1; step <= 20; ++step)
+  {
+    // All arcs lie in one plane, so the binormal stays d1 in space.
+    problem.rest_binormal.clear();
+    for (const Eigen::Vector2d& curvature : problem.rod.rest_curvature)
+      problem.rest_binormal.push_back(-curvature[1] * step / 20.0 * Eigen::Vector3d::UnitX());
+    ASSERT_TRUE(rod::EquilibriumSolver(problem).solve(shape)) << step;
+  }
+  const auto drawn = restShape(wire, 1e-5);
+  double distance = 0.0;
+  for (int i = 0; i < kNodes; ++i)
+  {
+    double nearest = 1.0;
+    for (const RestPoint& point : drawn)
+      if (std::abs(point.arc_length - problem.rod.position[i]) < 2e-5)
+        nearest = std::min(nearest, (point.position - shape.position[i]).norm());
+    distance = std::max(distance, nearest);
+  }
+  // Second order in the edge: 0.38 mm here.
+  EXPECT_LT(distance, 5e-5);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::instrument
