@@ -83,6 +83,8 @@ void KktStepper::placePrescribedNodes(State& state, double inserted_length, doub
       state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
       state.velocity[i] = speed * boundary_.direction;
       begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
+      if (i < old_first)
+        begin_twist_[i] = state.rotation;
       state.wall_force[i].setZero();
     }
   }
@@ -99,9 +101,10 @@ TwistBoundary KktStepper::twistBoundary(const State& state, const StepInput& inp
   return twist;
 }
 
-void KktStepper::relaxTwist(State& state, const StepInput& input)
+void KktStepper::relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction)
 {
-  const TwistBoundary boundary = twistBoundary(state, input);
+  TwistBoundary boundary = twistBoundary(state, input);
+  boundary.friction = &friction;
   twist_active_ = QuasiStaticTwist::matters(rod_, boundary);
   if (!twist_active_)
   {
@@ -193,6 +196,7 @@ void KktStepper::hold(State& state, int depth)
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
+  begin_twist_ = state.twist_angle;
   placePrescribedNodes(state, input.inserted_length, dt);
   placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
@@ -201,7 +205,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   capped_ = false;
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
-    relaxTwist(state, input);
+    collectFriction(state, dt, solve == 0);
+    relaxTwist(state, input, friction_.aboutAxis());
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
       contacts_.prepare(state, dt);
@@ -245,6 +250,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
     const double fraction = kRestoringFraction * dt;
     contacts_.prepare(state, fraction);
+    collectFriction(state, fraction, true);
     assemble(state, input, fraction, true);
     ++report.solves;
     solved = solveActiveSet(state, fraction, report);
@@ -260,11 +266,18 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
 
 void KktStepper::finish(State& state, double dt)
 {
-  friction_.finish(state, begin_);
+  const SurfaceTurn turn{rod_.radius, begin_twist_};
+  friction_.finish(state, begin_, &turn);
   const double inverse = 1.0 / dt;
   for (int i = first_; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+}
+
+void KktStepper::collectFriction(const State& state, double dt, bool first_solve)
+{
+  const SurfaceTurn turn{rod_.radius, begin_twist_};
+  friction_.collect(state, begin_, &rod_.mass, dt, first_solve, &turn);
 }
 
 void KktStepper::addDiagonal(int node, double value)
@@ -288,7 +301,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
   base_.reset(4 * (n - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   base_.at(kIdleRow, kIdleRow) = -scale_;
-  friction_.prepare(state, begin_, &rod_.mass, dt, first_solve);
+  friction_.linearise(state);
   addAllBending(state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addConstraint(j, state, dt);
@@ -547,7 +560,10 @@ Energy KktStepper::energy(const State& state)
   State relaxed = state;
   PhaseTimer unused;
   timer_ = &unused;
-  relaxTwist(relaxed, last_input_);
+  // Friction goes on from the state, which does not move any more.
+  const SurfaceTurn at_rest{rod_.radius, state.twist_angle};
+  friction_.collect(state, state.position, nullptr, 1.0, false, &at_rest);
+  relaxTwist(relaxed, last_input_, friction_.aboutAxis());
   return elasticEnergy(rod_, state, twist_active_ ? &twist_ : nullptr);
 }
 
@@ -557,7 +573,7 @@ std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const Step
   timer_ = &unused;
   first_ = state.first_node;
   last_input_ = input;
-  relaxTwist(state, input);
+  relaxTwist(state, input, {});
   base_.reset(4 * (rod_.nodes() - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   addAllBending(state, 1.0);

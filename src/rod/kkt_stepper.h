@@ -52,7 +52,8 @@ private:
   bool isDistalHeld(int node) const;
   static Eigen::Matrix3d distalRotation(const State& state);
   TwistBoundary twistBoundary(const State& state, const StepInput& input) const;
-  void relaxTwist(State& state, const StepInput& input);
+  void relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction);
+  void collectFriction(const State& state, double dt, bool first_solve);
 
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
   void addAllBending(const State& state, double dt);
@@ -108,6 +109,7 @@ private:
   KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
+  std::vector<double> begin_twist_;     ///< and twist angles
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
   std::vector<State> backup_;  ///< per depth of halving
 };

@@ -237,7 +237,8 @@ void MixedStepper::assemble(const State& state, const StepInput& input, double d
   if (twist_active_)
     twist_.assemble(model_, state, gradient_, base_);
   addInertia(state, dt);
-  friction_.prepare(state, begin_, &rod_.mass, dt, first_solve);
+  friction_.collect(state, begin_, &rod_.mass, dt, first_solve);
+  friction_.linearise(state);
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     addNodeTerms(i, state, dt, first_solve);
   for (const NodalForce& load : input.forces)

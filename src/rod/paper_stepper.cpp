@@ -144,7 +144,8 @@ void PaperStepper::assemble(const State& state, const StepInput& input, double d
     addBending(i, state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addStretch(j, state, dt);
-  friction_.prepare(state, begin_, nullptr, dt, true);  // with the impulse of the step before
+  friction_.collect(state, begin_, nullptr, dt, true);  // with the impulse of the step before
+  friction_.linearise(state);
   for (std::size_t k = 0; k < friction_.count(); ++k)
   {
     const WallFriction::Term& term = friction_.term(k);

@@ -14,6 +14,11 @@ namespace
 constexpr int kMaxIterations = 200;
 constexpr double kMaxTurn = 0.3;      // rad per iteration: a snap-through is followed, not jumped over
 constexpr double kConverged = 1e-12;  // rad
+// With friction: a ten-thousandth of the turn in which it sticks, before a last step that squares it.
+constexpr double kConvergedInFriction = 1e-7;  // rad
+constexpr double kBalanced = 1e-7;             // of all friction's torque, that may be left over
+// Newton for so many iterations, then secants for as many, which always go downhill.
+constexpr int kNewtonIterations = 6;
 // Share of the Hessian's concave part that is left out: the first with which it is positive definite.
 constexpr std::array<double, 5> kLeftOut = {0.0, 1e-3, 1e-2, 0.1, 1.0};
 constexpr double kMinLength = 1e-9;  // of the body's compliance, in edges: keeps the spring finite
@@ -43,7 +48,7 @@ double torsionalCompliance(const Discretisation& rod, double begin, double end, 
 bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& boundary)
 {
   return rod.first_curved < rod.nodes() || boundary.tip_torque != 0.0 || boundary.hasEdgeTorque() ||
-         (boundary.held && boundary.tip_held);
+         boundary.hasFriction() || (boundary.held && boundary.tip_held);
 }
 
 void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state)
@@ -55,7 +60,11 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
   if (first_curved_ > n - 2)
     first_curved_ = n;
-  last_body_ = std::min(first_curved_ - 1, n - 2);
+  first_own_ = first_curved_;
+  if (boundary.hasFriction() && first_edge_ + 1 <= n - 2)
+    first_own_ = std::min(first_own_, std::clamp(boundary.friction->front().node, first_edge_ + 1, n - 2));
+  held_friction_ = 0.0;
+  last_body_ = std::min(first_own_ - 1, n - 2);
   bishop_.resize(n);
   bishop_normal_.resize(n);
   binormal_.resize(n);
@@ -72,7 +81,7 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
     transportBishopFrame(rod, boundary, state);
   if (boundary.tip_held)
     placeTip(rod, boundary, state);
-  if (first_curved_ < n)
+  if (first_own_ < n)
     relax(rod, boundary, state);
   evaluate(rod, boundary, state);
 }
@@ -141,21 +150,22 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
             .value;
 }
 
-/** Gradient and Hessian by the twist angles of the edges first_curved_−1 … n−2, and apart what of the Hessian's
- *  diagonal curves down; returns the largest |gradient|. */
-double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state)
+/** Gradient and Hessian by the twist angles of the edges first_own_−1 … n−2, and apart what of the Hessian's diagonal
+ *  curves down; returns the largest |gradient|. */
+double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state,
+                                  bool secants)
 {
   const int n = rod.nodes();
-  const int first = first_curved_ - 1;
+  const int first = first_own_ - 1;
   for (int j = first; j + 1 < n; ++j)
     gradient_[j] = diagonal_[j] = upper_[j] = concave_[j] = 0.0;
   gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
   for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
     gradient_[j] -= boundary.edgeTorque(j);
   // The tiny second term keeps the matrix regular where nothing holds the twist.
-  diagonal_[first] = body_stiffness_ + 1e-9 * rod.torsional_stiffness[first_curved_] / rod.cell_length[first_curved_];
+  diagonal_[first] = body_stiffness_ + 1e-9 * rod.torsional_stiffness[first_own_] / rod.cell_length[first_own_];
   gradient_[n - 2] -= boundary.tip_torque;
-  for (int i = first_curved_; i + 1 < n; ++i)
+  for (int i = first_own_; i + 1 < n; ++i)
   {
     const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
     const double m = state.twist_angle[i] - state.twist_angle[i - 1];
@@ -164,20 +174,11 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
     diagonal_[i] += k;
     diagonal_[i - 1] += k;
     upper_[i - 1] -= k;
-    const double b = 0.5 * rod.bending_stiffness[i] / rod.cell_length[i];
-    const Eigen::Vector2d& rest = rod.rest_curvature[i];
-    for (int j = i - 1; j <= i; ++j)
-    {
-      const double c = std::cos(state.twist_angle[j]);
-      const double s = std::sin(state.twist_angle[j]);
-      const double along1 = binormal_[i].dot(bishop_[j]);
-      const double along2 = binormal_[i].dot(bishop_normal_[j]);
-      const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
-      gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
-      diagonal_[j] += b * rest.dot(omega);
-      concave_[j] += b * std::max(0.0, -rest.dot(omega));
-    }
+    if (i >= first_curved_)
+      addRestCurvature(rod, state, i);
   }
+  if (boundary.hasFriction())
+    addFriction(boundary, state, secants);
   tip_gradient_ = gradient_[n - 2];
   if (boundary.tip_held)
   {
@@ -188,6 +189,63 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   for (int j = first; j + 1 < n; ++j)
     largest = std::max(largest, std::abs(gradient_[j]));
   return largest;
+}
+
+/** Bending of a node of the curved tip. */
+void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, const State& state, int node)
+{
+  const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
+  const Eigen::Vector2d& rest = rod.rest_curvature[node];
+  for (int j = node - 1; j <= node; ++j)
+  {
+    const double c = std::cos(state.twist_angle[j]);
+    const double s = std::sin(state.twist_angle[j]);
+    const double along1 = binormal_[node].dot(bishop_[j]);
+    const double along2 = binormal_[node].dot(bishop_normal_[j]);
+    const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
+    gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
+    diagonal_[j] += b * rest.dot(omega);
+    concave_[j] += b * std::max(0.0, -rest.dot(omega));
+  }
+}
+
+/** A node turns by the mean of its edges; one before the held place turns with the hand, which takes its share. */
+void QuasiStaticTwist::addFriction(const TwistBoundary& boundary, const State& state, bool secants)
+{
+  const int last = static_cast<int>(state.twist_angle.size()) - 1;
+  const auto angle = [&](int edge) { return edge < first_edge_ ? boundary.rotation : state.twist_angle[edge]; };
+  held_friction_ = 0.0;
+  for (const TwistFriction& friction : *boundary.friction)
+  {
+    const int before = std::max(friction.node - 1, state.first_node);
+    const int after = std::min(friction.node, last);
+    const double turn = 0.5 * (angle(before) + angle(after)) - friction.begin_angle;
+    const double pull = 0.5 * friction.pull(turn);
+    const double stiffness = 0.25 * (secants ? friction.secant(turn) : friction.stiffness(turn));
+    for (const int edge : {before, after})
+    {
+      if (edge < first_edge_)
+      {
+        held_friction_ += pull;
+        continue;
+      }
+      gradient_[edge] += pull;
+      diagonal_[edge] += stiffness;
+    }
+    if (before == after)
+      diagonal_[before] += 2.0 * stiffness;
+    else if (before >= first_edge_)
+      upper_[before] += stiffness;
+  }
+}
+
+/** Torque on an edge that may be left over [N·m]. */
+double QuasiStaticTwist::balanced(const TwistBoundary& boundary) const
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; boundary.hasFriction() && k < boundary.friction->size(); ++k)
+    sum += (*boundary.friction)[k].limit * (*boundary.friction)[k].arm;
+  return kBalanced * sum;
 }
 
 /** Solves the tridiagonal system for the Newton step, with a share of the concave part left out of the matrix.
@@ -220,11 +278,14 @@ double QuasiStaticTwist::solveForStep(int first, int last, double left_out)
  *  little as needed of what curves down is left out, and the angles run downhill to the next minimum. */
 void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
-  const int first = first_curved_ - 1;
+  const int first = first_own_ - 1;
   const int last = rod.nodes() - 2;
+  const double left_over = balanced(boundary);
+  const double converged = boundary.hasFriction() ? kConvergedInFriction : kConverged;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration)
   {
-    if (assemble(rod, boundary, state) == 0.0)
+    const bool secants = iteration / kNewtonIterations % 2 == 1;
+    if (assemble(rod, boundary, state, secants) <= left_over)
       return;
     double largest = -1.0;
     for (std::size_t k = 0; k < kLeftOut.size() && largest < 0.0; ++k)
@@ -232,7 +293,7 @@ void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& bou
     const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
     for (int j = first; j <= last; ++j)
       state.twist_angle[j] -= scale * step_[j];
-    if (largest < kConverged)
+    if (largest < converged)
       return;
   }
 }
@@ -245,20 +306,20 @@ void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& 
   state.distal_torque = 0.0;
   if (!boundary.tip_held)
     return;
-  // With a curved tip the last assembly knows it; a straight wire's last edge hands on the body's torque.
+  // With angles of its own the last assembly knows it; a straight wire's last edge hands on the body's torque.
   state.distal_torque = tip_gradient_;
-  if (first_curved_ == rod.nodes())
+  if (first_own_ == rod.nodes())
     state.distal_torque = torque_[last_body_] - boundary.edgeTorque(last_body_) - boundary.tip_torque;
 }
 
 /** Torques, energy and angles of the straight body. */
 void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
-  const bool given = first_curved_ < rod.nodes() || boundary.tip_held;  // the angle of the last edge is known
+  const bool given = first_own_ < rod.nodes() || boundary.tip_held;  // the angle of the last edge is known
   const double end_angle = state.twist_angle[last_body_];
   double torque = given ? bodyTorque(boundary, end_angle) : boundary.tip_torque + boundary.edgeTorque(last_body_);
   torque += body_load_;
-  state.hand_torque = boundary.held ? -torque : 0.0;
+  state.hand_torque = boundary.held ? held_friction_ - torque : 0.0;
   double angle = boundary.rotation;
   double reached = boundary.position;
   for (int j = state.first_node; j <= last_body_; ++j)
@@ -283,16 +344,18 @@ void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBounda
     state.twist_angle[j] += end_angle - angle;
 }
 
-/** Torques, energy and rest curvature of the curved tip. */
+/** Torques, energy and rest curvature beyond the body. */
 void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
 {
   const int n = rod.nodes();
-  for (int i = first_curved_; i + 1 < n; ++i)
+  for (int i = first_own_; i + 1 < n; ++i)
   {
     const double m = state.twist_angle[i] - state.twist_angle[i - 1];
     const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
     torque_[i] = k * m;
     energy_ += 0.5 * k * m * m;
+    if (i < first_curved_)
+      continue;
     rest_binormal_[i].setZero();
     for (int j = i - 1; j <= i; ++j)
     {

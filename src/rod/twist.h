@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "rod/state.h"
+#include "rod/twist_friction.h"
 
 namespace endovascular_sim::rod
 {
@@ -23,11 +24,15 @@ struct TwistBoundary
   Eigen::Vector3d tip_director = Eigen::Vector3d::UnitY();  ///< d1 there at tip rotation 0, unit, ⟂ the last edge
   double tip_rotation = 0.0;                                ///< of what holds the tip [rad]
 
-  /** Torque from outside about the axis of every edge, e.g. wall friction [N·m], n−1; null or empty: none. */
+  /** Torque from outside about the axis of every edge [N·m], n−1; null or empty: none. */
   const std::vector<double>* edge_torque = nullptr;
+  /** Friction of the wall by ascending nodes; null or empty: none. */
+  const std::vector<TwistFriction>* friction = nullptr;
 
   /** Whether any torque from outside acts along the wire. */
   bool hasEdgeTorque() const { return edge_torque != nullptr && !edge_torque->empty(); }
+  /** Whether the wall's friction acts on the twist. */
+  bool hasFriction() const { return friction != nullptr && !friction->empty(); }
   /** Torque from outside on an edge [N·m]. */
   double edgeTorque(int edge) const { return hasEdgeTorque() ? (*edge_torque)[edge] : 0.0; }
 };
@@ -35,13 +40,15 @@ struct TwistBoundary
 /** Quasi-static twist (Bergou et al. 2008, §5.1): twist waves are far faster than bending, so the twist angles
  *  minimise the elastic energy for the present centreline.
  *
- *  The straight isotropic body carries one torque and costs one scalar; only the edges of the pre-curved tip have
- *  angles of their own, found by a damped tridiagonal Newton method that follows a snap-through to the next minimum. */
+ *  The straight isotropic body carries one torque and costs one scalar; only the edges of the pre-curved tip, and all
+ *  from the first node with friction on, have angles of their own. They are found by a damped tridiagonal Newton method
+ *  that follows a snap-through to the next minimum; friction, which is convex, gets secants where Newton does not
+ * settle. */
 class QuasiStaticTwist
 {
 public:
-  /** @return true when the twist influences anything: rest curvature, a torque at the tip or along the wire, or both
-   *  ends held */
+  /** @return true when the twist influences anything: rest curvature, a torque at the tip or along the wire, friction,
+   *  or both ends held */
   static bool matters(const Discretisation& rod, const TwistBoundary& boundary);
 
   /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle,
@@ -65,7 +72,10 @@ private:
   void transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
-  double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
+  double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state, bool secants);
+  void addRestCurvature(const Discretisation& rod, const State& state, int node);
+  void addFriction(const TwistBoundary& boundary, const State& state, bool secants);
+  double balanced(const TwistBoundary& boundary) const;
   double solveForStep(int first, int last, double left_out);
   void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state);
@@ -75,10 +85,12 @@ private:
 
   int first_edge_ = 0;    ///< first edge beyond the held place
   int first_curved_ = 0;  ///< first curved node beyond the held place; n without
+  int first_own_ = 0;     ///< first node with angles of their own on both sides; n without
   int last_body_ = 0;     ///< last edge of the straight body
   double body_stiffness_ = 0.0;
   double body_load_ = 0.0;        ///< torque from outside on the body before its last edge [N·m]
   double body_load_angle_ = 0.0;  ///< by which that load turns the body's last edge [rad]
+  double held_friction_ = 0.0;    ///< friction's torque on edges that turn with the hand [N·m]
   double tip_gradient_ = 0.0;     ///< of the energy less the work of torques, by the last edge's angle [N·m]
   double energy_ = 0.0;
   std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -11,6 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLeastForce = 1e-9;     // N: a wall force below it has no friction
+constexpr double kLeastArm = 1e-9;       // m/rad: below it, where a wire stands on the wall, nothing holds the twist
 constexpr double kTolerance = 0.1;       // of the sum of all limits, by which friction may be wrong
 constexpr double kNodeTolerance = 0.01;  // of a node's limit: the node is left as it is
 // Inertia so many times over may outweigh a node's friction and is still enough to keep the first pass near the mark.
@@ -23,15 +26,27 @@ Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
   return vector - normal.dot(vector) * normal;
 }
 
+/** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
+Vector3d surfaceMotion(const State& state, int node, const Vector3d& normal, double radius)
+{
+  const int before = std::max(node - 1, state.first_node);
+  const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
+  return radius * normal.cross((state.position[after] - state.position[before]).normalized());
+}
+
 }  // namespace
 
-void WallFriction::prepare(const State& state, const Motion& begin, const std::vector<double>* mass, double dt,
-                           bool first_solve)
+double nodeAngle(const std::vector<double>& twist_angle, int node, int first_node)
+{
+  const int last = static_cast<int>(twist_angle.size()) - 1;
+  return 0.5 * (twist_angle[std::max(node - 1, first_node)] + twist_angle[std::min(node, last)]);
+}
+
+void WallFriction::collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt,
+                           bool first_solve, const SurfaceTurn* turn)
 {
   contacts_.clear();
-  terms_.clear();
   contacts_.reserve(state.position.size());
-  terms_.reserve(state.position.size());
   for (int i = state.first_node; i < static_cast<int>(state.position.size()); ++i)
   {
     if (state.wall_force[i].isZero(0.0) || state.friction_coefficient[i] <= 0.0)
@@ -40,18 +55,60 @@ void WallFriction::prepare(const State& state, const Motion& begin, const std::v
     if (normal_force < kLeastForce)
       continue;
     Contact contact;
+    contact.node = i;
     contact.limit = state.friction_coefficient[i] * normal_force;
     contact.normal = state.wall_force[i] / normal_force;
     const Vector3d travel = state.position[i] - begin[i];
     contact.stretch = tangential(state.friction_stretch[i] + travel, contact.normal);
-    Vector3d guess = contact.stretch;
+    contact.guess = contact.stretch;
     if (first_solve)
-      guess = tangential(state.friction_stretch[i] + dt * state.velocity[i], contact.normal);
+      contact.guess = tangential(state.friction_stretch[i] + dt * state.velocity[i], contact.normal);
     contact.inertia = mass != nullptr ? (*mass)[i] / (dt * dt) : 0.0;
+    if (turn != nullptr)
+    {
+      contact.around = surfaceMotion(state, i, contact.normal, turn->radius[i]);
+      contact.begin_angle = nodeAngle(turn->begin_angle, i, state.first_node);
+    }
     contacts_.push_back(contact);
-    terms_.emplace_back();
-    terms_.back().node = i;
-    linearise(terms_.size() - 1, guess, kInertiaWeight);
+  }
+}
+
+const std::vector<TwistFriction>& WallFriction::aboutAxis()
+{
+  about_axis_.clear();
+  about_axis_.reserve(contacts_.capacity());
+  for (const Contact& contact : contacts_)
+  {
+    TwistFriction friction;
+    friction.arm = contact.around.norm();
+    if (friction.arm <= kLeastArm)
+      continue;
+    friction.node = contact.node;
+    friction.limit = contact.limit;
+    friction.slip = slip_;
+    // Sideways the motion follows the turn (rolling): if the twist relied on what is expected of it, neither would meet
+    // the other's force. At the first solve that is no motion yet.
+    friction.along = contact.stretch.dot(contact.around) / friction.arm;
+    const double guessed = contact.guess.dot(contact.around) / friction.arm;
+    friction.across_squared = std::max(0.0, contact.guess.squaredNorm() - guessed * guessed);
+    friction.begin_angle = contact.begin_angle;
+    about_axis_.push_back(friction);
+  }
+  return about_axis_;
+}
+
+void WallFriction::linearise(const State& state)
+{
+  terms_.resize(contacts_.size());
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+  {
+    Contact& contact = contacts_[k];
+    Vector3d turned = Vector3d::Zero();
+    if (!contact.around.isZero(0.0))
+      turned = (nodeAngle(state.twist_angle, contact.node, state.first_node) - contact.begin_angle) * contact.around;
+    contact.stretch += turned;
+    terms_[k].node = contact.node;
+    linearise(k, contact.guess + turned, kInertiaWeight);
   }
 }
 
@@ -103,9 +160,9 @@ bool WallFriction::update(const Motion& motion, int pass)
   return true;
 }
 
-void WallFriction::finish(State& state, const Motion& begin) const
+void WallFriction::finish(State& state, const Motion& begin, const SurfaceTurn* turn) const
 {
-  for (std::size_t i = static_cast<std::size_t>(state.first_node); i < state.position.size(); ++i)
+  for (int i = state.first_node; i < static_cast<int>(state.position.size()); ++i)
   {
     Vector3d& stretch = state.friction_stretch[i];
     if (state.wall_force[i].isZero(0.0))
@@ -113,7 +170,15 @@ void WallFriction::finish(State& state, const Motion& begin) const
       stretch.setZero();
       continue;
     }
-    stretch = tangential(stretch + state.position[i] - begin[i], state.wall_force[i].normalized());
+    const Vector3d normal = state.wall_force[i].normalized();
+    stretch = tangential(stretch + state.position[i] - begin[i], normal);
+    if (turn != nullptr)
+    {
+      const double angle =
+          nodeAngle(state.twist_angle, i, state.first_node) - nodeAngle(turn->begin_angle, i, state.first_node);
+      if (angle != 0.0)
+        stretch += angle * surfaceMotion(state, i, normal, turn->radius[i]);
+    }
     const double length = stretch.norm();
     if (length > slip_)
       stretch *= slip_ / length;

@@ -5,9 +5,20 @@
 #include <Eigen/Core>
 
 #include "rod/state.h"
+#include "rod/twist_friction.h"
 
 namespace endovascular_sim::rod
 {
+
+/** What of a wire's rotation about its axis drags its surface over the wall. */
+struct SurfaceTurn
+{
+  const std::vector<double>& radius;       ///< of every node [m], n
+  const std::vector<double>& begin_angle;  ///< State::twist_angle at the beginning of the step [rad], n−1
+};
+
+/** Twist angle of a node, the mean of its edges' [rad]. */
+double nodeAngle(const std::vector<double>& twist_angle, int node, int first_node);
 
 /** Coulomb friction of the wall on the nodes, which sticks (docs/CONTACT.md).
  *
@@ -15,6 +26,10 @@ namespace endovascular_sim::rod
  *  tangential and at most δ long, in State::friction_stretch. The wall pulls with μ f_n u/δ; what is dragged further
  *  slides, pulled with μ f_n u/|u|, and its stretch is cut to δ at the end of the step (return mapping). Over a step
  *  the stretch is u + the tangential motion since the step began, and the normal force that of the last solve.
+ *
+ *  Where a scheme tells the wire's SurfaceTurn, that motion is the surface's: a turn Δθ about the tangent t adds
+ *  r Δθ n × t, n the wall's normal. What the Bishop frame itself turns in space is left out. Positions are solved for
+ *  at a known turn, the twist at a known motion (aboutAxis), both against the same potential.
  *
  *  A solve gets the secant μ f_n/max(|u|, δ) of the stretch to be expected. Along the direction of sliding it is
  * lowered by the node's inertia m/Δt² about that stretch: Newton's tangent there is zero, and where inertia outweighs
@@ -36,11 +51,20 @@ public:
   /** @param slip δ, the stretch at which a node begins to slide [m] */
   explicit WallFriction(double slip) : slip_(slip) {}
 
-  /** Linearises for the first pass of a solve.
+  /** Takes up what touches at the beginning of a solve.
    *  @param begin positions at the beginning of the step [m]
    *  @param mass of every node [kg]; null: secants only
-   *  @param first_solve the velocities tell how far the nodes will go; else the motion so far does */
-  void prepare(const State& state, const Motion& begin, const std::vector<double>* mass, double dt, bool first_solve);
+   *  @param first_solve the velocities tell how far the nodes will go; else the motion so far does
+   *  @param turn null: the wire does not turn */
+  void collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt, bool first_solve,
+               const SurfaceTurn* turn = nullptr);
+
+  /** Friction about the axis, by ascending nodes, at the motion to be expected; after collect() with a turn, which need
+   *  not be known yet. */
+  const std::vector<TwistFriction>& aboutAxis();
+
+  /** Linearises what was collected for the first pass of a solve, at the state's twist. */
+  void linearise(const State& state);
 
   std::size_t count() const { return terms_.size(); }
   const Term& term(std::size_t index) const { return terms_[index]; }
@@ -50,17 +74,22 @@ public:
   bool update(const Motion& motion, int pass);
 
   /** Return mapping at the end of a step. A node that nothing pushes on forgets its stretch.
-   *  @param begin positions at the beginning of the step [m] */
-  void finish(State& state, const Motion& begin) const;
+   *  @param begin positions at the beginning of the step [m]
+   *  @param turn null: the wire does not turn */
+  void finish(State& state, const Motion& begin, const SurfaceTurn* turn = nullptr) const;
 
 private:
   /** What a node's friction depends on during a solve. */
   struct Contact
   {
+    int node = 0;
     double inertia = 0.0;                               ///< m/Δt² [N/m]
     double limit = 0.0;                                 ///< μ f_n [N]
+    double begin_angle = 0.0;                           ///< of the node [rad]
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< of the wall, unit
     Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< at the present iterate [m]
+    Eigen::Vector3d guess = Eigen::Vector3d::Zero();    ///< stretch to be expected [m]
+    Eigen::Vector3d around = Eigen::Vector3d::Zero();   ///< motion of the surface per turn [m/rad]
   };
 
   void linearise(std::size_t index, const Eigen::Vector3d& stretch, double inertia_weight);
@@ -69,6 +98,7 @@ private:
   double slip_;
   std::vector<Contact> contacts_;
   std::vector<Term> terms_;
+  std::vector<TwistFriction> about_axis_;
 };
 
 /** Friction force of the wall on a node after a step [N]; zero where nothing pushes on it.

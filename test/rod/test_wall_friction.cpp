@@ -305,7 +305,8 @@ TEST(WallFriction, LinearisedPullIsCoulombsLawAndItsStiffnessBoundsItsChange)
   state.position[1] += Vector3d(3e-6, 4e-6, 1e-6);
   state.position[2] += Vector3d(-40e-6, 0.0, 0.0);
   WallFriction friction(kSlip);
-  friction.prepare(state, begin, &mass, 1e-3, false);
+  friction.collect(state, begin, &mass, 1e-3, false);
+  friction.linearise(state);
   ASSERT_EQ(friction.count(), 3u);
   for (std::size_t k = 0; k < 3; ++k)
   {

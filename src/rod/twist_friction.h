@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace endovascular_sim::rod
+{
+
+/** Coulomb friction of the wall about the wire's axis on one node, its normal force and translation given.
+ *
+ *  Turned by φ, the wire's surface has been dragged over the wall by u(φ) = u₀ + φ p, where p is r times the direction
+ * in which it moves: along p by `along` + φ·`arm`, across it by what `across_squared` says. The potential is that of
+ *  WallFriction, limit·(|u|²/2δ up to |u| = δ, |u| − δ/2 beyond): convex in φ. */
+struct TwistFriction
+{
+  int node = 0;
+  double limit = 0.0;           ///< μ f_n [N]
+  double slip = 0.0;            ///< δ [m]
+  double arm = 0.0;             ///< |p| [m/rad]
+  double along = 0.0;           ///< u₀·p/|p| [m]
+  double across_squared = 0.0;  ///< |u₀|² − along² [m²]
+  double begin_angle = 0.0;     ///< of the node, from which φ counts [rad]
+
+  /** First derivative of the potential by φ: minus the torque on the wire [N·m]. */
+  double pull(double turn) const { return secant(turn) * (along + turn * arm) / arm; }
+
+  /** Second derivative by φ, the stiffer side's at |u| = δ [N·m/rad]. */
+  double stiffness(double turn) const
+  {
+    const double u = along + turn * arm;
+    const double squared = u * u + across_squared;
+    return squared > slip * slip ? secant(turn) * across_squared / squared : secant(turn);
+  }
+
+  /** Curvature of a parabola that touches the potential at φ and lies above it everywhere [N·m/rad]. */
+  double secant(double turn) const
+  {
+    const double u = along + turn * arm;
+    return limit * arm * arm / std::max(slip, std::sqrt(u * u + across_squared));
+  }
+};
+
+}  // namespace endovascular_sim::rod
