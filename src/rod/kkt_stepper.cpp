@@ -301,6 +301,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
   base_.reset(4 * (n - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   base_.at(kIdleRow, kIdleRow) = -scale_;
+  resistance_.resize(static_cast<std::size_t>(n));
   friction_.linearise(state);
   addAllBending(state, dt);
   for (int j = first_; j + 1 < n; ++j)
@@ -475,20 +476,25 @@ void KktStepper::addSheath(int edge, double share, const State& state, double dt
       base_.at(row(edge + 1) + line, row(edge) + col) += weight[0] * weight[1] * hessian(line, col);
 }
 
+/** Less the mass of the fluid that the node displaces [kg]. */
+double KktStepper::heavyMass(int node) const
+{
+  const double displaced =
+      environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
+  return rod_.mass[node] - displaced;
+}
+
 void KktStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const double mass = rod_.mass[node];
   const Eigen::Vector3d travel = state.position[node] - begin_[node];
   Eigen::Vector3d residual = mass * (travel - dt * state.velocity[node]);
   if (!environment_.gravity.isZero(0.0))
-  {
-    const double displaced =
-        environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
-    residual -= (dt * dt * (mass - displaced)) * environment_.gravity;
-  }
+    residual -= (dt * dt * heavyMass(node)) * environment_.gravity;
   const double damped = mass * dt * environment_.damping;
   residual += damped * travel;
   addDiagonal(node, mass + damped);
+  resistance_[node] = damped;
   const double beyond = bodyPosition(node, state.inserted_length);
   const Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
   if (environment_.fluid_density > 0.0 && (beyond >= 0.0 || !boundary_.introducer))
@@ -497,6 +503,7 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
                         rod_.cell_length[node] * velocity.norm();
     residual += drag * travel;
     addDiagonal(node, drag);
+    resistance_[node] += drag;
   }
   if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
   {

@@ -74,7 +74,9 @@ private:
   double move(State& state, double factor, StepReport& report);
   void accept(State& state, double dt);
   void updateEndForces(State& state, double dt) const;
+  void updateHandParts(State& state, double dt);
   Eigen::Vector3d forceOnHold(int node, double dt) const;
+  double heavyMass(int node) const;
   double foldTruncation(const State& state, double factor) const;
   double bodyPosition(int node, double inserted_length) const;
   void finish(State& state, double dt);
@@ -110,6 +112,8 @@ private:
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   std::vector<double> begin_twist_;     ///< and twist angles
+  std::vector<Eigen::Vector3d> slide_;  ///< motion of every node when the wire slides along itself
+  std::vector<double> resistance_;      ///< of fluid and damping to a node's travel, times Δt² [kg]
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
   std::vector<State> backup_;  ///< per depth of halving
 };

@@ -169,6 +169,7 @@ void KktStepper::accept(State& state, double dt)
     state.tension[j] = to_force * rhs_[multiplierRow(j)];
   contacts_.updateWallForces(state, motion_);
   updateEndForces(state, dt);
+  updateHandParts(state, dt);
 }
 
 bool KktStepper::resample(const Discretisation& rod)

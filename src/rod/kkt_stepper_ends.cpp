@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 
 #include "rod/end_forces.h"
+#include "rod/hand_force.h"
 #include "rod/kkt_stepper.h"
 
 // The part of the scheme that deals with held ends: where the distal one is, and the forces on both.
@@ -54,6 +55,37 @@ void KktStepper::updateEndForces(State& state, double dt) const
   rod::updateEndForces(
       state, boundary_, [this, &state](int node) { return isPrescribed(node, state); },
       [this, dt](int node) { return forceOnHold(node, dt); });
+}
+
+/** Bending takes what the others leave: elastic forces, the wall's normal ones and the guide's. */
+void KktStepper::updateHandParts(State& state, double dt)
+{
+  const int n = rod_.nodes();
+  int held = first_ - 1;  // the last node that the proximal end holds
+  while (held + 1 < n && isPrescribed(held + 1, state) && !isDistalHeld(held + 1))
+    ++held;
+  slideAlongItself(state.position, motion_, first_, held, boundary_.direction, slide_);
+  const double inverse = 1.0 / dt;
+  HandForceParts parts;
+  parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
+  for (int i = first_; i < n; ++i)
+  {
+    const double travel = slide_[i].dot(state.position[i] - begin_[i]);
+    parts.inertia += rod_.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
+    parts.drag += resistance_[i] * inverse * inverse * travel;
+    parts.load -= heavyMass(i) * slide_[i].dot(environment_.gravity);
+  }
+  for (const NodalForce& force : last_input_.forces)
+    if (force.node >= first_)
+      parts.load -= slide_[force.node].dot(force.force);
+  parts.load += slide_.back().dot(state.distal_force);
+  for (std::size_t k = 0; k < friction_.count(); ++k)
+  {
+    const WallFriction::Term& term = friction_.term(k);
+    parts.friction += slide_[term.node].dot(term.pull + term.stiffness * motion_[term.node]);
+  }
+  parts.bending = state.hand_force - (parts.friction + parts.inertia + parts.drag + parts.load);
+  state.hand_parts = parts;
 }
 
 }  // namespace endovascular_sim::rod

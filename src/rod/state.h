@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,20 @@ struct EndMotion
 
 /** The motion at a share of the way from one to another, 0 to 1. */
 EndMotion between(const EndMotion& from, const EndMotion& to, double share);
+
+/** Parts of the axial force at the hand: the work of everything that acts on the wire when it slides along itself by a
+ *  unit of length (docs/PHYSICS.md). Positive where it resists pushing. Not a number where a scheme does not tell. */
+struct HandForceParts
+{
+  double bending = std::numeric_limits<double>::quiet_NaN();   ///< of the wire into the vessel, held by the wall [N]
+  double friction = std::numeric_limits<double>::quiet_NaN();  ///< of the wall [N]
+  double inertia = std::numeric_limits<double>::quiet_NaN();   ///< [N]
+  double drag = std::numeric_limits<double>::quiet_NaN();      ///< of the fluid, and damping [N]
+  double load = std::numeric_limits<double>::quiet_NaN();      ///< weight, outside forces, a held distal end [N]
+  double valve = 0.0;                                          ///< dry friction of the introducer's valve [N]
+
+  double sum() const { return bending + friction + inertia + drag + load + valve; }
+};
 
 /** What changes from step to step. Arrays run over all nodes (n) or edges (n−1) of the wire; those before
  *  first_node lie outside the introducer, straight and unsimulated. */
@@ -44,6 +59,11 @@ struct State
   std::vector<Eigen::Vector3d> curvature_offset;
   double hand_force = 0.0;   ///< axial force of the wire on the hand, positive when it pushes back [N]
   double hand_torque = 0.0;  ///< torque that the hand holds about the wire's axis [N·m]
+
+  HandForceParts hand_parts;  ///< of hand_force
+  double valve_torque = 0.0;  ///< part of hand_torque [N·m]
+  /** How far the valve's friction has been dragged along and about the wire without sliding [m]. */
+  Eigen::Vector2d valve_stretch = Eigen::Vector2d::Zero();
 
   EndMotion distal;            ///< where the held distal end is
   double tip_transport = 0.0;  ///< angle from the Bishop frame to a held tip's director, over full turns [rad]

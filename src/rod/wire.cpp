@@ -22,4 +22,16 @@ double Wire::curvedTipLength() const
   return sum;
 }
 
+double Wire::radiusAt(double position) const
+{
+  double end = 0.0;
+  for (const Section& section : sections)
+  {
+    end += section.length;
+    if (position <= end)
+      return section.radius;
+  }
+  return sections.back().radius;
+}
+
 }  // namespace endovascular_sim::rod

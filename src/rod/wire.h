@@ -32,6 +32,9 @@ struct Wire
 
   /** Length from the proximal end of the first section with rest curvature to the tip [m]; 0 for a straight wire. */
   double curvedTipLength() const;
+
+  /** Outer radius at a length from the proximal end [m]. */
+  double radiusAt(double position) const;
 };
 
 }  // namespace endovascular_sim::rod

@@ -17,6 +17,26 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kQuietStrain = 1e-4;  // steps above it are counted: snaps over ridges
 
+struct HandPart
+{
+  const char* name;
+  double rod::HandForceParts::*value;
+};
+constexpr std::array<HandPart, 6> kHandParts = {{{"bending", &rod::HandForceParts::bending},
+                                                 {"friction", &rod::HandForceParts::friction},
+                                                 {"inertia", &rod::HandForceParts::inertia},
+                                                 {"drag", &rod::HandForceParts::drag},
+                                                 {"load", &rod::HandForceParts::load},
+                                                 {"valve", &rod::HandForceParts::valve}}};
+
+/** Null where nothing was told. */
+Json toJson(const RunningValue& value)
+{
+  if (value.count() == 0)
+    return nullptr;
+  return {{"max", value.max()}, {"mean", value.mean()}, {"final", value.final()}};
+}
+
 Json toJson(const DurationStatistics& statistics)
 {
   const double to_us = 1e6;
@@ -70,6 +90,8 @@ void RunResult::addStep(const Simulation& simulation, double seconds)
   strained_steps_ += simulation.report().max_strain > kQuietStrain;
   hand_force_.add(simulation.state().hand_force);
   hand_torque_.add(simulation.state().hand_torque);
+  for (std::size_t k = 0; k < kHandParts.size(); ++k)
+    hand_parts_[k].add(simulation.state().hand_parts.*kHandParts[k].value);
   work_.add(simulation.report());
   refused_ += !simulation.report().solved;
 }
@@ -100,6 +122,9 @@ std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_for
   Json timing = toJson(whole);
   for (std::size_t phase = 0; phase < kPhaseCount; ++phase)
     timing[kPhaseNames[phase]] = toJson(durationStatistics(phase_seconds_[phase]));
+  Json hand_parts;
+  for (std::size_t k = 0; k < kHandParts.size(); ++k)
+    hand_parts[kHandParts[k].name] = toJson(hand_parts_[k]);
   Json json = {
       {"scene", scene_name_},
       {"steps", simulation.steps()},
@@ -117,6 +142,7 @@ std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_for
       {"tip_position", toJson(state.position[n - 1])},
       {"tip_tangent", toJson((state.position[n - 1] - state.position[n - 2]).normalized())},
       {"hand_force", {{"max", hand_force_.max()}, {"mean", hand_force_.mean()}, {"final", hand_force_.final()}}},
+      {"hand_force_parts", hand_parts},
       {"hand_torque", {{"max", hand_torque_.max()}, {"mean", hand_torque_.mean()}, {"final", hand_torque_.final()}}},
       {"proximal_force", toJson(state.proximal_force)},
       {"distal_force", toJson(state.distal_force)},

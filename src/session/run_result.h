@@ -59,6 +59,7 @@ private:
   std::uint64_t strained_steps_ = 0;
   RunningValue hand_force_;
   RunningValue hand_torque_;
+  std::array<RunningValue, 6> hand_parts_;  ///< as kHandParts
   rod::StepReport work_;
   std::uint64_t refused_ = 0;
 };

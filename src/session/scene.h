@@ -75,6 +75,7 @@ struct EntryScene
   bool nearest_centreline_end = false;  ///< replace position and direction by the nearest end of the centreline
   std::string centreline_end;           ///< or by the end of the branch of this name; empty: not used
   double offset = 0.0;                  ///< how far inside that end the wire starts [m]
+  double valve_friction = 0.0;          ///< dry friction of the introducer's valve on the wire [N]
 };
 
 /** Piece-wise linear function of time plus a sine: offset + ramp(t) + amplitude·sin(2π·frequency·t + phase). */

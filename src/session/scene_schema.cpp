@@ -124,6 +124,8 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   if (held_twice)
     fields.refuse("proximal_end",
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
+  if (!scene.introducer && scene.entry.valve_friction > 0.0)
+    fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
   if (scene.introducer)
     checkInsertion(fields, scene);
   else

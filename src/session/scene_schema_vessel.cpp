@@ -195,6 +195,7 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
   fields.number("offset", entry.offset, "m", Range::nonNegative());
   if (fields.reading() && entry.offset != 0.0 && !at_end)
     fields.refuse("offset", "belongs to a centreline end; move position instead");
+  fields.number("valve_friction", entry.valve_friction, "N", Range::nonNegative());
 }
 
 }  // namespace endovascular_sim::session

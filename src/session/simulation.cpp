@@ -40,7 +40,8 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     sampling_(makeSampling(scene, entry, centreline)),
     sampling_every_(samplingInterval(scene)),
     stepper_(makeStepper(scene, entry, sampling_.get())),
-    blind_hand_(scene.solver.contact_margin, scene.solver.time_step)
+    blind_hand_(scene.solver.contact_margin, scene.solver.time_step),
+    valve_(scene.entry.valve_friction)
 {
   if (sampling_ && !stepper_->resample(sampling_->discretisation()))
     throw InputError(scene.file, "sampling.kind",
@@ -127,6 +128,18 @@ void Simulation::resample()
     stepper_->resample(sampling_->discretisation());
 }
 
+/** The wire's own step, and what the introducer's valve adds to the force and the torque at the hand. */
+void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass)
+{
+  const double insertion = state_.inserted_length;
+  const double rotation = state_.rotation;
+  valve_.release(state_);
+  report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
+  const double outside = stepper_->discretisation().length() - state_.inserted_length;
+  valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
+              scene_.instrument.wire.radiusAt(outside));
+}
+
 void Simulation::step(const HandCommand& command)
 {
   timer_.reset();
@@ -157,7 +170,7 @@ void Simulation::step(const HandCommand& command)
     input.rotation = state_.rotation + motion.rotation;
     input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
-    report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
+    moveWire(input, dt, pass);
     if (!report_.solved)
       break;  // the wire stays where it is; the hand's motion is made up for in the steps that follow
   }

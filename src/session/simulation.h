@@ -8,6 +8,7 @@
 #include "contact/contact_set.h"
 #include "rod/adaptive_sampling.h"
 #include "rod/stepper.h"
+#include "rod/valve.h"
 #include "session/blind_hand.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -62,6 +63,7 @@ private:
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
+  void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
 
   Scene scene_;
   Eigen::Vector3d distal_direction_;  ///< of the distal end's displacement, unit
@@ -72,6 +74,7 @@ private:
   rod::State state_;
   rod::StepReport report_;
   BlindHand blind_hand_;
+  rod::Valve valve_;
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;

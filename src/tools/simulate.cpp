@@ -30,7 +30,7 @@ same trajectory bit for bit.
 
 usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
 
-  --out DIR             writes result.json, trajectory.csv, wall_forces.csv and plots there; made when it is missing
+  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv and plots there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
@@ -159,6 +159,17 @@ session::TrajectoryRow rowOf(const session::Simulation& simulation)
   return row;
 }
 
+void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
+{
+  const rod::State& state = simulation.state();
+  const rod::HandForceParts& parts = state.hand_parts;
+  char line[240];
+  std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
+                state.inserted_length, state.hand_force, parts.bending, parts.friction, parts.inertia, parts.drag,
+                parts.load, parts.valve);
+  file << line;
+}
+
 /** The vessel of a scene with everything that is made from it. */
 struct Surroundings
 {
@@ -195,6 +206,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
          const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
 {
   session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
+  std::ofstream hand_force = openFile(options.out + "/hand_force.csv");
+  hand_force << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
   std::ofstream nodes;
   if (options.record_nodes)
   {
@@ -222,6 +235,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
       continue;
     if (!trajectory.add(rowOf(simulation)))
       diskRefused(options.out + "/trajectory.csv");
+    writeHandForce(hand_force, simulation);
     if (surroundings.wall)
       result.checkOutside(simulation, *surroundings.wall);
     if (options.record_nodes)
@@ -234,6 +248,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     std::fputc('\n', stderr);
   if (!trajectory.flush())
     diskRefused(options.out + "/trajectory.csv");
+  if (!hand_force.flush())
+    diskRefused(options.out + "/hand_force.csv");
   if (options.record_nodes && !nodes.flush())
     diskRefused(options.out + "/nodes.csv");
 }
