@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "vessel/mesh_distance.h"
+#include "vessel/mesh_repair.h"
 #include "vessel/vertex_normals.h"
 
 namespace endovascular_sim::vessel
@@ -29,7 +30,11 @@ constexpr double kFacing = 0.8;
 class Pieces
 {
 public:
-  explicit Pieces(const TriangleMesh& soup) : pieces_(separatePieces(soup)) {}
+  explicit Pieces(const TriangleMesh& soup) : pieces_(separatePieces(soup))
+  {
+    for (TriangleMesh& piece : pieces_)
+      alignFaces(piece);
+  }
 
   bool contain(const Eigen::Vector3d& p) const
   {

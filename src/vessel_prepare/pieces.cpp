@@ -17,7 +17,7 @@ namespace
 
 /** Thins the piece's inscribed balls as the centreline's do. */
 constexpr double kBallSpacing = 0.6;
-/** Of a bridge's wall. */
+/** Of a bridge's wall, and of a ball's equator. */
 constexpr int kSides = 32;
 
 }  // namespace
@@ -108,6 +108,35 @@ TriangleMesh bridgeOver(const Gap& gap)
       tube.triangles.push_back(t);
   }
   return tube;
+}
+
+TriangleMesh ballMesh(const Plug& plug)
+{
+  TriangleMesh ball;
+  const auto add = [&](double polar, double azimuth)
+  {
+    ball.vertices.emplace_back(plug.centre + plug.radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
+                                                                           std::sin(polar) * std::sin(azimuth),
+                                                                           std::cos(polar)));
+  };
+  add(0.0, 0.0);
+  add(M_PI, 0.0);
+  const int rows = kSides / 2 - 1;
+  for (int j = 0; j < rows; ++j)
+    for (int k = 0; k < kSides; ++k)
+      add(M_PI * (j + 1) / (rows + 1), 2.0 * M_PI * k / kSides);
+  const auto at = [](int j, int k) { return 2 + j * kSides + k % kSides; };
+  for (int k = 0; k < kSides; ++k)
+  {
+    ball.triangles.emplace_back(0, at(0, k), at(0, k + 1));
+    ball.triangles.emplace_back(1, at(rows - 1, k + 1), at(rows - 1, k));
+    for (int j = 0; j + 1 < rows; ++j)
+    {
+      ball.triangles.emplace_back(at(j, k), at(j + 1, k), at(j + 1, k + 1));
+      ball.triangles.emplace_back(at(j, k), at(j + 1, k + 1), at(j, k + 1));
+    }
+  }
+  return ball;
 }
 
 void append(TriangleMesh& mesh, const TriangleMesh& more)

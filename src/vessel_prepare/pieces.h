@@ -27,6 +27,16 @@ Gap findGap(const TriangleMesh& piece, const TriangleMesh& other);
 /** A closed tube across the gap, as wide as the piece's lumen, that reaches one radius into the other side. */
 TriangleMesh bridgeOver(const Gap& gap);
 
+/** A ball that stops up an opening. */
+struct Plug
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 0.0;                               ///< [m]
+};
+
+/** A closed ball of triangles. */
+TriangleMesh ballMesh(const Plug& plug);
+
 /** Appends a mesh without joining vertices. */
 void append(TriangleMesh& mesh, const TriangleMesh& more);
 

@@ -16,7 +16,6 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kVoxelPerDistance = 1.5;
 /** Grids beyond this many voxels of wall do not fit into memory. */
 constexpr double kMostWallVoxels = 4e7;
 /** A loose piece below this fraction of the vessel's volume is a crumb. */
@@ -40,6 +39,8 @@ void requireSane(const PrepareOptions& options, const std::string& source)
   positive(options.bridge, "--bridge", true);
   positive(options.longest_facet, "--longest-facet", false);
   positive(options.cut_back, "--cut-back", false);
+  for (const Plug& plug : options.plugs)
+    positive(plug.radius, "--plug", false);
   if (options.facets_around < 8 || options.facets_around > 200)
     throw InputError(source, "--facets-around", "must be between 8 and 200");
   if (options.smoothing_rounds < 0 || options.smoothing_rounds > 10000)
@@ -54,7 +55,7 @@ public:
     : input_(input), source_(source), options_(options), progress_(progress)
   {
     requireSane(options, source);
-    voxel_ = options.voxel > 0.0 ? options.voxel : kVoxelPerDistance * options.max_distance;
+    voxel_ = options.voxel > 0.0 ? options.voxel : options.max_distance;
   }
 
   PreparedVessel run()
@@ -92,6 +93,8 @@ private:
     ClosedMesh closed = closeHoles(input_);
     report().holes = std::move(closed.holes);
     soup_ = std::move(closed.mesh);
+    for (const Plug& plug : options_.plugs)
+      append(soup_, ballMesh(plug));
   }
 
   /** Unites, and joins loose pieces by bridges while that brings new ones into reach. */
@@ -148,7 +151,7 @@ private:
     FacetRule rule;
     rule.facets_around = options_.facets_around;
     rule.deviation = 0.5 * kFacetShare * options_.max_distance;
-    rule.shortest = std::min(voxel_, options_.longest_facet);
+    rule.shortest = std::min(0.75 * voxel_, options_.longest_facet);
     rule.longest = options_.longest_facet;
     MeshWall wall(united_, rule);
     begin("making even facets");
