@@ -31,10 +31,11 @@ usage: vessel_prepare IN --unit METRES --out OUT.obj [options]
                         OUT_centreline.yaml: the centreline with diameters, as an anatomy file
 
   --max-distance M      largest distance of the result's wall from the input's, both ways [0.0002]
-  --voxel M             edge of the grid's cells [max-distance]; walls between lumens below two of them may be lost
+  --voxel M             edge of the grid's cells [2/3 of max-distance]; walls between lumens below two of them may be lost
   --bridge M            joins loose pieces that are closer than this to the vessel by a tube of their own width [0]
-  --plug X,Y,Z,R        stops an opening up by a ball [m]; may be repeated. For meshes of a wall with a thickness, whose
-                        lumen is hollow: with its ends stopped up it counts as the inside, and the inner wall goes
+  --plug X,Y,Z,R        stops an opening of a wall with a thickness up, by a disc that reaches it all around [m]; may be
+                        repeated. Then what is hollow counts as the inside, and the inner wall goes
+  --hollow              the inner wall stays instead and the outer one goes: the lumen is the largest hollow
   --smooth              takes the edges of coarse facets out, within max-distance
   --smoothing-rounds N  [30]
   --facets-around N     of the result, around every lumen [24]
@@ -113,6 +114,8 @@ Arguments parse(const std::vector<std::string>& words)
       a.help = true;
     else if (word == "--quiet")
       a.quiet = true;
+    else if (word == "--hollow")
+      a.options.hollow = true;
     else if (word == "--smooth")
       a.options.smooth = true;
     else if (word == "--unit")

@@ -8,7 +8,6 @@
 
 #include "common/error.h"
 #include "vessel/mesh_topology.h"
-#include "vessel_prepare/cavities.h"
 
 namespace endovascular_sim::vessel
 {
@@ -125,7 +124,6 @@ UnitedSurface unite(const TriangleMesh& triangles, double voxel)
 {
   openvdb::initialize();
   const openvdb::FloatGrid::Ptr grid = signedDistance(triangles, voxel);
-  fillCavities(*grid);
   UnitedSurface united;
   for (int round = 0; round < kPartingRounds; ++round)
   {
