@@ -31,8 +31,11 @@ usage: vessel_prepare IN --unit METRES --out OUT.obj [options]
                         OUT_centreline.yaml: the centreline with diameters, as an anatomy file
 
   --max-distance M      largest distance of the result's wall from the input's, both ways [0.0002]
-  --voxel M             edge of the grid's cells [1.5 times max-distance]; thinner walls between lumens may be lost
+  --voxel M             edge of the grid's cells [2/3 of max-distance]; walls between lumens below two of them may be lost
   --bridge M            joins loose pieces that are closer than this to the vessel by a tube of their own width [0]
+  --plug X,Y,Z,R        stops an opening of a wall with a thickness up, by a disc that reaches it all around [m]; may be
+                        repeated. Then what is hollow counts as the inside, and the inner wall goes
+  --hollow              the inner wall stays instead and the outer one goes: the lumen is the largest hollow
   --smooth              takes the edges of coarse facets out, within max-distance
   --smoothing-rounds N  [30]
   --facets-around N     of the result, around every lumen [24]
@@ -74,6 +77,16 @@ double numberOf(const std::string& option, const std::string& text)
   return value;
 }
 
+vessel::Plug plugOf(const std::string& text)
+{
+  vessel::Plug plug;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &plug.centre.x(), &plug.centre.y(), &plug.centre.z(), &plug.radius,
+                  &rest) != 4)
+    throw std::invalid_argument("--plug needs x,y,z,radius in metres, not \"" + text + "\"");
+  return plug;
+}
+
 int countOf(const std::string& option, const std::string& text)
 {
   const double value = numberOf(option, text);
@@ -101,6 +114,8 @@ Arguments parse(const std::vector<std::string>& words)
       a.help = true;
     else if (word == "--quiet")
       a.quiet = true;
+    else if (word == "--hollow")
+      a.options.hollow = true;
     else if (word == "--smooth")
       a.options.smooth = true;
     else if (word == "--unit")
@@ -113,6 +128,8 @@ Arguments parse(const std::vector<std::string>& words)
       a.options.voxel = number();
     else if (word == "--bridge")
       a.options.bridge = number();
+    else if (word == "--plug")
+      a.options.plugs.push_back(plugOf(value()));
     else if (word == "--smoothing-rounds")
       a.options.smoothing_rounds = count();
     else if (word == "--facets-around")

@@ -15,6 +15,8 @@ namespace
 
 /** A rim is flat when it leaves its plane by less than this fraction of its perimeter. */
 constexpr double kFlat = 1e-3;
+/** Fewer edges are a hole in a wall rather than the round end of a vessel. */
+constexpr int kFewestEdges = 8;
 
 struct RimEdge
 {
@@ -100,7 +102,7 @@ ClosedMesh closeHoles(TriangleMesh mesh)
 
 bool isFlatEnd(const ClosedHole& hole)
 {
-  return hole.simple && hole.edges >= 3 && hole.unevenness <= kFlat * hole.perimeter;
+  return hole.simple && hole.edges >= kFewestEdges && hole.unevenness <= kFlat * hole.perimeter;
 }
 
 }  // namespace endovascular_sim::vessel

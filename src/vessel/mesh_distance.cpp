@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "vessel/triangle_point.h"
 
@@ -99,23 +100,24 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
 {
   ClosestPoint best;
   double best_squared = limit < 1e150 ? limit * limit : 1e300;
-  std::array<int, 96> stack;
-  int depth = 0;
+  std::array<std::pair<double, int>, 96> stack;
+  std::size_t depth = 0;
   if (!nodes_.empty())
-    stack[static_cast<std::size_t>(depth++)] = 0;
+    stack[depth++] = {nodes_[0].box.squaredExteriorDistance(p), 0};
   while (depth > 0)
   {
-    const int index = stack[static_cast<std::size_t>(--depth)];
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (node.box.squaredExteriorDistance(p) >= best_squared)
+    const auto [nearest, index] = stack[--depth];
+    if (nearest >= best_squared)
       continue;
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
     if (node.right >= 0)
     {
       // The nearer child is looked at first.
       const double left = nodes_[static_cast<std::size_t>(index) + 1].box.squaredExteriorDistance(p);
       const double right = nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(p);
-      stack[static_cast<std::size_t>(depth++)] = left <= right ? node.right : index + 1;
-      stack[static_cast<std::size_t>(depth++)] = left <= right ? index + 1 : node.right;
+      const bool left_first = left <= right;
+      stack[depth++] = left_first ? std::pair(right, node.right) : std::pair(left, index + 1);
+      stack[depth++] = left_first ? std::pair(left, index + 1) : std::pair(right, node.right);
       continue;
     }
     for (int k = node.begin; k < node.end; ++k)

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "vessel/hole_closing.h"
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_topology.h"
 
@@ -188,8 +189,9 @@ void turn(Eigen::Vector3i& triangle)
   std::swap(triangle[1], triangle[2]);
 }
 
-/** Turns faces to agree with the first one of their component. @return how many, or −1 for a one-sided surface. */
-int alignOrientation(TriangleMesh& mesh)
+}  // namespace
+
+int alignFaces(TriangleMesh& mesh)
 {
   const std::vector<EdgeUse> uses = sortedEdgeUses(mesh);
   struct Neighbour
@@ -245,6 +247,20 @@ int alignOrientation(TriangleMesh& mesh)
   return std::min(turned, static_cast<int>(state.size()) - turned);
 }
 
+namespace
+{
+
+/** Puts lids on the open ends of a vessel cut across; does nothing when there are other holes.
+ *  @return the number of lids */
+int closeFlatEnds(TriangleMesh& mesh)
+{
+  ClosedMesh closed = closeHoles(mesh);
+  if (closed.holes.empty() || !std::all_of(closed.holes.begin(), closed.holes.end(), isFlatEnd))
+    return 0;
+  mesh = std::move(closed.mesh);
+  return static_cast<int>(closed.holes.size());
+}
+
 /** Refuses what no safe repair can mend. */
 void requireRepairable(const MeshReport& report, const std::string& source)
 {
@@ -262,7 +278,7 @@ void requireRepairable(const MeshReport& report, const std::string& source)
   if (!reason.empty())
     throw InputError(source, "",
                      "the mesh is not a closed surface of one lumen and cannot be repaired safely: " + reason +
-                         ". Close it in a mesh editor (fill holes, unite the parts) and export it again");
+                         ". vessel_prepare closes holes, unites parts and re-meshes: docs/VESSELS.md");
 }
 
 }  // namespace
@@ -282,10 +298,11 @@ RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source)
   dropUnused(mesh);
   if (mesh.triangles.empty())
     throw InputError(source, "", "has no triangle with an area");
+  note(closeFlatEnds(mesh), "open end closed by a flat lid", "open ends closed by flat lids");
   requireRepairable(checkMesh(mesh), source);
 
   note(partTouchingSheets(mesh), "vertex parted where two sheets touched", "vertices parted where two sheets touched");
-  const int turned = alignOrientation(mesh);
+  const int turned = alignFaces(mesh);
   if (turned < 0)
     throw InputError(source, "", "the surface is one-sided (like a Möbius strip): it encloses no lumen");
   note(turned, "face turned to agree with its neighbours", "faces turned to agree with their neighbours");

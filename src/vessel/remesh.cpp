@@ -12,7 +12,6 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr int kRounds = 6;
 /** Edges longer or shorter than these multiples of the facet length are split or collapsed. */
 constexpr double kLongest = 4.0 / 3.0;
 constexpr double kShortest = 4.0 / 5.0;
@@ -55,9 +54,9 @@ public:
     }
   }
 
-  TriangleMesh run()
+  TriangleMesh run(int rounds)
   {
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < rounds; ++round)
     {
       splitLongEdges();
       collapseShortEdges();
@@ -236,9 +235,9 @@ private:
 
 }  // namespace
 
-TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall)
+TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall, int rounds)
 {
-  return Remesher(mesh, wall).run();
+  return Remesher(mesh, wall).run(rounds);
 }
 
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field)

@@ -27,8 +27,9 @@ public:
 /** Makes the triangles of a closed two-manifold mesh even, at the wall's facet length, with every vertex on the wall.
  *
  *  Splits, collapses and flips of edges that keep the topology, tangential smoothing, and projection on the wall
- *  (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary). */
-TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall);
+ *  (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary).
+ *  @param rounds of all that; fewer suffice for a mesh that is nearly even */
+TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall, int rounds = 6);
 
 /** The same on the wall of a field, by Newton projection. */
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field);

@@ -1,7 +1,6 @@
 #include "vessel/surface_samples.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -9,40 +8,35 @@
 
 namespace endovascular_sim::vessel
 {
-namespace
-{
 
-using Corners = std::array<Eigen::Vector3d, 3>;
-
-void cut(const Corners& triangle, double spacing, std::vector<SurfaceSample>& samples)
+std::vector<TrianglePart> cutTriangle(const TrianglePart& triangle, double longest)
 {
-  std::vector<Corners> open{triangle};
+  std::vector<TrianglePart> parts;
+  std::vector<TrianglePart> open{triangle};
   while (!open.empty())
   {
-    const Corners t = open.back();
+    const TrianglePart t = open.back();
     open.pop_back();
-    std::size_t longest = 0;
+    std::size_t side = 0;
     for (std::size_t k = 1; k < 3; ++k)
-      if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm())
-        longest = k;
-    const Eigen::Vector3d& a = t[longest];
-    const Eigen::Vector3d& b = t[(longest + 1) % 3];
-    const Eigen::Vector3d& c = t[(longest + 2) % 3];
-    const Eigen::Vector3d twice = (b - a).cross(c - a);
-    if (!(twice.norm() > 0.0))
+      if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(side + 1) % 3] - t[side]).squaredNorm())
+        side = k;
+    const Eigen::Vector3d& a = t[side];
+    const Eigen::Vector3d& b = t[(side + 1) % 3];
+    const Eigen::Vector3d& c = t[(side + 2) % 3];
+    if (!((b - a).cross(c - a).norm() > 0.0))
       continue;
-    if ((b - a).norm() <= spacing)
+    if ((b - a).norm() <= longest)
     {
-      samples.push_back({(a + b + c) / 3.0, twice.normalized(), 0.5 * twice.norm()});
+      parts.push_back({a, b, c});
       continue;
     }
     const Eigen::Vector3d middle = 0.5 * (a + b);
     open.push_back({a, middle, c});
     open.push_back({middle, b, c});
   }
+  return parts;
 }
-
-}  // namespace
 
 std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacing, std::size_t first, std::size_t last)
 {
@@ -50,7 +44,11 @@ std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacin
   for (std::size_t t = first; t < std::min(last, mesh.triangles.size()); ++t)
   {
     const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    cut({at(0), at(1), at(2)}, spacing, samples);
+    for (const TrianglePart& part : cutTriangle({at(0), at(1), at(2)}, spacing))
+    {
+      const Eigen::Vector3d twice = (part[1] - part[0]).cross(part[2] - part[0]);
+      samples.push_back({(part[0] + part[1] + part[2]) / 3.0, twice.normalized(), 0.5 * twice.norm()});
+    }
   }
   return samples;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct SurfaceSample
   Eigen::Vector3d normal;  ///< unit, of its triangle
   double area;             ///< [m²]
 };
+
+using TrianglePart = std::array<Eigen::Vector3d, 3>;
+
+/** Halves a triangle across its longest edge until no edge is longer than @p longest [m]; none without area. */
+std::vector<TrianglePart> cutTriangle(const TrianglePart& triangle, double longest);
 
 /** Centres of the pieces into which the triangles from @p first to before @p last are cut until no edge is longer than
  *  @p spacing [m]; triangles without area give none. */

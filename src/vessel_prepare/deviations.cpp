@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "vessel/mesh_distance.h"
+#include "vessel/mesh_repair.h"
 #include "vessel/vertex_normals.h"
 
 namespace endovascular_sim::vessel
@@ -16,7 +17,8 @@ namespace
 
 /** Samples of the surfaces stand this many voxels apart. */
 constexpr double kSampleSpacing = 2.0;
-/** A wall deeper than this inside the united input is no part of its outside, in voxels: more than the grid's error. */
+/** A wall deeper than this inside the united input, or farther outside of a hollow, is not the lumen's, in voxels: more
+ *  than the grid's error. */
 constexpr double kBuried = 1.5;
 /** Winding numbers look at every triangle: no more than this many points are asked for. */
 constexpr int kMostWindings = 3000;
@@ -29,7 +31,11 @@ constexpr double kFacing = 0.8;
 class Pieces
 {
 public:
-  explicit Pieces(const TriangleMesh& soup) : pieces_(separatePieces(soup)) {}
+  explicit Pieces(const TriangleMesh& soup) : pieces_(separatePieces(soup))
+  {
+    for (TriangleMesh& piece : pieces_)
+      alignFaces(piece);
+  }
 
   bool contain(const Eigen::Vector3d& p) const
   {
@@ -49,7 +55,7 @@ void fromInput(const InputSurfaces& input, const TriangleMesh& result, PrepareRe
   std::vector<SurfaceSample> outer;
   std::vector<double> distances;
   for (const SurfaceSample& sample : sampleSurface(input.soup, kSampleSpacing * input.voxel, 0, input.own_triangles))
-    if (united.at(sample.point) < -kBuried * input.voxel)
+    if ((report.hollow ? -1.0 : 1.0) * united.at(sample.point) < -kBuried * input.voxel)
       report.inner_area += sample.area;
     else
     {

@@ -19,7 +19,8 @@ struct UnitedSurface
 
 /** Unites pieces that overlap, however their faces are turned: the signed distance on a grid, whose inside is what a
  *  flood from the outside does not reach (OpenVDB, tools::meshToVolume), and its zero level (tools::volumeToMesh).
- *  Walls inside of other pieces vanish, gaps narrower than a voxel close. Every piece that is left is in the mesh.
+ *  Walls inside of other pieces vanish, gaps narrower than a voxel close.
+ * Every piece that is left is in the mesh.
  *  @param triangles no holes wider than a voxel (closeHoles); they need not fit together, nor be turned alike
  *  @param voxel edge of the grid's cells [m]; what is thinner than twice that may be lost
  *  @throws InputError when nothing is shut off, or sheets cannot be parted */

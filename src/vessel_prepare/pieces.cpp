@@ -1,14 +1,18 @@
 #include "vessel_prepare/pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include <Eigen/Geometry>
 
+#include "common/error.h"
 #include "vessel/medial_balls.h"
-#include "vessel/mesh_distance.h"
+#include "vessel/mesh_check.h"
 #include "vessel/mesh_topology.h"
+#include "vessel/surface_samples.h"
+#include "vessel/vertex_normals.h"
 
 namespace endovascular_sim::vessel
 {
@@ -17,8 +21,16 @@ namespace
 
 /** Thins the piece's inscribed balls as the centreline's do. */
 constexpr double kBallSpacing = 0.6;
-/** Of a bridge's wall. */
+/** Of a bridge's wall, and of a disc's rim. */
 constexpr int kSides = 32;
+/** An opening is looked out of in this many directions, as far as this many radii; this share sees no wall. */
+constexpr int kRimEdges = 96;
+constexpr int kLooks = 1000;
+constexpr double kSight = 3.0;
+constexpr double kLeastFree = 0.1;
+
+/** The parts of a wall that are told apart are as long as this many depths. */
+constexpr double kPartLength = 2.0;
 
 }  // namespace
 
@@ -108,6 +120,78 @@ TriangleMesh bridgeOver(const Gap& gap)
       tube.triangles.push_back(t);
   }
   return tube;
+}
+
+Disc discOver(const Plug& plug, const MeshDistance& walls, double overlap, const std::string& source)
+{
+  // Directions spread evenly over the sphere: E. B. Saff, A. B. J. Kuijlaars, 1997, generalized spiral.
+  const double turn = M_PI * (3.0 - std::sqrt(5.0));
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  int free = 0;
+  for (int k = 0; k < kLooks; ++k)
+  {
+    const double z = 1.0 - (2.0 * k + 1.0) / kLooks;
+    const double across = std::sqrt(1.0 - z * z);
+    const Eigen::Vector3d direction(across * std::cos(turn * k), across * std::sin(turn * k), z);
+    const double hit = walls.rayHit(plug.centre, direction);
+    if (hit >= 0.0 && hit < kSight * plug.radius)
+      continue;
+    out += direction;
+    ++free;
+  }
+  if (free < kLeastFree * kLooks || free == kLooks || out.norm() < 0.3 * free)
+    throw InputError(source, "--plug",
+                     "at " + formatPlace(plug.centre) +
+                         " stands in no opening: give its middle, in metres, and a radius that reaches the wall");
+  out.normalize();
+  const Eigen::Vector3d u = out.unitOrthogonal();
+  const Eigen::Vector3d w = out.cross(u);
+  Disc disc;
+  disc.centre = plug.centre;
+  disc.out = out;
+  disc.mesh.vertices.push_back(plug.centre);
+  for (int k = 0; k < kRimEdges; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / kRimEdges;
+    const Eigen::Vector3d direction = std::cos(angle) * u + std::sin(angle) * w;
+    const double hit = walls.rayHit(plug.centre, direction);
+    const double reach = hit >= 0.0 ? std::min(hit + overlap, plug.radius) : plug.radius;
+    disc.reach = std::max(disc.reach, reach);
+    disc.mesh.vertices.emplace_back(plug.centre + reach * direction);
+    disc.mesh.triangles.emplace_back(0, 1 + k, 1 + (k + 1) % kRimEdges);
+  }
+  return disc;
+}
+
+TriangleMesh hollowWalls(const TriangleMesh& soup, const TriangleMesh& outside, double depth,
+                         const std::vector<Disc>& discs)
+{
+  const SidedMesh side(outside);
+  const auto beside = [&](const Eigen::Vector3d& p, const Disc& disc)
+  {
+    const Eigen::Vector3d from = p - disc.centre;
+    return from.norm() < disc.reach && from.dot(disc.out) < 0.5 * depth;
+  };
+  const auto keeps = [&](const Eigen::Vector3d& p)
+  {
+    return side.at(p) < -depth ||
+           std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) { return beside(p, disc); });
+  };
+  TriangleMesh kept;
+  for (const Eigen::Vector3i& whole : soup.triangles)
+  {
+    const auto corner = [&](int k) { return soup.vertices[static_cast<std::size_t>(whole[k])]; };
+    for (const std::array<Eigen::Vector3d, 3>& part :
+         cutTriangle({corner(0), corner(1), corner(2)}, kPartLength * depth))
+    {
+      if (!keeps((part[0] + part[1] + part[2]) / 3.0))
+        continue;
+      const int first = static_cast<int>(kept.vertices.size());
+      kept.vertices.insert(kept.vertices.end(), part.begin(), part.end());
+      kept.triangles.emplace_back(first, first + 1, first + 2);
+    }
+  }
+  return kept;
 }
 
 void append(TriangleMesh& mesh, const TriangleMesh& more)

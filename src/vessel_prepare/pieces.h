@@ -1,10 +1,12 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "vessel/mesh.h"
+#include "vessel/mesh_distance.h"
 
 namespace endovascular_sim::vessel
 {
@@ -26,6 +28,33 @@ Gap findGap(const TriangleMesh& piece, const TriangleMesh& other);
 
 /** A closed tube across the gap, as wide as the piece's lumen, that reaches one radius into the other side. */
 TriangleMesh bridgeOver(const Gap& gap);
+
+/** Where an opening of a wall with a thickness is stopped up. */
+struct Plug
+{
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the lumen, near the opening [m]
+  double radius = 0.0;                               ///< reaches the wall all around [m]
+};
+
+/** A lid across an opening. */
+struct Disc
+{
+  TriangleMesh mesh;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d out = Eigen::Vector3d::UnitZ();    ///< the way out, unit
+  double reach = 0.0;                                ///< its largest radius [m]
+};
+
+/** The lid square to the way out: the mean of the directions in which no wall is near. It ends @p overlap [m] behind
+ * the wall's surface, or at the plug's radius.
+ *  @throws InputError when there is no way out */
+Disc discOver(const Plug& plug, const MeshDistance& walls, double overlap, const std::string& source);
+
+/** The walls of the hollow inside of a wall with a thickness: what lies deeper than @p depth [m] inside of the wall's
+ *  outside (which a stopped up hollow counts to), and what is near the lids on their inner side. Cut into small
+ *  triangles. */
+TriangleMesh hollowWalls(const TriangleMesh& soup, const TriangleMesh& outside, double depth,
+                         const std::vector<Disc>& discs);
 
 /** Appends a mesh without joining vertices. */
 void append(TriangleMesh& mesh, const TriangleMesh& more);

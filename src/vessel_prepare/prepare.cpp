@@ -16,17 +16,21 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kVoxelPerDistance = 1.5;
 /** Grids beyond this many voxels of wall do not fit into memory. */
 constexpr double kMostWallVoxels = 4e7;
 /** A loose piece below this fraction of the vessel's volume is a crumb. */
 constexpr double kCrumb = 1e-4;
 constexpr int kBridgingRounds = 5;
+/** Of the stated distance: the grid cuts right-angled edges by half a voxel. */
+constexpr double kVoxelShare = 2.0 / 3.0;
+/** A wall is told from the outside when it lies this many voxels inside. */
+constexpr double kHollowDepth = 1.5;
 /** Facets may leave the fine surface by this share of the stated distance; smoothing has the rest. */
 constexpr double kFacetShare = 0.5;
 /** Smoothing moves no vertex by more than this fraction of the lumen's radius, so that narrow lumens stay. */
 constexpr double kRadiusShare = 0.1;
 constexpr int kRefinements = 4;
+constexpr int kRefinementRounds = 2;
 
 void requireSane(const PrepareOptions& options, const std::string& source)
 {
@@ -40,6 +44,10 @@ void requireSane(const PrepareOptions& options, const std::string& source)
   positive(options.bridge, "--bridge", true);
   positive(options.longest_facet, "--longest-facet", false);
   positive(options.cut_back, "--cut-back", false);
+  for (const Plug& plug : options.plugs)
+    positive(plug.radius, "--plug", false);
+  if (options.hollow && options.bridge > 0.0)
+    throw InputError(source, "--bridge", "joins pieces of a vessel, not hollows; leave it or --hollow out");
   if (options.facets_around < 8 || options.facets_around > 200)
     throw InputError(source, "--facets-around", "must be between 8 and 200");
   if (options.smoothing_rounds < 0 || options.smoothing_rounds > 10000)
@@ -54,7 +62,7 @@ public:
     : input_(input), source_(source), options_(options), progress_(progress)
   {
     requireSane(options, source);
-    voxel_ = options.voxel > 0.0 ? options.voxel : kVoxelPerDistance * options.max_distance;
+    voxel_ = options.voxel > 0.0 ? options.voxel : kVoxelShare * options.max_distance;
   }
 
   PreparedVessel run()
@@ -84,6 +92,7 @@ private:
     report().source = source_;
     report().voxel = voxel_;
     report().max_distance = options_.max_distance;
+    report().hollow = options_.hollow;
     report().before = numbersOf(input_);
     if (input_.triangles.empty() || report().before.defects.invalid_faces.count > 0)
       throw InputError(source_, "", "has no triangles, or vertices that are not finite; export it again");
@@ -92,6 +101,13 @@ private:
     ClosedMesh closed = closeHoles(input_);
     report().holes = std::move(closed.holes);
     soup_ = std::move(closed.mesh);
+    const MeshDistance walls(input_);
+    for (const Plug& plug : options_.plugs)
+      discs_.push_back(discOver(plug, walls, 0.5 * voxel_, source_));
+    own_triangles_ = input_.triangles.size();
+    appendDiscs();
+    if (options_.hollow)
+      takeHollow();
   }
 
   /** Unites, and joins loose pieces by bridges while that brings new ones into reach. */
@@ -108,6 +124,25 @@ private:
       if (!addBridges(pieces))
         return;
     }
+  }
+
+  void appendDiscs()
+  {
+    for (const Disc& disc : discs_)
+      append(soup_, disc.mesh);
+  }
+
+  /** Leaves the walls of the hollow only in the soup, and the discs that stop it up. */
+  void takeHollow()
+  {
+    begin("telling the hollow's walls from the outside");
+    const TriangleMesh outside = unite(soup_, voxel_).mesh;
+    TriangleMesh walls = hollowWalls(soup_, outside, kHollowDepth * voxel_, discs_);
+    own_triangles_ = walls.triangles.size();
+    soup_ = std::move(walls);
+    appendDiscs();
+    if (own_triangles_ == 0)
+      throw InputError(source_, "--hollow", "finds no hollow inside of the wall; stop every opening up by a --plug");
   }
 
   /** Sorts the loose pieces. @return whether a bridge was added to the soup */
@@ -148,7 +183,7 @@ private:
     FacetRule rule;
     rule.facets_around = options_.facets_around;
     rule.deviation = 0.5 * kFacetShare * options_.max_distance;
-    rule.shortest = std::min(voxel_, options_.longest_facet);
+    rule.shortest = std::min(0.75 * voxel_, options_.longest_facet);
     rule.longest = options_.longest_facet;
     MeshWall wall(united_, rule);
     begin("making even facets");
@@ -158,7 +193,7 @@ private:
       begin("refining where the facets leave the wall");
       if (wall.refine(MeshDistance(result_.mesh), kFacetShare * options_.max_distance) == 0)
         break;
-      result_.mesh = remesh(result_.mesh, wall);
+      result_.mesh = remesh(result_.mesh, wall, kRefinementRounds);
     }
     if (!options_.smooth)
       return;
@@ -178,9 +213,10 @@ private:
     }
     requireClean(checkMesh(result_.mesh), source_);
     begin("measuring the distances");
-    const InputSurfaces input{soup_, input_.triangles.size(), united_, voxel_};
+    const InputSurfaces input{soup_, own_triangles_, united_, voxel_};
     measureDeviations(input, result_.mesh, report());
-    report().gaps = measureGaps(input, result_.mesh);
+    if (!options_.hollow)  // of a wall with a thickness, narrow spaces outside are of no interest
+      report().gaps = measureGaps(input, result_.mesh);
   }
 
   void findCentreline()
@@ -221,6 +257,8 @@ private:
   PrepareOptions options_;
   Progress progress_;
   double voxel_ = 0.0;
+  std::vector<Disc> discs_;  ///< that stop openings up
+  std::size_t own_triangles_ = 0;
   TriangleMesh soup_;    ///< the input, lids, bridges
   TriangleMesh united_;  ///< the outer wall, fine
   std::vector<double> limits_;

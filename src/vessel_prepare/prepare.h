@@ -6,6 +6,7 @@
 
 #include "vessel/centreline.h"
 #include "vessel/mesh.h"
+#include "vessel_prepare/pieces.h"
 #include "vessel_prepare/prepare_report.h"
 
 namespace endovascular_sim::vessel
@@ -15,8 +16,10 @@ namespace endovascular_sim::vessel
 struct PrepareOptions
 {
   double max_distance = 2e-4;  ///< of the result's wall from the input's, both ways [m]
-  double voxel = 0.0;          ///< [m]; 0: one and a half max_distance
+  double voxel = 0.0;          ///< [m]; 0: two thirds of max_distance
   double bridge = 0.0;         ///< loose pieces closer than this to the vessel are joined to it by a tube [m]
+  std::vector<Plug> plugs;     ///< discs that stop up the openings of a wall with a thickness
+  bool hollow = false;         ///< the lumen is the largest hollow inside of the wall, not what its outside encloses
   bool smooth = false;         ///< take the edges of facets out, within max_distance
   int smoothing_rounds = 30;
   int facets_around = 24;         ///< of the result, around every lumen

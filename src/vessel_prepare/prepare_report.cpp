@@ -126,12 +126,15 @@ std::string changesText(const PrepareReport& r)
     text += line("parted touching sheets at %zu places, the first near %s", r.parted.size(),
                  formatPlace(r.parted.front()).c_str());
   if (r.inner_area > 0.0)
-    text += line("removed walls inside of the vessel: %.1f mm2", 1e6 * r.inner_area);
+    text += line("removed walls %s: %.1f mm2", r.hollow ? "beside the hollow lumen" : "inside of the vessel",
+                 1e6 * r.inner_area);
   return text;
 }
 
 std::string gapText(const PrepareReport& r)
 {
+  if (r.hollow)
+    return "";
   const NarrowGaps& g = r.gaps;
   if (g.kept + g.closed == 0)
     return line("no space between walls is narrower than two voxels");

@@ -68,6 +68,7 @@ struct PrepareReport
   std::string source;
   double voxel = 0.0;         ///< [m]
   double max_distance = 0.0;  ///< as stated [m]
+  bool hollow = false;        ///< the lumen is a hollow of the input
   MeshNumbers before;
   MeshNumbers after;
   std::vector<ClosedHole> holes;
@@ -78,9 +79,9 @@ struct PrepareReport
   std::vector<Eigen::Vector3d> parted;  ///< where touching sheets were parted by a voxel [m]
   Deviation input_to_result;            ///< from the input's outer wall
   Deviation result_to_input;            ///< from the result, lids and bridges left out
-  double inner_area = 0.0;              ///< of the input's walls that lie inside: buried, or inner walls [m²]
-  double lid_area = 0.0;                ///< of the result over closed holes and bridges [m²]
-  double largest_move = 0.0;            ///< of a vertex by smoothing [m]
+  double inner_area = 0.0;    ///< of the input's walls that are not the lumen's: buried, or outside of a hollow [m²]
+  double lid_area = 0.0;      ///< of the result over closed holes and bridges [m²]
+  double largest_move = 0.0;  ///< of a vertex by smoothing [m]
   NarrowGaps gaps;
   std::vector<RadiusChange> radii;
   std::vector<Opening> openings;
