@@ -33,8 +33,8 @@ struct ClosedMesh
  *  faces at the rim. A rim that branches, at non-manifold edges, is covered by the same fan. */
 ClosedMesh closeHoles(TriangleMesh mesh);
 
-/** Whether the hole is the end of a vessel cut across: one loop of at least eight edges, flat within a thousandth of its
- *  perimeter. */
+/** Whether the hole is the end of a vessel cut across: one loop of at least eight edges, flat within a thousandth of
+ * its perimeter. */
 bool isFlatEnd(const ClosedHole& hole);
 
 }  // namespace endovascular_sim::vessel

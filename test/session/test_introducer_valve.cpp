@@ -16,7 +16,9 @@ instrument:
   name: wire
   sections: [{length: 0.2, radius: 2.0e-4, material: steel, density: 7900, bending_stiffness: 5.0e-5, poisson_ratio: 0.3}]
 )";
-const std::string kScene = std::string(kWire) + "drive: {source: script, initial_insertion: 0.02, speed: 0.02, travel: 0.1, rotation: {points: [[0, 0], [1, 200]]}}";
+const std::string kScene = std::string(kWire) +
+                           "drive: {source: script, initial_insertion: 0.02, speed: 0.02, travel: 0.1, rotation: "
+                           "{points: [[0, 0], [1, 200]]}}";
 
 Simulation simulationOf(const Scene& scene)
 {
