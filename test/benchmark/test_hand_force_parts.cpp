@@ -9,7 +9,7 @@
 #include "rod/held_wire.h"
 #include "rod/kkt_stepper.h"
 #include "rod/wall_friction.h"
-#include "rod_fixtures.h"
+#include "../rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
 {
