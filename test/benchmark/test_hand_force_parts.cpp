@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "../rod/rod_fixtures.h"
 #include "benchmark/smooth_walls.h"
 #include "rod/held_wire.h"
 #include "rod/kkt_stepper.h"
 #include "rod/wall_friction.h"
-#include "../rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
 {
