@@ -176,7 +176,7 @@ TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
 {
   WallLaw law;
   law.friction = 0.1;
-  law.regions = {{Eigen::Vector3d(0.0, 0.0, 0.02), 12e-3, 0.3}};
+  law.regions = {{Eigen::Vector3d(0.0, 0.0, 0.02), 8e-3, 0.3}};
   Detector detector(bentTube(), law);
   std::mt19937 random(9);
   int inside = 0;
