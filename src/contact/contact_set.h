@@ -17,10 +17,11 @@ struct Feature
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< closest point of the wall [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the lumen
   double gap = 0.0;                                  ///< wire's surface to wall, negative beyond the wall [m]
-  double clearance_radius = std::numeric_limits<double>::infinity();  ///< wall radius − wire radius [m]
-  double stiffness = std::numeric_limits<double>::infinity();         ///< of the wall per length of wire [N/m²]
-  double friction = 0.0;                                              ///< Coulomb coefficient
-  int triangle = 0;                                                   ///< triangle that owns the feature
+  double clearance_radius =
+      std::numeric_limits<double>::infinity();  ///< wall's radius of curvature across the wire − wire radius [m]
+  double stiffness = std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]
+  double friction = 0.0;                                       ///< Coulomb coefficient
+  int triangle = 0;                                            ///< triangle that owns the feature
   std::int64_t id = 0;  ///< 3·index + kind (0 face, 1 edge, 2 vertex of the mesh)
 };
 

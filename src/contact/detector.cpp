@@ -25,6 +25,7 @@ constexpr double kSameNormal = 0.9995;            // cosine above which two feat
 constexpr double kConeTolerance = 1e-12;          // m
 constexpr double kConeSlack = 1e-6;               // of the distance: crossings at the border of the normal cone count
 constexpr double kOnRidge = 1e-12;                // m
+constexpr double kLeastClearance = 0.05e-3;       // m
 constexpr double kEnd = 1e-3;                     // of a wire's edge: closer to a node the node's own features stand
 
 enum FeatureKind
@@ -237,7 +238,24 @@ void Detector::detect(const Query& query, ContactSet& set)
   for (std::size_t i = 0; i + 1 < n; ++i)
     detectEdge(query, i, set.features);
   for (Feature& feature : set.features)
+  {
     feature.friction = law_.frictionAt(feature.point);
+    feature.clearance_radius = clearanceRadius(query, feature);
+  }
+}
+
+/** The wall's radius of curvature across the wire, less the wire's own; infinite where it is not concave there. */
+double Detector::clearanceRadius(const Query& query, const Feature& feature) const
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (feature.id % 3 != kFace)
+    return infinity;
+  const auto edge = static_cast<std::size_t>(feature.edge - query.first_node);
+  const Eigen::Vector3d across = feature.normal.cross(query.nodes[edge + 1] - query.nodes[edge]);
+  const double curvature = across.dot(wall_.curvature[feature.triangle] * across) / across.squaredNorm();
+  // A wire as wide as the lumen still has room to move in; a wire that points at the wall has no direction across.
+  const double radius = query.radius[edge + (feature.parameter < 1.0 ? 0 : 1)];
+  return curvature > 0.0 ? std::max(kLeastClearance, 1.0 / curvature - radius) : infinity;
 }
 
 void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const

@@ -102,6 +102,7 @@ private:
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
+  double clearanceRadius(const Query& query, const Feature& feature) const;
   void freeDistances(const Query& query, ContactSet& set);
 
   Wall wall_;

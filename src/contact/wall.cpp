@@ -12,7 +12,8 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kFlat = 1e-3;  // rad: below it an edge counts as flat
+constexpr double kFlat = 1e-3;       // rad: below it an edge counts as flat
+constexpr int kCurvatureRounds = 2;  // of neighbours over which curvature is averaged
 
 double clampedAcos(double cosine)
 {
@@ -79,6 +80,42 @@ Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangle
         vertex_reflex[vertex] = 1;
     }
   }
+  findCurvature();
+}
+
+/** Cohen-Steiner & Morvan 2003: an edge of length l whose triangles meet at an angle β bends the wall by β l across
+ *  itself. Every vertex gets half of its edges' and a third of its triangles' areas, spread over its neighbours, so
+ * that one facet's shape counts little. */
+void Wall::findCurvature()
+{
+  std::vector<Eigen::Matrix3d> bend(vertices.size(), Eigen::Matrix3d::Zero());
+  std::vector<double> area(vertices.size(), 0.0);
+  for (const WallEdge& edge : edges)
+  {
+    const Eigen::Vector3d along = vertices[edge.vertices[1]] - vertices[edge.vertices[0]];
+    const Eigen::Vector3d across = along.normalized().cross(edge.normal);
+    for (int vertex : edge.vertices)
+      bend[vertex] -= 0.5 * edge.reflex_angle * along.norm() * across * across.transpose();
+  }
+  for (const Eigen::Vector3i& t : triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      area[t[corner]] += (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]).norm() / 6.0;
+  for (int round = 0; round < kCurvatureRounds; ++round)
+  {
+    std::vector<Eigen::Matrix3d> wide_bend = bend;
+    std::vector<double> wide_area = area;
+    for (const WallEdge& edge : edges)
+      for (int side = 0; side < 2; ++side)
+      {
+        wide_bend[edge.vertices[side]] += bend[edge.vertices[1 - side]];
+        wide_area[edge.vertices[side]] += area[edge.vertices[1 - side]];
+      }
+    bend.swap(wide_bend);
+    area.swap(wide_area);
+  }
+  curvature.reserve(triangles.size());
+  for (const Eigen::Vector3i& t : triangles)
+    curvature.push_back((bend[t[0]] + bend[t[1]] + bend[t[2]]) / (area[t[0]] + area[t[1]] + area[t[2]]));
 }
 
 void Wall::finishEdge(WallEdge& edge)

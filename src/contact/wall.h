@@ -38,8 +38,12 @@ public:
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
   std::vector<std::vector<int>> vertex_edges;
   std::vector<char> vertex_reflex;  ///< 1 where some edge at the vertex is reflex
+  /** Per triangle the curvature tensor of the smooth wall that the mesh stands for: bᵀKb is the curvature along a
+   *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
+  std::vector<Eigen::Matrix3d> curvature;
 
 private:
+  void findCurvature();
   void finishEdge(WallEdge& edge);
 };
 
