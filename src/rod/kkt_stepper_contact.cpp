@@ -10,7 +10,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr int kMaxActiveSetPasses = 8;
+constexpr int kMaxActiveSetPasses = 16;
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
@@ -24,6 +24,7 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
 {
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
   double shift = 0.0;
+  bool same_rest = false;
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
     matrix_.copyFrom(base_);
@@ -41,14 +42,16 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
       if (shift > 0.0)
         return false;
       shift = kShift;
+      same_rest = false;
       continue;
     }
     for (int i = first_; i < rod_.nodes(); ++i)
       motion_[i] = increment(i);
-    const bool contacts_changed = contacts_.updateActiveSet(motion_, active_pass);
+    const bool contacts_changed = contacts_.updateActiveSet(motion_, active_pass, same_rest);
     const bool friction_changed = friction_.update(motion_, active_pass);
     if (!contacts_changed && !friction_changed)
       return true;
+    same_rest = !friction_changed;
   }
   return true;
 }

@@ -77,7 +77,7 @@ bool MixedStepper::solveActiveSet(const State& state, double dt, StepReport& rep
     }
     for (int i = state.first_node; i < rod_.nodes(); ++i)
       motion_[i] = increment(model_.positionRow(state, i));
-    const bool contacts_changed = contacts_.updateActiveSet(motion_, pass);
+    const bool contacts_changed = contacts_.updateActiveSet(motion_, pass, false);
     const bool friction_changed = friction_.update(motion_, pass);
     if (!contacts_changed && !friction_changed)
       return true;

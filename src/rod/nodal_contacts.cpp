@@ -13,7 +13,8 @@ namespace
 constexpr double kBackingDepth = 40e-6;      // m into a rigid wall from where on it is stiffer
 constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
-constexpr int kOnlyAddFromPass = 4;          // later passes only add contacts, so that the active set cannot cycle
+constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
+constexpr int kLineSearchHalvings = 10;
 
 bool isBacking(const contact::Feature& feature)
 {
@@ -172,18 +173,53 @@ double NodalContacts::approach(const Spring& spring, const Eigen::Vector3d& norm
   return change;
 }
 
-bool NodalContacts::updateActiveSet(const Motion& motion, int pass)
+bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_rest)
 {
   bool changed = false;
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
     const bool active = springs_[c].gap + approach(springs_[c], contacts_.features[c].normal, motion) < 0.0;
-    if (active == springs_[c].active || (!active && pass >= kOnlyAddFromPass))
-      continue;
-    springs_[c].active = active;
-    changed = true;
+    changed |= active != springs_[c].active && (active || pass < kOnlyAddFromPass);
   }
-  return changed;
+  if (!changed)
+    return false;
+  const bool only_add = pass >= kOnlyAddFromPass;
+  const double share = same_rest && !only_add ? shareOfLeastEnergy(motion) : 1.0;
+  for (std::size_t c = 0; c < springs_.size(); ++c)
+  {
+    Spring& spring = springs_[c];
+    const double gap = spring.gap + approach(spring, contacts_.features[c].normal, motion);
+    const double resisted = spring.active ? spring.stiffness * gap : 0.0;
+    spring.reached += share * (gap - spring.reached);
+    spring.resisted += share * (resisted - spring.resisted);
+    spring.active = spring.reached < 0.0 || (only_add && spring.active);
+  }
+  return true;
+}
+
+/** The slope of the energy along the way is the springs' own, piecewise linear, plus that of the rest, linear: at
+ * either end the rest balances the springs of the systems solved. */
+double NodalContacts::shareOfLeastEnergy(const Motion& motion) const
+{
+  double low = 0.0;
+  double high = 1.0;
+  for (int k = 0; k <= kLineSearchHalvings; ++k)
+  {
+    const double share = k == 0 ? 1.0 : 0.5 * (low + high);
+    double slope = 0.0;
+    for (std::size_t c = 0; c < springs_.size(); ++c)
+    {
+      const Spring& spring = springs_[c];
+      const double gap = spring.gap + approach(spring, contacts_.features[c].normal, motion);
+      const double change = gap - spring.reached;
+      const double rest = (1.0 - share) * spring.resisted + (spring.active ? share * spring.stiffness * gap : 0.0);
+      slope += change * (spring.stiffness * std::min(0.0, spring.reached + share * change) - rest);
+    }
+    if (k == 0 && slope <= 0.0)
+      return 1.0;
+    (slope < 0.0 ? low : high) = share;
+  }
+  return high;  // beyond the first spring that changes
 }
 
 double NodalContacts::truncation(const State& state, const Motion& motion, double factor, StepReport& report)

@@ -30,6 +30,8 @@ public:
     double stiffness = 0.0;  ///< [N/m]
     double gap = 0.0;        ///< that the wall's law sees [m]
     double force = 0.0;      ///< after an accepted solve [N]
+    double reached = 0.0;    ///< gap at the point that the search for the active set has reached [m]
+    double resisted = 0.0;   ///< stiffness times gap that the systems solved so far had there [N]
     bool active = false;
   };
   using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
@@ -69,8 +71,11 @@ public:
   const contact::Feature& feature(std::size_t index) const { return contacts_.features[index]; }
 
   /** After a solve: closes and opens springs, later passes only close.
+   *  Contact springs make the solved problem convex and piecewise quadratic, each solve is Newton's step on it. The
+   *  springs are those at the least energy on the way from the point reached so far to the solution: full steps cycle.
+   *  @param same_rest of the system but for the springs as at the last solve; else the way begins at the solution
    *  @return true when something changed */
-  bool updateActiveSet(const Motion& motion, int pass);
+  bool updateActiveSet(const Motion& motion, int pass, bool same_rest);
 
   /** Share of the motion, at most @p factor, in which no point moves further than its free distance. */
   double truncation(const State& state, const Motion& motion, double factor, StepReport& report);
@@ -108,6 +113,7 @@ private:
   void listCrossings();
   double lengthOf(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
+  double shareOfLeastEnergy(const Motion& motion) const;
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
   double staleTruncation(const Motion& motion);
