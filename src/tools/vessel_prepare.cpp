@@ -33,8 +33,9 @@ usage: vessel_prepare IN --unit METRES --out OUT.obj [options]
   --max-distance M      largest distance of the result's wall from the input's, both ways [0.0002]
   --voxel M             edge of the grid's cells [2/3 of max-distance]; walls between lumens below two of them may be lost
   --bridge M            joins loose pieces that are closer than this to the vessel by a tube of their own width [0]
-  --plug X,Y,Z,R        stops an opening of a wall with a thickness up, by a disc that reaches it all around [m]; may be
-                        repeated. Then what is hollow counts as the inside, and the inner wall goes
+  --plug X,Y,Z,R        closes the lumen inside of a wall with a thickness by a lid through this place, before an
+                        opening; the wall is nearer than R all around [m]; may be repeated. When all openings of a
+                        lumen are closed it counts as the inside, and the inner wall goes
   --hollow              the inner wall stays instead and the outer one goes: the lumen is the largest hollow
   --smooth              takes the edges of coarse facets out, within max-distance
   --smoothing-rounds N  [30]

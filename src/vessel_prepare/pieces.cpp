@@ -23,14 +23,44 @@ namespace
 constexpr double kBallSpacing = 0.6;
 /** Of a bridge's wall, and of a disc's rim. */
 constexpr int kSides = 32;
-/** An opening is looked out of in this many directions, as far as this many radii; this share sees no wall. */
+/** A lid's plane is the one of this many in which the lumen is smallest. */
+constexpr int kLooks = 600;
+constexpr int kTrialEdges = 24;
 constexpr int kRimEdges = 96;
-constexpr int kLooks = 1000;
-constexpr double kSight = 3.0;
-constexpr double kLeastFree = 0.1;
-
+/** The way out is where one sees farthest, up to this many radii. */
+constexpr double kSight = 6.0;
+/** Walls are kept below a lid as far as this many depths. */
+constexpr double kBelowLid = 6.0;
 /** The parts of a wall that are told apart are as long as this many depths. */
 constexpr double kPartLength = 2.0;
+
+/** One of kLooks directions that are spread evenly over the sphere: a spiral with the golden angle. */
+Eigen::Vector3d spreadDirection(int k)
+{
+  const double angle = M_PI * (3.0 - std::sqrt(5.0)) * k;
+  const double z = 1.0 - (2.0 * k + 1.0) / kLooks;
+  const double across = std::sqrt(1.0 - z * z);
+  return {across * std::cos(angle), across * std::sin(angle), z};
+}
+
+Eigen::Vector3d around(const Eigen::Vector3d& axis, int k, int count)
+{
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  const double angle = 2.0 * M_PI * k / count;
+  return std::cos(angle) * u + std::sin(angle) * axis.cross(u);
+}
+
+/** To the wall in a plane, at most the plug's radius [m]. */
+std::vector<double> reaches(const Plug& plug, const Eigen::Vector3d& normal, const MeshDistance& walls, int count)
+{
+  std::vector<double> result;
+  for (int k = 0; k < count; ++k)
+  {
+    const double hit = walls.rayHit(plug.centre, around(normal, k, count));
+    result.push_back(hit < 0.0 ? plug.radius : std::min(hit, plug.radius));
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -124,40 +154,37 @@ TriangleMesh bridgeOver(const Gap& gap)
 
 Disc discOver(const Plug& plug, const MeshDistance& walls, double overlap, const std::string& source)
 {
-  // Directions spread evenly over the sphere: E. B. Saff, A. B. J. Kuijlaars, 1997, generalized spiral.
-  const double turn = M_PI * (3.0 - std::sqrt(5.0));
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  int free = 0;
-  for (int k = 0; k < kLooks; ++k)
-  {
-    const double z = 1.0 - (2.0 * k + 1.0) / kLooks;
-    const double across = std::sqrt(1.0 - z * z);
-    const Eigen::Vector3d direction(across * std::cos(turn * k), across * std::sin(turn * k), z);
-    const double hit = walls.rayHit(plug.centre, direction);
-    if (hit >= 0.0 && hit < kSight * plug.radius)
-      continue;
-    out += direction;
-    ++free;
-  }
-  if (free < kLeastFree * kLooks || free == kLooks || out.norm() < 0.3 * free)
-    throw InputError(source, "--plug",
-                     "at " + formatPlace(plug.centre) +
-                         " stands in no opening: give its middle, in metres, and a radius that reaches the wall");
-  out.normalize();
-  const Eigen::Vector3d u = out.unitOrthogonal();
-  const Eigen::Vector3d w = out.cross(u);
   Disc disc;
   disc.centre = plug.centre;
-  disc.out = out;
+  double smallest = 1e300;
+  Eigen::Vector3d free = Eigen::Vector3d::Zero();
+  for (int k = 0; k < kLooks; ++k)
+  {
+    const Eigen::Vector3d normal = spreadDirection(k);
+    const double hit = walls.rayHit(plug.centre, normal);
+    free += (hit < 0.0 ? kSight * plug.radius : std::min(hit, kSight * plug.radius)) * normal;
+    double size = 0.0;
+    for (double reach : reaches(plug, normal, walls, kTrialEdges))
+      size += reach < plug.radius ? reach * reach : 1e3 * plug.radius * plug.radius;
+    if (size >= smallest)
+      continue;
+    smallest = size;
+    disc.out = normal;
+  }
+  if (free.dot(disc.out) < 0.0)
+    disc.out = -disc.out;
+  const std::vector<double> reach = reaches(plug, disc.out, walls, kRimEdges);
+  disc.reach = *std::max_element(reach.begin(), reach.end());
+  if (disc.reach >= plug.radius)
+    throw InputError(source, "--plug",
+                     "at " + formatPlace(plug.centre) + " finds no wall all around within its radius of " +
+                         std::to_string(1e3 * plug.radius) +
+                         " mm; give a place in the lumen, in metres, or a larger radius");
   disc.mesh.vertices.push_back(plug.centre);
   for (int k = 0; k < kRimEdges; ++k)
   {
-    const double angle = 2.0 * M_PI * k / kRimEdges;
-    const Eigen::Vector3d direction = std::cos(angle) * u + std::sin(angle) * w;
-    const double hit = walls.rayHit(plug.centre, direction);
-    const double reach = hit >= 0.0 ? std::min(hit + overlap, plug.radius) : plug.radius;
-    disc.reach = std::max(disc.reach, reach);
-    disc.mesh.vertices.emplace_back(plug.centre + reach * direction);
+    disc.mesh.vertices.emplace_back(plug.centre +
+                                    (reach[static_cast<std::size_t>(k)] + overlap) * around(disc.out, k, kRimEdges));
     disc.mesh.triangles.emplace_back(0, 1 + k, 1 + (k + 1) % kRimEdges);
   }
   return disc;
@@ -170,7 +197,9 @@ TriangleMesh hollowWalls(const TriangleMesh& soup, const TriangleMesh& outside, 
   const auto beside = [&](const Eigen::Vector3d& p, const Disc& disc)
   {
     const Eigen::Vector3d from = p - disc.centre;
-    return from.norm() < disc.reach && from.dot(disc.out) < 0.5 * depth;
+    const double height = from.dot(disc.out);
+    return height < 0.0 && height > -kBelowLid * depth &&
+           (from - height * disc.out).norm() < disc.reach + depth;
   };
   const auto keeps = [&](const Eigen::Vector3d& p)
   {

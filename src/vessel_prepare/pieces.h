@@ -33,7 +33,7 @@ TriangleMesh bridgeOver(const Gap& gap);
 struct Plug
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the lumen, near the opening [m]
-  double radius = 0.0;                               ///< reaches the wall all around [m]
+  double radius = 0.0;                               ///< the wall is nearer than this all around [m]
 };
 
 /** A lid across an opening. */
@@ -45,9 +45,9 @@ struct Disc
   double reach = 0.0;                                ///< its largest radius [m]
 };
 
-/** The lid square to the way out: the mean of the directions in which no wall is near. It ends @p overlap [m] behind
- * the wall's surface, or at the plug's radius.
- *  @throws InputError when there is no way out */
+/** The lid in the plane through the plug's centre in which the lumen is smallest; it ends @p overlap [m] behind the
+ *  wall's surface.
+ *  @throws InputError when no wall is all around within the plug's radius */
 Disc discOver(const Plug& plug, const MeshDistance& walls, double overlap, const std::string& source);
 
 /** The walls of the hollow inside of a wall with a thickness: what lies deeper than @p depth [m] inside of the wall's

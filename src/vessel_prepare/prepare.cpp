@@ -120,6 +120,8 @@ private:
       report().parted = std::move(united.cleared);
       std::vector<TriangleMesh> pieces = separatePieces(united.mesh);
       united_ = std::move(pieces.front());
+      if (united_.signedVolume() < least_volume_)
+        throw InputError(source_, "--hollow", "finds no hollow inside of the wall; stop every opening up by a --plug");
       pieces.erase(pieces.begin());
       if (!addBridges(pieces))
         return;
@@ -139,10 +141,9 @@ private:
     const TriangleMesh outside = unite(soup_, voxel_).mesh;
     TriangleMesh walls = hollowWalls(soup_, outside, kHollowDepth * voxel_, discs_);
     own_triangles_ = walls.triangles.size();
+    least_volume_ = kCrumb * outside.signedVolume();
     soup_ = std::move(walls);
     appendDiscs();
-    if (own_triangles_ == 0)
-      throw InputError(source_, "--hollow", "finds no hollow inside of the wall; stop every opening up by a --plug");
   }
 
   /** Sorts the loose pieces. @return whether a bridge was added to the soup */
@@ -259,8 +260,9 @@ private:
   double voxel_ = 0.0;
   std::vector<Disc> discs_;  ///< that stop openings up
   std::size_t own_triangles_ = 0;
-  TriangleMesh soup_;    ///< the input, lids, bridges
-  TriangleMesh united_;  ///< the outer wall, fine
+  double least_volume_ = 0.0;  ///< [m³]
+  TriangleMesh soup_;          ///< the input, lids, bridges
+  TriangleMesh united_;        ///< the outer wall, fine
   std::vector<double> limits_;
   PreparedVessel result_;
 };

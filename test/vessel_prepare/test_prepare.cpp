@@ -247,13 +247,13 @@ TEST(Prepare, TakesTheHollowInsideOfAThickWallAsTheLumen)
   }
 }
 
-TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugBesideAnOpening)
+TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugWithoutWallsAround)
 {
   PrepareOptions options;
   options.hollow = true;
   options.plugs = {kPipePlugs[0]};
   EXPECT_THROW(prepare(pipe(), options), InputError);
-  options.plugs = {{{0, 0, 0.008}, 2.4e-3}};
+  options.plugs = {{{0, 0, 0.008}, 1.5e-3}};
   EXPECT_THROW(prepare(pipe(), options), InputError);
 }
 
