@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "vessel/anatomy_mesh.h"
 #include "vessel/centreline_file.h"
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_reader.h"
@@ -33,6 +34,8 @@ usage: vessel_prepare IN --unit METRES --out OUT.obj [options]
   --max-distance M      largest distance of the result's wall from the input's, both ways [0.0002]
   --voxel M             edge of the grid's cells [2/3 of max-distance]; walls between lumens below two of them may be lost
   --bridge M            joins loose pieces that are closer than this to the vessel by a tube of their own width [0]
+  --join ANATOMY.yaml   unites the vessel with a generated one (an anatomy file, in the axes of IN) that overlaps it, e.g.
+                        the vessels beyond a cut end; may be repeated
   --plug X,Y,Z,R        closes the lumen inside of a wall with a thickness by a lid through this place, before an
                         opening; the wall is nearer than R all around [m]; may be repeated. When all openings of a
                         lumen are closed it counts as the inside, and the inner wall goes
@@ -63,6 +66,7 @@ struct Arguments
 {
   std::string in;
   std::string out;
+  std::vector<std::string> joins;  ///< anatomy files
   double unit = 0.0;
   bool quiet = false;
   bool help = false;
@@ -129,6 +133,8 @@ Arguments parse(const std::vector<std::string>& words)
       a.options.voxel = number();
     else if (word == "--bridge")
       a.options.bridge = number();
+    else if (word == "--join")
+      a.joins.push_back(value());
     else if (word == "--plug")
       a.options.plugs.push_back(plugOf(value()));
     else if (word == "--smoothing-rounds")
@@ -170,8 +176,14 @@ void writeText(const std::string& text, const std::string& path)
 
 int prepare(const Arguments& a)
 {
-  const vessel::TriangleMesh input = vessel::readMesh(a.in, a.unit);
+  vessel::TriangleMesh input = vessel::readMesh(a.in, a.unit);
   vessel::requirePlausibleSize(vessel::checkMesh(input), a.unit, a.in);
+  std::string source = a.in;
+  for (const std::string& anatomy : a.joins)
+  {
+    vessel::append(input, vessel::loadAnatomy(anatomy).mesh);
+    source += " + " + anatomy;
+  }
   const std::filesystem::path out(a.out);
   writeText("", a.out);  // refused now rather than after minutes of work
 
@@ -182,7 +194,7 @@ int prepare(const Arguments& a)
       std::fprintf(stderr, "%6.1f s  %s\n",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), stage.c_str());
   };
-  const vessel::PreparedVessel made = vessel::prepareVessel(input, a.in, a.options, progress);
+  const vessel::PreparedVessel made = vessel::prepareVessel(input, source, a.options, progress);
   const std::string stem = (out.parent_path() / out.stem()).string();
   vessel::writeObj(made.mesh, a.out);
   vessel::writeCentreline(made.centreline, out.stem().string(), stem + "_centreline.yaml");

@@ -116,7 +116,9 @@ public:
   explicit Extractor(const TriangleMesh& mesh) : distance_(mesh)
   {
     balls_ = thinBalls(medialBalls(mesh, distance_), kBallSpacing);
-    skeleton_ = ballSkeleton(balls_, overlappingBalls(balls_));
+    std::vector<std::vector<int>> neighbours = overlappingBalls(balls_);
+    joinParts(balls_, distance_, neighbours);
+    skeleton_ = ballSkeleton(balls_, neighbours);
   }
 
   CentrelineTree run()

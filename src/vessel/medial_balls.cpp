@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
+#include "vessel/mesh_topology.h"
 #include "vessel/point_tree.h"
 
 namespace endovascular_sim::vessel
@@ -168,6 +170,41 @@ std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialBall>& ba
   for (std::vector<int>& list : neighbours)
     std::sort(list.begin(), list.end());
   return neighbours;
+}
+
+void joinParts(const std::vector<MedialBall>& balls, const MeshDistance& distance,
+               std::vector<std::vector<int>>& neighbours)
+{
+  DisjointSets parts(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    for (int j : neighbours[i])
+      parts.join(static_cast<int>(i), j);
+  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
+  const PointTree tree(centres);
+  std::vector<std::tuple<double, int, int>> gaps;
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    tree.within(centres[i], 3.0 * balls[i].radius,
+                [&](int j)
+                {
+                  const MedialBall& other = balls[static_cast<std::size_t>(j)];
+                  const double gap = (other.centre - centres[i]).norm() - other.radius - balls[i].radius;
+                  if (other.radius <= balls[i].radius && gap <= other.radius &&
+                      parts.find(j) != parts.find(static_cast<int>(i)))
+                    gaps.emplace_back(gap, static_cast<int>(i), j);
+                });
+  std::sort(gaps.begin(), gaps.end());
+  for (const auto& [gap, a, b] : gaps)
+  {
+    const auto i = static_cast<std::size_t>(a);
+    const auto j = static_cast<std::size_t>(b);
+    const Eigen::Vector3d way = centres[j] - centres[i];
+    const double hit = parts.find(a) == parts.find(b) ? 0.0 : distance.rayHit(centres[i], way.normalized());
+    if (hit >= 0.0 && hit <= way.norm())
+      continue;
+    parts.join(a, b);
+    neighbours[i].insert(std::lower_bound(neighbours[i].begin(), neighbours[i].end(), b), b);
+    neighbours[j].insert(std::lower_bound(neighbours[j].begin(), neighbours[j].end(), a), a);
+  }
 }
 
 }  // namespace endovascular_sim::vessel

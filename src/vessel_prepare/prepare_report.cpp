@@ -14,6 +14,9 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
+/** More ends than this are not told one by one. */
+constexpr std::size_t kMostEnds = 40;
+
 template <typename... Values>
 std::string line(const char* format, Values... values)
 {
@@ -157,6 +160,27 @@ std::string radiiText(const PrepareReport& r)
   return line("radius along the centreline changes by %+.4f mm on average, at most %.3f mm", 1e3 * mean, 1e3 * largest);
 }
 
+std::string endsText(const CentrelineTree& tree, const std::vector<Opening>& openings)
+{
+  std::vector<CentrelineEnd> ends = centrelineEnds(tree);
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const CentrelineEnd& a, const CentrelineEnd& b) { return a.radius > b.radius; });
+  std::string text = "ends, the widest first:\n";
+  for (std::size_t k = 0; k < std::min(ends.size(), kMostEnds); ++k)
+  {
+    const std::string& name = tree.branches[static_cast<std::size_t>(ends[k].branch)].name;
+    const bool opened =
+        std::any_of(openings.begin(), openings.end(),
+                    [&](const Opening& o) { return o.end == name && o.outward.dot(ends[k].inward) < 0.0; });
+    text += line("  %-12s radius %6.2f mm at %s%s", name.c_str(), 1e3 * ends[k].radius,
+                 formatPlace(ends[k].position).c_str(), opened ? ", opened" : "");
+  }
+  if (ends.size() > kMostEnds)
+    text += line("  and %zu narrower ones: so many ends are mostly those of a hollow wall; see --plug",
+                 ends.size() - kMostEnds);
+  return text;
+}
+
 }  // namespace
 
 MeshNumbers numbersOf(const TriangleMesh& mesh)
@@ -187,15 +211,7 @@ std::string PrepareReport::text(const CentrelineTree& tree) const
           deviationLine("result to input", result_to_input, max_distance);
   text += line("%s the stated distance of %.3g mm", withinDistance() ? "within" : "BEYOND", 1e3 * max_distance);
   text += gapText(*this) + radiiText(*this);
-  text += "ends:\n";
-  for (const CentrelineEnd& end : centrelineEnds(tree))
-  {
-    const std::string& name = tree.branches[static_cast<std::size_t>(end.branch)].name;
-    const bool opened = std::any_of(openings.begin(), openings.end(),
-                                    [&](const Opening& o) { return o.end == name && o.outward.dot(end.inward) < 0.0; });
-    text += line("  %-12s radius %6.2f mm at %s%s", name.c_str(), 1e3 * end.radius, formatPlace(end.position).c_str(),
-                 opened ? ", opened" : "");
-  }
+  text += endsText(tree, openings);
   return text;
 }
 
