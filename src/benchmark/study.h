@@ -26,7 +26,8 @@ struct Section
   std::string heading;  ///< in the report
   std::string text;     ///< Markdown before the table
   Table table;
-  std::string plot;  ///< file name of the plot that the section's CSV is drawn into; empty: none
+  std::string plot;       ///< file name of the plot that the section's CSV is drawn into; empty: none
+  bool only_csv = false;  ///< too long a table for the report
 };
 
 /** The schemes that are compared. */

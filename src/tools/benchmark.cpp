@@ -11,6 +11,7 @@
 
 #include "benchmark/accuracy.h"
 #include "benchmark/contact_study.h"
+#include "benchmark/hand_force_study.h"
 #include "benchmark/sampling_sections.h"
 #include "benchmark/speed.h"
 #include "benchmark/stability.h"
@@ -58,6 +59,7 @@ usage: benchmark STUDY --out DIR [--quick] [--vessel-mesh FILE]
                       stability       hard cases: good, refused or bad
                       speed           time per step, phase by phase, over the number of nodes
                       contact         detection: bounding volumes, time per step, growth with the triangles
+                      hand_force      force at the hand: charts, nodes, noise
                       sampling        adaptive against uniform sampling
                       all             all of these
   --out DIR           writes a CSV per table, plots and VALIDATION.md there; made when it is missing
@@ -84,6 +86,7 @@ constexpr Study kStudies[] = {{"accuracy", "Accuracy", accuracyStudy},
                               {"work-precision", "Work and precision", workPrecisionStudy},
                               {"speed", "Speed", speed},
                               {"contact", "Contact", contactStudy},
+                              {"hand_force", "Force at the hand", handForceStudy},
                               {"sampling", "Adaptive sampling", samplingSections},
                               {"stability", "Stability", stabilityStudy}};
 
@@ -165,7 +168,7 @@ std::string markdown(const Section& section)
   std::string text = "### " + section.heading + "\n\n" + section.text + "\n\n";
   if (!section.plot.empty() && section.table.rows() > 0)
     text += "![" + section.heading + "](images/validation/" + section.plot + ")\n\n";
-  return section.table.rows() > 0 ? text + section.table.markdown() + "\n" : text;
+  return section.table.rows() > 0 && !section.only_csv ? text + section.table.markdown() + "\n" : text;
 }
 
 constexpr auto kLimits = R"(## Limits

@@ -198,13 +198,32 @@ def draw_sampling(folder):
     save(figure, folder, 'sampling.png')
 
 
+def draw_hand_force(folder):
+    """Force (C: torque) at the hand against insertion, a panel per chart."""
+    charts = grouped(rows_of(folder, 'hand_force_curves'), 'panel')
+    if not charts:
+        return
+    titles = {'A': 'A: pushing speed', 'B': 'B: bending modulus', 'C': 'C: shear modulus, angle of twist', 'D': 'D: shape of the tip'}
+    figure, axes = plt.subplots(2, 2, figsize=(11, 8))
+    for axis, ((panel,), rows) in zip(axes.flat, charts.items()):
+        key = 'torque [µN·m]' if panel == 'C' else 'force [mN]'
+        for (name,), points in grouped(rows, 'curve').items():
+            axis.plot([value(p, 'insertion [mm]') for p in points], [value(p, key) for p in points], linewidth=1.2, label=name)
+        axis.set_xlabel('insertion [mm]')
+        axis.set_ylabel(f'{key.split(" ")[0]} at the hand {key[key.index("["):]}')
+        axis.set_title(titles.get(panel, panel), fontsize=10)
+        axis.grid(True, alpha=0.3)
+        axis.legend(fontsize=8)
+    save(figure, folder, 'hand_force.png')
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('folder', type=pathlib.Path, help='where `benchmark` wrote its CSV files')
     folder = parser.parse_args().folder
     (folder / 'images' / 'validation').mkdir(parents=True, exist_ok=True)
     for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_volumes, draw_growth,
-                 draw_sampling):
+                 draw_sampling, draw_hand_force):
         draw(folder)
 
 
