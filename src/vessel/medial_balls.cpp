@@ -188,7 +188,7 @@ void joinParts(const std::vector<MedialBall>& balls, const MeshDistance& distanc
                 {
                   const MedialBall& other = balls[static_cast<std::size_t>(j)];
                   const double gap = (other.centre - centres[i]).norm() - other.radius - balls[i].radius;
-                  if (other.radius <= balls[i].radius && gap <= other.radius &&
+                  if (other.radius <= balls[i].radius && gap <= balls[i].radius &&
                       parts.find(j) != parts.find(static_cast<int>(i)))
                     gaps.emplace_back(gap, static_cast<int>(i), j);
                 });

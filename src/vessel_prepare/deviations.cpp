@@ -18,8 +18,8 @@ namespace
 /** Samples of the surfaces stand this many voxels apart. */
 constexpr double kSampleSpacing = 2.0;
 /** A wall deeper than this inside the united input, or farther outside of a hollow, is not the lumen's, in voxels: more
- *  than the grid's error. */
-constexpr double kBuried = 1.5;
+ *  than the grid's error, which rounds a right-angled crease by half a voxel's diagonal. */
+constexpr double kBuried = 0.75;
 /** Winding numbers look at every triangle: no more than this many points are asked for. */
 constexpr int kMostWindings = 3000;
 /** How far beside a wall its two sides are looked at, in voxels. */

@@ -36,9 +36,9 @@ TEST(JoinParts, LinksTheNearestBallsOfPartsThatSeeEachOther)
   EXPECT_EQ(joined(balls), (Neighbours{{1}, {0, 2}, {1, 3}, {2}}));
 }
 
-TEST(JoinParts, LeavesApartWhatIsFartherThanTheSmallerRadius)
+TEST(JoinParts, LeavesApartWhatIsFartherThanTheLargerRadius)
 {
-  const std::vector<MedialBall> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 4.2e-3}, 5e-4}};
+  const std::vector<MedialBall> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 6.6e-3}, 5e-4}};
   EXPECT_EQ(joined(balls), (Neighbours{{}, {}}));
 }
 

@@ -393,7 +393,7 @@ protected:
     if (folder == nullptr || !std::filesystem::exists(std::string(folder) + "/aortic_arch_tree.obj"))
       GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
     folder_ = std::string(folder) + "/";
-    options_.max_distance = 1e-3;
+    options_.max_distance = 1.2e-3;
     options_.longest_facet = 4e-3;
     options_.facets_around = 16;
   }
@@ -404,6 +404,7 @@ protected:
 TEST_F(DirtyVessels, ThePhantomBecomesOneClosedSurface)
 {
   const TriangleMesh mesh = readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0);
+  options_.max_distance = 1e-3;
   options_.hollow = true;
   options_.plugs = {{{0.0008, -0.083, 0.004}, 0.017},  {{-0.052, 0.134, 0.004}, 0.0095},
                     {{0.053, 0.130, 0.004}, 0.0095},   {{-0.051, -0.0336, 0.0012}, 0.005},
