@@ -29,8 +29,8 @@ std::vector<MedialBall> thinBalls(std::vector<MedialBall> balls, double cover);
 /** For every ball the indices of those it overlaps, ascending. Overlapping balls belong to the same lumen. */
 std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialBall>& balls);
 
-/** Makes neighbours of balls that do not overlap where parts of a lumen would else be apart, as at the ostium of a small
- *  vessel: the nearest ones first, that see each other and stand apart by no more than the larger one's radius. */
+/** Makes neighbours of balls that do not overlap where parts of a lumen would else be apart, as at the ostium of a
+ * small vessel: the nearest ones first, that see each other and stand apart by no more than the larger one's radius. */
 void joinParts(const std::vector<MedialBall>& balls, const MeshDistance& distance,
                std::vector<std::vector<int>>& neighbours);
 

@@ -198,8 +198,7 @@ TriangleMesh hollowWalls(const TriangleMesh& soup, const TriangleMesh& outside, 
   {
     const Eigen::Vector3d from = p - disc.centre;
     const double height = from.dot(disc.out);
-    return height < 0.0 && height > -kBelowLid * depth &&
-           (from - height * disc.out).norm() < disc.reach + depth;
+    return height < 0.0 && height > -kBelowLid * depth && (from - height * disc.out).norm() < disc.reach + depth;
   };
   const auto keeps = [&](const Eigen::Vector3d& p)
   {
