@@ -34,9 +34,9 @@ void writeSection(std::ostream& out, const CoronaryPush& push, double length, do
 
 }  // namespace
 
-std::vector<HandSample> pushThrough(const std::string& scene_text)
+std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides)
 {
-  BenchRun run(scene_text);
+  BenchRun run(scene_text, overrides);
   const session::Scene& scene = run.scene();
   session::Simulation& simulation = run.simulation();
   const auto steps = static_cast<int>(std::lround(scene.drive.travel / scene.drive.speed / scene.solver.time_step));

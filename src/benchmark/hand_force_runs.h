@@ -19,9 +19,10 @@ struct HandSample
 };
 
 /** Pushes the wire of a scene until its drive has travelled.
+ *  @param overrides "key.path=value"
  *  @throws InputError when the scene is refused
  *  @throws std::runtime_error when a step could not be solved */
-std::vector<HandSample> pushThrough(const std::string& scene_text);
+std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides = {});
 
 /** Mean of a value between two insertions [m]. */
 double meanOf(const std::vector<HandSample>& samples, double HandSample::*value, double from = 0.0, double to = 1e3);

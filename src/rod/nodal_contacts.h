@@ -72,7 +72,8 @@ public:
 
   /** After a solve: closes and opens springs, later passes only close.
    *  Contact springs make the solved problem convex and piecewise quadratic, each solve is Newton's step on it. The
-   *  springs are those at the least energy on the way from the point reached so far to the solution: full steps cycle.
+   *  springs are those at the least energy on the way from the point reached so far to the solution: full steps may
+   * cycle.
    *  @param same_rest of the system but for the springs as at the last solve; else the way begins at the solution
    *  @return true when something changed */
   bool updateActiveSet(const Motion& motion, int pass, bool same_rest);

@@ -199,19 +199,23 @@ def draw_sampling(folder):
 
 
 def draw_hand_force(folder):
-    """Force (C: torque) at the hand against insertion, a panel per chart."""
+    """Force at the hand (C: torque; D: force on the tip) against insertion."""
     charts = grouped(rows_of(folder, 'hand_force_curves'), 'panel')
     if not charts:
         return
-    titles = {'A': 'A: pushing speed', 'B': 'B: bending modulus', 'C': 'C: shear modulus, angle of twist', 'D': 'D: shape of the tip'}
+    panels = {'A': ('pushing speed', 'force [mN]', 'force at the hand [mN]'),
+              'B': ('bending modulus', 'force [mN]', 'force at the hand [mN]'),
+              'C': ('shear modulus, angle of twist', 'torque [µN·m]', 'torque at the hand [µN·m]'),
+              'D': ('shape of the tip', 'tip [mN]', 'force on the tip [mN]')}
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))
     for axis, ((panel,), rows) in zip(axes.flat, charts.items()):
-        key = 'torque [µN·m]' if panel == 'C' else 'force [mN]'
+        title, key, label = panels[panel]
         for (name,), points in grouped(rows, 'curve').items():
-            axis.plot([value(p, 'insertion [mm]') for p in points], [value(p, key) for p in points], linewidth=1.2, label=name)
+            axis.plot([value(p, 'insertion [mm]') for p in points], [value(p, key) for p in points], linewidth=1.2,
+                      label=name)
         axis.set_xlabel('insertion [mm]')
-        axis.set_ylabel(f'{key.split(" ")[0]} at the hand {key[key.index("["):]}')
-        axis.set_title(titles.get(panel, panel), fontsize=10)
+        axis.set_ylabel(label)
+        axis.set_title(f'{panel}: {title}', fontsize=10)
         axis.grid(True, alpha=0.3)
         axis.legend(fontsize=8)
     save(figure, folder, 'hand_force.png')

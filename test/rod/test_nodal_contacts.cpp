@@ -1,8 +1,12 @@
 #include "rod/nodal_contacts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "plane_wall.h"
 #include "ridge_wall.h"
@@ -160,6 +164,98 @@ TEST(NodalContacts, ForceOfACompliantWallIsContinuousWhereARidgePassesANode)
   const double before = indentation(41, place - 1e-7, 0.1);
   EXPECT_NEAR(indentation(41, place, 0.1), before, 1e-4 * before);
   EXPECT_NEAR(indentation(41, place + 1e-7, 0.1), before, 1e-4 * before);
+}
+
+/** A wall of one plane per node but the last, each with a direction and distance of its own. */
+class RandomWall : public contact::ContactSource
+{
+public:
+  std::vector<Vector3d> normals;
+  std::vector<double> gaps;
+
+  void detect(const contact::Query&, contact::ContactSet& set) override
+  {
+    set.features.clear();
+    for (int i = 0; i < static_cast<int>(normals.size()); ++i)
+    {
+      contact::Feature feature;
+      feature.edge = i;
+      feature.normal = normals[i];
+      feature.gap = gaps[i];
+      feature.id = 3 * i;
+      set.features.push_back(feature);
+    }
+    set.stale = false;
+  }
+};
+
+/** Passes that the active set takes on a stiff random quadratic problem, until it is that of the solution. */
+int passesOnRandomProblem(unsigned seed)
+{
+  constexpr int kNodes = 21;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const Discretisation rod = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
+  const Boundary boundary = Bench::freeBoundary(0.0);
+  const StepperSettings settings;
+  const State state = Bench(0.0).state;
+  RandomWall wall;
+  const int size = 3 * kNodes;
+  Eigen::MatrixXd root(size, size);
+  Eigen::VectorXd load(size);
+  for (int k = 0; k < size; ++k)
+  {
+    load[k] = 0.05 * uniform(random);
+    for (int j = 0; j < size; ++j)
+      root(k, j) = uniform(random);
+  }
+  for (int i = 0; i + 1 < kNodes; ++i)
+  {
+    wall.normals.push_back(Vector3d(uniform(random), uniform(random), uniform(random)).normalized());
+    wall.gaps.push_back(1e-6 * uniform(random));
+  }
+  const Eigen::MatrixXd rest = 1e3 * root * root.transpose() + 10.0 * Eigen::MatrixXd::Identity(size, size);
+
+  NodalContacts contacts(rod, boundary, settings);
+  PhaseTimer timer;
+  StepReport report;
+  std::uint32_t asked = 0;
+  contacts.beginStep(StepInput(), &wall, asked, timer);
+  contacts.refresh(state, report);
+  contacts.prepare(state, 1e-3);
+  NodalContacts::Motion motion(kNodes);
+  for (int pass = 0; pass < 12; ++pass)
+  {
+    Eigen::MatrixXd matrix = rest;
+    Eigen::VectorXd right = load;
+    for (std::size_t c = 0; c < contacts.count(); ++c)
+    {
+      const NodalContacts::Spring& spring = contacts.spring(c);
+      if (!spring.active)
+        continue;
+      const Vector3d& normal = contacts.feature(c).normal;
+      matrix.block<3, 3>(3 * spring.node, 3 * spring.node) += spring.stiffness * normal * normal.transpose();
+      right.segment<3>(3 * spring.node) -= spring.stiffness * spring.gap * normal;
+    }
+    const Eigen::VectorXd solution = matrix.llt().solve(right);
+    for (int i = 0; i < kNodes; ++i)
+      motion[i] = solution.segment<3>(3 * i);
+    if (!contacts.updateActiveSet(motion, pass, pass > 0))
+      return pass + 1;
+  }
+  return 13;
+}
+
+TEST(NodalContacts, TheActiveSetOfAConvexProblemIsFoundBeforeContactsAreOnlyAdded)
+{
+  int most = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed)
+  {
+    const int passes = passesOnRandomProblem(seed);
+    EXPECT_LE(passes, 12) << seed;
+    most = std::max(most, passes);
+  }
+  EXPECT_GT(most, 2);  // else the problems are too easy to tell
 }
 
 }  // namespace
