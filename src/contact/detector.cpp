@@ -474,11 +474,12 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     nearest_.resize(whole, -1);
   // The distance to the wall is 1-Lipschitz, so both ends bound it along the edge: (d0 + d1 − |e|)/2.
   set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
-  // So far that an edge with one end farther off, and the other by its length closer at most, still has what is wanted.
+  // How far it is looked from a node: an edge whose ends are both at least so far off has what is wanted. Where one end
+  // is closer the other one may count as closer than it is: looking farther costs more than a motion cut short.
   double room = 0.0;
   for (std::size_t i = 1; i < query.nodes.size(); ++i)
-    room =
-        std::max(room, (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
+    room = std::max(
+        room, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
   const double farthest = query.wanted_free_distance + room;
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
