@@ -357,13 +357,14 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
     begin = std::min(begin, i - 1);
     end = std::min(rod_.nodes(), i + 2);
   }
-  const int skipped = std::max(0, begin - query_.first_node);
-  const auto count = static_cast<std::size_t>(std::max(0, end - query_.first_node));
-  query_.nodes.resize(std::min(query_.nodes.size(), count));
-  query_.radius.resize(query_.nodes.size());
+  begin = std::max(begin, query_.first_node);
+  const auto kept = static_cast<std::size_t>(std::max(0, end - begin));
+  const auto skipped = static_cast<std::ptrdiff_t>(kept > 0 ? begin - query_.first_node : 0);
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
-  query_.first_node += skipped;
+  query_.nodes.resize(kept);
+  query_.radius.resize(kept);
+  query_.first_node = begin;
   query_.wanted_free_distance = farthest;
   send(free_distances_, report);
 }
