@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "benchmark/bench_run.h"
 #include "benchmark/bounding_volumes.h"
@@ -251,14 +252,34 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
   return section;
 }
 
+/** First call of a new detector of a run's wall, fastest of five [µs]. */
+double coldTime(const BenchRun& run, const contact::Query& query, contact::ContactSet& set)
+{
+  vessel::TriangleMesh mesh;
+  mesh.vertices = run.wall()->wall().vertices;
+  mesh.triangles = run.wall()->wall().triangles;
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k)
+  {
+    contact::Detector detector(mesh, contact::WallLaw{});
+    const double begin = processorSeconds();
+    detector.detect(query, set);
+    fastest = std::min(fastest, 1e6 * (processorSeconds() - begin));
+  }
+  return fastest;
+}
+
 /** Detection inside of the simulation's loop. */
 Section loop(const StudyOptions& options, const Progress& progress)
 {
-  Section section{"contact_loop", "Detection in the simulation's loop", "",
-                  Table({"vessel", "triangles", "collision per step, median [µs]", "collision, share of the step [1]",
-                         "step, median [µs]", "step, p99 [µs]", "solves per step"}),
-                  ""};
-  section.text = "The wire of peer_wire.yaml with 380 nodes, pushed 120 mm at 35 mm/s and turned; Δt 1 ms.";
+  Section section{
+      "contact_loop", "Detection in the simulation's loop", "",
+      Table({"vessel", "triangles", "nodes inside", "contacts listed", "detection per step, median [µs]", "cold [µs]",
+             "detection, share of the step [1]", "step, median [µs]", "step, p99 [µs]", "solves per step"}),
+      ""};
+  section.text =
+      "The wire of peer_wire.yaml with 380 nodes, pushed 400 mm at 35 mm/s and turned; Δt 1 ms; the last two seconds. "
+      "Cold: the first call of a new detector where the wire then is, fastest of five.";
   if (options.vessel_mesh.empty())
     return section;
   for (int smoothing = 0; smoothing <= 2; ++smoothing)
@@ -271,11 +292,15 @@ Section loop(const StudyOptions& options, const Progress& progress)
         "-1, 0]}\ninstrument: instruments/peer_j_wire.yaml\ndrive: {source: script, initial_insertion: 0.0042, "
         "speed: 0.035, travel: 0.4, rotation: {amplitude: 2.0, frequency: 0.159}, force_limit: 8}\nsampling: "
         "{kind: uniform, nodes: 380}\n");
-    run.advance(options.quick ? 0.2 : 1.4);
+    run.advance(options.quick ? 0.2 : 9.4);
     const RunSummary summary = run.advance(options.quick ? 0.2 : 2.0);
     const double collision = summary.phase_us[static_cast<std::size_t>(Phase::kCollision)];
+    const contact::Query query = run.simulation().initialQuery();
+    contact::ContactSet set;
+    const double cold = coldTime(run, query, set);
     section.table.add({"aortic_arch_tree, smoothed " + std::to_string(smoothing) + " times",
-                       std::to_string(run.wall()->wall().triangles.size()), number(collision),
+                       std::to_string(run.wall()->wall().triangles.size()), std::to_string(query.nodes.size()),
+                       std::to_string(set.features.size()), number(collision), number(cold),
                        number(collision / summary.median_us, 2), number(summary.median_us), number(summary.p99_us),
                        number(summary.solves)});
   }

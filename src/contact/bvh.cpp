@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/kDOP.h>
+#include <fcl/math/bv/AABB.h>
 
 #include "common/error.h"
 #include "vessel/triangle_point.h"
@@ -22,12 +22,11 @@ constexpr double kBoundRounding = 1.0 + 1e-12;  // so that no bound's rounding h
 
 Bvh::Bvh(const Wall& wall) : wall_(&wall)
 {
-  using Dop = fcl::KDOP<double, 2 * kSlabs>;
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(wall.triangles.size());
   for (const Eigen::Vector3i& t : wall.triangles)
     triangles.emplace_back(t[0], t[1], t[2]);
-  fcl::BVHModel<Dop> model;
+  fcl::BVHModel<fcl::AABB<double>> model;
   model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(wall.vertices.size()));
   model.addSubModel(wall.vertices, triangles);
   if (model.endModel() != fcl::BVH_OK)
@@ -36,10 +35,10 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   for (std::size_t n = 0; n < nodes_.size(); ++n)
   {
     const auto& from = model.getBV(static_cast<int>(n));
-    for (int slab = 0; slab < kSlabs; ++slab)
+    for (int axis = 0; axis < 3; ++axis)
     {
-      nodes_[n].low[slab] = from.bv.dist(slab);
-      nodes_[n].high[slab] = from.bv.dist(slab + kSlabs);
+      nodes_[n].low[axis] = from.bv.min_[axis];
+      nodes_[n].high[axis] = from.bv.max_[axis];
     }
     if (from.isLeaf())
       nodes_[n].triangle = from.primitiveId();
@@ -48,40 +47,48 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   }
 }
 
-std::array<double, Bvh::kSlabs> Bvh::slabCoordinates(const Eigen::Vector3d& p)
+double Bvh::squaredDistance(const Node& node, const Eigen::Vector3d& point)
 {
-  return {p.x(),         p.y(),         p.z(),         p.x() + p.y(), p.x() + p.z(),
-          p.y() + p.z(), p.x() - p.y(), p.x() - p.z(), p.y() - p.z()};
-}
-
-/** Lower bound of the distance from a point to an 18-DOP: the distance to the box of its axes or, where that is within
- *  @p wanted, the widest gap over its diagonals when that is more [m]. The box decides most of all cases. */
-double Bvh::distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates, double wanted)
-{
-  const auto gap = [&](int slab)
-  { return std::max(0.0, std::max(node.low[slab] - coordinates[slab], coordinates[slab] - node.high[slab])); };
-  const double x = gap(0);
-  const double y = gap(1);
-  const double z = gap(2);
-  const double box = std::sqrt(x * x + y * y + z * z);
-  if (box > wanted)
-    return box;
-  double diagonal = 0.0;
-  for (int slab = 3; slab < kSlabs; ++slab)
-    diagonal = std::max(diagonal, gap(slab));
-  return std::max(box, diagonal * M_SQRT1_2);
+  double squared = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double gap = std::max(0.0, std::max(node.low[axis] - point[axis], point[axis] - node.high[axis]));
+    squared += gap * gap;
+  }
+  return squared;
 }
 
 void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const
 {
-  const std::array<double, kSlabs> coordinates = slabCoordinates(point);
+  const double limit = kBoundRounding * radius * radius;
   std::array<int, kMaxDepth> stack;
   int top = 0;
   stack[top++] = 0;
   while (top > 0)
   {
     const Node& node = nodes_[stack[--top]];
-    if (distanceBound(node, coordinates, radius) > kBoundRounding * radius)
+    if (squaredDistance(node, point) > limit)
+      continue;
+    if (node.left < 0)
+      triangles.push_back(node.triangle);
+    else
+    {
+      stack[top++] = node.left + 1;
+      stack[top++] = node.left;
+    }
+  }
+}
+
+void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const
+{
+  std::array<int, kMaxDepth> stack;
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0)
+  {
+    const Node& node = nodes_[stack[--top]];
+    if (node.low[0] > high[0] || node.high[0] < low[0] || node.low[1] > high[1] || node.high[1] < low[1] ||
+        node.low[2] > high[2] || node.high[2] < low[2])
       continue;
     if (node.left < 0)
       triangles.push_back(node.triangle);
@@ -103,11 +110,10 @@ double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const
 
 Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int near) const
 {
-  const std::array<double, kSlabs> coordinates = slabCoordinates(point);
   struct Entry
   {
     int node;
-    double bound;
+    double bound;  // squared
   };
   std::array<Entry, kMaxDepth> stack;
   int top = 0;
@@ -125,7 +131,7 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
   while (top > 0)
   {
     const Entry entry = stack[--top];
-    if (entry.bound > kBoundRounding * best.distance)
+    if (entry.bound > kBoundRounding * best.distance * best.distance)
       continue;
     const Node& node = nodes_[entry.node];
     if (node.left < 0)
@@ -133,8 +139,8 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
       offer(node.triangle);
       continue;
     }
-    Entry left{node.left, distanceBound(nodes_[node.left], coordinates, best.distance)};
-    Entry right{node.left + 1, distanceBound(nodes_[node.left + 1], coordinates, best.distance)};
+    Entry left{node.left, squaredDistance(nodes_[node.left], point)};
+    Entry right{node.left + 1, squaredDistance(nodes_[node.left + 1], point)};
     if (left.bound > right.bound)
       std::swap(left, right);
     stack[top++] = right;

@@ -10,19 +10,22 @@
 namespace endovascular_sim::contact
 {
 
-/** Bounding volume hierarchy of 18-DOPs over the wall's triangles.
+/** Bounding volume hierarchy of axis-aligned boxes over the wall's triangles.
  *
  *  FCL builds the tree; the walk is ours: FCL's own sphere query copies and refits the whole model on every call and
  *  reports no depth for it (docs/CONTACT.md). The finished nodes are copied into one flat array, because FCL's
- * accessors are calls into its library. */
+ *  accessors are calls into its library. */
 class Bvh
 {
 public:
   /** @param wall must outlive the tree */
   explicit Bvh(const Wall& wall);
 
-  /** Appends every triangle whose 18-DOP is closer than @p radius to the point: a superset of those in the ball. */
+  /** Appends every triangle whose box is closer than @p radius to the point: a superset of those in the ball. */
   void collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const;
+
+  /** Appends every triangle whose box meets the box from @p low to @p high [m]. */
+  void collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const;
 
   /** The triangle nearest to a point. */
   struct Nearest
@@ -36,19 +39,16 @@ public:
   double distanceTo(int triangle, const Eigen::Vector3d& point) const;  ///< [m]
 
 private:
-  static constexpr int kSlabs = 9;  ///< 18-DOP: x, y, z, x+y, x+z, y+z, x−y, x−z, y−z
-
-  /** An 18-DOP with its children (left at `left`, right at `left` + 1), or its triangle in a leaf. */
+  /** A box with its children (left at `left`, right at `left` + 1), or its triangle in a leaf. */
   struct Node
   {
-    std::array<double, kSlabs> low;
-    std::array<double, kSlabs> high;
+    std::array<double, 3> low;
+    std::array<double, 3> high;
     int left = -1;
     int triangle = -1;
   };
 
-  static std::array<double, kSlabs> slabCoordinates(const Eigen::Vector3d& p);
-  static double distanceBound(const Node& node, const std::array<double, kSlabs>& coordinates, double wanted);
+  static double squaredDistance(const Node& node, const Eigen::Vector3d& point);
 
   std::vector<Node> nodes_;
   const Wall* wall_;

@@ -1,6 +1,7 @@
 #include "contact/detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -13,20 +14,18 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kCellSize = 1e-3;                // m
-constexpr double kCellHalfDiagonal = 0.86603e-3;  // m
-constexpr double kReachRoom = 0.05e-3;            // m by which reaches are rounded up: cells live through small changes
-constexpr std::size_t kMaxCells = 200000;         // some hundred MB; then the wire's surroundings are collected anew
-constexpr double kRoom = 0.25e-3;                 // m that a node may move before what is near it is listed anew
-constexpr double kListGuard = 1e-8;               // m by which lists hold more than rounding could miss
-constexpr double kReflexAngle = 1e-4;             // rad: edges that bulge less than this meet the wire's nodes only
-constexpr double kOutsideCrossing = 0.4e-3;       // m by which a wire's edge may lie beyond a ridge
-constexpr double kSameNormal = 0.9995;            // cosine above which two features of a node count as one
-constexpr double kConeTolerance = 1e-12;          // m
-constexpr double kConeSlack = 1e-3;               // of the distance: crossings at the border of the normal cone count
-constexpr double kOnRidge = 1e-12;                // m
-constexpr double kLeastClearance = 0.05e-3;       // m
-constexpr double kEnd = 1e-3;                     // of a wire's edge: closer to a node the node's own features stand
+constexpr double kRoom = 0.25e-3;            // m that a node may move before what is near it is listed anew
+constexpr double kListGuard = 1e-8;          // m by which lists hold more than rounding could miss
+constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
+constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
+constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
+constexpr double kConeTolerance = 1e-12;     // m
+constexpr double kConeSlack = 1e-3;          // of the distance: crossings at the border of the normal cone count
+constexpr double kOnRidge = 1e-12;           // m
+constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
+constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
+constexpr double kLeastClearance = 0.05e-3;  // m
+constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
 
 enum FeatureKind
 {
@@ -58,8 +57,16 @@ double WallLaw::frictionAt(const Eigen::Vector3d& place) const
 }
 
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_marked_(wall_.edges.size(), 0)
+  : wall_(mesh),
+    bvh_(wall_),
+    law_(law),
+    vessel_version_(vessel_version),
+    edge_marked_(wall_.edges.size(), 0),
+    edge_is_reflex_(wall_.edges.size(), 0)
 {
+  for (std::size_t e = 0; e < wall_.edges.size(); ++e)
+    edge_is_reflex_[e] = wall_.edges[e].reflex_angle > kReflexAngle;
+  makePrisms();
   edge_balls_.reserve(wall_.edges.size());
   for (const WallEdge& edge : wall_.edges)
   {
@@ -67,6 +74,36 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
     const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
     edge_balls_.push_back({0.5 * (begin + end), (end - begin).normalized(), edge.normal, 0.5 * (end - begin).norm()});
   }
+}
+
+void Detector::makePrisms()
+{
+  prisms_.resize(wall_.triangles.size());
+  for (std::size_t t = 0; t < prisms_.size(); ++t)
+  {
+    Prism& prism = prisms_[t];
+    prism.planes.col(0) << wall_.normals[t], -wall_.plane_offsets[t];
+    for (int k = 0; k < 3; ++k)
+    {
+      const int vertex = wall_.triangles[t][k];
+      const WallEdge& edge = wall_.edges[wall_.triangle_edges[t][k]];
+      const int side = edge.triangles[0] == static_cast<int>(t) ? 0 : 1;
+      prism.planes.col(k + 1) << edge.into_triangle[side], -edge.into_triangle[side].dot(wall_.vertices[vertex]);
+      prism.bulges = prism.bulges || edge.reflex_angle > 0.0 || wall_.vertex_reflex[vertex] != 0;
+    }
+  }
+}
+
+/** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
+ * inside [m]. @param height of the point above the plane [m] */
+double Detector::outsideOf(int triangle, const Eigen::Vector3d& point, double& height) const
+{
+  const Eigen::Matrix<double, 4, 4>& planes = prisms_[triangle].planes;
+  std::array<double, 4> above;
+  for (int k = 0; k < 4; ++k)
+    above[k] = planes(0, k) * point.x() + planes(1, k) * point.y() + planes(2, k) * point.z() + planes(3, k);
+  height = above[0];
+  return -std::min({above[1], above[2], above[3]});
 }
 
 double Detector::signedDistance(const Eigen::Vector3d& point) const
@@ -82,44 +119,12 @@ double Detector::signedDistance(const Eigen::Vector3d& point) const
   return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
 }
 
-/** Enlarges the reaches to what the query needs; cells made for smaller ones are dropped. */
-void Detector::setReach(const Query& query)
+void Detector::makeRoom(const Query& query)
 {
-  double radius = 0.0;
-  double half = 0.0;
-  for (std::size_t i = 0; i < query.nodes.size(); ++i)
-  {
-    radius = std::max(radius, query.radius[i]);
-    if (i > 0)
-      half = std::max(half, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm());
-  }
-  const double node_reach = radius + query.margin + kRoom + kListGuard;
-  const double edge_reach = node_reach + half + kRoom;
-  const bool room = cells_.size() < kMaxCells;
-  if (node_reach <= node_reach_ && edge_reach <= edge_reach_ && room)
+  if (near_nodes_.size() >= query.nodes.size())
     return;
-  node_reach_ = std::max(node_reach_, node_reach + kReachRoom);
-  edge_reach_ = std::max(edge_reach_, edge_reach + kReachRoom);
-  cells_.clear();
-  cell_of_key_.clear();
-  near_nodes_.clear();
-  near_edges_.clear();
-}
-
-const Detector::Cell& Detector::cellAt(const Eigen::Vector3d& point)
-{
-  constexpr double kOffset = 1 << 20;  // cells; 21 bits per axis reach 1 km either way
-  Eigen::Vector3d corner;
-  CellKey key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    corner[axis] = std::floor(point[axis] / kCellSize);
-    key = key << 21 | (static_cast<CellKey>(corner[axis] + kOffset) & 0x1fffff);
-  }
-  const auto [entry, is_new] = cell_of_key_.emplace(key, static_cast<int>(cells_.size()));
-  if (is_new)
-    makeCell(kCellSize * (corner + Eigen::Vector3d::Constant(0.5)));
-  return cells_[entry->second];
+  near_nodes_.resize(query.nodes.size());
+  near_edges_.resize(query.nodes.size());
 }
 
 bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
@@ -143,14 +148,18 @@ const Detector::Neighbourhood& Detector::triangleNeighbourhood(int node, const E
   if (near.holds(point, point, limit))
     return near;
   near.start(point, point, limit);
-  const Cell& cell = cellAt(point);
-  near.room = std::max(kRoom, cell.clear - limit - kListGuard);
-  if (near.room > kRoom)
-    return near;
   const double reach = limit + kRoom + kListGuard;
-  for (int t : cell.triangles)
-    if (std::abs(wall_.normals[t].dot(point) - wall_.plane_offsets[t]) <= reach && bvh_.distanceTo(t, point) <= reach)
+  collected_.clear();
+  bvh_.collect(point, reach, collected_);
+  for (int t : collected_)
+  {
+    double height = 0.0;
+    const double beyond = std::max(0.0, outsideOf(t, point, height));
+    if (height * height + beyond * beyond <= reach * reach)
       near.items.push_back(t);
+  }
+  // Sorted, so that results do not depend on how the tree is walked.
+  std::sort(near.items.begin(), near.items.end());
   return near;
 }
 
@@ -163,53 +172,29 @@ const Detector::Neighbourhood& Detector::edgeNeighbourhood(int edge, const Eigen
   near.start(a, b, limit);
   const double wide = limit + kRoom + kListGuard;
   const double reach = 0.5 * (b - a).norm() + kRoom + wide;
-  for (int e : cellAt(0.5 * (a + b)).reflex_edges)
-  {
-    if (!canMeet(a, b, e, reach, wide))
-      continue;
-    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
-    const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
-    const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
-    if ((a + pair.first * (b - a) - end0 - pair.second * (end1 - end0)).norm() <= wide)
-      near.items.push_back(e);
-  }
-  return near;
-}
-
-void Detector::makeCell(const Eigen::Vector3d& centre)
-{
-  cells_.emplace_back();
-  Cell& cell = cells_.back();
-  const double radius = std::max(node_reach_, edge_reach_) + kCellHalfDiagonal;
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();
-  bvh_.collect(centre, radius, collected_);
-  // Collected in the tree's order: sorted, so that results do not depend on how the tree is walked.
-  std::sort(collected_.begin(), collected_.end());
-  double nearest = radius;
+  bvh_.collectBox(a.cwiseMin(b) - around, a.cwiseMax(b) + around, collected_);
+  looked_at_.clear();
   for (int t : collected_)
-  {
-    const Eigen::Vector3i& corners = wall_.triangles[t];
-    const double distance = (vessel::closestPointOnTriangle(centre, wall_.vertices[corners[0]],
-                                                            wall_.vertices[corners[1]], wall_.vertices[corners[2]])
-                                 .point -
-                             centre)
-                                .norm();
-    if (distance > radius)
-      continue;
-    nearest = std::min(nearest, distance);
-    if (distance <= node_reach_ + kCellHalfDiagonal)
-      cell.triangles.push_back(t);
     for (int e : wall_.triangle_edges[t])
-      if (wall_.edges[e].reflex_angle > kReflexAngle && !edge_marked_[e])
-      {
-        edge_marked_[e] = 1;
-        cell.reflex_edges.push_back(e);
-      }
-  }
-  for (int e : cell.reflex_edges)
+    {
+      if (!edge_is_reflex_[e] || edge_marked_[e])
+        continue;
+      edge_marked_[e] = 1;
+      looked_at_.push_back(e);
+      if (!canMeet(a, b, e, reach, wide))
+        continue;
+      const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
+      const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
+      const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
+      if ((a + pair.first * (b - a) - end0 - pair.second * (end1 - end0)).norm() <= wide)
+        near.items.push_back(e);
+    }
+  for (int e : looked_at_)
     edge_marked_[e] = 0;
-  std::sort(cell.reflex_edges.begin(), cell.reflex_edges.end());
-  cell.clear = nearest - kCellHalfDiagonal;
+  std::sort(near.items.begin(), near.items.end());
+  return near;
 }
 
 void Detector::detect(const Query& query, ContactSet& set)
@@ -227,12 +212,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   }
   const std::size_t n = query.nodes.size();
   set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
-  setReach(query);
-  if (near_nodes_.size() < n)
-  {
-    near_nodes_.resize(n);
-    near_edges_.resize(n);
-  }
+  makeRoom(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -282,15 +262,12 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   const bool last = index + 1 == query.nodes.size();
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
-  double nearest = std::numeric_limits<double>::infinity();
   for (int t : near.items)
   {
     Feature feature;
     double distance = 0.0;
     bool outside = false;
     const bool minimum = faceFeature(point, t, limit, feature, distance, outside);
-    if (distance >= 0.0)
-      nearest = std::min(nearest, distance);
     if (!minimum)
       continue;
     feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
@@ -304,20 +281,31 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
       outside_feature = feature;
     }
   }
-  if (outside_distance <= nearest + 1e-12 && std::isfinite(outside_distance) && signedDistance(point) < 0.0)
+  if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point) + 1e-12 &&
+      signedDistance(point) < 0.0)
     features.push_back(outside_feature);
 }
 
+double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int t : near.items)
+    nearest = std::min(nearest, bvh_.distanceTo(t, point));
+  return nearest;
+}
+
 /** @param limit distance up to which features are wanted [m]
- *  @param distance to the triangle, or −1 when it is too far
+ *  @param distance to the triangle, where its closest point is one
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
  *  measured from the point itself */
 bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                            bool& outside) const
 {
-  distance = -1.0;
-  const double height = wall_.normals[triangle].dot(point) - wall_.plane_offsets[triangle];
-  if (height > limit || height < -limit)
+  double height = 0.0;
+  const double beyond = outsideOf(triangle, point, height);
+  if (height * height > limit * limit ||
+      (beyond > kOffTriangle &&
+       ((height >= 0.0 && !prisms_[triangle].bulges) || height * height + beyond * beyond > kFar * limit * limit)))
     return false;
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const Eigen::Vector3d& normal = wall_.normals[triangle];
@@ -467,8 +455,23 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   return true;
 }
 
+/** Distance from a node to the wall, or @p farthest where that is less [m]. What a node touches is listed already. */
+double Detector::wallDistance(const Query& query, std::size_t index, double farthest)
+{
+  const Eigen::Vector3d& point = query.nodes[index];
+  const double limit = query.radius[index] + query.margin;
+  const double nearest = nearestListed(triangleNeighbourhood(placeFromTip(query, index), point, limit), point);
+  if (nearest <= limit)
+    return nearest;
+  int& near = nearest_[static_cast<std::size_t>(query.first_node) + index];
+  const Bvh::Nearest found = bvh_.nearest(point, farthest, near);
+  near = found.triangle >= 0 ? found.triangle : near;
+  return found.distance;
+}
+
 void Detector::freeDistances(const Query& query, ContactSet& set)
 {
+  makeRoom(query);
   const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
   if (nearest_.size() < whole)
     nearest_.resize(whole, -1);
@@ -484,10 +487,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
-    int& near = nearest_[static_cast<std::size_t>(query.first_node) + i];
-    const Bvh::Nearest nearest = bvh_.nearest(query.nodes[i], farthest, near);
-    const double distance = nearest.distance;
-    near = nearest.triangle >= 0 ? nearest.triangle : near;
+    const double distance = wallDistance(query, i, farthest);
     if (i > 0)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,9 +37,9 @@ struct WallLaw
  *
  *  Per node: closest points on the triangles around it that are true local minima (normal-cone test on reflex edges
  *  and vertices), all distinct normals. Per edge: crossing reflex edges and vertices of the mesh. A point is outside
- *  only where its globally nearest feature says so. Which triangles are near is asked of the tree once per cube of
- *  space that the wire visits, and each node and edge keeps the few of them that it can meet while it stays where it
- *  is; what is found depends on neither, so a detector that was restarted gives the same bits. */
+ *  only where its globally nearest feature says so. Each node and edge keeps the few triangles and ridges that it can
+ *  meet while it stays about where it is; what is found does not depend on that, so a detector that was restarted gives
+ *  the same bits. */
 class Detector : public ContactSource
 {
 public:
@@ -56,16 +55,6 @@ public:
   const Wall& wall() const { return wall_; }
 
 private:
-  using CellKey = std::uint64_t;
-
-  /** What a node or an edge's middle anywhere in one cube of space may meet. */
-  struct Cell
-  {
-    double clear = 0.0;             ///< no wall within this of any point of the cube [m]
-    std::vector<int> triangles;     ///< all within a node's reach of the cube, ascending
-    std::vector<int> reflex_edges;  ///< all within an edge's reach of the cube, ascending
-  };
-
   /** What a node or an edge of the wire may meet while its ends stay within `room` of where they were. */
   struct Neighbourhood
   {
@@ -79,6 +68,13 @@ private:
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
   };
 
+  /** A triangle as its plane and the three planes across it along its edges, each as [unit normal, −offset]. */
+  struct Prism
+  {
+    Eigen::Matrix<double, 4, 4> planes;  ///< by columns: the triangle's own towards the lumen, then the edges' inward
+    bool bulges = false;                 ///< a closest point on its border can be a local minimum in front of it
+  };
+
   /** A mesh edge as its smallest ball with its direction. */
   struct EdgeBall
   {
@@ -88,12 +84,13 @@ private:
     double half_length;         ///< [m]
   };
 
-  void setReach(const Query& query);
-  const Cell& cellAt(const Eigen::Vector3d& point);
-  void makeCell(const Eigen::Vector3d& centre);
+  void makeRoom(const Query& query);
   const Neighbourhood& triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit);
   const Neighbourhood& edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
+  void makePrisms();
+  double outsideOf(int triangle, const Eigen::Vector3d& point, double& height) const;
+  double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
@@ -103,21 +100,19 @@ private:
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
   double clearanceRadius(const Query& query, const Feature& feature) const;
+  double wallDistance(const Query& query, std::size_t index, double farthest);
   void freeDistances(const Query& query, ContactSet& set);
 
   Wall wall_;
   Bvh bvh_;
   WallLaw law_;
   std::uint64_t vessel_version_;
-  double node_reach_ = 0.0;  ///< from a node's axis to the farthest feature that is looked for [m]
-  double edge_reach_ = 0.0;  ///< the same from an edge's middle [m]
-  std::unordered_map<CellKey, int> cell_of_key_;
-  std::vector<Cell> cells_;
   std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index from the tip
   std::vector<int> nearest_;                            ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_;
+  std::vector<int> collected_, looked_at_;
+  std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
-  std::vector<char> edge_marked_;
+  std::vector<char> edge_marked_, edge_is_reflex_;
 };
 
 }  // namespace endovascular_sim::contact

@@ -338,7 +338,7 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
       feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
 }
 
-/** Of the edges between the first and the last one that move further than the margin, whose features are known. */
+/** From the first edge on that moves further than the margin, whose features are known. */
 void NodalContacts::askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kCollision);
@@ -346,25 +346,18 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   held.describe(state, query_);
   held.describeMouth(state, query_);
   double farthest = 0.0;
-  int begin = rod_.nodes();
-  int end = query_.first_node;  // one past the last
-  for (int i = query_.first_node; i < rod_.nodes(); ++i)
+  int resting = query_.first_node;
+  for (int i = rod_.nodes() - 1; i >= query_.first_node; --i)
   {
     const double far = factor * motion[i].norm();
     farthest = std::max(farthest, far);
-    if (far <= settings_.contact_margin)
-      continue;
-    begin = std::min(begin, i - 1);
-    end = std::min(rod_.nodes(), i + 2);
+    if (far > settings_.contact_margin)
+      resting = i - 1;
   }
-  begin = std::max(begin, query_.first_node);
-  const auto kept = static_cast<std::size_t>(std::max(0, end - begin));
-  const auto skipped = static_cast<std::ptrdiff_t>(kept > 0 ? begin - query_.first_node : 0);
+  const int skipped = std::max(0, resting - query_.first_node);
+  query_.first_node += skipped;
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
-  query_.nodes.resize(kept);
-  query_.radius.resize(kept);
-  query_.first_node = begin;
   query_.wanted_free_distance = farthest;
   send(free_distances_, report);
 }
