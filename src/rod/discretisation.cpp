@@ -51,15 +51,14 @@ const Section& sectionAt(const Wire& wire, double position)
   return wire.sections.back();
 }
 
-/** Integrated curvature whose turning angle is @p angle. */
+}  // namespace
+
 Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle)
 {
   const double magnitude = angle.norm();
   return magnitude > 0.0 ? Eigen::Vector2d(angle * (2.0 * std::tan(0.5 * magnitude) / magnitude))
                          : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
-
-}  // namespace
 
 void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& d)
 {

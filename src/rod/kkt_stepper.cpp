@@ -101,19 +101,49 @@ TwistBoundary KktStepper::twistBoundary(const State& state, const StepInput& inp
   return twist;
 }
 
-void KktStepper::relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction)
+KktStepper::TwistAction KktStepper::relaxTwist(State& state, const StepInput& input,
+                                               const std::vector<TwistFriction>& friction)
 {
   TwistBoundary boundary = twistBoundary(state, input);
   boundary.friction = &friction;
-  twist_active_ = QuasiStaticTwist::matters(rod_, boundary);
-  if (!twist_active_)
+  if (!QuasiStaticTwist::matters(rod_, boundary))
   {
     std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
     state.hand_torque = state.distal_torque = 0.0;
-    return;
+    return {};
   }
   PhaseTimer::Scope scope(*timer_, Phase::kTwist);
   twist_.solve(rod_, boundary, state);
+  return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
+}
+
+bool KktStepper::run(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  return advance(state, input, dt, 0, report);
+}
+
+void KktStepper::refreshRod(State& /*state*/, const StepInput& /*input*/, double /*dt*/) {}
+
+void KktStepper::complete(State& /*state*/, double /*dt*/) {}
+
+void KktStepper::surfaceAngles(const State& state, std::vector<double>& angle) const
+{
+  angle.resize(state.position.size());
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+    angle[i] = nodeAngle(state.twist_angle, i, state.first_node);
+}
+
+void KktStepper::surfaceBeginAngles(const State& state, std::vector<double>& angle) const
+{
+  angle.resize(state.position.size());
+  for (int i = state.first_node; i < rod_.nodes(); ++i)
+    angle[i] = nodeAngle(begin_twist_, i, state.first_node);
+}
+
+double KktStepper::handWork(const State& before, const State& after) const
+{
+  return std::abs(after.hand_force * (after.inserted_length - before.inserted_length)) +
+         std::abs(after.hand_torque * (after.rotation - before.rotation));
 }
 
 StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
@@ -124,7 +154,7 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   motion_.resize(state.position.size());
   last_input_ = input;
   StepReport report;
-  if (!advance(state, input, dt, 0, report))
+  if (!run(state, input, dt, report))
     report.solved = false;
   report.max_strain = strain_;
   return report;
@@ -149,6 +179,11 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, int de
   half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
   half.rotation = 0.5 * (state.rotation + input.rotation);
   half.distal = between(state.distal, input.distal, 0.5);
+  for (std::size_t k = 0; k < half.layers.size(); ++k)
+  {
+    half.layers[k].inserted_length = 0.5 * (state.layers[k].inserted_length + input.layers[k].inserted_length);
+    half.layers[k].rotation = 0.5 * (state.layers[k].rotation + input.layers[k].rotation);
+  }
   if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
     return true;
   hold(state, depth);
@@ -163,7 +198,6 @@ bool KktStepper::gainedEnergy(const State& state, int depth, double dt)
     return false;
   const State& before = backup_[depth];
   const double travel = state.inserted_length - before.inserted_length;
-  const double turn = state.rotation - before.rotation;
   double mass = 0.0;
   double kinetic = 0.0;
   double kinetic_before = 0.0;
@@ -173,8 +207,7 @@ bool KktStepper::gainedEnergy(const State& state, int depth, double dt)
     kinetic += 0.5 * rod_.mass[i] * state.velocity[i].squaredNorm();
     kinetic_before += 0.5 * rod_.mass[i] * before.velocity[i].squaredNorm();
   }
-  const double given = std::abs(state.hand_force * travel) + std::abs(state.hand_torque * turn) +
-                       0.5 * mass * (travel / dt) * (travel / dt);
+  const double given = handWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt);
   PhaseTimer* const timer = timer_;
   const Energy elastic_before = energy(before);
   const Energy elastic = energy(state);
@@ -197,6 +230,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
 {
   begin_ = state.position;
   begin_twist_ = state.twist_angle;
+  refreshRod(state, input, dt);
   placePrescribedNodes(state, input.inserted_length, dt);
   placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
@@ -206,7 +240,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     collectFriction(state, dt, solve == 0);
-    relaxTwist(state, input, friction_.aboutAxis());
+    action_ = relaxTwist(state, input, friction_.aboutAxis());
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
       contacts_.prepare(state, dt);
@@ -242,6 +276,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
   restore_begin_ = begin_;
   restore_velocity_ = state.velocity;
   bool solved = true;
+  restoring_ = true;
   for (int solve = 0; solve < kMaxRestoringSolves && solved; ++solve)
   {
     if (maxStrain(rod_, state) <= settings_.strain_tolerance)
@@ -258,6 +293,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
       break;
     move(state, truncation(state, report), report);
   }
+  restoring_ = false;
   begin_ = restore_begin_;
   state.velocity = restore_velocity_;
   strain_ = maxStrain(rod_, state);
@@ -266,18 +302,26 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
 
 void KktStepper::finish(State& state, double dt)
 {
-  const SurfaceTurn turn{rod_.radius, begin_twist_};
-  friction_.finish(state, begin_, &turn);
+  surfaceAngles(state, surface_angle_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.finish(state, begin_, &surface);
   const double inverse = 1.0 / dt;
   for (int i = first_; i < rod_.nodes(); ++i)
     if (!isPrescribed(i, state))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+  complete(state, dt);
 }
 
 void KktStepper::collectFriction(const State& state, double dt, bool first_solve)
 {
-  const SurfaceTurn turn{rod_.radius, begin_twist_};
-  friction_.collect(state, begin_, &rod_.mass, dt, first_solve, &turn);
+  surfaceBeginAngles(state, surface_begin_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.collect(state, begin_, &rod_.mass, dt, first_solve, &surface);
+}
+
+SurfaceMotion KktStepper::surfaceMotion() const
+{
+  return {rod_.radius, surface_begin_, surface_angle_, surfaceSlide()};
 }
 
 void KktStepper::addDiagonal(int node, double value)
@@ -302,7 +346,10 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   base_.at(kIdleRow, kIdleRow) = -scale_;
   resistance_.resize(static_cast<std::size_t>(n));
-  friction_.linearise(state);
+  resisted_.resize(static_cast<std::size_t>(n));
+  surfaceAngles(state, surface_angle_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.linearise(&surface);
   addAllBending(state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addConstraint(j, state, dt);
@@ -330,20 +377,19 @@ BendingPairInput KktStepper::bendingInput(int first, int second, const State& st
               Pair{rod_.cell_length[first], rod_.cell_length[second]};
   Eigen::Vector3d first_rest = state.curvature_offset[first];
   Eigen::Vector3d second_rest = state.curvature_offset[second];
-  if (!twist_active_)
+  if (!action_.active)
   {
     in.rest = PairVector::of(first_rest, second_rest);
     in.torque_before = in.torque_after = Pair{0.0, 0.0};
     return in;
   }
-  const int curved = twist_.firstCurved();
-  if (first >= curved)
-    first_rest += twist_.restCurvatureBinormal(first);
-  if (second >= curved)
-    second_rest += twist_.restCurvatureBinormal(second);
+  if (first >= action_.first_curved)
+    first_rest += action_.rest_binormal[first];
+  if (second >= action_.first_curved)
+    second_rest += action_.rest_binormal[second];
   in.rest = PairVector::of(first_rest, second_rest);
   // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
-  const Pair torque = 0.5 * dt * dt * Pair{twist_.torque(first), twist_.torque(second)};
+  const Pair torque = 0.5 * dt * dt * Pair{action_.torque[first], action_.torque[second]};
   in.torque_before = torque / before;
   in.torque_after = torque / after;
   return in;
@@ -484,6 +530,14 @@ double KktStepper::heavyMass(int node) const
   return rod_.mass[node] - displaced;
 }
 
+double KktStepper::dragCoefficient(int node, double speed, const State& state) const
+{
+  if (environment_.fluid_density <= 0.0 || (boundary_.introducer && bodyPosition(node, state.inserted_length) < 0.0))
+    return 0.0;
+  return environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] * rod_.cell_length[node] *
+         speed;
+}
+
 void KktStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const double mass = rod_.mass[node];
@@ -495,16 +549,29 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
   residual += damped * travel;
   addDiagonal(node, mass + damped);
   resistance_[node] = damped;
+  resisted_[node].setZero();
   const double beyond = bodyPosition(node, state.inserted_length);
-  const Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
-  if (environment_.fluid_density > 0.0 && (beyond >= 0.0 || !boundary_.introducer))
+  Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
+  const bool slides = massSlide() != nullptr && !restoring_;
+  if (slides)
   {
-    const double drag = dt * environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] *
-                        rod_.cell_length[node] * velocity.norm();
+    const MassSlide& slide = (*massSlide())[node];
+    residual += mass * slide.gained;
+    resisted_[node] = damped * slide.travel;
+    velocity += (*surfaceSlide())[node] / dt;
+  }
+  const double coefficient = dragCoefficient(node, velocity.norm(), state);
+  if (coefficient != 0.0)
+  {
+    const double drag = dt * coefficient;
     residual += drag * travel;
     addDiagonal(node, drag);
     resistance_[node] += drag;
+    if (slides)
+      resisted_[node] += drag * (*surfaceSlide())[node];
   }
+  if (slides)
+    residual += resisted_[node];
   if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
   {
     const double depth = beyond / boundary_.guide_length;
@@ -567,11 +634,16 @@ Energy KktStepper::energy(const State& state)
   State relaxed = state;
   PhaseTimer unused;
   timer_ = &unused;
-  // Friction goes on from the state, which does not move any more.
-  const SurfaceTurn at_rest{rod_.radius, state.twist_angle};
+  action_ = relaxTwist(relaxed, last_input_, frictionAtRest(state));
+  return elasticEnergy(rod_, state, action_.active ? &twist_ : nullptr);
+}
+
+const std::vector<TwistFriction>& KktStepper::frictionAtRest(const State& state)
+{
+  surfaceAngles(state, surface_begin_);
+  const SurfaceMotion at_rest{rod_.radius, surface_begin_, surface_begin_};
   friction_.collect(state, state.position, nullptr, 1.0, false, &at_rest);
-  relaxTwist(relaxed, last_input_, friction_.aboutAxis());
-  return elasticEnergy(rod_, state, twist_active_ ? &twist_ : nullptr);
+  return friction_.aboutAxis();
 }
 
 std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const StepInput& input)
@@ -580,7 +652,8 @@ std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const Step
   timer_ = &unused;
   first_ = state.first_node;
   last_input_ = input;
-  relaxTwist(state, input, {});
+  refreshRod(state, input, 1.0);
+  action_ = relaxTwist(state, input, {});
   base_.reset(4 * (rod_.nodes() - first_));
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   addAllBending(state, 1.0);

@@ -37,11 +37,65 @@ public:
   /** Gradient of the elastic energy at the nodes of a state whose twist has been relaxed [N]; for tests. */
   std::vector<Eigen::Vector3d> elasticGradient(State state, const StepInput& input);
 
+protected:
+  // What a stack of several instruments does in another way (StackStepper).
+
+  /** What the twist does to the centreline. */
+  struct TwistAction
+  {
+    bool active = false;
+    int first_curved = 0;                            ///< first node with rest curvature
+    const Eigen::Vector3d* rest_binormal = nullptr;  ///< per node from first_curved on [1]
+    const double* torque = nullptr;                  ///< per node, or of all layers together [N·m]
+  };
+
+  /** How a node's mass moves along the wire beside the node itself, where layers slide over the nodes. */
+  struct MassSlide
+  {
+    Eigen::Vector3d travel = Eigen::Vector3d::Zero();  ///< in the step [m]
+    Eigen::Vector3d gained = Eigen::Vector3d::Zero();  ///< less what it would be at the speed of the last step [m]
+  };
+
+  /** A step, once the contacts have been told of it. */
+  virtual bool run(State& state, const StepInput& input, double dt, StepReport& report);
+  /** Sets the rod's properties for the end of a step (or a part of one). */
+  virtual void refreshRod(State& state, const StepInput& input, double dt);
+  /** Brings the twist to rest for the present centreline.
+   *  @param friction of the wall about the axis */
+  virtual TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction);
+  /** Angle of the surface at every node [rad], n. */
+  virtual void surfaceAngles(const State& state, std::vector<double>& angle) const;
+  /** The same at the beginning of the step. */
+  virtual void surfaceBeginAngles(const State& state, std::vector<double>& angle) const;
+  /** After a step that was solved. */
+  virtual void complete(State& state, double dt);
+  /** Largest work that the hands may have done between two states [J]. */
+  virtual double handWork(const State& before, const State& after) const;
+  /** Motion of the surface over the nodes in the step; null: none. */
+  virtual const std::vector<Eigen::Vector3d>* surfaceSlide() const { return nullptr; }
+
+  /** Motion of the nodes' masses; null: with the nodes. */
+  virtual const std::vector<MassSlide>* massSlide() const { return nullptr; }
+
+  bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
+  /** Drag of the fluid on a node per speed of its surface [N·s/m]; outside of the body 0. */
+  double dragCoefficient(int node, double speed, const State& state) const;
+  TwistBoundary twistBoundary(const State& state, const StepInput& input) const;
+  /** Friction about the axis of a state that goes on from where it is. */
+  const std::vector<TwistFriction>& frictionAtRest(const State& state);
+  const Boundary& boundary() const { return boundary_; }
+  const Environment& environment() const { return environment_; }
+  const StepperSettings& settings() const { return settings_; }
+  /** To be used with another input or model until the next step. */
+  void useTimer(PhaseTimer& timer) { timer_ = &timer; }
+  const StepInput& lastInput() const { return last_input_; }
+  Discretisation& rod() { return rod_; }
+  const Discretisation& rod() const { return rod_; }
+
 private:
   static constexpr int kBandwidth = 10;
   using Matrix = BandedLdlt<kBandwidth, 4>;
 
-  bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
   bool gainedEnergy(const State& state, int depth, double dt);
   void hold(State& state, int depth);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
@@ -51,8 +105,7 @@ private:
   bool isPrescribed(int node, const State& state) const;
   bool isDistalHeld(int node) const;
   static Eigen::Matrix3d distalRotation(const State& state);
-  TwistBoundary twistBoundary(const State& state, const StepInput& input) const;
-  void relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction);
+  SurfaceMotion surfaceMotion() const;
   void collectFriction(const State& state, double dt, bool first_solve);
 
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
@@ -96,24 +149,27 @@ private:
   double scale_;  ///< of the constraint rows [kg]
 
   QuasiStaticTwist twist_;
-  bool twist_active_ = false;
+  TwistAction action_;
   NodalContacts contacts_{rod_, boundary_, settings_};
   NodalContacts::Motion motion_;  ///< of the last solve, n
   WallFriction friction_{settings_.friction_slip};
   PhaseTimer* timer_ = nullptr;
-  bool fading_ = true;   ///< the state may have offsets
-  bool capped_ = false;  ///< the last step was accepted unfinished
-  double strain_ = 0.0;  ///< largest of the last accepted iterate
+  bool fading_ = true;      ///< the state may have offsets
+  bool capped_ = false;     ///< the last step was accepted unfinished
+  bool restoring_ = false;  ///< lengths, from rest
+  double strain_ = 0.0;     ///< largest of the last accepted iterate
   StepInput last_input_;
 
   int first_ = 0;  ///< first simulated node
   Matrix base_, matrix_;
   KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
-  std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
-  std::vector<double> begin_twist_;     ///< and twist angles
-  std::vector<Eigen::Vector3d> slide_;  ///< motion of every node when the wire slides along itself
-  std::vector<double> resistance_;      ///< of fluid and damping to a node's travel, times Δt² [kg]
+  std::vector<Eigen::Vector3d> begin_;                 ///< positions at the beginning of the step
+  std::vector<double> begin_twist_;                    ///< and twist angles
+  std::vector<double> surface_begin_, surface_angle_;  ///< of the surface at every node, at the beginning and now
+  std::vector<Eigen::Vector3d> slide_;                 ///< motion of every node when the wire slides along itself
+  std::vector<double> resistance_;                     ///< of fluid and damping to a node's travel, times Δt² [kg]
+  std::vector<Eigen::Vector3d> resisted_;  ///< and what it resists of its masses' and surface's slide [kg·m]
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
   std::vector<State> backup_;  ///< per depth of halving
 };

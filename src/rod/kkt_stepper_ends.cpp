@@ -73,6 +73,11 @@ void KktStepper::updateHandParts(State& state, double dt)
     const double travel = slide_[i].dot(state.position[i] - begin_[i]);
     parts.inertia += rod_.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
     parts.drag += resistance_[i] * inverse * inverse * travel;
+    if (massSlide() != nullptr)
+    {
+      parts.inertia += rod_.mass[i] * inverse * inverse * slide_[i].dot((*massSlide())[i].gained);
+      parts.drag += inverse * inverse * slide_[i].dot(resisted_[i]);
+    }
     parts.load -= heavyMass(i) * slide_[i].dot(environment_.gravity);
   }
   for (const NodalForce& force : last_input_.forces)

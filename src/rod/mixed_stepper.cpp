@@ -238,7 +238,7 @@ void MixedStepper::assemble(const State& state, const StepInput& input, double d
     twist_.assemble(model_, state, gradient_, base_);
   addInertia(state, dt);
   friction_.collect(state, begin_, &rod_.mass, dt, first_solve);
-  friction_.linearise(state);
+  friction_.linearise();
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     addNodeTerms(i, state, dt, first_solve);
   for (const NodalForce& load : input.forces)

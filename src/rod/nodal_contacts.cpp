@@ -282,7 +282,7 @@ void NodalContacts::updateWallForces(State& state, const Motion& motion)
         continue;
       const int node = spring.node + side;
       state.wall_force[node] += (weight * force) * feature.normal;
-      state.friction_coefficient[node] = std::isnan(rod_.friction[node]) ? feature.friction : rod_.friction[node];
+      state.friction_coefficient[node] = rod_.frictionOn(feature.friction, node);
     }
   }
 }

@@ -145,7 +145,7 @@ void PaperStepper::assemble(const State& state, const StepInput& input, double d
   for (int j = first_; j + 1 < n; ++j)
     addStretch(j, state, dt);
   friction_.collect(state, begin_, nullptr, dt, true);  // with the impulse of the step before
-  friction_.linearise(state);
+  friction_.linearise();
   for (std::size_t k = 0; k < friction_.count(); ++k)
   {
     const WallFriction::Term& term = friction_.term(k);

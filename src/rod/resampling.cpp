@@ -51,12 +51,12 @@ Eigen::Vector3d arcMiddle(const Discretisation& rod, const State& state, int edg
 }
 
 /** Difference of twist over half an edge, from the neighbouring edges [rad]. */
-double halfTwist(const Discretisation& rod, const State& state, int edge)
+double halfTwist(const Discretisation& rod, const std::vector<double>& angle, int first_node, int edge)
 {
-  if (edge <= state.first_node || edge + 2 >= rod.nodes())
+  if (edge <= first_node || edge + 2 >= rod.nodes())
     return 0.0;
   const double distance = rod.cell_length[edge] + rod.cell_length[edge + 1];
-  return 0.5 * rod.rest_length[edge] * (state.twist_angle[edge + 1] - state.twist_angle[edge - 1]) / distance;
+  return 0.5 * rod.rest_length[edge] * (angle[edge + 1] - angle[edge - 1]) / distance;
 }
 
 }  // namespace
@@ -121,33 +121,60 @@ void Resampling::carry(const Wire& wire, const Discretisation& from, const Discr
   next_.curvature_offset.assign(n, Eigen::Vector3d::Zero());
   next_.friction_stretch.resize(n);
   next_.tension.resize(n - 1);
-  next_.twist_angle.resize(n - 1);
-  carryEdges(from, state);
+  carryEdges(from, to, state);
   carryNodes(from, to, state);
   carryMoments(from, to, state);
   std::swap(state, next_);
 }
 
-void Resampling::carryEdges(const Discretisation& from, const State& state)
+void Resampling::carryEdges(const Discretisation& from, const Discretisation& to, const State& state)
 {
   for (int j = 0; j + 1 < from.nodes(); ++j)
     if (new_node_[j] >= 0)
-    {
       next_.tension[new_node_[j]] = state.tension[j];
-      next_.twist_angle[new_node_[j]] = state.twist_angle[j];
-    }
+  for (const Change& change : changes_)
+    if (change.split)
+      next_.tension[change.fine] = state.tension[change.coarse];
+    else
+      next_.tension[change.coarse] = 0.5 * (state.tension[change.fine - 1] + state.tension[change.fine]);
+  carryTwist(from, to, state.first_node, state.twist_angle, next_.twist_angle);
+  for (std::size_t k = 0; k < state.layers.size(); ++k)
+  {
+    carryTwist(from, to, state.first_node, state.layers[k].twist_angle, next_.layers[k].twist_angle);
+    carryLoad(from, to, state.layers[k].load, next_.layers[k].load);
+  }
+}
+
+/** Loads per length: a new node has the mean of its neighbours'. */
+void Resampling::carryLoad(const Discretisation& from, const Discretisation& to, const std::vector<double>& load,
+                           std::vector<double>& next) const
+{
+  next.resize(to.position.size());
+  for (int i = 0; i < from.nodes(); ++i)
+    if (new_node_[i] >= 0)
+      next[new_node_[i]] = load[i];
+  for (const Change& change : changes_)
+    if (change.split)
+      next[change.fine] = 0.5 * (load[change.coarse] + load[change.coarse + 1]);
+}
+
+void Resampling::carryTwist(const Discretisation& from, const Discretisation& to, int first_node,
+                            const std::vector<double>& angle, std::vector<double>& next) const
+{
+  next.resize(to.rest_length.size());
+  for (int j = 0; j + 1 < from.nodes(); ++j)
+    if (new_node_[j] >= 0)
+      next[new_node_[j]] = angle[j];
   for (const Change& change : changes_)
   {
     if (change.split)
     {
-      const double twist = halfTwist(from, state, change.coarse);
-      next_.tension[change.fine] = state.tension[change.coarse];
-      next_.twist_angle[change.fine - 1] = state.twist_angle[change.coarse] - 0.5 * twist;
-      next_.twist_angle[change.fine] = state.twist_angle[change.coarse] + 0.5 * twist;
+      const double twist = halfTwist(from, angle, first_node, change.coarse);
+      next[change.fine - 1] = angle[change.coarse] - 0.5 * twist;
+      next[change.fine] = angle[change.coarse] + 0.5 * twist;
       continue;
     }
-    next_.tension[change.coarse] = 0.5 * (state.tension[change.fine - 1] + state.tension[change.fine]);
-    next_.twist_angle[change.coarse] = 0.5 * (state.twist_angle[change.fine - 1] + state.twist_angle[change.fine]);
+    next[change.coarse] = 0.5 * (angle[change.fine - 1] + angle[change.fine]);
   }
 }
 

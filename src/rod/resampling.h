@@ -44,7 +44,11 @@ private:
   void findChanges(const Wire& wire, const Discretisation& from, const Discretisation& to);
   void addChange(const Wire& wire, const Discretisation& coarse, const Discretisation& fine, int coarse_node,
                  int fine_node, bool split);
-  void carryEdges(const Discretisation& from, const State& state);
+  void carryEdges(const Discretisation& from, const Discretisation& to, const State& state);
+  void carryTwist(const Discretisation& from, const Discretisation& to, int first_node,
+                  const std::vector<double>& angle, std::vector<double>& next) const;
+  void carryLoad(const Discretisation& from, const Discretisation& to, const std::vector<double>& load,
+                 std::vector<double>& next) const;
   void carryNodes(const Discretisation& from, const Discretisation& to, const State& state);
   void insert(const Change& change, const Discretisation& from, const State& state);
   void remove(const Change& change, const Discretisation& to, const State& state);

@@ -26,6 +26,9 @@ std::uint64_t State::hash() const
     if (i < twist_angle.size())
       chains[3].add(twist_angle[i]);
   }
+  for (const LayerState& layer : layers)
+    for (std::size_t j = static_cast<std::size_t>(first_node); j < layer.twist_angle.size(); ++j)
+      chains[j % chains.size()].add(layer.twist_angle[j]);
   Hash64 hash;
   for (const Hash64& chain : chains)
     hash.add(chain.value());

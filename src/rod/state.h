@@ -36,6 +36,23 @@ struct HandForceParts
   double sum() const { return bending + friction + inertia + drag + load + valve; }
 };
 
+/** One of several instruments on one centreline (concentric_stack.h). */
+struct LayerState
+{
+  double inserted_length = 0.0;     ///< of its tip beyond the introducer; negative: not there yet [m]
+  double rotation = 0.0;            ///< of its handle [rad]
+  double speed = 0.0;               ///< of insertion in the last step [m/s]
+  std::vector<double> twist_angle;  ///< material frame against Bishop frame [rad], n−1
+  /** How far it was pushed in the next outer layer without sliding there [m]. */
+  double friction_stretch = 0.0;
+  double friction_turn = 0.0;   ///< mean angle to the next outer layer at which they stick [rad]
+  double friction_share = 0.0;  ///< of the friction torque between both that acts, −1 to 1
+  std::vector<double> load;     ///< with which it presses on the next outer layer [N/m], n
+  double force_offset = 0.0;    ///< in hand_force, since the last change of the reference; fades [N]
+  double hand_force = 0.0;      ///< on the hand that holds it, positive when it pushes back [N]
+  double hand_torque = 0.0;     ///< that its hand holds [N·m]
+};
+
 /** What changes from step to step. Arrays run over all nodes (n) or edges (n−1) of the wire; those before
  *  first_node lie outside the introducer, straight and unsimulated. */
 struct State
@@ -65,6 +82,11 @@ struct State
   /** How far the valve's friction has been dragged along and about the wire without sliding [m]. */
   Eigen::Vector2d valve_stretch = Eigen::Vector2d::Zero();
 
+  /** Of a stack of instruments, from the inside out; empty for one wire. What is said of the wire above then holds for
+   *  the reference, the layer that reaches furthest, except the hand's force and torque: they are sums over all. */
+  std::vector<LayerState> layers;
+  int reference = 0;  ///< the layer whose material the nodes follow
+
   EndMotion distal;            ///< where the held distal end is
   double tip_transport = 0.0;  ///< angle from the Bishop frame to a held tip's director, over full turns [rad]
   double distal_torque = 0.0;  ///< torque that a clamp of the distal end's twist holds about the wire's axis [N·m]
@@ -72,7 +94,7 @@ struct State
   Eigen::Vector3d proximal_force = Eigen::Vector3d::Zero();  ///< of the wire on what holds its proximal end [N]
   Eigen::Vector3d distal_force = Eigen::Vector3d::Zero();    ///< and on a held distal end [N]
 
-  /** 64-bit hash over the positions and twist angles from first_node on, as IEEE-754 bytes. */
+  /** 64-bit hash over the positions and twist angles, of all layers, from first_node on, as IEEE-754 bytes. */
   std::uint64_t hash() const;
 };
 

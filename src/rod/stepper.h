@@ -74,14 +74,22 @@ struct NodalForce
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
+/** What drives one layer of a stack. */
+struct LayerInput
+{
+  double inserted_length = 0.0;  ///< at the end of the step; negative: outside [m]
+  double rotation = 0.0;         ///< at the end of the step [rad]
+};
+
 /** What drives one step. */
 struct StepInput
 {
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
-  double inserted_length = 0.0;  ///< at the end of the step [m]
-  double rotation = 0.0;         ///< at the end of the step [rad]
-  EndMotion distal;              ///< of a held distal end, at the end of the step
+  double inserted_length = 0.0;    ///< at the end of the step [m]
+  double rotation = 0.0;           ///< at the end of the step [rad]
+  std::vector<LayerInput> layers;  ///< of a stack, in place of the two above; empty for one wire
+  EndMotion distal;                ///< of a held distal end, at the end of the step
   std::vector<NodalForce> forces;
   double tip_torque = 0.0;          ///< [N·m]
   std::vector<double> edge_torque;  ///< from outside about the axis of every edge; empty: none [N·m]

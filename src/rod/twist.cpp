@@ -354,18 +354,24 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
     const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
     torque_[i] = k * m;
     energy_ += 0.5 * k * m * m;
-    if (i < first_curved_)
-      continue;
-    rest_binormal_[i].setZero();
-    for (int j = i - 1; j <= i; ++j)
-    {
-      const double c = std::cos(state.twist_angle[j]);
-      const double s = std::sin(state.twist_angle[j]);
-      const Eigen::Vector3d m1 = c * bishop_[j] + s * bishop_normal_[j];
-      const Eigen::Vector3d m2 = c * bishop_normal_[j] - s * bishop_[j];
-      rest_binormal_[i] += 0.5 * (rod.rest_curvature[i].x() * m2 - rod.rest_curvature[i].y() * m1);
-    }
+    if (i >= first_curved_)
+      rest_binormal_[i] = binormalOf(rod.rest_curvature[i], i, state.twist_angle);
   }
+}
+
+Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvature, int node,
+                                             const std::vector<double>& twist_angle) const
+{
+  Eigen::Vector3d binormal = Eigen::Vector3d::Zero();
+  for (int j = node - 1; j <= node; ++j)
+  {
+    const double c = std::cos(twist_angle[j]);
+    const double s = std::sin(twist_angle[j]);
+    const Eigen::Vector3d m1 = c * bishop_[j] + s * bishop_normal_[j];
+    const Eigen::Vector3d m2 = c * bishop_normal_[j] - s * bishop_[j];
+    binormal += 0.5 * (rest_curvature.x() * m2 - rest_curvature.y() * m1);
+  }
+  return binormal;
 }
 
 }  // namespace endovascular_sim::rod

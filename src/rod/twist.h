@@ -62,6 +62,16 @@ public:
   /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁ [1]. */
   const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
 
+  /** The same of every node from firstCurved() on. */
+  const std::vector<Eigen::Vector3d>& restCurvatureBinormals() const { return rest_binormal_; }
+
+  /** What a solve's angles make of another rest curvature, in its unit, at a node of the curved tip. */
+  Eigen::Vector3d binormalOf(const Eigen::Vector2d& rest_curvature, int node,
+                             const std::vector<double>& twist_angle) const;
+
+  /** Torques carried at all nodes [N·m]. */
+  const std::vector<double>& torques() const { return torque_; }
+
   /** Torque carried at a node [N·m]: GJ·2m/l̄. */
   double torque(int node) const { return torque_[node]; }
 

@@ -27,7 +27,7 @@ Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
 }
 
 /** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
-Vector3d surfaceMotion(const State& state, int node, const Vector3d& normal, double radius)
+Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, double radius)
 {
   const int before = std::max(node - 1, state.first_node);
   const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
@@ -43,7 +43,7 @@ double nodeAngle(const std::vector<double>& twist_angle, int node, int first_nod
 }
 
 void WallFriction::collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt,
-                           bool first_solve, const SurfaceTurn* turn)
+                           bool first_solve, const SurfaceMotion* surface)
 {
   contacts_.clear();
   contacts_.reserve(state.position.size());
@@ -58,16 +58,19 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
     contact.node = i;
     contact.limit = state.friction_coefficient[i] * normal_force;
     contact.normal = state.wall_force[i] / normal_force;
+    Vector3d dragged = state.friction_stretch[i];
+    if (surface != nullptr && surface->slide != nullptr)
+      dragged += (*surface->slide)[i];
     const Vector3d travel = state.position[i] - begin[i];
-    contact.stretch = tangential(state.friction_stretch[i] + travel, contact.normal);
+    contact.stretch = tangential(dragged + travel, contact.normal);
     contact.guess = contact.stretch;
     if (first_solve)
-      contact.guess = tangential(state.friction_stretch[i] + dt * state.velocity[i], contact.normal);
+      contact.guess = tangential(dragged + dt * state.velocity[i], contact.normal);
     contact.inertia = mass != nullptr ? (*mass)[i] / (dt * dt) : 0.0;
-    if (turn != nullptr)
+    if (surface != nullptr)
     {
-      contact.around = surfaceMotion(state, i, contact.normal, turn->radius[i]);
-      contact.begin_angle = nodeAngle(turn->begin_angle, i, state.first_node);
+      contact.around = motionPerTurn(state, i, contact.normal, surface->radius[i]);
+      contact.begin_angle = surface->begin_angle[i];
     }
     contacts_.push_back(contact);
   }
@@ -97,7 +100,7 @@ const std::vector<TwistFriction>& WallFriction::aboutAxis()
   return about_axis_;
 }
 
-void WallFriction::linearise(const State& state)
+void WallFriction::linearise(const SurfaceMotion* surface)
 {
   terms_.resize(contacts_.size());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
@@ -105,7 +108,7 @@ void WallFriction::linearise(const State& state)
     Contact& contact = contacts_[k];
     Vector3d turned = Vector3d::Zero();
     if (!contact.around.isZero(0.0))
-      turned = (nodeAngle(state.twist_angle, contact.node, state.first_node) - contact.begin_angle) * contact.around;
+      turned = (surface->angle[contact.node] - contact.begin_angle) * contact.around;
     contact.stretch += turned;
     terms_[k].node = contact.node;
     linearise(k, contact.guess + turned, kInertiaWeight);
@@ -160,7 +163,7 @@ bool WallFriction::update(const Motion& motion, int pass)
   return true;
 }
 
-void WallFriction::finish(State& state, const Motion& begin, const SurfaceTurn* turn) const
+void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion* surface) const
 {
   for (int i = state.first_node; i < static_cast<int>(state.position.size()); ++i)
   {
@@ -171,13 +174,14 @@ void WallFriction::finish(State& state, const Motion& begin, const SurfaceTurn* 
       continue;
     }
     const Vector3d normal = state.wall_force[i].normalized();
+    if (surface != nullptr && surface->slide != nullptr)
+      stretch += (*surface->slide)[i];
     stretch = tangential(stretch + state.position[i] - begin[i], normal);
-    if (turn != nullptr)
+    if (surface != nullptr)
     {
-      const double angle =
-          nodeAngle(state.twist_angle, i, state.first_node) - nodeAngle(turn->begin_angle, i, state.first_node);
+      const double angle = surface->angle[i] - surface->begin_angle[i];
       if (angle != 0.0)
-        stretch += angle * surfaceMotion(state, i, normal, turn->radius[i]);
+        stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
     }
     const double length = stretch.norm();
     if (length > slip_)

@@ -10,11 +10,14 @@
 namespace endovascular_sim::rod
 {
 
-/** What of a wire's rotation about its axis drags its surface over the wall. */
-struct SurfaceTurn
+/** What drags the wire's surface over the wall beside the nodes' motion: it turns about the wire's axis, and that of a
+ *  layer slides over the nodes (concentric_stack.h). */
+struct SurfaceMotion
 {
-  const std::vector<double>& radius;       ///< of every node [m], n
-  const std::vector<double>& begin_angle;  ///< State::twist_angle at the beginning of the step [rad], n−1
+  const std::vector<double>& radius;                    ///< of every node [m], n
+  const std::vector<double>& begin_angle;               ///< of every node at the beginning of the step [rad], n
+  const std::vector<double>& angle;                     ///< at the present iterate [rad], n
+  const std::vector<Eigen::Vector3d>* slide = nullptr;  ///< over every node in the step [m], n; null: none
 };
 
 /** Twist angle of a node, the mean of its edges' [rad]. */
@@ -27,7 +30,7 @@ double nodeAngle(const std::vector<double>& twist_angle, int node, int first_nod
  *  slides, pulled with μ f_n u/|u|, and its stretch is cut to δ at the end of the step (return mapping). Over a step
  *  the stretch is u + the tangential motion since the step began, and the normal force that of the last solve.
  *
- *  Where a scheme tells the wire's SurfaceTurn, that motion is the surface's: a turn Δθ about the tangent t adds
+ *  Where a scheme tells the wire's SurfaceMotion, that motion is the surface's: a turn Δθ about the tangent t adds
  *  r Δθ n × t, n the wall's normal. What the Bishop frame itself turns in space is left out. Positions are solved for
  *  at a known turn, the twist at a known motion (aboutAxis), both against the same potential.
  *
@@ -55,16 +58,17 @@ public:
    *  @param begin positions at the beginning of the step [m]
    *  @param mass of every node [kg]; null: secants only
    *  @param first_solve the velocities tell how far the nodes will go; else the motion so far does
-   *  @param turn null: the wire does not turn */
+   *  @param surface null: it follows the nodes. Its present angles need not be known yet */
   void collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt, bool first_solve,
-               const SurfaceTurn* turn = nullptr);
+               const SurfaceMotion* surface = nullptr);
 
-  /** Friction about the axis, by ascending nodes, at the motion to be expected; after collect() with a turn, which need
-   *  not be known yet. */
+  /** Friction about the axis, by ascending nodes, at the motion to be expected; after collect() with a surface's
+   *  motion. */
   const std::vector<TwistFriction>& aboutAxis();
 
-  /** Linearises what was collected for the first pass of a solve, at the state's twist. */
-  void linearise(const State& state);
+  /** Linearises what was collected for the first pass of a solve.
+   *  @param surface as it was collected, with its present angles */
+  void linearise(const SurfaceMotion* surface = nullptr);
 
   std::size_t count() const { return terms_.size(); }
   const Term& term(std::size_t index) const { return terms_[index]; }
@@ -75,8 +79,8 @@ public:
 
   /** Return mapping at the end of a step. A node that nothing pushes on forgets its stretch.
    *  @param begin positions at the beginning of the step [m]
-   *  @param turn null: the wire does not turn */
-  void finish(State& state, const Motion& begin, const SurfaceTurn* turn = nullptr) const;
+   *  @param surface as it was collected, with its present angles */
+  void finish(State& state, const Motion& begin, const SurfaceMotion* surface = nullptr) const;
 
 private:
   /** What a node's friction depends on during a solve. */

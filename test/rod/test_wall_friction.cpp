@@ -306,7 +306,7 @@ TEST(WallFriction, LinearisedPullIsCoulombsLawAndItsStiffnessBoundsItsChange)
   state.position[2] += Vector3d(-40e-6, 0.0, 0.0);
   WallFriction friction(kSlip);
   friction.collect(state, begin, &mass, 1e-3, false);
-  friction.linearise(state);
+  friction.linearise();
   ASSERT_EQ(friction.count(), 3u);
   for (std::size_t k = 0; k < 3; ++k)
   {
