@@ -11,6 +11,7 @@
 
 #include "instrument/instrument.h"
 #include "rod/stepper.h"
+#include "vessel/lesion.h"
 
 namespace endovascular_sim::session
 {
@@ -63,6 +64,8 @@ struct VesselScene
     double friction = 0.0;                             ///< Coulomb coefficient [1]
   };
   std::vector<FrictionRegion> friction_regions;
+
+  std::vector<vessel::Lesion> lesions;  ///< put on the smoothed vessel
 };
 
 /** Where the wire enters. A pose, or the centreline end nearest to a point. */

@@ -102,6 +102,29 @@ void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
       });
 }
 
+void visitLesions(SceneFields& fields, VesselScene& vessel)
+{
+  std::vector<vessel::Lesion>& lesions = vessel.lesions;
+  if (!fields.reading() && lesions.empty())
+    return;
+  fields.list(
+      "lesions", lesions.size(), [&lesions](std::size_t size) { lesions.resize(size); },
+      [&lesions](SceneFields& keys, std::size_t k)
+      {
+        vessel::Lesion& lesion = lesions[k];
+        keys.text("branch", lesion.branch, Need::kRequired);
+        if (keys.has("from_start") && keys.has("fraction"))
+          keys.refuse("fraction", "given besides from_start; keep one of the two");
+        keys.maybeNumber("from_start", lesion.from_start, "m", Range::nonNegative());
+        if (std::isnan(lesion.from_start))
+          keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
+        keys.number("length", lesion.length, "m", Range::positive(), Need::kRequired);
+        keys.number("grade", lesion.grade, "share of the diameter", Range::between(0.0, 0.99), Need::kRequired);
+        keys.number("eccentricity", lesion.eccentricity, "1", Range::between(0.0, 1.0));
+        keys.number("angle", lesion.angle, "rad", Range::any());
+      });
+}
+
 /** Keys that only a mesh file has: told apart from unknown ones. */
 void refuseMeshKeys(SceneFields& fields)
 {
@@ -153,6 +176,7 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   fields.number("stiffness", vessel.stiffness, "N/m²", {0.0, std::numeric_limits<double>::max(), true, true});
   visitFriction(fields, vessel.friction, Need::kRequired);
   visitFrictionRegions(fields, vessel);
+  visitLesions(fields, vessel);
 }
 
 void visitFriction(SceneFields& fields, double& friction, Need need)

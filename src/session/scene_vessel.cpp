@@ -176,9 +176,10 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
     vessel.mesh = vessel::loopSubdivision(std::move(vessel.mesh), scene.smoothing);
     vessel.notes.push_back("smoothed by " + std::to_string(scene.smoothing) + " Loop subdivisions");
   }
-  const bool wanted = centreline == CentrelineUse::kRequired || needsCentreline(entry);
+  const bool wanted = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
   if (wanted && vessel.centreline.branches.empty())
     vessel.centreline = vessel::extractCentreline(vessel.mesh);
+  vessel::addLesions(vessel, scene.lesions, origin);
   return vessel;
 }
 

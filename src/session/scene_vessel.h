@@ -25,7 +25,7 @@ CentrelineUse centrelineUse(const Scene& scene);
 /** Stiffness and friction of a scene's wall. */
 contact::WallLaw wallLaw(const VesselScene& scene);
 
-/** Reads or makes the vessel of a scene: unit, check and repair, transform, smoothing.
+/** Reads or makes the vessel of a scene: unit, check and repair, transform, smoothing, lesions.
  *  @param origin the scene's file, for errors
  *  @throws InputError when the mesh or the anatomy is refused */
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,

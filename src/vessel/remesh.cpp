@@ -17,6 +17,10 @@ constexpr double kLongest = 4.0 / 3.0;
 constexpr double kShortest = 4.0 / 5.0;
 /** A collapse may turn a face by this much: cosine. */
 constexpr double kLargestTurn = 0.5;
+/** Guards beside the spikes of a coarse wall, where several points may be projected to one: a face may become this much
+ *  smaller, and this is the least piece of an edge that is split. Smooth walls need none. */
+constexpr double kLeastArea = 1e-7;
+constexpr double kLeastPiece = 0.05;
 constexpr double kOnWall = 1e-9;  // [m]
 
 class FieldWall : public RemeshWall
@@ -44,13 +48,19 @@ private:
 class Remesher
 {
 public:
-  Remesher(const TriangleMesh& mesh, const RemeshWall& wall) : mesh_(mesh), wall_(wall)
+  /** @param takes_part per vertex; empty: all do */
+  Remesher(const TriangleMesh& mesh, const RemeshWall& wall, const std::vector<char>& takes_part)
+    : mesh_(mesh),
+      wall_(wall),
+      least_area_(takes_part.empty() ? 0.0 : kLeastArea),
+      least_piece_(takes_part.empty() ? 0.0 : kLeastPiece)
   {
     for (int v = 0; v < mesh_.vertexCount(); ++v)
     {
       facet_.push_back(0.0);
-      normal_.emplace_back(Eigen::Vector3d::UnitZ());
-      project(v, mesh_.position(v));
+      normal_.emplace_back(Eigen::Vector3d::Zero());
+      if (takes_part.empty() || takes_part[static_cast<std::size_t>(v)] != 0)
+        project(v, mesh_.position(v));
     }
   }
 
@@ -68,8 +78,13 @@ public:
   }
 
 private:
+  /** Whether a vertex may be moved: those that stay have no facet length. */
+  bool isFree(int v) const { return facet_[static_cast<std::size_t>(v)] > 0.0; }
+
   double facet(int a, int b) const
   {
+    if (!isFree(a) || !isFree(b))
+      return std::max(facet_[static_cast<std::size_t>(a)], facet_[static_cast<std::size_t>(b)]);
     return 0.5 * (facet_[static_cast<std::size_t>(a)] + facet_[static_cast<std::size_t>(b)]);
   }
 
@@ -106,9 +121,14 @@ private:
     forEdges(
         [this](int a, int b)
         {
-          if (length(a, b) <= kLongest * facet(a, b))
+          if ((!isFree(a) && !isFree(b)) || length(a, b) <= kLongest * facet(a, b))
             return;
           const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          // Beside a spike of the wall the middle may be the spike itself.
+          const auto sides = mesh_.trianglesAt(a, b);
+          for (int near : {a, b, mesh_.opposite(sides[0], a, b), mesh_.opposite(sides[1], a, b)})
+            if ((middle.position - mesh_.position(near)).norm() < least_piece_ * length(a, b))
+              return;
           mesh_.split(a, b, middle.position);
           facet_.push_back(middle.facet);
           normal_.push_back(middle.normal);
@@ -128,7 +148,7 @@ private:
         const bool was_sliver = before.norm() < 1e-3 * middle.facet * middle.facet;
         if (!was_sliver && before.dot(after) < kLargestTurn * before.norm() * after.norm())
           return false;
-        if (after.dot(middle.normal) < kLargestTurn * after.norm())
+        if (after.dot(middle.normal) < kLargestTurn * after.norm() || after.norm() < least_area_ * before.norm())
           return false;
       }
       for (int v : mesh_.neighbours(moved))
@@ -143,10 +163,10 @@ private:
     forEdges(
         [this](int a, int b)
         {
-          if (length(a, b) >= kShortest * facet(a, b) || !mesh_.canCollapse(a, b))
+          if (!isFree(a) || !isFree(b) || length(a, b) >= kShortest * facet(a, b) || !mesh_.canCollapse(a, b))
             return;
           const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
-          if (!collapseIsGood(a, b, middle))
+          if (!(middle.facet > 0.0) || !collapseIsGood(a, b, middle))
             return;
           mesh_.collapse(a, b, middle.position);
           put(b, middle);
@@ -167,16 +187,21 @@ private:
       forEdges(
           [this](int a, int b)
           {
+            if (!isFree(a) && !isFree(b))
+              return;
             const auto sides = mesh_.trianglesAt(a, b);
             const int c = mesh_.opposite(sides[0], a, b);
             const int d = mesh_.opposite(sides[1], a, b);
-            if (angleAt(c, a, b) + angleAt(d, a, b) <= M_PI + 1e-6 || !mesh_.flip(a, b))
+            if (angleAt(c, a, b) + angleAt(d, a, b) <= M_PI + 1e-6)
+              return;
+            const double whole = mesh_.areaNormal(sides[0]).norm() + mesh_.areaNormal(sides[1]).norm();
+            if (!mesh_.flip(a, b))
               return;
             const Eigen::Vector3d normal = normalAt(a) + normalAt(b) + normalAt(c) + normalAt(d);
             for (int t : sides)
             {
               const Eigen::Vector3d face = mesh_.areaNormal(t);
-              if (face.dot(normal) < kLargestTurn * face.norm() * normal.norm())
+              if (face.dot(normal) < kLargestTurn * face.norm() * normal.norm() || face.norm() < least_area_ * whole)
               {
                 mesh_.flip(c, d);
                 return;
@@ -193,7 +218,7 @@ private:
     const int count = mesh_.vertexCount();
     for (int v = 0; v < count; ++v)
     {
-      if (!mesh_.aliveVertex(v))
+      if (!mesh_.aliveVertex(v) || !isFree(v))
         continue;
       Eigen::Vector3d middle = Eigen::Vector3d::Zero();
       double weights = 0.0;
@@ -210,7 +235,7 @@ private:
       const Eigen::Vector3d shift = middle / weights - mesh_.position(v);
       const Eigen::Vector3d& n = normalAt(v);
       const WallPoint place = onWall(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
-      if (keepsFacesUpright(v, place))
+      if (place.facet > 0.0 && keepsFacesUpright(v, place))
         put(v, place);
     }
   }
@@ -221,6 +246,8 @@ private:
     {
       const Eigen::Vector3d before = mesh_.areaNormal(t);
       const Eigen::Vector3d after = mesh_.areaNormal(t, v, place.position);
+      if (after.norm() < least_area_ * before.norm())
+        return false;
       if (after.dot(place.normal) < 0.2 * after.norm() && after.dot(place.normal) < before.dot(normalAt(v)))
         return false;
     }
@@ -229,6 +256,7 @@ private:
 
   EditableMesh mesh_;
   const RemeshWall& wall_;
+  double least_area_, least_piece_;
   std::vector<double> facet_;
   std::vector<Eigen::Vector3d> normal_;
 };
@@ -237,7 +265,13 @@ private:
 
 TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall, int rounds)
 {
-  return Remesher(mesh, wall).run(rounds);
+  return Remesher(mesh, wall, {}).run(rounds);
+}
+
+TriangleMesh remeshPart(const TriangleMesh& mesh, const RemeshWall& wall, const std::vector<char>& takes_part,
+                        int rounds)
+{
+  return Remesher(mesh, wall, takes_part).run(rounds);
 }
 
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field)

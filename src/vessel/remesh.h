@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "vessel/mesh.h"
@@ -30,6 +32,12 @@ public:
  *  (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary).
  *  @param rounds of all that; fewer suffice for a mesh that is nearly even */
 TriangleMesh remesh(const TriangleMesh& mesh, const RemeshWall& wall, int rounds = 6);
+
+/** The same for a part of a mesh: vertices that do not take part stay where they are, and so do all triangles between
+ *  them.
+ *  @param takes_part per vertex, 1 or 0; new vertices take part where the wall's facet length is positive */
+TriangleMesh remeshPart(const TriangleMesh& mesh, const RemeshWall& wall, const std::vector<char>& takes_part,
+                        int rounds = 6);
 
 /** The same on the wall of a field, by Newton projection. */
 TriangleMesh remesh(const TriangleMesh& mesh, const VesselField& field);

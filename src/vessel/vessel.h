@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vessel/centreline.h"
+#include "vessel/lesion.h"
 #include "vessel/mesh.h"
 
 namespace endovascular_sim::vessel
@@ -12,10 +13,11 @@ namespace endovascular_sim::vessel
 /** A vessel ready for use: a checked mesh, its centreline, and where both came from. */
 struct Vessel
 {
-  TriangleMesh mesh;               ///< patient frame [m]
-  CentrelineTree centreline;       ///< patient frame [m]; empty when it was not asked for
-  std::string source;              ///< file or generator
-  std::vector<std::string> notes;  ///< what was repaired or changed, for people
+  TriangleMesh mesh;                  ///< patient frame [m]
+  CentrelineTree centreline;          ///< patient frame [m]; empty when it was not asked for
+  std::string source;                 ///< file or generator
+  std::vector<std::string> notes;     ///< what was repaired or changed, for people
+  std::vector<PlacedLesion> lesions;  ///< that were put on it
 };
 
 }  // namespace endovascular_sim::vessel

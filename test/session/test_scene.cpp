@@ -86,6 +86,19 @@ void expectSameScene(const Scene& a, const Scene& b)
       EXPECT_EQ(a.vessel->friction_regions[k].radius, b.vessel->friction_regions[k].radius);
       EXPECT_EQ(a.vessel->friction_regions[k].friction, b.vessel->friction_regions[k].friction);
     }
+    ASSERT_EQ(a.vessel->lesions.size(), b.vessel->lesions.size());
+    for (std::size_t k = 0; k < a.vessel->lesions.size(); ++k)
+    {
+      const vessel::Lesion& x = a.vessel->lesions[k];
+      const vessel::Lesion& y = b.vessel->lesions[k];
+      EXPECT_EQ(x.branch, y.branch);
+      EXPECT_EQ(std::isnan(x.from_start), std::isnan(y.from_start));
+      EXPECT_TRUE(std::isnan(x.from_start) ? x.fraction == y.fraction : x.from_start == y.from_start);
+      EXPECT_EQ(x.length, y.length);
+      EXPECT_EQ(x.grade, y.grade);
+      EXPECT_EQ(x.eccentricity, y.eccentricity);
+      EXPECT_EQ(x.angle, y.angle);
+    }
     EXPECT_EQ(text(a.vessel->transform.matrix()), text(b.vessel->transform.matrix()));
   }
   EXPECT_EQ(text(a.entry.position), text(b.entry.position));
@@ -134,6 +147,18 @@ TEST(Scene, NamesSurfacesInsteadOfCoefficientsAndRegionsOfTheWall)
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.09}), 0.25);
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.11}), 0.4);  // the last of two that overlap
   expectSameScene(scene, parseScene(scene.resolved_yaml, scene.file));
+}
+
+TEST(Scene, PutsLesionsOnItsVessel)
+{
+  const Scene scene = loadScene(
+      kScenes + "tube.yaml", {"vessel.lesions=[{branch: tube, from_start: 0.05, length: 0.01, grade: 0.6},"
+                              " {branch: tube, fraction: 0.7, length: 0.01, grade: 0.5, eccentricity: 1, angle: 2}]"});
+  expectSameScene(scene, parseScene(scene.resolved_yaml, scene.file));
+  const vessel::Vessel vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
+  ASSERT_EQ(vessel.lesions.size(), 2U);
+  for (const vessel::PlacedLesion& placed : vessel.lesions)
+    EXPECT_NEAR(placed.narrowed_diameter / placed.healthy_diameter, 1.0 - placed.lesion.grade, 0.01);
 }
 
 TEST(Scene, KeepsEveryBitOfANumberInItsResolvedText)
@@ -298,15 +323,16 @@ TEST(Scene, HasEveryKeyInItsDocumentation)
   std::ostringstream docs;
   docs << file.rdbuf();
   const std::string tube =
-      loadScene(kScenes + "tube.yaml", {"fluoroscopy={isocentre: [0,0,0]}", "instrument.sections.0.friction=0.1",
-                                        "vessel.friction_regions=[{centre: [0,0,0], radius: 1, friction: 1}]",
-                                        "loads.point_loads=[{torque: 1}]"})
+      loadScene(kScenes + "tube.yaml",
+                {"fluoroscopy={isocentre: [0,0,0]}", "instrument.sections.0.friction=0.1",
+                 "vessel.friction_regions=[{centre: [0,0,0], radius: 1, friction: 1}]",
+                 "vessel.lesions=[{branch: tube, length: 0.01, grade: 0.5}]", "loads.point_loads=[{torque: 1}]"})
           .resolved_yaml;
   const std::string mesh = loadScene(kScenes + "mesh.yaml", {"vessel.mesh=" + someMesh()}).resolved_yaml;
   std::vector<std::string> keys = keysOf(tube + mesh);
   for (const char* input :
        {"head", "left", "anatomy", "centreline_end", "young_modulus", "shear_modulus", "poisson_ratio", "tip", "shape",
-        "angle", "straight", "direction", "insertion", "speed", "travel"})
+        "angle", "straight", "from_start", "direction", "insertion", "speed", "travel"})
     keys.emplace_back(input);
   for (const std::string& key : keys)
     EXPECT_NE(docs.str().find("`" + key + "`"), std::string::npos) << key;

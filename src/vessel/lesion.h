@@ -1,0 +1,52 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace endovascular_sim::vessel
+{
+
+struct Vessel;
+
+/** A stenosis of one branch, as a scene asks for it. */
+struct Lesion
+{
+  std::string branch;  ///< name of a branch of the centreline
+  /** Of its middle along the branch's centreline [m]; NaN: `fraction` of the branch's length instead. */
+  double from_start = std::numeric_limits<double>::quiet_NaN();
+  double fraction = 0.5;
+  double length = 0.0;  ///< of the whole narrowing along the centreline [m]
+  double grade = 0.0;   ///< share of the diameter that is lost in its middle, 0 to 0.99
+  /** 0: the lumen stays in the middle; 1: all plaque is on one side, and the wall opposite stays as it was. */
+  double eccentricity = 0.0;
+  /** Of the plaque's side about the branch's direction [rad]; 0 is the patient's left (x), or posterior (y) where the
+   *  branch runs along x. */
+  double angle = 0.0;
+};
+
+/** A lesion that a vessel has. */
+struct PlacedLesion
+{
+  Lesion lesion;
+  int branch = -1;                 ///< index into the vessel's centreline
+  double begin = 0.0;              ///< along that branch's centreline [m]
+  double middle = 0.0;             ///< [m]
+  double end = 0.0;                ///< [m]
+  double healthy_diameter = 0.0;   ///< of the lumen in the lesion's middle before it was made (equal area) [m]
+  double narrowed_diameter = 0.0;  ///< and after [m]
+};
+
+/** Narrows a vessel: the share of the diameter lost along the lesion is ½ grade (1 + cos 2πx/length) about its middle
+ *  (D. F. Young, "Effect of a time-dependent stenosis on flow through a tube", 1968). Sections of any shape shrink
+ *  towards the centreline, or with eccentricity towards a point beside it. The wall within a lesion is meshed
+ *  anew with facets of 1/24 of the narrowed circumference; the centreline, its radii and the vessel's list of lesions
+ * follow.
+ *
+ *  @pre the vessel's mesh is clean and its centreline is there
+ *  @param origin the scene's file, for errors
+ *  @throws InputError for a branch that does not exist (naming those that do), a lesion that reaches beyond its branch,
+ *          an impossible grade, a place where the branch has no wall of its own (inside its parent) */
+void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin);
+
+}  // namespace endovascular_sim::vessel
