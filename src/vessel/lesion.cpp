@@ -198,7 +198,9 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
     placed.healthy_diameter = lumenDiameter(healthy_distance, shape.middle(), shape.direction());
     TriangleMesh narrowed = narrowedMesh(vessel.mesh, branch, placed.lesion, placed.middle);
     if (wallFolds(narrowed, vessel.mesh, shape))
-      throw InputError(origin, key, "the wall would fold there; move it away from the junction, or give a longer lesion or a lower grade");
+      throw InputError(
+          origin, key,
+          "the wall would fold there; move it away from the junction, or give a longer lesion or a lower grade");
     const MeshDistance narrowed_distance(narrowed);
     placed.narrowed_diameter = lumenDiameter(narrowed_distance, shape.at(shape.middle()).position, shape.direction());
     requireGrade(placed, origin, key);
