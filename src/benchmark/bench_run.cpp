@@ -79,7 +79,8 @@ RunSummary BenchRun::advance(double seconds)
   for (int k = 0; k < steps && summary.finite; ++k)
   {
     const double end_time = simulation_->time() + scene_.solver.time_step;
-    const session::HandCommand command{scene_.drive.insertionAt(end_time), scene_.drive.rotationAt(end_time)};
+    const session::HandCommand command{scene_.instruments.front().drive.insertionAt(end_time),
+                                       scene_.instruments.front().drive.rotationAt(end_time)};
     const Clock::time_point before = Clock::now();
     simulation_->step(command);
     times.push_back(std::chrono::duration<double>(Clock::now() - before).count());

@@ -39,13 +39,15 @@ std::vector<HandSample> pushThrough(const std::string& scene_text, const std::ve
   BenchRun run(scene_text, overrides);
   const session::Scene& scene = run.scene();
   session::Simulation& simulation = run.simulation();
-  const auto steps = static_cast<int>(std::lround(scene.drive.travel / scene.drive.speed / scene.solver.time_step));
+  const auto steps = static_cast<int>(std::lround(scene.instruments.front().drive.travel /
+                                                  scene.instruments.front().drive.speed / scene.solver.time_step));
   std::vector<HandSample> samples;
   samples.reserve(static_cast<std::size_t>(steps));
   for (int k = 1; k <= steps; ++k)
   {
     const double end_time = k * scene.solver.time_step;
-    simulation.step({scene.drive.insertionAt(end_time), scene.drive.rotationAt(end_time)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end_time), scene.instruments.front().drive.rotationAt(end_time)});
     if (!simulation.report().solved)
       throw std::runtime_error("hand_force: a step was refused in scene " + scene.name);
     const rod::State& state = simulation.state();

@@ -101,7 +101,7 @@ struct Setting
 session::HandCommand commandAt(const session::Scene& scene, std::size_t step)
 {
   const double end = static_cast<double>(step + 1) * scene.solver.time_step;
-  return {scene.drive.insertionAt(end), scene.drive.rotationAt(end)};
+  return {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)};
 }
 
 Shape shapeOf(const session::Simulation& simulation)
@@ -178,7 +178,7 @@ session::Scene uniformScene(const session::Scene& scene, double edge)
 {
   session::Scene uniform = scene;
   uniform.sampling.kind = session::SamplingKind::kUniform;
-  uniform.sampling.nodes = static_cast<int>(std::lround(scene.instrument.wire.length() / edge)) + 1;
+  uniform.sampling.nodes = static_cast<int>(std::lround(scene.instruments.front().instrument.wire.length() / edge)) + 1;
   return uniform;
 }
 

@@ -61,8 +61,8 @@ public:
     : scene_(scene),
       xray_(xRayOf(scene)),
       fluoroscope_(toPose(xray_), toXRayScene(scene, table)),
-      section_attenuation_(
-          sectionAttenuation(scene.instrument, table, xray_.energy, displacedAttenuation(scene, fluoroscope_.scene()))),
+      section_attenuation_(sectionAttenuation(scene.instruments.front().instrument, table, xray_.energy,
+                                              displacedAttenuation(scene, fluoroscope_.scene()))),
       isocentre_known_(xray_.isocentre.has_value()),
       scheduling_(std::move(scheduling)),
       raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
@@ -102,7 +102,7 @@ private:
 
   void takeRod(const RodStateVisual& message)
   {
-    guarded([&] { wire_ = toXRayWire(message, scene_.instrument.wire, section_attenuation_); });
+    guarded([&] { wire_ = toXRayWire(message, scene_.instruments.front().instrument.wire, section_attenuation_); });
     if (!scene_.vessel && !isocentre_known_ && !wire_.nodes.empty())
       guarded([&] { moveIsocentre(wire_.nodes[wire_.nodes.size() / 2]); });
   }

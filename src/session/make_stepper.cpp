@@ -7,6 +7,7 @@
 #include "rod/kkt_stepper.h"
 #include "rod/mixed_stepper.h"
 #include "rod/paper_stepper.h"
+#include "rod/stack_stepper.h"
 #include "vessel/centreline_curvature.h"
 
 namespace endovascular_sim::session
@@ -43,13 +44,23 @@ rod::Boundary boundaryOf(const Scene& scene, const EntryPose& entry)
   boundary.director = entry.d1;
   boundary.guide_length = scene.solver.guide_length;
   double radius = 0.0;
-  for (const rod::Section& section : scene.instrument.wire.sections)
-    radius = std::max(radius, section.radius);
+  for (const DrivenInstrument& driven : scene.instruments)
+    for (const rod::Section& section : driven.instrument.wire.sections)
+      radius = std::max(radius, section.radius);
   boundary.sheath_clearance = std::max(kLeastClearance, kRoomShare * (entry.room - radius));
   boundary.proximal = hold(scene.proximal_end);
   boundary.distal = hold(scene.distal_end);
   boundary.distal_twist_held = scene.distal.twist_held;
   return boundary;
+}
+
+/** The nodes are those of the longest instrument. */
+const rod::Wire& longestWire(const Scene& scene)
+{
+  return std::max_element(scene.instruments.begin(), scene.instruments.end(),
+                          [](const DrivenInstrument& a, const DrivenInstrument& b)
+                          { return a.instrument.wire.length() < b.instrument.wire.length(); })
+      ->instrument.wire;
 }
 
 std::uint64_t stepsIn(double seconds, const Scene& scene)
@@ -77,7 +88,7 @@ std::unique_ptr<rod::Stepper> makeMixedStepper(const Scene& scene, rod::Discreti
                                                const rod::Boundary& boundary, const rod::Environment& environment,
                                                const rod::StepperSettings& settings)
 {
-  const rod::Wire& wire = scene.instrument.wire;
+  const rod::Wire& wire = scene.instruments.front().instrument.wire;
   const auto refuse = [&scene](const std::string& why)
   { throw InputError(scene.file, "solver.scheme", "'mixed' does not simulate " + why + "; use kkt"); };
   for (const PointLoad& load : scene.loads.point_loads)
@@ -107,7 +118,7 @@ std::unique_ptr<rod::AdaptiveSampling> makeSampling(const Scene& scene, const En
   if (centreline != nullptr && !centreline->branches.empty())
     ahead = [curvature = vessel::CentrelineCurvature(*centreline)](const Eigen::Vector3d& place)
     { return curvature.at(place); };
-  return std::make_unique<rod::AdaptiveSampling>(scene.instrument.wire, boundaryOf(scene, entry), settings, ahead);
+  return std::make_unique<rod::AdaptiveSampling>(longestWire(scene), boundaryOf(scene, entry), settings, ahead);
 }
 
 std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& entry,
@@ -125,14 +136,21 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   settings.strain_tolerance = scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;
   settings.contact_margin = scene.solver.contact_margin;
-  rod::Discretisation wire = sampling != nullptr
-                                 ? sampling->discretisation()
-                                 : rod::discretiseUniformly(scene.instrument.wire, scene.sampling.nodes);
+  const rod::Boundary boundary = boundaryOf(scene, entry);
+  rod::Discretisation wire = sampling != nullptr ? sampling->discretisation()
+                                                 : rod::discretiseUniformly(longestWire(scene), scene.sampling.nodes);
+  if (scene.instruments.size() > 1)
+  {
+    std::vector<rod::Layer> layers;
+    for (const DrivenInstrument& driven : scene.instruments)
+      layers.push_back({driven.instrument.wire, driven.friction, driven.fit_load});
+    return std::make_unique<rod::StackStepper>(layers, wire.position, boundary, environment, settings);
+  }
   if (scene.solver.scheme == "paper")
-    return std::make_unique<rod::PaperStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
+    return std::make_unique<rod::PaperStepper>(std::move(wire), boundary, environment, settings);
   if (scene.solver.scheme == "mixed")
-    return makeMixedStepper(scene, std::move(wire), boundaryOf(scene, entry), environment, settings);
-  return std::make_unique<rod::KktStepper>(std::move(wire), boundaryOf(scene, entry), environment, settings);
+    return makeMixedStepper(scene, std::move(wire), boundary, environment, settings);
+  return std::make_unique<rod::KktStepper>(std::move(wire), boundary, environment, settings);
 }
 
 }  // namespace endovascular_sim::session

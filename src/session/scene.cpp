@@ -25,12 +25,15 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
   return nullptr;
 }
 
-/** Replaces the name of an instrument by its file's content, and `vessel: none` by nothing. */
+/** Replaces the names of instruments by their files' content, and `vessel: none` by nothing. */
 void normalise(SceneNode& root, const std::string& file)
 {
-  SceneNode* instrument = fieldOf(root, "instrument");
-  if (instrument != nullptr)
+  if (SceneNode* instrument = fieldOf(root, "instrument"))
     expandInstrument(*instrument, "instrument", file);
+  if (SceneNode* instruments = fieldOf(root, "instruments"))
+    for (std::size_t k = 0; k < instruments->items.size(); ++k)
+      if (SceneNode* instrument = fieldOf(instruments->items[k], "instrument"))
+        expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
   for (const char* key : {"vessel", "fluoroscopy"})
   {
     SceneNode* part = fieldOf(root, key);
@@ -100,6 +103,14 @@ double DriveScene::insertionAt(double t) const
 double DriveScene::rotationAt(double t) const
 {
   return source == DriveSource::kNone ? initial_rotation : initial_rotation + rotation.at(t);
+}
+
+double Scene::longest() const
+{
+  double length = 0.0;
+  for (const DrivenInstrument& driven : instruments)
+    length = std::max(length, driven.instrument.wire.length());
+  return length;
 }
 
 std::uint64_t Scene::hash() const

@@ -128,6 +128,16 @@ struct DriveScene
   double rotationAt(double t) const;
 };
 
+/** One instrument, and the hand that drives it. Several lie one inside the other (docs/PHYSICS.md, "Concentric stack"):
+ *  an outer one can only be inserted over an inner one that fits into its lumen. */
+struct DrivenInstrument
+{
+  instrument::Instrument instrument;
+  DriveScene drive;
+  double friction = 0.05;  ///< Coulomb coefficient with the next outer instrument [1]
+  double fit_load = 0.0;   ///< with which the two press on each other even when nothing bends [N/m]
+};
+
 /** What a held distal end does besides staying where it began. */
 struct DistalScene
 {
@@ -227,12 +237,11 @@ struct Scene
   double duration = 10.0;  ///< [s]
   std::optional<VesselScene> vessel;
   EntryScene entry;
-  instrument::Instrument instrument;                ///< the wire
+  std::vector<DrivenInstrument> instruments;        ///< from the inside out; at least one
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
   DistalScene distal;      ///< the motion of a held distal end
   bool introducer = true;  ///< wire born at the introducer; false: bench, the whole wire is there from the start
-  DriveScene drive;
   LoadScene loads;
   SamplingScene sampling;
   SolverScene solver;
@@ -240,6 +249,9 @@ struct Scene
   bool haptic_device = false;  ///< start the haptic device node
   RecordScene record;
   std::string resolved_yaml;  ///< canonical text of the scene with overrides and included files merged in
+
+  /** Length of the longest instrument [m]. */
+  double longest() const;
 
   /** Hash of resolved_yaml. */
   std::uint64_t hash() const;

@@ -61,25 +61,26 @@ void visitRecord(SceneFields& fields, RecordScene& record)
   fields.number("wall_force_threshold", record.wall_force_threshold, "N", Range::nonNegative());
 }
 
-/** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer. */
-void checkInsertion(const SceneFields& fields, const Scene& scene)
+/** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer.
+ *  @param path of the map that holds `drive`, ending with a dot; empty for the only instrument, which cannot leave */
+void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, const std::string& path)
 {
-  const DriveScene& drive = scene.drive;
+  const DriveScene& drive = driven.drive;
   const bool by_speed = !std::isnan(drive.speed);
   const auto [low, high] = by_speed ? std::pair(0.0, drive.travel) : bounds(drive.insertion);
-  const double length = scene.instrument.wire.length();
-  const std::string key = by_speed ? "drive.travel" : "drive.insertion";
+  const double length = driven.instrument.wire.length();
+  const std::string key = path + (by_speed ? "drive.travel" : "drive.insertion");
   if (drive.initial_insertion + high > length + kSameLength)
     fields.refuse(key, "pushes the wire " + std::to_string(drive.initial_insertion + high) + " m in, but it is " +
                            std::to_string(length) + " m long; must be at most the wire's length");
-  if (drive.initial_insertion + low < -kSameLength)
+  if (path.empty() && drive.initial_insertion + low < -kSameLength)
     fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
 }
 
 /** Without an introducer the whole wire is there: all that the hand can do is turn its clamp. */
 void checkBenchDrive(const SceneFields& fields, const Scene& scene)
 {
-  const DriveScene& drive = scene.drive;
+  const DriveScene& drive = scene.instruments.front().drive;
   if (!std::isnan(drive.speed) || !isTrivial(drive.insertion) || drive.initial_insertion != 0.0)
     fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
                   "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
@@ -96,7 +97,7 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
   const double longest = kEdgePerGuide * scene.solver.guide_length;
   if (scene.sampling.kind == SamplingKind::kUniform)
   {
-    const auto fewest = static_cast<int>(std::ceil(scene.instrument.wire.length() / longest)) + 1;
+    const auto fewest = static_cast<int>(std::ceil(scene.longest() / longest)) + 1;
     if (scene.sampling.nodes < fewest)
       fields.refuse("sampling.nodes",
                     "makes edges too long for the introducer's guide, which is to hold two; must be "
@@ -126,21 +127,26 @@ void checkScene(const SceneFields& fields, const Scene& scene)
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
   if (!scene.introducer && scene.entry.valve_friction > 0.0)
     fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
-  if (scene.introducer)
-    checkInsertion(fields, scene);
-  else
+  for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
+    checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
+  if (!scene.introducer)
     checkBenchDrive(fields, scene);
+  if (scene.instruments.size() > 1)
+    checkStack(fields, scene);
   checkEnds(fields, scene);
-  if (scene.drive.source == DriveSource::kDevice && !scene.haptic_device)
-    fields.refuse("drive.source", "is device, but haptic_device is not true; set haptic_device: true");
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
+      fields.refuse(drivePath(scene, k) + "drive.source",
+                    "is device, but haptic_device is not true; set haptic_device: true");
   if (scene.duration < scene.solver.time_step)
     fields.refuse("duration", "is shorter than one step; must be at least solver.time_step");
   if (!scene.vessel || !scene.vessel->tube)
     return;
-  for (const rod::Section& section : scene.instrument.wire.sections)
-    if (section.radius >= scene.vessel->tube->radius)
-      fields.refuse("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
-                                              std::to_string(section.radius) + " m");
+  for (const DrivenInstrument& driven : scene.instruments)
+    for (const rod::Section& section : driven.instrument.wire.sections)
+      if (section.radius >= scene.vessel->tube->radius)
+        fields.refuse("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
+                                                std::to_string(section.radius) + " m");
 }
 
 }  // namespace
@@ -183,7 +189,7 @@ std::pair<double, double> bounds(const DriveProfile& profile)
   return {low - swing, high + swing};
 }
 
-void visitDrive(SceneFields& fields, DriveScene& drive)
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion)
 {
   fields.option("source", drive.source, kDriveSources);
   fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
@@ -192,7 +198,7 @@ void visitDrive(SceneFields& fields, DriveScene& drive)
     fields.number("travel", drive.travel, "m", Range::nonNegative(), Need::kRequired);
   else if (fields.has("travel"))
     fields.refuse("travel", "has no meaning without speed; give speed in m/s, or remove it");
-  fields.number("initial_insertion", drive.initial_insertion, "m", Range::nonNegative());
+  fields.number("initial_insertion", drive.initial_insertion, "m", initial_insertion);
   fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
   if (fields.reading() && by_speed && fields.has("insertion"))
     fields.refuse("insertion", "given besides speed; keep one of the two");
@@ -286,15 +292,12 @@ void visitScene(SceneFields& fields, Scene& scene)
     fields.map("vessel", [&scene](SceneFields& vessel) { visitVessel(vessel, *scene.vessel); });
   }
   fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
-  if (fields.reading() && !fields.has("instrument"))
-    fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
-  fields.map("instrument", [&scene](SceneFields& wire) { visitDrivenInstrument(wire, scene.instrument); });
-  fields.map("drive", [&scene](SceneFields& drive) { visitDrive(drive, scene.drive); });
+  visitInstruments(fields, scene);
   if (fields.reading())
-    scene.introducer = scene.drive.source != DriveSource::kNone;
+    scene.introducer = scene.instruments.front().drive.source != DriveSource::kNone;
   fields.boolean("introducer", scene.introducer);
   visitEnds(fields, scene);
-  const double wire_length = scene.instrument.wire.length();
+  const double wire_length = scene.longest();
   fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
   fields.map("sampling", [&](SceneFields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
   fields.map("solver", [&scene](SceneFields& solver) { visitSolver(solver, scene.solver); });

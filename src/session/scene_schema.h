@@ -25,7 +25,14 @@ void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrume
 /** The balloon of a balloon catheter, and the stent on it or by itself. */
 void visitBalloon(SceneFields& fields, instrument::Instrument& instrument);
 void visitStent(SceneFields& fields, instrument::Instrument& instrument);
-void visitDrive(SceneFields& fields, DriveScene& drive);
+/** `instrument` and `drive` of one, or the list `instruments` of several. */
+void visitInstruments(SceneFields& fields, Scene& scene);
+/** Path of the map that holds the drive of an instrument: empty for the only one, else `instruments.<k>.`. */
+std::string drivePath(const Scene& scene, std::size_t k);
+/** Refuses what several instruments on one centreline cannot be. */
+void checkStack(const SceneFields& fields, const Scene& scene);
+/** @param initial_insertion what it may be [m] */
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion);
 void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
 void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);

@@ -70,7 +70,8 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
 bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
 {
   bool bent = scene.vessel.has_value() || !isTrivial(scene.distal.tilt) ||
-              scene.instrument.wire.curvedTipLength() > 0.0 || !scene.loads.gravity.cross(along).isZero(0.0);
+              scene.instruments.front().instrument.wire.curvedTipLength() > 0.0 ||
+              !scene.loads.gravity.cross(along).isZero(0.0);
   for (const PointLoad& load : scene.loads.point_loads)
     bent = bent || !load.force.cross(along).isZero(0.0);
   return bent;
@@ -79,7 +80,7 @@ bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
 /** A bench wire does not stretch, and one that is exactly straight does not know which way to buckle. */
 void checkDisplacement(const SceneFields& fields, const Scene& scene)
 {
-  const double length = scene.instrument.wire.length();
+  const double length = scene.longest();
   const Eigen::Vector3d along = scene.entry.direction.normalized();
   const Eigen::Vector3d direction = scene.distal.direction.isZero() ? along : scene.distal.direction.normalized();
   const auto [low, high] = bounds(scene.distal.displacement);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "common/error.h"
 #include "session/make_stepper.h"
+#include "session/scene_schema.h"
 
 namespace endovascular_sim::session
 {
@@ -17,6 +19,7 @@ constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kTravelPerEdge = 0.25;          // of the shortest edge: more counts as its rotation
 constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
+constexpr double kAtIntroducer = 0.1e-3;         // m by which an instrument that is outside may stand deeper
 constexpr double kFreeBand = 0.5;                // of the limit, beyond it, from where nothing holds at all
 
 /** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. It
@@ -30,6 +33,14 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
 }
 
+rod::State initialStack(const Scene& scene, const rod::StackStepper& stack)
+{
+  std::vector<rod::LayerInput> layers;
+  for (const DrivenInstrument& driven : scene.instruments)
+    layers.push_back({std::max(stack.outside(), driven.drive.insertionAt(0.0)), driven.drive.rotationAt(0.0)});
+  return stack.initialState(layers);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
@@ -40,7 +51,12 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     sampling_(makeSampling(scene, entry, centreline)),
     sampling_every_(samplingInterval(scene)),
     stepper_(makeStepper(scene, entry, sampling_.get())),
-    blind_hand_(scene.solver.contact_margin, scene.solver.time_step),
+    channels_(scene.instruments.size(),
+              Channel{BlindHand(scene.solver.contact_margin / static_cast<double>(scene.instruments.size()),
+                                scene.solver.time_step)}),
+    wanted_(channels_.size()),
+    parts_(channels_.size()),
+    stack_(dynamic_cast<const rod::StackStepper*>(stepper_.get())),
     valve_(scene.entry.valve_friction)
 {
   if (sampling_ && !stepper_->resample(sampling_->discretisation()))
@@ -51,45 +67,98 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
   if (!sampling_)
     max_travel_ =
         std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
-  // The introducer's guide must stay filled: the wire's end cannot be pushed into it.
-  max_insertion_ = wire.length() - scene.solver.guide_length - 3.0 * wire.rest_length.front();
-  if (scene.introducer && scene.drive.initial_insertion > max_insertion_)
-    throw InputError(scene.file, "drive.initial_insertion",
-                     "leaves less of the wire outside than the introducer's guide; at most " +
-                         std::to_string(max_insertion_) + " m");
-  const double insertion = scene.introducer ? std::max(0.0, scene.drive.insertionAt(0.0)) : 0.0;
-  state_ = stepper_->initialState(insertion, scene.drive.rotationAt(0.0));
+  setMaxInsertions();
+  state_ = stack_ != nullptr
+               ? initialStack(scene, *stack_)
+               : stepper_->initialState(
+                     scene.introducer ? std::max(0.0, scene.instruments.front().drive.insertionAt(0.0)) : 0.0,
+                     scene.instruments.front().drive.rotationAt(0.0));
   while (sampling_ && sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
 }
 
+/** The introducer's guide must stay filled: an instrument's end cannot be pushed into it. */
+void Simulation::setMaxInsertions()
+{
+  for (int k = 0; k < instruments(); ++k)
+  {
+    const rod::Discretisation& wire = stepper_->discretisation();
+    Channel& channel = channels_[k];
+    channel.max_insertion = stack_ != nullptr
+                                ? stack_->maxInsertion(k)
+                                : wire.length() - scene_.solver.guide_length - 3.0 * wire.rest_length.front();
+    if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > channel.max_insertion)
+      throw InputError(scene_.file, drivePath(scene_, k) + "drive.initial_insertion",
+                       "leaves less of the wire outside than the introducer's guide; at most " +
+                           std::to_string(channel.max_insertion) + " m");
+  }
+}
+
+HandState Simulation::hand(int instrument) const
+{
+  if (stack_ == nullptr)
+    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque};
+  const rod::LayerState& layer = state_.layers[instrument];
+  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
+}
+
 /** What the hand asks for in a step, as far as it can move at all. */
-HandCommand Simulation::wantedMotion(const HandCommand& command)
+HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
   const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
-  HandCommand rest{0.0, command.rotation - slipped_rotation_ - state_.rotation};
+  Channel& channel = channels_[instrument];
+  const HandState now = hand(instrument);
+  HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
-    rest.insertion = command.insertion - slipped_insertion_ - state_.inserted_length;
-  HandCommand wanted = blind_hand_.follow(rest, blind);
+    rest.insertion = (stack_ != nullptr ? std::max(stack_->outside(), command.insertion) : command.insertion) -
+                     channel.slipped_insertion - now.insertion;
+  HandCommand wanted = channel.blind_hand.follow(rest, blind);
   wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
   wanted.rotation = std::clamp(wanted.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
   return wanted;
 }
 
+/** An instrument can leave the introducer where another one stays in it. */
+double Simulation::leastInsertion(int instrument) const
+{
+  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+    if (k != instrument && hand(k).insertion >= 0.0)
+      return stack_->outside();
+  return 0.0;
+}
+
+/** An instrument stays outside while one is inside that does not fit into it, or that it does not fit into. */
+double Simulation::mostInsertion(int instrument) const
+{
+  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+  {
+    const bool inner = k < instrument;
+    if (k != instrument && hand(k).insertion > stack_->outside() + kAtIntroducer &&
+        !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
+                                scene_.instruments[inner ? instrument : k].instrument))
+      return std::max(stack_->outside(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
+  }
+  return channels_[instrument].max_insertion;
+}
+
 /** What of a wanted motion reaches the wire in a sub-step of @p dt [s]: the grip answers in every one of them. */
-HandCommand Simulation::allowedMotion(const HandCommand& wanted, double dt)
+HandCommand Simulation::allowedMotion(int instrument, const HandCommand& wanted, double dt)
 {
   HandCommand motion = wanted;
   if (!scene_.introducer)
     return motion;
-  grip_ = nextGrip(grip_, wanted.insertion, state_.hand_force, scene_.drive.force_limit, dt);
-  const double reached = std::max(0.0, std::min(max_insertion_, state_.inserted_length + grip_ * wanted.insertion));
-  motion.insertion = reached - state_.inserted_length;
-  slipped_insertion_ += wanted.insertion - motion.insertion;
-  turning_grip_ = nextGrip(turning_grip_, wanted.rotation, state_.hand_torque, scene_.drive.torque_limit, dt);
-  motion.rotation = turning_grip_ * wanted.rotation;
-  slipped_rotation_ += wanted.rotation - motion.rotation;
+  Channel& channel = channels_[instrument];
+  const HandState now = hand(instrument);
+  const DriveScene& drive = scene_.instruments[instrument].drive;
+  channel.grip = nextGrip(channel.grip, wanted.insertion, now.force, drive.force_limit, dt);
+  const double reached = std::max(leastInsertion(instrument),
+                                  std::min(mostInsertion(instrument), now.insertion + channel.grip * wanted.insertion));
+  motion.insertion = reached - now.insertion;
+  channel.slipped_insertion += wanted.insertion - motion.insertion;
+  channel.turning_grip = nextGrip(channel.turning_grip, wanted.rotation, now.torque, drive.torque_limit, dt);
+  motion.rotation = channel.turning_grip * wanted.rotation;
+  channel.slipped_rotation += wanted.rotation - motion.rotation;
   return motion;
 }
 
@@ -135,24 +204,66 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
   const double rotation = state_.rotation;
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
+  if (stack_ != nullptr)
+    return;
   const double outside = stepper_->discretisation().length() - state_.inserted_length;
   valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
-              scene_.instrument.wire.radiusAt(outside));
+              scene_.instruments.front().instrument.wire.radiusAt(outside));
 }
 
-void Simulation::step(const HandCommand& command)
+/** Sub-steps in which no hand moves further than the solver takes at once. */
+int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from,
+                            const rod::EndMotion& to) const
 {
+  double travel = (to.displacement - from.displacement).norm();
+  double turn = std::max(std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm());
+  for (const HandCommand& hand : wanted)
+  {
+    travel = std::max(travel, std::abs(hand.insertion));
+    turn = std::max(turn, std::abs(hand.rotation));
+  }
+  const double substeps = std::max(travel / max_travel_, turn / kMaxRotationPerSubstep);
+  return std::max(1, static_cast<int>(std::ceil(substeps - 1e-9)));
+}
+
+/** Where every hand is at the end of a sub-step. */
+void Simulation::setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input)
+{
+  for (int k = 0; k < instruments(); ++k)
+  {
+    const HandCommand motion = blind ? HandCommand() : allowedMotion(k, parts[k], dt);
+    if (blind)
+      channels_[k].blind_hand.miss(parts[k]);
+    const HandState now = hand(k);
+    if (stack_ != nullptr)
+      input.layers.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
+    else
+    {
+      input.inserted_length = now.insertion + motion.insertion;
+      input.rotation = now.rotation + motion.rotation;
+    }
+  }
+}
+
+void Simulation::stepAll(const std::vector<HandCommand>& commands)
+{
+  if (commands.size() != channels_.size())
+    throw std::invalid_argument("Simulation: one command for every instrument");
   timer_.reset();
   resample();
-  const HandCommand wanted = wantedMotion(command);
+  double travel = 0.0;
+  for (int k = 0; k < instruments(); ++k)
+  {
+    wanted_[k] = wantedMotion(k, commands[k]);
+    travel = std::max(travel, std::abs(wanted_[k].insertion));
+  }
   const rod::EndMotion from = state_.distal;
   const rod::EndMotion to = distalMotionAt(time() + scene_.solver.time_step);
-  const double travel = std::max(std::abs(wanted.insertion), (to.displacement - from.displacement).norm());
-  const double turn =
-      std::max({std::abs(wanted.rotation), std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm()});
-  const double substeps_wanted = std::max(travel / max_travel_, turn / kMaxRotationPerSubstep);
-  const int substeps = std::max(1, static_cast<int>(std::ceil(substeps_wanted - 1e-9)));
+  travel = std::max(travel, (to.displacement - from.displacement).norm());
+  const int substeps = substepsFor(wanted_, from, to);
   const double dt = scene_.solver.time_step / substeps;
+  for (int k = 0; k < instruments(); ++k)
+    parts_[k] = {wanted_[k].insertion / substeps, wanted_[k].rotation / substeps};
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
   for (int k = 1; k <= substeps; ++k)
@@ -161,13 +272,9 @@ void Simulation::step(const HandCommand& command)
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
-    const bool blind = k > 1 && travel > blind_hand_.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
-    const HandCommand part{wanted.insertion / substeps, wanted.rotation / substeps};
-    const HandCommand motion = blind ? HandCommand() : allowedMotion(part, dt);
-    if (blind)
-      blind_hand_.miss(part);
-    input.inserted_length = state_.inserted_length + motion.insertion;
-    input.rotation = state_.rotation + motion.rotation;
+    const bool blind =
+        k > 1 && travel > channels_.front().blind_hand.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
+    setHands(parts_, blind, dt, input);
     input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
     moveWire(input, dt, pass);

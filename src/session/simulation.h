@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "common/hash.h"
 #include "common/phase_timer.h"
 #include "contact/contact_set.h"
 #include "rod/adaptive_sampling.h"
+#include "rod/stack_stepper.h"
 #include "rod/stepper.h"
 #include "rod/valve.h"
 #include "session/blind_hand.h"
@@ -15,6 +17,15 @@
 
 namespace endovascular_sim::session
 {
+
+/** One instrument at its hand. */
+struct HandState
+{
+  double insertion = 0.0;  ///< of its tip beyond the introducer; negative: outside [m]
+  double rotation = 0.0;   ///< of its handle [rad]
+  double force = 0.0;      ///< on the hand, positive where it resists pushing [N]
+  double torque = 0.0;     ///< that the hand holds [N·m]
+};
 
 /** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
  * same commands give the same trajectory bit for bit. */
@@ -29,7 +40,17 @@ public:
 
   /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
-  void step(const HandCommand& command);
+  void step(const HandCommand& command) { stepAll({command}); }
+
+  /** The same with one command for every instrument of the scene, in its order. An instrument goes no further than its
+   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside. */
+  void stepAll(const std::vector<HandCommand>& commands);
+
+  /** Of the scene. */
+  int instruments() const { return static_cast<int>(channels_.size()); }
+
+  /** What the hand on an instrument has and feels. */
+  HandState hand(int instrument) const;
 
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
@@ -58,8 +79,24 @@ public:
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
 
 private:
-  HandCommand wantedMotion(const HandCommand& command);
-  HandCommand allowedMotion(const HandCommand& wanted, double dt);
+  /** What a hand has asked for and not got. */
+  struct Channel
+  {
+    BlindHand blind_hand;
+    double slipped_insertion = 0.0;  ///< command minus what reached the wire [m]
+    double slipped_rotation = 0.0;   ///< [rad]
+    double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
+    double turning_grip = 1.0;       ///< on turning
+    double max_insertion = 0.0;      ///< [m]
+  };
+
+  void setMaxInsertions();
+  HandCommand wantedMotion(int instrument, const HandCommand& command);
+  HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);
+  double leastInsertion(int instrument) const;
+  double mostInsertion(int instrument) const;
+  int substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
+  void setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
@@ -73,18 +110,15 @@ private:
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;
-  BlindHand blind_hand_;
+  std::vector<Channel> channels_;  ///< per instrument
+  std::vector<HandCommand> wanted_, parts_;
+  const rod::StackStepper* stack_ = nullptr;  ///< the stepper, where there are several instruments
   rod::Valve valve_;
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t steps_ = 0;
-  double slipped_insertion_ = 0.0;  ///< command minus what reached the wire [m]
-  double slipped_rotation_ = 0.0;   ///< [rad]
-  double grip_ = 1.0;               ///< on pushing, 1 firm to 0 slipping
-  double turning_grip_ = 1.0;       ///< on turning
-  double max_travel_ = 0.0;         ///< of the hand in one sub-step [m]
-  double max_insertion_ = 0.0;      ///< [m]
+  double max_travel_ = 0.0;  ///< of the hand in one sub-step [m]
 };
 
 }  // namespace endovascular_sim::session

@@ -275,7 +275,7 @@ SimulatorOptions simulatorOptions(const Arguments& arguments, KeyboardOperator* 
   else
   {
     const auto scene = endovascular_sim::session::loadScene(arguments.scene, arguments.overrides);
-    const auto drive = scene.drive;
+    const auto drive = scene.instruments.front().drive;
     options.duration = scene.duration;
     // The device counts from where it starts; where the wire starts is the scene's and the host's business.
     options.motion = [drive](double time) -> HandMotion {

@@ -156,7 +156,7 @@ protected:
   void SetUp() override
   {
     scene_ = nodes::sceneFromParameters(ros::NodeHandle());
-    listener_ = std::make_unique<Listener>(scene_.instrument.name);
+    listener_ = std::make_unique<Listener>(scene_.instruments.front().instrument.name);
     ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 500; })) << "the graph does not step";
   }
 
@@ -190,7 +190,8 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
   {
     const auto known = steps.find(simulation.steps());
     const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    session::HandCommand command{scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
+    session::HandCommand command{scene_.instruments.front().drive.insertionAt(end),
+                                 scene_.instruments.front().drive.rotationAt(end)};
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
     {

@@ -30,7 +30,8 @@ struct Bench
   void step()
   {
     const double end = static_cast<double>(simulation.steps() + 1) * scene.solver.time_step;
-    simulation.step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
   }
 
   /** Arc length of an edge's beginning from the introducer [m]. */
@@ -202,7 +203,7 @@ TEST(AdaptiveSampling, KeepsACurvedTipAndTheJointsFine)
     ASSERT_TRUE(bench.simulation.report().solved);
   }
   const rod::Discretisation& wire = bench.simulation.discretisation();
-  const std::vector<rod::Section>& sections = bench.scene.instrument.wire.sections;
+  const std::vector<rod::Section>& sections = bench.scene.instruments.front().instrument.wire.sections;
   double joint = 0.0;
   for (std::size_t k = 0; k + 1 < sections.size(); ++k)
   {
@@ -243,7 +244,7 @@ TEST(AdaptiveSampling, ServesTheSchemeOfThePaperToo)
   }
   EXPECT_GT(changes, 0) << "of " << nodes << " nodes";
   EXPECT_NEAR(wireMass(bench.simulation.discretisation()),
-              wireMass(rod::discretiseUniformly(bench.scene.instrument.wire, 100)), 1e-15);
+              wireMass(rod::discretiseUniformly(bench.scene.instruments.front().instrument.wire, 100)), 1e-15);
 }
 
 }  // namespace

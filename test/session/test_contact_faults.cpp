@@ -142,7 +142,8 @@ struct Bench
   {
     const double dt = scene.solver.time_step;
     const double end = static_cast<double>(simulation.steps() + 1) * dt;
-    simulation.step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
     const bool blind = simulation.report().first_stale_pass != contact::kNoStalePass;
     told = bridge.told(simulation.state().hand_force, blind, dt);
     blind_steps += blind;
@@ -254,7 +255,8 @@ TEST(ContactFaults, ARunWithoutFaultsIsTheSameBitsBehindTheCheckOfAnswers)
   {
     checked.step();
     const double end = static_cast<double>(direct.steps() + 1) * checked.scene.solver.time_step;
-    direct.step({checked.scene.drive.insertionAt(end), checked.scene.drive.rotationAt(end)});
+    direct.step({checked.scene.instruments.front().drive.insertionAt(end),
+                 checked.scene.instruments.front().drive.rotationAt(end)});
     ASSERT_EQ(checked.told, direct.state().hand_force) << "the bridge passes it on";
   }
   EXPECT_EQ(checked.simulation.trajectoryHash(), direct.trajectoryHash());
@@ -284,8 +286,8 @@ TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
     fastest = std::max(fastest, moved);
     last += moved;
   }
-  EXPECT_LT(fastest, 1.6 * bench.scene.drive.speed * bench.scene.solver.time_step);
-  EXPECT_NEAR(last, bench.scene.drive.insertionAt(2.9), 1e-6);
+  EXPECT_LT(fastest, 1.6 * bench.scene.instruments.front().drive.speed * bench.scene.solver.time_step);
+  EXPECT_NEAR(last, bench.scene.instruments.front().drive.insertionAt(2.9), 1e-6);
 }
 
 TEST(ContactFaults, AfterAPauseTheForceComesBackFromZeroWithoutAJump)

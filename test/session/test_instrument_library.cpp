@@ -192,8 +192,8 @@ TEST(InstrumentLibrary, StentSystemCarriesTheStentOfItsFile)
 TEST(InstrumentLibrary, ScenesNameInstrumentsByUseOrFileWithKeysOnTop)
 {
   const Scene by_name = loadScene(kBench, {"instrument={use: guidewire_035_j, name: wire, tip: {radius: 0.005}}"});
-  EXPECT_EQ(by_name.instrument.name, "wire");
-  EXPECT_NEAR(by_name.instrument.wire.sections.back().rest_curvature.norm(), 200.0, 1e-9);
+  EXPECT_EQ(by_name.instruments.front().instrument.name, "wire");
+  EXPECT_NEAR(by_name.instruments.front().instrument.wire.sections.back().rest_curvature.norm(), 200.0, 1e-9);
   const Scene by_file = loadScene(kBench, {"instrument={file: instruments/guidewire_035_j.yaml}"});
   EXPECT_EQ(by_file.hash(), loadScene(kBench, {"instrument=instruments/guidewire_035_j.yaml"}).hash());
   EXPECT_EQ(by_file.hash(), loadScene(kBench, {"instrument={use: guidewire_035_j}"}).hash());
@@ -203,7 +203,7 @@ TEST(InstrumentLibrary, AnOverrideThatNamesAnotherInstrumentKeepsNothingOfTheOne
 {
   const Scene scene = loadScene(kBench, {"instrument.use=catheter_5f_jl4"});
   EXPECT_EQ(scene.hash(), loadScene(kBench, {"instrument={use: catheter_5f_jl4}"}).hash());
-  EXPECT_EQ(scene.instrument.name, "catheter");
+  EXPECT_EQ(scene.instruments.front().instrument.name, "catheter");
 }
 
 TEST(InstrumentLibrary, ResolvedScenesReadBackToTheSameInstrument)
@@ -212,7 +212,8 @@ TEST(InstrumentLibrary, ResolvedScenesReadBackToTheSameInstrument)
   {
     const Scene scene = loadScene(kBench, {std::string("instrument={use: ") + name + "}"});
     EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").hash(), scene.hash()) << name;
-    EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").instrument.inner_radius, scene.instrument.inner_radius);
+    EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").instrument.inner_radius,
+              scene.instruments.front().instrument.inner_radius);
   }
 }
 

@@ -30,7 +30,8 @@ void run(Simulation& simulation, const Scene& scene, int steps)
   for (int k = 1; k <= steps; ++k)
   {
     const double end = static_cast<double>(simulation.steps() + 1) * scene.solver.time_step;
-    simulation.step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
   }
 }
 

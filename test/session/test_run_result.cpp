@@ -19,7 +19,8 @@ Json resultOf(const std::string& scene_name, int steps)
   for (int k = 1; k <= steps; ++k)
   {
     const double end = k * scene.solver.time_step;
-    simulation.step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
     result.addStep(simulation, 50e-6);
   }
   return Json::parse(result.json(simulation));

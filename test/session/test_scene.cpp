@@ -104,11 +104,11 @@ void expectSameScene(const Scene& a, const Scene& b)
   EXPECT_EQ(text(a.entry.position), text(b.entry.position));
   EXPECT_EQ(text(a.entry.direction), text(b.entry.direction));
   EXPECT_EQ(text(a.entry.up), text(b.entry.up));
-  expectSameWire(a.instrument, b.instrument);
+  expectSameWire(a.instruments.front().instrument, b.instruments.front().instrument);
   for (int i = 0; i < 200; ++i)
   {
-    EXPECT_EQ(a.drive.insertionAt(0.1 * i), b.drive.insertionAt(0.1 * i));
-    EXPECT_EQ(a.drive.rotationAt(0.1 * i), b.drive.rotationAt(0.1 * i));
+    EXPECT_EQ(a.instruments.front().drive.insertionAt(0.1 * i), b.instruments.front().drive.insertionAt(0.1 * i));
+    EXPECT_EQ(a.instruments.front().drive.rotationAt(0.1 * i), b.instruments.front().drive.rotationAt(0.1 * i));
     EXPECT_EQ(a.distal.displacement.at(0.1 * i), b.distal.displacement.at(0.1 * i));
     EXPECT_EQ(a.distal.tilt.at(0.1 * i), b.distal.tilt.at(0.1 * i));
     EXPECT_EQ(a.distal.rotation.at(0.1 * i), b.distal.rotation.at(0.1 * i));
@@ -141,7 +141,7 @@ TEST(Scene, NamesSurfacesInsteadOfCoefficientsAndRegionsOfTheWall)
                                         "vessel.friction_regions=[{centre: [0, 0, 0.1], radius: 0.02, friction: bare},"
                                         " {centre: [0, 0, 0.11], radius: 0.01, friction: 0.4}]"});
   EXPECT_EQ(scene.vessel->friction, 0.035);
-  EXPECT_EQ(scene.instrument.wire.sections[0].friction, 0.115);
+  EXPECT_EQ(scene.instruments.front().instrument.wire.sections[0].friction, 0.115);
   const contact::WallLaw law = wallLaw(*scene.vessel);
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.0}), 0.035);
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.09}), 0.25);
@@ -204,9 +204,9 @@ TEST(Scene, AppliesOverridesInOrderAndByListIndex)
   const Scene scene = loadScene(kScenes + "straight_wire.yaml",
                                 {"instrument=instruments/peer_j_wire.yaml", "instrument.sections.1.radius=3e-4",
                                  "drive.speed=0.01", "drive.speed=0.02", "loads={gravity: [0, 0, -9.81]}"});
-  ASSERT_EQ(scene.instrument.wire.sections.size(), 2U);
-  EXPECT_EQ(scene.instrument.wire.sections[1].radius, 3e-4);
-  EXPECT_EQ(scene.drive.speed, 0.02);
+  ASSERT_EQ(scene.instruments.front().instrument.wire.sections.size(), 2U);
+  EXPECT_EQ(scene.instruments.front().instrument.wire.sections[1].radius, 3e-4);
+  EXPECT_EQ(scene.instruments.front().drive.speed, 0.02);
   EXPECT_EQ(scene.loads.gravity.z(), -9.81);
 }
 
@@ -247,7 +247,7 @@ TEST(Scene, TurnsAMeshByHeadAndLeft)
 TEST(Scene, OfThePeerHasItsWireAndMotion)
 {
   const Scene scene = loadScene(kScenes + "peer_wire.yaml", {"vessel.mesh=" + someMesh()});
-  const rod::Wire& wire = scene.instrument.wire;
+  const rod::Wire& wire = scene.instruments.front().instrument.wire;
   EXPECT_NEAR(wire.length(), 0.450, 1e-8);
   EXPECT_NEAR(wire.curvedTipLength(), 12.1e-3 * 0.4 * M_PI, 1e-8);
   EXPECT_NEAR(wire.sections[0].bending_stiffness, 2463e-6, 1e-6);
@@ -257,9 +257,9 @@ TEST(Scene, OfThePeerHasItsWireAndMotion)
   EXPECT_NEAR(wire.sections[1].rest_curvature.y(), -1.0 / 12.1e-3, 1e-9);
   // d1 = direction × (0, 0, −1).
   EXPECT_TRUE(scene.entry.up.normalized().isApprox(scene.entry.direction.cross(-Eigen::Vector3d::UnitZ()), 1e-12));
-  EXPECT_NEAR(scene.drive.rotationAt(1.3), 2.0 * std::sin(1.3), 1e-12);
-  EXPECT_NEAR(scene.drive.insertionAt(2.0), 0.0042 + 0.07, 1e-12);
-  EXPECT_EQ(scene.drive.insertionAt(100.0), 0.0042 + 0.4);
+  EXPECT_NEAR(scene.instruments.front().drive.rotationAt(1.3), 2.0 * std::sin(1.3), 1e-12);
+  EXPECT_NEAR(scene.instruments.front().drive.insertionAt(2.0), 0.0042 + 0.07, 1e-12);
+  EXPECT_EQ(scene.instruments.front().drive.insertionAt(100.0), 0.0042 + 0.4);
   EXPECT_EQ(scene.sampling.nodes, 240);
   EXPECT_TRUE(std::isinf(scene.vessel->stiffness));
 }

@@ -16,6 +16,7 @@ rod::Section sectionOf(const std::string& keys)
   return loadScene(kBench,
                    {"instrument={name: w, sections: [{length: 0.1, radius: 2e-4, material: steel, density: 7000, " +
                     keys + "}]}"})
+      .instruments.front()
       .instrument.wire.sections.at(0);
 }
 
@@ -61,7 +62,7 @@ TEST(SceneInstrument, ReadsRestCurvatureAsVectorOrArc)
 TEST(SceneInstrument, BendsTheEndOfTheLastSections)
 {
   const Scene scene = loadScene(kBench, {"instrument.tip={shape: semicircle, radius: 0.01, straight: 0.005}"});
-  const auto& sections = scene.instrument.wire.sections;
+  const auto& sections = scene.instruments.front().instrument.wire.sections;
   ASSERT_EQ(sections.size(), 3U);
   EXPECT_NEAR(sections[1].length, 0.01 * M_PI, 1e-15);
   EXPECT_NEAR(sections[2].length, 0.005, 1e-15);
@@ -78,6 +79,7 @@ TEST(SceneInstrument, OfATubeTakesStiffnessFromItsWall)
     return loadScene(kBench, {"instrument={name: c, kind: catheter, inner_radius: 1.5e-4, sections: [{length: 0.1, "
                               "radius: 2e-4, material: polymer, density: 1200, " +
                               keys + "}]}"})
+        .instruments.front()
         .instrument.wire.sections.at(0);
   };
   const rod::Section section = tube("young_modulus: 1e9, shear_modulus: 0.4e9");

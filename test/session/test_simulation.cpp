@@ -35,7 +35,8 @@ struct Bench
   void step()
   {
     const double end = static_cast<double>(simulation->steps() + 1) * scene.solver.time_step;
-    simulation->step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation->step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
   }
 
   /** Depth of the wire's surface beyond the wall by brute force over points along every edge [m]; a point of the axis
@@ -189,7 +190,7 @@ TEST(Simulation, SolvesEveryStepOfAViolentHandWithContactSetsMissingAtRandom)
   Bench bench("tube.yaml", {"instrument=instruments/guidewire_035_j.yaml", "sampling.nodes=300"});
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  double insertion = bench.scene.drive.insertionAt(0.0);
+  double insertion = bench.scene.instruments.front().drive.insertionAt(0.0);
   double rotation = 0.0;
   double speed = 0.0;
   for (int k = 0; k < 6000; ++k)
@@ -256,7 +257,7 @@ TEST(Simulation, CarriesOverMotionThatIsFasterThanAHandInsteadOfDroppingIt)
 TEST(Simulation, BringsTheEndsOfAWireTogetherAndTurnsTheFarOne)
 {
   Bench bench("buckling.yaml");
-  const rod::Section& section = bench.scene.instrument.wire.sections[0];
+  const rod::Section& section = bench.scene.instruments.front().instrument.wire.sections[0];
   const double load = 41.5702557932 * section.bending_stiffness / (0.38 * 0.38);
   for (int k = 0; k < 3000; ++k)
   {

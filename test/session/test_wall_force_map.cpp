@@ -225,7 +225,8 @@ TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
   for (int k = 1; k <= 1000; ++k)
   {
     const double end = k * scene.solver.time_step;
-    simulation.step({scene.drive.insertionAt(end), scene.drive.rotationAt(end)});
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
     const std::vector<WallContact> contacts = wallContacts(simulation);
     map.add(contacts, simulation.time(), scene.solver.time_step);
     double sum = 0.0;

@@ -39,12 +39,13 @@ RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant
   seconds_ = parameters.param("seconds", 0.0);
   if (scene_.vessel)
     contacts_ = std::make_unique<RemoteContactSource>(node_, parameters.param("contact_patience", kContactPatience));
-  command_ = {scene_.drive.insertionAt(0.0), scene_.drive.rotationAt(0.0)};
-  if (scene_.drive.source != session::DriveSource::kDevice && scene_.drive.source != session::DriveSource::kTopic)
+  command_ = {scene_.instruments.front().drive.insertionAt(0.0), scene_.instruments.front().drive.rotationAt(0.0)};
+  if (scene_.instruments.front().drive.source != session::DriveSource::kDevice &&
+      scene_.instruments.front().drive.source != session::DriveSource::kTopic)
     return;
   // Called in the thread that reads the socket, which runs ahead of all but the loop.
   ros::SubscribeOptions options = ros::SubscribeOptions::create<sensor_msgs::JointState>(
-      names::kInstruments + scene_.instrument.name + names::kServoJp, 10,
+      names::kInstruments + scene_.instruments.front().instrument.name + names::kServoJp, 10,
       [this](const sensor_msgs::JointStateConstPtr& message) { receiveCommand(message); }, ros::VoidPtr(),
       &command_queue_);
   options.transport_hints = ros::TransportHints().tcpNoDelay();
@@ -87,7 +88,7 @@ session::HandCommand RodLoop::nextCommand()
     return command_;
   }
   const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
-  return {scene_.drive.insertionAt(end), scene_.drive.rotationAt(end)};
+  return {scene_.instruments.front().drive.insertionAt(end), scene_.instruments.front().drive.rotationAt(end)};
 }
 
 bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel)

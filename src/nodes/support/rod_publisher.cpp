@@ -24,7 +24,7 @@ constexpr int kHandQueue = 1;         // the device wants the newest force only
 RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
 {
-  const std::string instrument = names::kInstruments + scene.instrument.name;
+  const std::string instrument = names::kInstruments + scene.instruments.front().instrument.name;
   hand_ = node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue);
   operating_ = node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true);
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);

@@ -155,7 +155,7 @@ void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
-  const std::string instrument = names::kInstruments + scene_.instrument.name;
+  const std::string instrument = names::kInstruments + scene_.instruments.front().instrument.name;
   listen<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kStepQueue,
                                   [this](const auto& event) { onJoints(event); });
   record<OperatingState>(instrument + names::kOperatingState, kQueue);
@@ -239,7 +239,8 @@ void SessionRecorder::onJoints(const ros::MessageEvent<sensor_msgs::JointState c
   if (joints.effort.size() >= 2)
     report_.addHand(joints.effort[0], joints.effort[1]);
   if (joints_.passes(joints.header.stamp.toSec()))
-    bag_.write(node_.resolveName(names::kInstruments + scene_.instrument.name + names::kMeasuredJs), event);
+    bag_.write(node_.resolveName(names::kInstruments + scene_.instruments.front().instrument.name + names::kMeasuredJs),
+               event);
 }
 
 void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)
