@@ -79,10 +79,9 @@ RunSummary BenchRun::advance(double seconds)
   for (int k = 0; k < steps && summary.finite; ++k)
   {
     const double end_time = simulation_->time() + scene_.solver.time_step;
-    const session::HandCommand command{scene_.instruments.front().drive.insertionAt(end_time),
-                                       scene_.instruments.front().drive.rotationAt(end_time)};
+    const std::vector<session::HandCommand> commands = session::commandsAt(scene_, end_time);
     const Clock::time_point before = Clock::now();
-    simulation_->step(command);
+    simulation_->stepAll(commands);
     times.push_back(std::chrono::duration<double>(Clock::now() - before).count());
     for (std::size_t p = 0; p < kPhaseCount; ++p)
       phases[p].push_back(simulation_->timer().seconds(static_cast<Phase>(p)));

@@ -102,8 +102,8 @@ RenderingTime renderingTime(BenchRun& run)
   wire.nodes = state.position;
   wire.radius = radius;
   wire.attenuation.assign(radius.size() - 1, 800.0);
-  fluoroscope.render(wire);
-  time.frame = microsecondsOf([&] { fluoroscope.render(wire); }, 3);
+  fluoroscope.render({wire});
+  time.frame = microsecondsOf([&] { fluoroscope.render({wire}); }, 3);
   return time;
 }
 

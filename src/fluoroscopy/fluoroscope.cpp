@@ -53,11 +53,11 @@ void Fluoroscope::renderBackground()
   background_valid_ = true;
 }
 
-const Frame& Fluoroscope::render(const XRayWire& wire)
+const Frame& Fluoroscope::render(const std::vector<XRayWire>& wires)
 {
   if (!background_valid_)
     renderBackground();
-  wire_projection_.project(geometry_, wire, shadow_);
+  wire_projection_.project(geometry_, wires, shadow_);
   frame_ = background_frame_;
   for (std::size_t i = 0; i < shadow_.pixels.size(); ++i)
   {

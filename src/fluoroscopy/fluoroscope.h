@@ -48,9 +48,9 @@ public:
   const XRayGeometry& geometry() const { return geometry_; }
   const XRayScene& scene() const { return scene_; }
 
-  /** The image of everything and @p wire; an empty wire is none. The frame is valid until the next call.
+  /** The image of everything and @p wires. The frame is valid until the next call.
    *  @throws InputError for a wire whose arrays do not fit together */
-  const Frame& render(const XRayWire& wire);
+  const Frame& render(const std::vector<XRayWire>& wires);
 
 private:
   void renderBackground();

@@ -144,15 +144,8 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
     }
 }
 
-void WireProjection::project(const XRayGeometry& geometry, const XRayWire& wire, WireShadow& shadow)
+void WireProjection::addWire(const XRayGeometry& geometry, const XRayWire& wire)
 {
-  check(wire);
-  const auto size = static_cast<std::size_t>(geometry.pixels()) * static_cast<std::size_t>(geometry.pixels());
-  if (slot_.size() != size)
-    slot_.assign(size, -1);
-  pixels_.clear();
-  optical_depth_.clear();
-
   std::vector<Edge> edges;
   for (std::size_t j = 0; j + 1 < wire.nodes.size(); ++j)
   {
@@ -180,6 +173,19 @@ void WireProjection::project(const XRayGeometry& geometry, const XRayWire& wire,
   for (const Edge& edge : edges)
     if (std::min(edge.begin.z(), edge.end.z()) >= nearest && std::max(edge.begin.z(), edge.end.z()) <= farthest)
       addEdge(geometry, edge);
+}
+
+void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, WireShadow& shadow)
+{
+  for (const XRayWire& wire : wires)
+    check(wire);
+  const auto size = static_cast<std::size_t>(geometry.pixels()) * static_cast<std::size_t>(geometry.pixels());
+  if (slot_.size() != size)
+    slot_.assign(size, -1);
+  pixels_.clear();
+  optical_depth_.clear();
+  for (const XRayWire& wire : wires)
+    addWire(geometry, wire);
 
   shadow.pixels = pixels_;
   shadow.transmission.resize(pixels_.size());

@@ -8,7 +8,8 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** What X-rays see of a wire: a chain of mitred solid cylinders, edge j from node j to node j + 1. */
+/** What X-rays see of a wire: a chain of mitred solid cylinders, edge j from node j to node j + 1. A hollow shaft is two:
+ *  a solid one, and its lumen with what the wall's material would have added there taken away again. */
 struct XRayWire
 {
   std::vector<Eigen::Vector3d> nodes;  ///< patient frame [m]
@@ -37,11 +38,14 @@ struct WireShadow
 class WireProjection
 {
 public:
-  /** @throws InputError when the wire's arrays do not fit together or hold numbers that are not finite */
-  void project(const XRayGeometry& geometry, const XRayWire& wire, WireShadow& shadow);
+  /** @param wires all at once; where they overlap, their attenuations add up
+   *  @throws InputError when a wire's arrays do not fit together or hold numbers that are not finite */
+  void project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, WireShadow& shadow);
 
 private:
   struct Edge;
+
+  void addWire(const XRayGeometry& geometry, const XRayWire& wire);
 
   void addEdge(const XRayGeometry& geometry, const Edge& edge);
   float* samplesOf(std::uint32_t pixel);

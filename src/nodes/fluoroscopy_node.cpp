@@ -61,14 +61,15 @@ public:
     : scene_(scene),
       xray_(xRayOf(scene)),
       fluoroscope_(toPose(xray_), toXRayScene(scene, table)),
-      section_attenuation_(sectionAttenuation(scene.instruments.front().instrument, table, xray_.energy,
-                                              displacedAttenuation(scene, fluoroscope_.scene()))),
       isocentre_known_(xray_.isocentre.has_value()),
       scheduling_(std::move(scheduling)),
       raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
       image_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2)),
       camera_info_(node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2))
   {
+    for (const session::DrivenInstrument& driven : scene_.instruments)
+      instruments_.emplace_back(driven.instrument, table, xray_.energy,
+                                displacedAttenuation(scene, fluoroscope_.scene()));
     const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
     mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &Fluoroscopy::takeMesh, this, no_delay);
     rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &Fluoroscopy::takeRod, this, no_delay);
@@ -102,9 +103,11 @@ private:
 
   void takeRod(const RodStateVisual& message)
   {
-    guarded([&] { wire_ = toXRayWire(message, scene_.instruments.front().instrument.wire, section_attenuation_); });
-    if (!scene_.vessel && !isocentre_known_ && !wire_.nodes.empty())
-      guarded([&] { moveIsocentre(wire_.nodes[wire_.nodes.size() / 2]); });
+    guarded([&] { wires_ = toXRayWires(message, instruments_); });
+    if (!message.nodes.empty())
+      tip_ = toEigen(message.nodes.back());
+    if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
+      guarded([&] { moveIsocentre(toEigen(message.nodes[message.nodes.size() / 2])); });
   }
 
   void takeCommand(const CArm& message)
@@ -147,8 +150,8 @@ private:
     guarded(
         [&]
         {
-          if (xray_.follow_tip && !wire_.nodes.empty())
-            move(fluoroscopy::followTip(fluoroscope_.geometry().pose(), wire_.nodes.back()));
+          if (xray_.follow_tip && tip_)
+            move(fluoroscopy::followTip(fluoroscope_.geometry().pose(), *tip_));
           publishFrame();
         });
   }
@@ -159,7 +162,7 @@ private:
     std_msgs::Header header;
     header.stamp = ros::Time::now();
     header.frame_id = names::kXRaySourceFrame;
-    const fluoroscopy::Frame& frame = fluoroscope_.render(wire_);
+    const fluoroscopy::Frame& frame = fluoroscope_.render(wires_);
     render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     ++frames_;
     camera_info_.publish(toCameraInfo(header, fluoroscope_.geometry()));
@@ -214,8 +217,9 @@ private:
   session::Scene scene_;
   session::FluoroscopyScene xray_;
   fluoroscopy::Fluoroscope fluoroscope_;
-  std::vector<double> section_attenuation_;  // [1/m]
-  fluoroscopy::XRayWire wire_;
+  std::vector<fluoroscopy::XRayInstrument> instruments_;  ///< of the scene
+  std::vector<fluoroscopy::XRayWire> wires_;
+  std::optional<Eigen::Vector3d> tip_;  ///< of the instrument that reaches furthest [m]
   bool has_mesh_ = false;
   bool isocentre_known_;
 

@@ -104,16 +104,25 @@ const char* stateName(DeviceState state)
   return "DISABLED";
 }
 
+/** The instrument that the device drives; the first one where none says so. */
+const session::DrivenInstrument& driven(const session::Scene& scene)
+{
+  const auto device = std::find_if(scene.instruments.begin(), scene.instruments.end(),
+                                   [](const session::DrivenInstrument& one)
+                                   { return one.drive.source == session::DriveSource::kDevice; });
+  return device != scene.instruments.end() ? *device : scene.instruments.front();
+}
+
 /** Where the hand is: after a restart of this node in a running simulation that is where the wire was left, which the
  *  first measured_js tells; before the simulation runs it is the scene's beginning. */
 haptics::HandMotion handPosition(const session::Scene& scene)
 {
   constexpr double kPatience = 1.0;  // s; a running simulation speaks a thousand times in it
   const auto hand = ros::topic::waitForMessage<sensor_msgs::JointState>(
-      names::kInstruments + scene.instruments.front().instrument.name + names::kMeasuredJs, ros::Duration(kPatience));
+      names::kInstruments + driven(scene).instrument.name + names::kMeasuredJs, ros::Duration(kPatience));
   if (hand && hand->position.size() == 2 && std::isfinite(hand->position[0]) && std::isfinite(hand->position[1]))
     return {hand->position[0], hand->position[1]};
-  return {scene.instruments.front().drive.initial_insertion, scene.instruments.front().drive.initial_rotation};
+  return {driven(scene).drive.initial_insertion, driven(scene).drive.initial_rotation};
 }
 
 haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const session::Scene& scene)
@@ -132,8 +141,8 @@ haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const sessio
       throw InputError("parameter server", parameters.resolveName(name), "must be a positive number");
     return value;
   };
-  limits.force = positive("force_limit", std::min(limits.force, scene.instruments.front().drive.force_limit));
-  limits.torque = positive("torque_limit", std::min(limits.torque, scene.instruments.front().drive.torque_limit));
+  limits.force = positive("force_limit", std::min(limits.force, driven(scene).drive.force_limit));
+  limits.torque = positive("torque_limit", std::min(limits.torque, driven(scene).drive.torque_limit));
   limits.force_rate = positive("force_rate", limits.force_rate);
   limits.torque_rate = positive("torque_rate", limits.torque_rate);
   haptics::ShaperSettings& shaping = options.host.shaping;
@@ -203,7 +212,7 @@ HapticDevice::HapticDevice(const ros::NodeHandle& node, const ros::NodeHandle& p
                            bool real_time)
   : link_(linkOptions(parameters, scene)), real_time_(real_time)
 {
-  const std::string instrument = names::kInstruments + scene.instruments.front().instrument.name;
+  const std::string instrument = names::kInstruments + driven(scene).instrument.name;
   const std::string channel = names::kHaptic + parameters.param<std::string>("channel", "hand");
   ros::NodeHandle handle(node);
   servo_ = handle.advertise<sensor_msgs::JointState>(instrument + names::kServoJp, 100);

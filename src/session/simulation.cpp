@@ -43,6 +43,14 @@ rod::State initialStack(const Scene& scene, const rod::StackStepper& stack)
 
 }  // namespace
 
+std::vector<HandCommand> commandsAt(const Scene& scene, double time)
+{
+  std::vector<HandCommand> commands;
+  for (const DrivenInstrument& driven : scene.instruments)
+    commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time)});
+  return commands;
+}
+
 Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
                        const vessel::CentrelineTree* centreline)
   : scene_(scene),

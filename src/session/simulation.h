@@ -18,6 +18,9 @@
 namespace endovascular_sim::session
 {
 
+/** What the scene's drives ask every instrument for at a time [s]. */
+std::vector<HandCommand> commandsAt(const Scene& scene, double time);
+
 /** One instrument at its hand. */
 struct HandState
 {

@@ -207,7 +207,7 @@ void run(const Options& options)
   scene.tissue_thickness = options.number("--tissue");
   fluoroscopy::Fluoroscope fluoroscope(makePose(options, mesh, wire), scene);
   fluoroscope.setVessel(mesh);
-  const fluoroscopy::Frame& frame = fluoroscope.render(wire);
+  const fluoroscopy::Frame& frame = fluoroscope.render({wire});
   if (options.raw())
     fluoroscopy::writePng(options.text("--out"), frame.pixels, frame.pixels, frame.raw);
   else

@@ -103,6 +103,7 @@ int replay(const std::string& file, bool keep_going)
   else
     entry = session::resolveEntry(scene.entry, file);
   session::Simulation simulation(scene, entry, contacts.get(), &centreline);
+  std::vector<session::HandCommand> commands;
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
   for (const auto& [step, applied] : recording.steps)
@@ -114,7 +115,10 @@ int replay(const std::string& file, bool keep_going)
     }
     if (contacts)
       contacts->setFirstStalePass(applied->first_stale_pass);
-    simulation.step({applied->insertion.at(0), applied->rotation.at(0)});
+    commands.clear();
+    for (std::size_t k = 0; k < applied->insertion.size(); ++k)
+      commands.push_back({applied->insertion[k], applied->rotation.at(k)});
+    simulation.stepAll(commands);
     if (simulation.stateHash() != applied->state_hash)
     {
       if (different++ == 0)

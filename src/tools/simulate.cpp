@@ -222,10 +222,9 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   for (std::uint64_t k = 1; k <= steps; ++k)
   {
     const double end_time = static_cast<double>(k) * scene.solver.time_step;
-    const session::HandCommand command{scene.instruments.front().drive.insertionAt(end_time),
-                                       scene.instruments.front().drive.rotationAt(end_time)};
+    const std::vector<session::HandCommand> commands = session::commandsAt(scene, end_time);
     const Clock::time_point before = Clock::now();
-    simulation.step(command);
+    simulation.stepAll(commands);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
     if (surroundings.wall_forces)
     {

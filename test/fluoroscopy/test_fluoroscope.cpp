@@ -78,7 +78,7 @@ TEST(Fluoroscope, DrawsKnownPointsWhereCameraMatrixAndTransformSayAtAnyAngle)
       Fluoroscope fluoroscope(pose, scene());
       const Eigen::Isometry3d optical = fluoroscope.geometry().patientFromOptical().inverse();
       const Eigen::Matrix3d k = fluoroscope.geometry().cameraMatrix();
-      EXPECT_LT((centreOfShadow(fluoroscope.render(wire), 15000) - (k * (optical * (0.5 * ball))).hnormalized()).norm(),
+      EXPECT_LT((centreOfShadow(fluoroscope.render({wire}), 15000) - (k * (optical * (0.5 * ball))).hnormalized()).norm(),
                 0.5);
       fluoroscope.setVessel(sphere(ball, 0.004, 30, 60));
       EXPECT_LT((centreOfShadow(fluoroscope.render({}), 22000) - (k * (optical * ball)).hnormalized()).norm(), 0.5);
@@ -94,7 +94,7 @@ TEST(Fluoroscope, DarkensOnlyWhereTheWireIs)
   wire.nodes = {{0.0, 0.0, -0.04}, {0.0, 0.0, 0.04}};
   wire.radius = {0.18e-3, 0.18e-3};
   wire.attenuation = {760.0 - 135.0};
-  const Frame with = fluoroscope.render(wire);
+  const Frame with = fluoroscope.render({wire});
   int darker = 0;
   for (std::size_t k = 0; k < with.raw.size(); ++k)
   {

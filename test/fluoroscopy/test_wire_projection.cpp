@@ -30,7 +30,7 @@ double totalLoss(const XRayGeometry& geometry, const XRayWire& wire)
 {
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, wire, shadow);
+  projection.project(geometry, {wire}, shadow);
   double sum = 0.0;
   for (const double transmission : shadow.transmission)
     sum += 1.0 - transmission;
@@ -81,7 +81,7 @@ TEST(WireProjection, EqualsTheProjectionOfAFineMeshOfTheSameCylinder)
   const auto exact = vesselPathLength(geometry, cylinder(a, b, 1.5e-3, 720));
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, straightWire(a, b, 7, 1.5e-3, 1.0), shadow);
+  projection.project(geometry, {straightWire(a, b, 7, 1.5e-3, 1.0)}, shadow);
   std::size_t compared = 0;
   for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
   {
@@ -118,7 +118,7 @@ TEST(WireProjection, SeesTheWholeLengthOfAWireAlongTheRay)
   const Eigen::Vector3d forward = geometry.axes().col(2);
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, straightWire(-0.01 * forward, 0.01 * forward, 5, 5e-3, 1.0), shadow);
+  projection.project(geometry, {straightWire(-0.01 * forward, 0.01 * forward, 5, 5e-3, 1.0)}, shadow);
   bool found = false;
   for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
     if (shadow.pixels[k] == 32 * 65 + 32)
@@ -139,7 +139,7 @@ TEST(WireProjection, MultipliesTheShadowsOfCrossingParts)
   wire.nodes.emplace_back(-0.01, 0.01, 0.0);
   wire.radius.assign(4, 2e-3);
   wire.attenuation.assign(3, 100.0);
-  projection.project(geometry, wire, shadow);
+  projection.project(geometry, {wire}, shadow);
   double darkest = 1.0;
   for (const double transmission : shadow.transmission)
     darkest = std::min(darkest, transmission);
@@ -152,9 +152,9 @@ TEST(WireProjection, GivesTheSameBitsForTheSameWireWhateverCameBefore)
   const XRayWire wire = straightWire({-0.01, 0.001, 0.0}, {0.02, 0.0, 0.03}, 11, kRadius, 700.0);
   WireProjection fresh, used;
   WireShadow expected, shadow;
-  fresh.project(geometry, wire, expected);
+  fresh.project(geometry, {wire}, expected);
   used.project(geometry, straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0), shadow);
-  used.project(geometry, wire, shadow);
+  used.project(geometry, {wire}, shadow);
   EXPECT_EQ(shadow.pixels, expected.pixels);
   EXPECT_EQ(shadow.transmission, expected.transmission);
 }

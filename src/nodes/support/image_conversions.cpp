@@ -34,22 +34,6 @@ sensor_msgs::Image image(const std_msgs::Header& header, int pixels, const std::
   return message;
 }
 
-const char* materialName(instrument::Material material)
-{
-  switch (material)
-  {
-    case instrument::Material::kNitinol:
-      return "nitinol";
-    case instrument::Material::kSteel:
-      return "steel";
-    case instrument::Material::kPlatinum:
-      return "platinum";
-    case instrument::Material::kPolymer:
-      return "polymer";
-  }
-  return "";
-}
-
 }  // namespace
 
 sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey)
@@ -161,42 +145,20 @@ vessel::TriangleMesh toMesh(const VesselMesh& message)
   return mesh;
 }
 
-std::vector<double> sectionAttenuation(const instrument::Instrument& instrument,
-                                       const fluoroscopy::AttenuationTable& table, double energy, double displaced)
+std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
+                                               const std::vector<fluoroscopy::XRayInstrument>& instruments)
 {
-  if (instrument.materials.size() != instrument.wire.sections.size())
-    throw InputError(instrument.name, "materials", "must have one material per section of the wire");
-  std::vector<double> attenuation;
-  for (const instrument::Material material : instrument.materials)
-    attenuation.push_back(table.linear(materialName(material), energy) - displaced);
-  return attenuation;
-}
-
-fluoroscopy::XRayWire toXRayWire(const RodStateVisual& state, const rod::Wire& wire,
-                                 const std::vector<double>& section_attenuation)
-{
-  if (state.radius.size() != state.nodes.size())
-    throw InputError(names::kRodStateVisual, "radius", "must have one value per node");
-  fluoroscopy::XRayWire result;
-  result.nodes.reserve(state.nodes.size());
+  if (state.insertion.size() != instruments.size())
+    throw InputError(names::kRodStateVisual, "insertion", "must have one value for each instrument of the scene");
+  std::vector<Eigen::Vector3d> nodes;
+  nodes.reserve(state.nodes.size());
   for (const geometry_msgs::Point& node : state.nodes)
-    result.nodes.push_back(toEigen(node));
-  result.radius = state.radius;
-  if (result.nodes.size() < 2 || section_attenuation.empty())
-    return {};
-  result.attenuation.resize(result.nodes.size() - 1);
-  std::size_t section = section_attenuation.size() - 1;
-  double section_end = wire.sections[section].length;  // of the proximal end, measured from the tip
-  double from_tip = 0.0;
-  for (std::size_t j = result.attenuation.size(); j-- > 0;)
-  {
-    const double length = (result.nodes[j + 1] - result.nodes[j]).norm();
-    while (from_tip + 0.5 * length > section_end && section > 0)
-      section_end += wire.sections[--section].length;
-    result.attenuation[j] = section_attenuation[section];
-    from_tip += length;
-  }
-  return result;
+    nodes.push_back(toEigen(node));
+  const double furthest = *std::max_element(state.insertion.begin(), state.insertion.end());
+  std::vector<fluoroscopy::XRayWire> wires;
+  for (std::size_t k = 0; k < instruments.size(); ++k)
+    instruments[k].append(nodes, furthest - state.insertion[k], wires);
+  return wires;
 }
 
 }  // namespace endovascular_sim::nodes

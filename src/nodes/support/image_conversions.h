@@ -12,7 +12,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "fluoroscopy/attenuation.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "instrument/instrument.h"
+#include "fluoroscopy/x_ray_instrument.h"
 #include "session/scene.h"
 
 namespace endovascular_sim::nodes
@@ -45,17 +45,9 @@ fluoroscopy::CArmPose toPose(const session::FluoroscopyScene& scene);
  *  @throws InputError when an index has no vertex or a coordinate is not finite */
 vessel::TriangleMesh toMesh(const VesselMesh& message);
 
-/** Per section of the instrument: linear attenuation of its material less that of what it displaces [1/m].
- *  @param displaced of what the wire displaces [1/m]
- *  @param energy photon energy [keV] */
-std::vector<double> sectionAttenuation(const instrument::Instrument& instrument,
-                                       const fluoroscopy::AttenuationTable& table, double energy, double displaced);
-
-/** What X-rays see of a rod. The message ends at the wire's tip, so an edge lies in the section at its distance from
- *  there.
- *  @param section_attenuation of sectionAttenuation() [1/m]
- *  @throws InputError when there is not one radius per node */
-fluoroscopy::XRayWire toXRayWire(const RodStateVisual& state, const rod::Wire& wire,
-                                 const std::vector<double>& section_attenuation);
+/** What X-rays see of all instruments. The message ends at the tip of the one that reaches furthest.
+ *  @throws InputError when there is not one insertion per instrument */
+std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
+                                               const std::vector<fluoroscopy::XRayInstrument>& instruments);
 
 }  // namespace endovascular_sim::nodes

@@ -22,6 +22,8 @@ constexpr double kRampTime = 30e-3;         // s in which the hand's force falls
 constexpr double kMaxBacklog = 50e-3;       // s of late steps that are caught up; beyond it time is let go
 constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
 constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
+constexpr double kForceBand = 5e-3;          // N, of the bridges over missing sets
+constexpr double kTorqueBand = 5e-5;         // N·m
 constexpr double kIdlePeriod = 10e-3;       // s between forces of zero while paused
 
 std::chrono::steady_clock::duration period(double seconds)
@@ -39,20 +41,33 @@ RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant
   seconds_ = parameters.param("seconds", 0.0);
   if (scene_.vessel)
     contacts_ = std::make_unique<RemoteContactSource>(node_, parameters.param("contact_patience", kContactPatience));
-  command_ = {scene_.instruments.front().drive.insertionAt(0.0), scene_.instruments.front().drive.rotationAt(0.0)};
-  if (scene_.instruments.front().drive.source != session::DriveSource::kDevice &&
-      scene_.instruments.front().drive.source != session::DriveSource::kTopic)
-    return;
-  // Called in the thread that reads the socket, which runs ahead of all but the loop.
-  ros::SubscribeOptions options = ros::SubscribeOptions::create<sensor_msgs::JointState>(
-      names::kInstruments + scene_.instruments.front().instrument.name + names::kServoJp, 10,
-      [this](const sensor_msgs::JointStateConstPtr& message) { receiveCommand(message); }, ros::VoidPtr(),
-      &command_queue_);
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  command_subscriber_ = node_.subscribe(options);
+  const std::size_t instruments = scene_.instruments.size();
+  force_bridge_.assign(instruments, session::ForceBridge{kForceBand});
+  torque_bridge_.assign(instruments, session::ForceBridge{kTorqueBand});
+  hands_.resize(instruments);
+  next_.resize(instruments);
+  command_subscriber_.resize(instruments);
+  for (std::size_t k = 0; k < instruments; ++k)
+  {
+    const session::DriveScene& drive = scene_.instruments[k].drive;
+    command_.push_back({drive.insertionAt(0.0), drive.rotationAt(0.0)});
+    if (drive.source == session::DriveSource::kDevice || drive.source == session::DriveSource::kTopic)
+      subscribe(k);
+  }
 }
 
-void RodLoop::receiveCommand(const sensor_msgs::JointStateConstPtr& message)
+void RodLoop::subscribe(std::size_t instrument)
+{
+  // Called in the thread that reads the socket, which runs ahead of all but the loop.
+  ros::SubscribeOptions options = ros::SubscribeOptions::create<sensor_msgs::JointState>(
+      names::kInstruments + scene_.instruments[instrument].instrument.name + names::kServoJp, 10,
+      [this, instrument](const sensor_msgs::JointStateConstPtr& message) { receiveCommand(instrument, message); },
+      ros::VoidPtr(), &command_queue_);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  command_subscriber_[instrument] = node_.subscribe(options);
+}
+
+void RodLoop::receiveCommand(std::size_t instrument, const sensor_msgs::JointStateConstPtr& message)
 {
   session::HandCommand command;
   bool insertion = false;
@@ -77,18 +92,20 @@ void RodLoop::receiveCommand(const sensor_msgs::JointStateConstPtr& message)
     return;
   }
   const std::lock_guard<std::mutex> lock(command_mutex_);
-  command_ = command;
+  command_[instrument] = command;
 }
 
-session::HandCommand RodLoop::nextCommand()
+const std::vector<session::HandCommand>& RodLoop::nextCommands()
 {
-  if (command_subscriber_)
-  {
-    const std::lock_guard<std::mutex> lock(command_mutex_);
-    return command_;
-  }
   const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
-  return {scene_.instruments.front().drive.insertionAt(end), scene_.instruments.front().drive.rotationAt(end)};
+  const std::lock_guard<std::mutex> lock(command_mutex_);
+  for (std::size_t k = 0; k < next_.size(); ++k)
+  {
+    const session::DriveScene& drive = scene_.instruments[k].drive;
+    next_[k] = command_subscriber_[k] ? command_[k]
+                                      : session::HandCommand{drive.insertionAt(end), drive.rotationAt(end)};
+  }
+  return next_;
 }
 
 bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel)
@@ -169,7 +186,7 @@ bool RodLoop::run()
     }
   }
   publisher_.publishOperatingState("DISABLED", "the session is over");
-  publisher_.publishHand(used_, 0.0, 0.0);
+  publisher_.publishHands(hands_, 0.0);
   if (forces_)
     forces_->publishMap(*simulation_);
   stop = true;
@@ -198,19 +215,29 @@ void RodLoop::waitForRecorder()
 
 void RodLoop::stepOnce()
 {
-  used_ = nextCommand();
-  simulation_->step(used_);
-  // A step that the solver refused says nothing about the force: it fades out, and in again when steps are solved.
-  const double fade = scene_.solver.time_step / kRampTime;
+  const std::vector<session::HandCommand>& commands = nextCommands();
+  simulation_->stepAll(commands);
+  tellHands(commands);
+  publisher_.publishStep(*simulation_, hands_);
+  if (forces_)
+    forces_->publishStep(*simulation_);
+}
+
+/** A step that the solver refused says nothing about the force: it fades out, and in again when steps are solved. */
+void RodLoop::tellHands(const std::vector<session::HandCommand>& used)
+{
+  const double dt = scene_.solver.time_step;
+  const double fade = dt / kRampTime;
   force_share_ += simulation_->report().solved ? fade : -fade;
   force_share_ = std::max(0.0, std::min(1.0, force_share_));
   const bool blind = simulation_->report().first_stale_pass != contact::kNoStalePass;
-  const double dt = scene_.solver.time_step;
-  told_force_ = force_share_ * force_bridge_.told(simulation_->state().hand_force, blind, dt);
-  told_torque_ = force_share_ * torque_bridge_.told(simulation_->state().hand_torque, blind, dt);
-  publisher_.publishStep(*simulation_, used_, told_force_, told_torque_);
-  if (forces_)
-    forces_->publishStep(*simulation_);
+  for (std::size_t k = 0; k < hands_.size(); ++k)
+  {
+    const session::HandState felt = simulation_->hand(static_cast<int>(k));
+    hands_[k].command = used[k];
+    hands_[k].force = force_share_ * force_bridge_[k].told(felt.force, blind, dt);
+    hands_[k].torque = force_share_ * torque_bridge_[k].told(felt.torque, blind, dt);
+  }
 }
 
 void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end)
@@ -248,12 +275,14 @@ void RodLoop::pause()
   {
     const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
     const double share = std::max(0.0, 1.0 - elapsed / kRampTime);
-    publisher_.publishHand(used_, share * told_force_, share * told_torque_);
+    publisher_.publishHands(hands_, share);
     sleepUntil(Clock::now() + period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
   counters_.paused = false;
-  force_bridge_.drop();
-  torque_bridge_.drop();
+  for (session::ForceBridge& bridge : force_bridge_)
+    bridge.drop();
+  for (session::ForceBridge& bridge : torque_bridge_)
+    bridge.drop();
   if (!ros::ok())
     return;
   publisher_.publishOperatingState("ENABLED", "");

@@ -55,8 +55,10 @@ private:
 
   bool makeSimulation();
   bool waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel);
-  session::HandCommand nextCommand();
-  void receiveCommand(const sensor_msgs::JointStateConstPtr& message);
+  void subscribe(std::size_t instrument);
+  const std::vector<session::HandCommand>& nextCommands();
+  void receiveCommand(std::size_t instrument, const sensor_msgs::JointStateConstPtr& message);
+  void tellHands(const std::vector<session::HandCommand>& used);
   void waitForRecorder();
   void stepOnce();
   void countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end);
@@ -75,14 +77,12 @@ private:
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DirectCallbackQueue command_queue_;
   std::mutex command_mutex_;
-  session::HandCommand command_;  ///< newest from the drive, guarded
-  session::HandCommand used_;     ///< by the last step
-  ros::Subscriber command_subscriber_;
+  std::vector<session::HandCommand> command_;      ///< newest from the drive of every instrument, guarded
+  std::vector<session::HandCommand> next_;         ///< of the coming step
+  std::vector<ros::Subscriber> command_subscriber_;  ///< per instrument; empty where its scene drives it
   double force_share_ = 1.0;  ///< of the force that is told; fades while steps are refused
-  session::ForceBridge force_bridge_{5e-3};
-  session::ForceBridge torque_bridge_{5e-5};
-  double told_force_ = 0.0;   ///< to the hand after the last step [N]
-  double told_torque_ = 0.0;  ///< [N·m]
+  std::vector<session::ForceBridge> force_bridge_, torque_bridge_;  ///< per instrument
+  std::vector<RodPublisher::Hand> hands_;                           ///< what they were told after the last step
   Counters counters_;
 };
 

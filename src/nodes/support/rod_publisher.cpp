@@ -24,35 +24,43 @@ constexpr int kHandQueue = 1;         // the device wants the newest force only
 RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
 {
-  const std::string instrument = names::kInstruments + scene.instruments.front().instrument.name;
-  hand_ = node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue);
-  operating_ = node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true);
+  for (const session::DrivenInstrument& driven : scene.instruments)
+  {
+    const std::string instrument = names::kInstruments + driven.instrument.name;
+    hand_.push_back(node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue));
+    operating_.push_back(node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true));
+  }
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
   hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
   hand_message_.position.resize(2);
   hand_message_.effort.resize(2);
-  applied_message_.insertion.resize(1);
-  applied_message_.rotation.resize(1);
+  applied_message_.insertion.resize(hand_.size());
+  applied_message_.rotation.resize(hand_.size());
   visual_message_.header.frame_id = names::kPatientFrame;
 }
 
-void RodPublisher::publishHand(const session::HandCommand& command, double force, double torque)
+void RodPublisher::publishHands(const std::vector<Hand>& hands, double share)
 {
   hand_message_.header.stamp = ros::Time::now();
-  hand_message_.position = {command.insertion, command.rotation};
-  hand_message_.effort = {force, torque};
-  hand_.publish(hand_message_);
+  for (std::size_t k = 0; k < hand_.size(); ++k)
+  {
+    hand_message_.position = {hands[k].command.insertion, hands[k].command.rotation};
+    hand_message_.effort = {share * hands[k].force, share * hands[k].torque};
+    hand_[k].publish(hand_message_);
+  }
 }
 
-void RodPublisher::publishStep(const session::Simulation& simulation, const session::HandCommand& command, double force,
-                               double torque)
+void RodPublisher::publishStep(const session::Simulation& simulation, const std::vector<Hand>& hands)
 {
-  publishHand(command, force, torque);
+  publishHands(hands, 1.0);
   applied_message_.header.stamp = hand_message_.header.stamp;
   applied_message_.step = simulation.steps() - 1;
-  applied_message_.insertion[0] = command.insertion;
-  applied_message_.rotation[0] = command.rotation;
+  for (std::size_t k = 0; k < hands.size(); ++k)
+  {
+    applied_message_.insertion[k] = hands[k].command.insertion;
+    applied_message_.rotation[k] = hands[k].command.rotation;
+  }
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
   applied_.publish(applied_message_);
@@ -70,10 +78,18 @@ void RodPublisher::publishVisual(const session::Simulation& simulation)
   message.header.stamp = hand_message_.header.stamp;
   message.step = simulation.steps() - 1;
   message.time = simulation.time();
-  message.inserted_length = state.inserted_length;
-  message.rotation = state.rotation;
-  message.hand_force = state.hand_force;
-  message.hand_torque = state.hand_torque;
+  message.insertion.clear();
+  message.rotation.clear();
+  message.hand_force.clear();
+  message.hand_torque.clear();
+  for (int k = 0; k < simulation.instruments(); ++k)
+  {
+    const session::HandState hand = simulation.hand(k);
+    message.insertion.push_back(hand.insertion);
+    message.rotation.push_back(hand.rotation);
+    message.hand_force.push_back(hand.force);
+    message.hand_torque.push_back(hand.torque);
+  }
   const int first = session::firstInsertedNode(simulation);
   message.first_node = static_cast<std::uint32_t>(first);
   message.nodes.clear();
@@ -116,7 +132,8 @@ void RodPublisher::publishOperatingState(const std::string& state, const std::st
   message.state = state;
   message.reason = reason;
   message.is_busy = state == "ENABLED";
-  operating_.publish(message);
+  for (ros::Publisher& instrument : operating_)
+    instrument.publish(message);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -19,18 +19,25 @@ class RodPublisher
 public:
   RodPublisher(ros::NodeHandle& node, const session::Scene& scene);
 
-  /** After a step: force [N] and torque [N·m] for the hand and the command it used, its hash; now and then the
-   *  pictures' data. */
-  void publishStep(const session::Simulation& simulation, const session::HandCommand& command, double force,
-                   double torque);
+  /** What the hand on one instrument is told. */
+  struct Hand
+  {
+    session::HandCommand command;  ///< that the last step used
+    double force = 0.0;            ///< [N]
+    double torque = 0.0;           ///< [N·m]
+  };
+
+  /** After a step: what the hands are told, its hash; now and then the pictures' data.
+   *  @param hands one per instrument */
+  void publishStep(const session::Simulation& simulation, const std::vector<Hand>& hands);
 
   /** Whether somebody listens to every step. */
   bool isRecorded() const { return applied_.getNumSubscribers() > 0; }
 
-  /** Force and torque at the hand alone (ramping down while the simulation is paused) [N], [N·m]. */
-  void publishHand(const session::HandCommand& command, double force, double torque);
+  /** What the hands are told alone, each time @p share of it (ramping down while the simulation is paused). */
+  void publishHands(const std::vector<Hand>& hands, double share);
 
-  /** CRTK's state of the instrument, latched; published when it changes.
+  /** CRTK's state of every instrument, latched; published when it changes.
    *  @param reason empty when enabled */
   void publishOperatingState(const std::string& state, const std::string& reason);
 
@@ -39,7 +46,8 @@ private:
   void publishTip(const session::Simulation& simulation);
 
   std::uint64_t visual_every_;
-  ros::Publisher hand_, applied_, visual_, operating_;
+  std::vector<ros::Publisher> hand_, operating_;  ///< per instrument
+  ros::Publisher applied_, visual_;
   tf2_ros::TransformBroadcaster transforms_;
   sensor_msgs::JointState hand_message_;
   DriveApplied applied_message_;

@@ -155,10 +155,14 @@ void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
-  const std::string instrument = names::kInstruments + scene_.instruments.front().instrument.name;
-  listen<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kStepQueue,
-                                  [this](const auto& event) { onJoints(event); });
-  record<OperatingState>(instrument + names::kOperatingState, kQueue);
+  joints_.assign(scene_.instruments.size(), joints_.front());
+  for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
+  {
+    const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
+    listen<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kStepQueue,
+                                    [this, k](const auto& event) { onJoints(k, event); });
+    record<OperatingState>(instrument + names::kOperatingState, kQueue);
+  }
 }
 
 void SessionRecorder::subscribeToVessel()
@@ -214,13 +218,15 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     const geometry_msgs::Point& tip = rod.nodes.back();
     session::TrajectoryRow row;
     row.time = rod.time;
-    row.insertion = rod.inserted_length;
-    row.rotation = rod.rotation;
-    row.hand_force = rod.hand_force;
-    row.hand_torque = rod.hand_torque;
+    const auto furthest = static_cast<std::size_t>(
+        std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
+    row.insertion = rod.insertion.at(furthest);
+    row.rotation = rod.rotation.at(furthest);
+    row.hand_force = rod.hand_force.at(furthest);
+    row.hand_torque = rod.hand_torque.at(furthest);
     row.tip = {tip.x, tip.y, tip.z};
     row.nodes = rod.nodes.size();
-    report_.addTip(row.tip, rod.inserted_length, row.nodes);
+    report_.addTip(row.tip, row.insertion, row.nodes);
     if (!trajectory_.add(row) && error_.empty())
     {
       error_ = path("trajectory.csv") + " cannot be written any more: is the disk full?";
@@ -231,15 +237,15 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     bag_.write(node_.resolveName(names::kRodStateVisual), event);
 }
 
-void SessionRecorder::onJoints(const ros::MessageEvent<sensor_msgs::JointState const>& event)
+void SessionRecorder::onJoints(std::size_t instrument, const ros::MessageEvent<sensor_msgs::JointState const>& event)
 {
   const sensor_msgs::JointState& joints = *event.getMessage();
   if (finished_ || joints.header.stamp.isZero())  // CRTK: stamp 0 marks invalid data
     return;
   if (joints.effort.size() >= 2)
     report_.addHand(joints.effort[0], joints.effort[1]);
-  if (joints_.passes(joints.header.stamp.toSec()))
-    bag_.write(node_.resolveName(names::kInstruments + scene_.instruments.front().instrument.name + names::kMeasuredJs),
+  if (joints_[instrument].passes(joints.header.stamp.toSec()))
+    bag_.write(node_.resolveName(names::kInstruments + scene_.instruments[instrument].instrument.name + names::kMeasuredJs),
                event);
 }
 
