@@ -78,8 +78,9 @@ TEST(Fluoroscope, DrawsKnownPointsWhereCameraMatrixAndTransformSayAtAnyAngle)
       Fluoroscope fluoroscope(pose, scene());
       const Eigen::Isometry3d optical = fluoroscope.geometry().patientFromOptical().inverse();
       const Eigen::Matrix3d k = fluoroscope.geometry().cameraMatrix();
-      EXPECT_LT((centreOfShadow(fluoroscope.render({wire}), 15000) - (k * (optical * (0.5 * ball))).hnormalized()).norm(),
-                0.5);
+      EXPECT_LT(
+          (centreOfShadow(fluoroscope.render({wire}), 15000) - (k * (optical * (0.5 * ball))).hnormalized()).norm(),
+          0.5);
       fluoroscope.setVessel(sphere(ball, 0.004, 30, 60));
       EXPECT_LT((centreOfShadow(fluoroscope.render({}), 22000) - (k * (optical * ball)).hnormalized()).norm(), 0.5);
     }

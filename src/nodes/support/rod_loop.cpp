@@ -22,8 +22,8 @@ constexpr double kRampTime = 30e-3;         // s in which the hand's force falls
 constexpr double kMaxBacklog = 50e-3;       // s of late steps that are caught up; beyond it time is let go
 constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
 constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
-constexpr double kForceBand = 5e-3;          // N, of the bridges over missing sets
-constexpr double kTorqueBand = 5e-5;         // N·m
+constexpr double kForceBand = 5e-3;         // N, of the bridges over missing sets
+constexpr double kTorqueBand = 5e-5;        // N·m
 constexpr double kIdlePeriod = 10e-3;       // s between forces of zero while paused
 
 std::chrono::steady_clock::duration period(double seconds)
@@ -102,8 +102,8 @@ const std::vector<session::HandCommand>& RodLoop::nextCommands()
   for (std::size_t k = 0; k < next_.size(); ++k)
   {
     const session::DriveScene& drive = scene_.instruments[k].drive;
-    next_[k] = command_subscriber_[k] ? command_[k]
-                                      : session::HandCommand{drive.insertionAt(end), drive.rotationAt(end)};
+    next_[k] =
+        command_subscriber_[k] ? command_[k] : session::HandCommand{drive.insertionAt(end), drive.rotationAt(end)};
   }
   return next_;
 }

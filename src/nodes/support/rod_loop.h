@@ -77,10 +77,10 @@ private:
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DirectCallbackQueue command_queue_;
   std::mutex command_mutex_;
-  std::vector<session::HandCommand> command_;      ///< newest from the drive of every instrument, guarded
-  std::vector<session::HandCommand> next_;         ///< of the coming step
+  std::vector<session::HandCommand> command_;        ///< newest from the drive of every instrument, guarded
+  std::vector<session::HandCommand> next_;           ///< of the coming step
   std::vector<ros::Subscriber> command_subscriber_;  ///< per instrument; empty where its scene drives it
-  double force_share_ = 1.0;  ///< of the force that is told; fades while steps are refused
+  double force_share_ = 1.0;                         ///< of the force that is told; fades while steps are refused
   std::vector<session::ForceBridge> force_bridge_, torque_bridge_;  ///< per instrument
   std::vector<RodPublisher::Hand> hands_;                           ///< what they were told after the last step
   Counters counters_;

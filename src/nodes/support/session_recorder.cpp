@@ -105,7 +105,7 @@ SessionRecorder::SessionRecorder(ros::NodeHandle node, session::Scene scene, Rec
     trajectory_(madeFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
     bag_(settings_.folder + "/session.bag"),
     pose_(scene_.record.pose_rate),
-    joints_(kJointRate),
+    joints_(scene_.instruments.size(), Throttle(kJointRate)),
     contacts_(kContactRate),
     last_step_(ros::SteadyTime::now())
 {
@@ -155,7 +155,6 @@ void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
-  joints_.assign(scene_.instruments.size(), joints_.front());
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
   {
     const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
@@ -218,8 +217,8 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     const geometry_msgs::Point& tip = rod.nodes.back();
     session::TrajectoryRow row;
     row.time = rod.time;
-    const auto furthest = static_cast<std::size_t>(
-        std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
+    const auto furthest =
+        static_cast<std::size_t>(std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
     row.insertion = rod.insertion.at(furthest);
     row.rotation = rod.rotation.at(furthest);
     row.hand_force = rod.hand_force.at(furthest);
@@ -245,8 +244,9 @@ void SessionRecorder::onJoints(std::size_t instrument, const ros::MessageEvent<s
   if (joints.effort.size() >= 2)
     report_.addHand(joints.effort[0], joints.effort[1]);
   if (joints_[instrument].passes(joints.header.stamp.toSec()))
-    bag_.write(node_.resolveName(names::kInstruments + scene_.instruments[instrument].instrument.name + names::kMeasuredJs),
-               event);
+    bag_.write(
+        node_.resolveName(names::kInstruments + scene_.instruments[instrument].instrument.name + names::kMeasuredJs),
+        event);
 }
 
 void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)

@@ -77,7 +77,7 @@ private:
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
-  void onJoints(const ros::MessageEvent<sensor_msgs::JointState const>& event);
+  void onJoints(std::size_t instrument, const ros::MessageEvent<sensor_msgs::JointState const>& event);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
@@ -104,7 +104,7 @@ private:
   session::TrajectoryFile trajectory_;
   BagWriter bag_;
   Throttle pose_;
-  Throttle joints_;
+  std::vector<Throttle> joints_;  ///< per instrument
   Throttle contacts_;
   ContactForceMapConstPtr force_map_;  ///< the newest
   VesselMeshConstPtr vessel_;
