@@ -65,6 +65,7 @@ RodStateVisual rod()
     state.nodes.push_back(node);
     state.radius.push_back(0.9e-3);
   }
+  state.insertion = {0.04};
   return state;
 }
 
@@ -258,9 +259,9 @@ TEST_F(FluoroscopyGraph, SurvivesMessagesThatDoNotFitTogether)
   mesh_.publish(mesh);
   EXPECT_TRUE(waitFor([&] { return status_message.find("triangle 3") != std::string::npos; }));
   RodStateVisual state = rod();
-  state.radius.pop_back();
+  state.insertion.clear();
   rod_.publish(state);
-  EXPECT_TRUE(waitFor([&] { return status_message.find("radius") != std::string::npos; }));
+  EXPECT_TRUE(waitFor([&] { return status_message.find("insertion") != std::string::npos; }));
   forgetFrames();
   EXPECT_TRUE(completeFrame());
 }
@@ -276,19 +277,6 @@ TEST(ImageConversions, BringACArmPoseThereAndBack)
   pose.detector_width = 0.2;
   pose.pixels = 100;
   EXPECT_EQ(toPose(toMessage(pose), 100), pose);
-}
-
-TEST(ImageConversions, GiveEachEdgeTheMaterialAtItsDistanceFromTheTip)
-{
-  rod::Wire wire;
-  wire.sections.resize(3);
-  wire.sections[0].length = 1.0;
-  wire.sections[1].length = 0.01;
-  wire.sections[2].length = 0.02;
-  const std::vector<double> attenuation = toXRayWire(rod(), wire, {1.0, 2.0, 3.0}).attenuation;
-  ASSERT_EQ(attenuation.size(), 40U);
-  for (std::size_t j = 0; j < 40; ++j)
-    EXPECT_EQ(attenuation[j], j >= 20 ? 3.0 : j >= 10 ? 2.0 : 1.0) << j;
 }
 
 }  // namespace

@@ -14,11 +14,6 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
-{
-  return {point.x, point.y, point.z};
-}
-
 template <typename Pixel>
 sensor_msgs::Image image(const std_msgs::Header& header, int pixels, const std::vector<Pixel>& values,
                          const std::string& encoding)
@@ -35,6 +30,11 @@ sensor_msgs::Image image(const std_msgs::Header& header, int pixels, const std::
 }
 
 }  // namespace
+
+Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
+{
+  return {point.x, point.y, point.z};
+}
 
 sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey)
 {
