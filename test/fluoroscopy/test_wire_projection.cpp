@@ -153,7 +153,7 @@ TEST(WireProjection, GivesTheSameBitsForTheSameWireWhateverCameBefore)
   WireProjection fresh, used;
   WireShadow expected, shadow;
   fresh.project(geometry, {wire}, expected);
-  used.project(geometry, straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0), shadow);
+  used.project(geometry, {straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0)}, shadow);
   used.project(geometry, {wire}, shadow);
   EXPECT_EQ(shadow.pixels, expected.pixels);
   EXPECT_EQ(shadow.transmission, expected.transmission);

@@ -212,7 +212,7 @@ TEST(InstrumentLibrary, ResolvedScenesReadBackToTheSameInstrument)
   {
     const Scene scene = loadScene(kBench, {std::string("instrument={use: ") + name + "}"});
     EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").hash(), scene.hash()) << name;
-    EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").instrument.inner_radius,
+    EXPECT_EQ(parseScene(scene.resolved_yaml, "resolved").instruments.front().instrument.inner_radius,
               scene.instruments.front().instrument.inner_radius);
   }
 }
