@@ -195,16 +195,18 @@ TriangleMesh narrowedMesh(TriangleMesh mesh, const CentrelineBranch& branch, con
   std::vector<Eigen::Vector3d> healthy = mesh.vertices;
   std::vector<char> taken = verticesWithin(mesh, healthy, LesionShape(branch, lesion, middle));
   const TriangleMesh patch = patchOf(mesh, taken);
-  for (double left = 1.0; 1.0 - left < lesion.grade;)
+  double left = 1.0;
+  for (bool last = !(lesion.grade > 0.0); !last;)
   {
-    left = std::max(kStage * left, 1.0 - lesion.grade);
-    stage.grade = std::min(1.0 - left, lesion.grade);
+    left *= kStage;
+    last = left <= 1.0 - lesion.grade;
+    stage.grade = last ? lesion.grade : 1.0 - left;
     const LesionShape shape(branch, stage, middle);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       if (taken[v] != 0)
         mesh.vertices[v] = shape.at(healthy[v]).position;
     mesh = remeshPart(mesh, NarrowedWall(patch, shape), taken, kRemeshRounds);
-    if (stage.grade >= lesion.grade)
+    if (last)
       break;
     healthy.clear();
     for (const Eigen::Vector3d& p : mesh.vertices)

@@ -88,7 +88,7 @@ double widestAngle(const TriangleMesh& mesh)
 
 TEST(Lesion, TakesItsShareOfATubesDiameterWithTheShapeOfACosine)
 {
-  for (double grade : {0.3, 0.7, 0.9})
+  for (double grade : {0.2, 0.65, 0.9})
   {
     Vessel vessel = tube(96);
     addLesions(vessel, {lesionOf(grade)}, "scene");
