@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
@@ -44,6 +45,54 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
       nodes_[n].triangle = from.primitiveId();
     else
       nodes_[n].left = from.leftChild();
+  }
+  parent_.assign(nodes_.size(), -1);
+  leaf_of_.assign(wall.triangles.size(), -1);
+  marked_.assign(nodes_.size(), 0);
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].left < 0)
+      leaf_of_[nodes_[n].triangle] = static_cast<int>(n);
+    else
+      parent_[nodes_[n].left] = parent_[nodes_[n].left + 1] = static_cast<int>(n);
+}
+
+void Bvh::fitLeaf(Node& leaf) const
+{
+  const Eigen::Vector3i& corners = wall_->triangles[leaf.triangle];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double a = wall_->vertices[corners[0]][axis];
+    const double b = wall_->vertices[corners[1]][axis];
+    const double c = wall_->vertices[corners[2]][axis];
+    leaf.low[axis] = std::min({a, b, c});
+    leaf.high[axis] = std::max({a, b, c});
+  }
+}
+
+void Bvh::refit(const std::vector<int>& triangles)
+{
+  ancestors_.clear();
+  for (int t : triangles)
+  {
+    fitLeaf(nodes_[leaf_of_[t]]);
+    for (int n = parent_[leaf_of_[t]]; n >= 0 && !marked_[n]; n = parent_[n])
+    {
+      marked_[n] = 1;
+      ancestors_.push_back(n);
+    }
+  }
+  std::sort(ancestors_.begin(), ancestors_.end(), std::greater<>());
+  for (int n : ancestors_)
+  {
+    marked_[n] = 0;
+    Node& node = nodes_[n];
+    const Node& left = nodes_[node.left];
+    const Node& right = nodes_[node.left + 1];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      node.low[axis] = std::min(left.low[axis], right.low[axis]);
+      node.high[axis] = std::max(left.high[axis], right.high[axis]);
+    }
   }
 }
 

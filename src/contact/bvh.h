@@ -36,6 +36,10 @@ public:
   /** @param near a triangle that is expected to be near, to start from, or −1; the answer does not depend on it */
   Nearest nearest(const Eigen::Vector3d& point, double max_distance, int near = -1) const;
 
+  /** Fits the boxes to triangles that have moved; the tree keeps its shape. Answers stay exact, but where triangles
+   * move far against each other they come more slowly. */
+  void refit(const std::vector<int>& triangles);
+
   double distanceTo(int triangle, const Eigen::Vector3d& point) const;  ///< [m]
 
 private:
@@ -50,7 +54,12 @@ private:
 
   static double squaredDistance(const Node& node, const Eigen::Vector3d& point);
 
-  std::vector<Node> nodes_;
+  void fitLeaf(Node& leaf) const;
+
+  std::vector<Node> nodes_;            ///< children stand behind their parents
+  std::vector<int> parent_, leaf_of_;  ///< per node; per triangle
+  std::vector<char> marked_;           ///< per node
+  std::vector<int> ancestors_;
   const Wall* wall_;
 };
 

@@ -66,32 +66,90 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
 {
   for (std::size_t e = 0; e < wall_.edges.size(); ++e)
     edge_is_reflex_[e] = wall_.edges[e].reflex_angle > kReflexAngle;
-  makePrisms();
+  prisms_.resize(wall_.triangles.size());
+  for (std::size_t t = 0; t < prisms_.size(); ++t)
+    makePrism(static_cast<int>(t));
   edge_balls_.reserve(wall_.edges.size());
   for (const WallEdge& edge : wall_.edges)
+    edge_balls_.push_back(ballOf(edge));
+}
+
+Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
+{
+  const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
+  const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
+  return {0.5 * (begin + end), (end - begin).normalized(), edge.normal, 0.5 * (end - begin).norm()};
+}
+
+void Detector::makePrism(int triangle)
+{
+  Prism& prism = prisms_[triangle];
+  prism.bulges = false;
+  prism.planes.col(0) << wall_.normals[triangle], -wall_.plane_offsets[triangle];
+  for (int k = 0; k < 3; ++k)
   {
-    const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
-    const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
-    edge_balls_.push_back({0.5 * (begin + end), (end - begin).normalized(), edge.normal, 0.5 * (end - begin).norm()});
+    const int vertex = wall_.triangles[triangle][k];
+    const WallEdge& edge = wall_.edges[wall_.triangle_edges[triangle][k]];
+    const int side = edge.triangles[0] == triangle ? 0 : 1;
+    prism.planes.col(k + 1) << edge.into_triangle[side], -edge.into_triangle[side].dot(wall_.vertices[vertex]);
+    prism.bulges = prism.bulges || edge.reflex_angle > 0.0 || wall_.vertex_reflex[vertex] != 0;
   }
 }
 
-void Detector::makePrisms()
+void Detector::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
+                            std::uint64_t vessel_version)
 {
-  prisms_.resize(wall_.triangles.size());
-  for (std::size_t t = 0; t < prisms_.size(); ++t)
+  vessel_version_ = vessel_version;
+  if (indices.empty())
+    return;
+  Eigen::AlignedBox3d moved;  // holds the triangles before and after
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < indices.size(); ++k)
   {
-    Prism& prism = prisms_[t];
-    prism.planes.col(0) << wall_.normals[t], -wall_.plane_offsets[t];
-    for (int k = 0; k < 3; ++k)
-    {
-      const int vertex = wall_.triangles[t][k];
-      const WallEdge& edge = wall_.edges[wall_.triangle_edges[t][k]];
-      const int side = edge.triangles[0] == static_cast<int>(t) ? 0 : 1;
-      prism.planes.col(k + 1) << edge.into_triangle[side], -edge.into_triangle[side].dot(wall_.vertices[vertex]);
-      prism.bulges = prism.bulges || edge.reflex_angle > 0.0 || wall_.vertex_reflex[vertex] != 0;
-    }
+    moved.extend(wall_.vertices[indices[k]]);
+    farthest = std::max(farthest, (positions[k] - wall_.vertices[indices[k]]).norm());
   }
+  const Wall::Changes& changes = wall_.moveVertices(indices, positions);
+  for (int t : changes.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
+  now_reflex_.clear();
+  for (int e : changes.edges)
+  {
+    edge_balls_[e] = ballOf(wall_.edges[e]);
+    const bool reflex = wall_.edges[e].reflex_angle > kReflexAngle;
+    if (reflex && !edge_is_reflex_[e])
+      now_reflex_.push_back(e);
+    edge_is_reflex_[e] = reflex ? 1 : 0;
+  }
+  for (int t : changes.around)
+    makePrism(t);
+  bvh_.refit(changes.triangles);
+  keepUp(moved, farthest);
+}
+
+/** Lists hold more than what can be met. While wire and wall have moved by less than that, they stay; edges that have
+ *  become reflex are added, and those that no longer are stand in them to no effect. */
+void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
+{
+  const auto touches = [&moved](const Neighbourhood& near)
+  {
+    const double half = 0.5 * (near.end - near.begin).norm();
+    const double far = half + near.room + near.limit + kRoom + kListGuard;
+    return near.room >= 0.0 && moved.exteriorDistance(0.5 * (near.begin + near.end)) <= far;
+  };
+  for (Neighbourhood& near : near_nodes_)
+    if (touches(near))
+      near.room -= farthest;
+  for (Neighbourhood& near : near_edges_)
+    if (touches(near))
+    {
+      near.room -= farthest;
+      const auto middle = static_cast<std::ptrdiff_t>(near.items.size());
+      near.items.insert(near.items.end(), now_reflex_.begin(), now_reflex_.end());
+      std::inplace_merge(near.items.begin(), near.items.begin() + middle, near.items.end());
+      near.items.erase(std::unique(near.items.begin(), near.items.end()), near.items.end());
+    }
 }
 
 /** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
@@ -398,7 +456,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double reach = 0.5 * (b - a).norm() + limit;
   for (int e : edgeNeighbourhood(placeFromTip(query, index), a, b, limit).items)
   {
-    if (!canMeet(a, b, e, reach, limit))
+    if (!edge_is_reflex_[e] || !canMeet(a, b, e, reach, limit))
       continue;
     Feature feature;
     double distance = 0.0;

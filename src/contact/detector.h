@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "contact/bvh.h"
 #include "contact/contact_set.h"
@@ -49,6 +50,14 @@ public:
 
   void detect(const Query& query, ContactSet& set) override;
 
+  /** Lets the wall follow a vessel whose vertices have moved, in a time that grows with what is near them only. Answers
+   *  are afterwards, bit for bit, those of a detector made from the moved mesh.
+   *  @param indices distinct vertices of the mesh
+   *  @param positions [m], as many
+   *  @param vessel_version goes into every set from now on */
+  void moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
+                    std::uint64_t vessel_version);
+
   /** Signed distance from a point to the wall, positive inside the lumen [m]. */
   double signedDistance(const Eigen::Vector3d& point) const;
 
@@ -88,7 +97,9 @@ private:
   const Neighbourhood& triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit);
   const Neighbourhood& edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
-  void makePrisms();
+  void makePrism(int triangle);
+  EdgeBall ballOf(const WallEdge& edge) const;
+  void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
   double outsideOf(int triangle, const Eigen::Vector3d& point, double& height) const;
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
@@ -109,7 +120,7 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index from the tip
   std::vector<int> nearest_;                            ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, looked_at_;
+  std::vector<int> collected_, looked_at_, now_reflex_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
   std::vector<char> edge_marked_, edge_is_reflex_;

@@ -12,8 +12,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kFlat = 1e-3;       // rad: below it an edge counts as flat
-constexpr int kCurvatureRounds = 2;  // of neighbours over which curvature is averaged
+constexpr double kFlat = 1e-3;  // rad: below it an edge counts as flat
 
 double clampedAcos(double cosine)
 {
@@ -30,30 +29,57 @@ int oppositeCorner(const Eigen::Vector3i& triangle, const WallEdge& edge)
 
 }  // namespace
 
-Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangles(mesh.triangles)
+Wall::Wall(const vessel::TriangleMesh& mesh)
+  : vertices(mesh.vertices),
+    triangles(mesh.triangles),
+    vertex_marked_(mesh.vertices.size(), 0),
+    triangle_marked_(mesh.triangles.size(), 0)
 {
+  connect();
   normals.resize(triangles.size());
   plane_offsets.resize(triangles.size());
+  angles_.resize(triangles.size());
+  areas_.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    finishTriangle(static_cast<int>(t));
+  edge_bends_.resize(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    finishEdge(edges[e]);
+    finishBend(static_cast<int>(e));
+  }
+  vertex_normals.resize(vertices.size());
+  vertex_reflex.resize(vertices.size());
+  bends_.fill(std::vector<Bend>(vertices.size()));
+  const int count = static_cast<int>(vertices.size());
+  for (int v = 0; v < count; ++v)
+  {
+    finishVertex(v);
+    bends_[0][v] = bendAt(v);
+  }
+  for (int round = 1; round <= kCurvatureRounds; ++round)
+    for (int v = 0; v < count; ++v)
+      bends_[round][v] = widened(v, round);
+  curvature.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    finishCurvature(static_cast<int>(t));
+  edge_marked_.assign(edges.size(), 0);
+}
+
+/** What does not depend on where the vertices are. */
+void Wall::connect()
+{
   triangle_edges.resize(triangles.size());
-  vertex_normals.assign(vertices.size(), Eigen::Vector3d::Zero());
   vertex_edges.resize(vertices.size());
-  vertex_reflex.assign(vertices.size(), 0);
+  vertex_triangles_.resize(vertices.size());
   std::unordered_map<std::uint64_t, int> edge_of_pair;
   edge_of_pair.reserve(triangles.size() * 2);
   for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    const Eigen::Vector3i& corners = triangles[t];
-    const Eigen::Vector3d& origin = vertices[corners[0]];
-    normals[t] = -(vertices[corners[1]] - origin).cross(vertices[corners[2]] - origin).normalized();
-    plane_offsets[t] = normals[t].dot(origin);
     for (int k = 0; k < 3; ++k)
     {
-      const int a = corners[k];
-      const int b = corners[(k + 1) % 3];
-      const int c = corners[(k + 2) % 3];
-      const double angle =
-          clampedAcos((vertices[b] - vertices[a]).normalized().dot((vertices[c] - vertices[a]).normalized()));
-      vertex_normals[a] += angle * normals[t];
+      const int a = triangles[t][k];
+      const int b = triangles[t][(k + 1) % 3];
+      vertex_triangles_[a].push_back(static_cast<int>(t));
       const std::uint64_t pair =
           static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
       const auto [entry, is_new] = edge_of_pair.emplace(pair, static_cast<int>(edges.size()));
@@ -67,61 +93,180 @@ Wall::Wall(const vessel::TriangleMesh& mesh) : vertices(mesh.vertices), triangle
         edges[entry->second].triangles[1] = static_cast<int>(t);
       triangle_edges[t][k] = entry->second;
     }
-  }
-  for (Eigen::Vector3d& normal : vertex_normals)
-    normal.normalize();
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    finishEdge(edges[e]);
+    if (edges[e].triangles[1] < 0)
+      edges[e].triangles[1] = edges[e].triangles[0];
     for (int vertex : edges[e].vertices)
-    {
       vertex_edges[vertex].push_back(static_cast<int>(e));
-      if (edges[e].reflex_angle > kFlat)
-        vertex_reflex[vertex] = 1;
-    }
   }
-  findCurvature();
+}
+
+void Wall::finishTriangle(int triangle)
+{
+  const Eigen::Vector3i& corners = triangles[triangle];
+  const Eigen::Vector3d& origin = vertices[corners[0]];
+  const Eigen::Vector3d cross = (vertices[corners[1]] - origin).cross(vertices[corners[2]] - origin);
+  normals[triangle] = -cross.normalized();
+  plane_offsets[triangle] = normals[triangle].dot(origin);
+  areas_[triangle] = 0.5 * cross.norm();
+  std::array<Eigen::Vector3d, 3> along;  // from each corner to the next, unit
+  for (int k = 0; k < 3; ++k)
+    along[k] = (vertices[corners[(k + 1) % 3]] - vertices[corners[k]]).normalized();
+  for (int k = 0; k < 3; ++k)
+    angles_[triangle][k] = clampedAcos(-along[k].dot(along[(k + 2) % 3]));
+}
+
+void Wall::finishVertex(int vertex)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int t : vertex_triangles_[vertex])
+  {
+    const Eigen::Vector3i& corners = triangles[t];
+    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    sum += angles_[t][k] * normals[t];
+  }
+  vertex_normals[vertex] = sum.normalized();
+  vertex_reflex[vertex] = 0;
+  for (int e : vertex_edges[vertex])
+    if (edges[e].reflex_angle > kFlat)
+      vertex_reflex[vertex] = 1;
 }
 
 /** Cohen-Steiner & Morvan 2003: an edge of length l whose triangles meet at an angle β bends the wall by β l across
  *  itself. Every vertex gets half of its edges' and a third of its triangles' areas, spread over its neighbours, so
  * that one facet's shape counts little. */
-void Wall::findCurvature()
+void Wall::finishBend(int edge)
 {
-  std::vector<Eigen::Matrix3d> bend(vertices.size(), Eigen::Matrix3d::Zero());
-  std::vector<double> area(vertices.size(), 0.0);
-  for (const WallEdge& edge : edges)
+  const WallEdge& e = edges[edge];
+  const Eigen::Vector3d along = vertices[e.vertices[1]] - vertices[e.vertices[0]];
+  edge_bends_[edge] = {along.normalized().cross(e.normal), 0.5 * e.reflex_angle * along.norm()};
+}
+
+Wall::Bend Wall::bendAt(int vertex) const
+{
+  Bend sum;
+  for (int e : vertex_edges[vertex])
   {
-    const Eigen::Vector3d along = vertices[edge.vertices[1]] - vertices[edge.vertices[0]];
-    const Eigen::Vector3d across = along.normalized().cross(edge.normal);
-    for (int vertex : edge.vertices)
-      bend[vertex] -= 0.5 * edge.reflex_angle * along.norm() * across * across.transpose();
+    const EdgeBend& edge = edge_bends_[e];
+    sum.bend -= edge.weight * edge.across * edge.across.transpose();
   }
-  for (const Eigen::Vector3i& t : triangles)
-    for (int corner = 0; corner < 3; ++corner)
-      area[t[corner]] += (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]).norm() / 6.0;
-  for (int round = 0; round < kCurvatureRounds; ++round)
+  for (int t : vertex_triangles_[vertex])
+    sum.area += areas_[t] / 3.0;
+  return sum;
+}
+
+Wall::Bend Wall::widened(int vertex, int round) const
+{
+  const std::vector<Bend>& before = bends_[round - 1];
+  Bend sum = before[vertex];
+  for (int e : vertex_edges[vertex])
   {
-    std::vector<Eigen::Matrix3d> wide_bend = bend;
-    std::vector<double> wide_area = area;
-    for (const WallEdge& edge : edges)
-      for (int side = 0; side < 2; ++side)
+    const Bend& other = before[edges[e].vertices[edges[e].vertices[0] == vertex ? 1 : 0]];
+    sum.bend += other.bend;
+    sum.area += other.area;
+  }
+  return sum;
+}
+
+void Wall::finishCurvature(int triangle)
+{
+  const Eigen::Vector3i& c = triangles[triangle];
+  const std::vector<Bend>& bends = bends_[kCurvatureRounds];
+  curvature[triangle] = (bends[c[0]].bend + bends[c[1]].bend + bends[c[2]].bend) /
+                        (bends[c[0]].area + bends[c[1]].area + bends[c[2]].area);
+}
+
+/** Adds the neighbours of some vertices; all of them are marked. */
+void Wall::widenToNeighbours(std::vector<int>& around)
+{
+  const std::size_t count = around.size();
+  for (std::size_t k = 0; k < count; ++k)
+    for (int e : vertex_edges[around[k]])
+      for (int v : edges[e].vertices)
+        if (!vertex_marked_[v])
+        {
+          vertex_marked_[v] = 1;
+          around.push_back(v);
+        }
+}
+
+const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
+{
+  changes_.triangles.clear();
+  changes_.edges.clear();
+  ring_.clear();
+  for (std::size_t k = 0; k < indices.size(); ++k)
+  {
+    vertices[indices[k]] = positions[k];
+    for (int t : vertex_triangles_[indices[k]])
+      if (!triangle_marked_[t])
       {
-        wide_bend[edge.vertices[side]] += bend[edge.vertices[1 - side]];
-        wide_area[edge.vertices[side]] += area[edge.vertices[1 - side]];
+        triangle_marked_[t] = 1;
+        changes_.triangles.push_back(t);
       }
-    bend.swap(wide_bend);
-    area.swap(wide_area);
   }
-  curvature.reserve(triangles.size());
-  for (const Eigen::Vector3i& t : triangles)
-    curvature.push_back((bend[t[0]] + bend[t[1]] + bend[t[2]]) / (area[t[0]] + area[t[1]] + area[t[2]]));
+  std::sort(changes_.triangles.begin(), changes_.triangles.end());
+  for (int t : changes_.triangles)
+  {
+    finishTriangle(t);
+    for (int k = 0; k < 3; ++k)
+    {
+      const int e = triangle_edges[t][k];
+      const int v = triangles[t][k];
+      if (!edge_marked_[e])
+        edge_marked_[e] = 1, changes_.edges.push_back(e);
+      if (!vertex_marked_[v])
+        vertex_marked_[v] = 1, ring_.push_back(v);
+    }
+  }
+  std::sort(changes_.edges.begin(), changes_.edges.end());
+  for (int e : changes_.edges)
+  {
+    finishEdge(edges[e]);
+    finishBend(e);
+  }
+  for (int v : ring_)
+  {
+    finishVertex(v);
+    bends_[0][v] = bendAt(v);
+  }
+  changes_.around = changes_.triangles;
+  for (int v : ring_)
+    for (int t : vertex_triangles_[v])
+      if (!triangle_marked_[t])
+      {
+        triangle_marked_[t] = 1;
+        changes_.around.push_back(t);
+      }
+  for (int round = 1; round <= kCurvatureRounds; ++round)
+  {
+    widenToNeighbours(ring_);
+    for (int v : ring_)
+      bends_[round][v] = widened(v, round);
+  }
+  for (int t : changes_.around)
+    triangle_marked_[t] = 0;
+  for (int e : changes_.edges)
+    edge_marked_[e] = 0;
+  for (int v : ring_)
+  {
+    vertex_marked_[v] = 0;
+    for (int t : vertex_triangles_[v])
+      if (!triangle_marked_[t])
+      {
+        triangle_marked_[t] = 1;
+        finishCurvature(t);
+      }
+  }
+  for (int v : ring_)
+    for (int t : vertex_triangles_[v])
+      triangle_marked_[t] = 0;
+  return changes_;
 }
 
 void Wall::finishEdge(WallEdge& edge)
 {
-  if (edge.triangles[1] < 0)
-    edge.triangles[1] = edge.triangles[0];
   const Eigen::Vector3d& origin = vertices[edge.vertices[0]];
   const Eigen::Vector3d along = (vertices[edge.vertices[1]] - origin).normalized();
   for (int side = 0; side < 2; ++side)

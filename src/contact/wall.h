@@ -36,15 +36,62 @@ public:
   std::vector<std::array<int, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and k+1
   std::vector<WallEdge> edges;
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
-  std::vector<std::vector<int>> vertex_edges;
-  std::vector<char> vertex_reflex;  ///< 1 where some edge at the vertex is reflex
+  std::vector<std::vector<int>> vertex_edges;   ///< ascending
+  std::vector<char> vertex_reflex;              ///< 1 where some edge at the vertex is reflex
   /** Per triangle the curvature tensor of the smooth wall that the mesh stands for: bᵀKb is the curvature along a
    *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
   std::vector<Eigen::Matrix3d> curvature;
 
+  /** What a movement of vertices has changed; ascending. */
+  struct Changes
+  {
+    std::vector<int> triangles;  ///< with a vertex that moved
+    std::vector<int> edges;      ///< of these triangles
+    std::vector<int> around;     ///< triangles that share a vertex with one of them, themselves too; in any order
+  };
+
+  /** Moves vertices; everything is afterwards, bit for bit, as if the wall had been made from the moved mesh. Time
+   *  grows with the number of vertices moved only.
+   *  @param indices distinct
+   *  @param positions [m], as many
+   *  @return valid until the next call */
+  const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
+
 private:
-  void findCurvature();
+  static constexpr int kCurvatureRounds = 2;  ///< of neighbours over which curvature is averaged
+
+  /** Integral of the curvature over the wall round a vertex, and that wall's area. */
+  struct Bend
+  {
+    Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();  ///< [m]
+    double area = 0.0;                               ///< [m²]
+  };
+
+  void connect();
+  void finishTriangle(int triangle);
   void finishEdge(WallEdge& edge);
+  void finishVertex(int vertex);
+  void finishBend(int edge);
+  Bend bendAt(int vertex) const;
+  Bend widened(int vertex, int round) const;
+  void finishCurvature(int triangle);
+  void widenToNeighbours(std::vector<int>& around);
+
+  /** An edge's share of bend is weight · across acrossᵀ. */
+  struct EdgeBend
+  {
+    Eigen::Vector3d across;  ///< unit
+    double weight;           ///< [m]
+  };
+
+  std::vector<std::array<double, 3>> angles_;  ///< of every triangle's corners [rad]
+  std::vector<double> areas_;                  ///< of the triangles [m²]
+  std::vector<EdgeBend> edge_bends_;
+  std::vector<std::vector<int>> vertex_triangles_;             ///< ascending
+  std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
+  Changes changes_;
+  std::vector<int> ring_;
+  std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };
 
 }  // namespace endovascular_sim::contact

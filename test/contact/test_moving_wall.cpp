@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <Eigen/Geometry>
+
+#include "contact/detector.h"
+#include "contact_fixtures.h"
+#include "vessel/subdivision.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+/** Vertices of a ball round a place, and where they go: outwards by up to a share of the ball. */
+struct Movement
+{
+  std::vector<int> indices;
+  std::vector<Eigen::Vector3d> positions;
+};
+
+Movement pushOut(const vessel::TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius, double share)
+{
+  Movement movement;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+  {
+    const Eigen::Vector3d out = mesh.vertices[v] - centre;
+    const double t = out.norm() / radius;
+    if (t >= 1.0)
+      continue;
+    movement.indices.push_back(static_cast<int>(v));
+    movement.positions.emplace_back(mesh.vertices[v] + share * (1.0 - t) * out);
+  }
+  return movement;
+}
+
+void apply(const Movement& movement, vessel::TriangleMesh& mesh)
+{
+  for (std::size_t k = 0; k < movement.indices.size(); ++k)
+    mesh.vertices[static_cast<std::size_t>(movement.indices[k])] = movement.positions[k];
+}
+
+template <typename Number>
+bool sameBits(const Number& a, const Number& b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+void expectSameSets(const ContactSet& a, const ContactSet& b)
+{
+  EXPECT_EQ(a.vessel_version, b.vessel_version);
+  EXPECT_EQ(a.free_distance, b.free_distance);
+  ASSERT_EQ(a.features.size(), b.features.size());
+  for (std::size_t k = 0; k < a.features.size(); ++k)
+  {
+    const Feature& x = a.features[k];
+    const Feature& y = b.features[k];
+    EXPECT_EQ(x.id, y.id);
+    EXPECT_EQ(x.edge, y.edge);
+    EXPECT_EQ(x.triangle, y.triangle);
+    EXPECT_TRUE(sameBits(x.parameter, y.parameter));
+    EXPECT_TRUE(sameBits(x.point, y.point));
+    EXPECT_TRUE(sameBits(x.normal, y.normal));
+    EXPECT_TRUE(sameBits(x.gap, y.gap));
+    EXPECT_TRUE(sameBits(x.clearance_radius, y.clearance_radius));
+  }
+}
+
+void expectSameWalls(const Wall& a, const Wall& b)
+{
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.plane_offsets, b.plane_offsets);
+  EXPECT_EQ(a.vertex_normals, b.vertex_normals);
+  EXPECT_EQ(a.vertex_reflex, b.vertex_reflex);
+  EXPECT_EQ(a.curvature, b.curvature);
+  for (std::size_t e = 0; e < a.edges.size(); ++e)
+  {
+    EXPECT_EQ(a.edges[e].reflex_angle, b.edges[e].reflex_angle);
+    EXPECT_EQ(a.edges[e].normal, b.edges[e].normal);
+    EXPECT_EQ(a.edges[e].into_triangle, b.edges[e].into_triangle);
+  }
+}
+
+vessel::TriangleMesh fineTube()
+{
+  return vessel::flatSubdivision(bentTube(), 2);
+}
+
+TEST(MovingWall, IsBitForBitTheWallOfTheMovedMesh)
+{
+  vessel::TriangleMesh mesh = fineTube();
+  Wall wall(mesh);
+  for (double place : {0.01, 0.02, 0.022})
+  {
+    const Movement movement = pushOut(mesh, {0.0, 0.0, place}, 6e-3, 0.3);
+    ASSERT_GT(movement.indices.size(), 50U);
+    apply(movement, mesh);
+    const Wall::Changes& changes = wall.moveVertices(movement.indices, movement.positions);
+    EXPECT_LT(changes.triangles.size(), mesh.triangles.size() / 2);
+    expectSameWalls(wall, Wall(mesh));
+  }
+}
+
+TEST(MovingWall, GivesTheAnswersOfADetectorThatIsMadeAnew)
+{
+  vessel::TriangleMesh mesh = fineTube();
+  Detector moving(mesh, WallLaw{});
+  std::mt19937 random(7);
+  std::vector<Query> wires;
+  for (int k = 0; k < 30; ++k)
+    wires.push_back(randomWire({0.0, 0.0, 0.001 * k}, random, 20));
+  std::size_t features = 0;
+  std::size_t changed = 0;
+  for (std::uint64_t version = 2; version < 8; ++version)
+  {
+    // The wall's lists are warm from the shape before.
+    ContactSet before, after, fresh;
+    Detector old(mesh, WallLaw{}, version);
+    const double place = 0.004 * static_cast<double>(version);
+    const Movement movement = pushOut(mesh, {1e-3, 0.0, place}, 5e-3, version % 2 == 0 ? 0.4 : -0.3);
+    apply(movement, mesh);
+    for (const Query& wire : wires)
+      moving.detect(wire, before);
+    moving.moveVertices(movement.indices, movement.positions, version);
+    Detector anew(mesh, WallLaw{}, version);
+    for (const Query& wire : wires)
+    {
+      old.detect(wire, before);
+      moving.detect(wire, after);
+      anew.detect(wire, fresh);
+      expectSameSets(after, fresh);
+      features += after.features.size();
+      bool same = before.features.size() == after.features.size();
+      for (std::size_t k = 0; same && k < after.features.size(); ++k)
+        same = before.features[k].gap == after.features[k].gap;
+      changed += same ? 0 : 1;
+      Query far = wire;
+      far.wanted_free_distance = 0.01;
+      moving.detect(far, after);
+      anew.detect(far, fresh);
+      expectSameSets(after, fresh);
+      EXPECT_EQ(moving.signedDistance(wire.nodes[5]), anew.signedDistance(wire.nodes[5]));
+    }
+  }
+  EXPECT_GT(features, 300U);
+  EXPECT_GT(changed, 20U) << "movements that no wire feels test nothing";
+}
+
+TEST(MovingWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
+{
+  vessel::TriangleMesh mesh = fineTube();
+  Detector moving(mesh, WallLaw{});
+  Query wire;
+  wire.margin = 0.25e-3;
+  for (int k = 0; k < 20; ++k)
+  {
+    wire.nodes.emplace_back(3.5e-3, 0.0, 0.001 * k);
+    wire.radius.push_back(0.4e-3);
+  }
+  ContactSet after, fresh;
+  moving.detect(wire, after);
+  const std::size_t touching = after.features.size();
+  ASSERT_GT(touching, 10U);
+  for (std::uint64_t step = 2; step < 40; ++step)
+  {
+    const Movement movement = pushOut(mesh, {0.0, 0.0, 0.01}, 12e-3, 0.02);
+    apply(movement, mesh);
+    moving.moveVertices(movement.indices, movement.positions, step);
+    moving.detect(wire, after);
+    Detector anew(mesh, WallLaw{}, step);
+    anew.detect(wire, fresh);
+    expectSameSets(after, fresh);
+  }
+  EXPECT_LT(after.features.size(), touching);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::contact
