@@ -89,7 +89,12 @@ Polyline::Foot Polyline::nearest(const Eigen::Vector3d& p) const
 Polyline::Foot Polyline::section(const Eigen::Vector3d& p) const
 {
   double t = 0.0;
-  std::size_t k = nearestSegment(p, t);
+  return section(p, nearestSegment(p, t));
+}
+
+Polyline::Foot Polyline::section(const Eigen::Vector3d& p, std::size_t segment) const
+{
+  std::size_t k = segment;
   const auto beyond = [&](std::size_t point) { return (p - points_[point]).dot(tangents_[point]) > 0.0; };
   while (k > 0 && !beyond(k))
     --k;
@@ -103,7 +108,7 @@ Polyline::Foot Polyline::section(const Eigen::Vector3d& p) const
   const double linear = chord.dot(tangents_[k]) - from.dot(turn);
   const double root = linear * linear + 4.0 * chord.dot(turn) * constant;
   const double divisor = linear + std::sqrt(std::max(root, 0.0));
-  t = divisor > 0.0 ? std::clamp(2.0 * constant / divisor, 0.0, 1.0) : t;
+  const double t = divisor > 0.0 ? std::clamp(2.0 * constant / divisor, 0.0, 1.0) : 0.5;
   const Eigen::Vector3d foot = points_[k] + t * chord;
   const Eigen::Vector3d tangent = (tangents_[k] + t * turn).normalized();
   return {arcs_[k] + t * chord.norm(), foot, tangent, (foot - p).norm()};

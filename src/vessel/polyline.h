@@ -45,11 +45,16 @@ public:
    *  line's points, so that this one, unlike the nearest, goes evenly along with p beside a bend. */
   Foot section(const Eigen::Vector3d& p) const;
 
+  /** The same, near a segment that is known to be near: time does not grow with the line's length. */
+  Foot section(const Eigen::Vector3d& p, std::size_t segment) const;
+
+  /** The segment that holds an arc length. */
+  std::size_t segmentAt(double arc) const;
+
   /** The part between two arc lengths, with the line's own points in it. @pre begin < end */
   Polyline part(double begin, double end) const;
 
 private:
-  std::size_t segmentAt(double arc) const;
   std::size_t nearestSegment(const Eigen::Vector3d& p, double& t) const;
 
   std::vector<Eigen::Vector3d> points_;

@@ -1,0 +1,87 @@
+#include "intervention/stent_placement.h"
+
+#include <gtest/gtest.h>
+
+#include "treated_tube.h"
+#include "vessel/polyline.h"
+
+namespace endovascular_sim::intervention
+{
+namespace
+{
+
+double middleOf(const RoundBody& sleeve)
+{
+  return 0.5 * (sleeve.axis.front().z() + sleeve.axis.back().z());
+}
+
+TEST(StentPlacement, StaysCrimpedOnItsBalloonBelowItsOpeningPressure)
+{
+  StentPlacement placement(stent(), balloon());
+  EXPECT_EQ(placement.follow(shaftAt(0.03), 2.5 * kAtmosphere, 2.45e-3), StentPlacement::State::kCrimped);
+  EXPECT_NEAR(placement.outerDiameter(), 1.1e-3, 1e-12);
+  EXPECT_NEAR(middleOf(placement.sleeve()), 0.03, 1e-9);
+  placement.follow(shaftAt(0.035), 0.0, 0.9e-3);
+  EXPECT_NEAR(middleOf(placement.sleeve()), 0.035, 1e-9) << "it moves with the balloon";
+}
+
+TEST(StentPlacement, OpensWithTheBalloonShortensRecoilsAndStays)
+{
+  StentPlacement placement(stent(), balloon());
+  placement.follow(shaftAt(0.03), 8.0 * kAtmosphere, 3.0e-3);
+  EXPECT_EQ(placement.state(), StentPlacement::State::kExpanding);
+  EXPECT_NEAR(placement.innerDiameter(), 3.0e-3, 1e-12);
+  EXPECT_NEAR(placement.length(), 14.0e-3, 1e-12);
+  EXPECT_NEAR(vessel::Polyline(placement.sleeve().axis).length(), 14.0e-3, 1e-9);
+  placement.follow(shaftAt(0.03), 4.0 * kAtmosphere, 2.9e-3);
+  EXPECT_EQ(placement.state(), StentPlacement::State::kExpanding) << "the balloon still fills it";
+  EXPECT_EQ(placement.follow(shaftAt(0.03), 1.0 * kAtmosphere, 1.6e-3), StentPlacement::State::kPlaced);
+  EXPECT_NEAR(placement.innerDiameter(), 0.95 * 3.0e-3, 1e-12);
+  EXPECT_NEAR(placement.outerDiameter(), 0.95 * 3.0e-3 + 0.18e-3, 1e-12);
+  placement.follow(shaftAt(0.01), 8.0 * kAtmosphere, 3.2e-3);
+  EXPECT_NEAR(middleOf(placement.sleeve()), 0.03, 1e-9) << "where it was left";
+  EXPECT_NEAR(placement.innerDiameter(), 0.95 * 3.0e-3, 1e-12);
+}
+
+TEST(StentPlacement, IsNotOpenedBeyondItsLargestDiameter)
+{
+  StentPlacement placement(stent(), balloon());
+  placement.follow(shaftAt(0.03), 16.0 * kAtmosphere, 3.6e-3);
+  EXPECT_TRUE(placement.overExpanded());
+  EXPECT_NEAR(placement.innerDiameter(), 3.5e-3, 1e-12);
+}
+
+TEST(StentPlacement, IsLostWhereItIsPulledOffUnopened)
+{
+  StentPlacement placement(stent(), balloon());
+  placement.follow(shaftAt(0.03), 0.0, 0.9e-3);
+  placement.stripOff();
+  EXPECT_EQ(placement.follow(shaftAt(0.01), 8.0 * kAtmosphere, 3.0e-3), StentPlacement::State::kLost);
+  EXPECT_NEAR(middleOf(placement.sleeve()), 0.03, 1e-9);
+  StentPlacement opened(stent(), balloon());
+  opened.follow(shaftAt(0.03), 8.0 * kAtmosphere, 3.0e-3);
+  opened.stripOff();
+  EXPECT_EQ(opened.state(), StentPlacement::State::kExpanding);
+}
+
+TEST(StentPlacement, HasItsStrutsOnItsSurfaceOverItsLength)
+{
+  StentPlacement placement(stent(), balloon());
+  EXPECT_TRUE(placement.struts().empty());
+  placement.follow(shaftAt(0.03), 8.0 * kAtmosphere, 3.0e-3);
+  const auto rings = placement.struts();
+  EXPECT_EQ(rings.size(), 9U);
+  double low = 1.0;
+  double high = 0.0;
+  for (const auto& ring : rings)
+    for (const Eigen::Vector3d& p : ring)
+    {
+      EXPECT_NEAR(p.head<2>().norm(), 0.5 * placement.outerDiameter(), 1e-9);
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+    }
+  EXPECT_NEAR(high - low, 14.0e-3 * (1.0 - 0.2 / 9.0), 1e-9);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::intervention

@@ -1,0 +1,128 @@
+#include "intervention/treatment.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "intervention/lesion_report.h"
+#include "treated_tube.h"
+
+namespace endovascular_sim::intervention
+{
+namespace
+{
+
+instrument::Instrument catheter(bool with_stent)
+{
+  instrument::Instrument instrument;
+  instrument.name = "balloon";
+  instrument.kind = instrument::Kind::kBalloonCatheter;
+  instrument.balloon = balloon();
+  if (with_stent)
+    instrument.stent = stent();
+  return instrument;
+}
+
+/** Up to a pressure, held, and empty again. @return events of all steps */
+TreatmentEvents inflateAndDeflate(Treatment& treatment, double pressure, const ShaftLine& shaft)
+{
+  TreatmentEvents all;
+  const auto run = [&](double duration, double commanded)
+  {
+    for (double t = 0.0; t < duration; t += 0.05)
+    {
+      treatment.step(0.05, commanded, shaft);
+      const TreatmentEvents& events = treatment.events();
+      all.above_rated |= events.above_rated;
+      all.burst |= events.burst;
+      all.stent_placed |= events.stent_placed;
+      all.over_expanded |= events.over_expanded;
+      all.at_risk |= events.at_risk;
+    }
+  };
+  run(10.0, pressure);
+  run(20.0, -kAtmosphere);
+  return all;
+}
+
+TEST(Treatment, OfALesionByABalloonLeavesTheRecoilAsStenosis)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.7);
+  VesselOpening opening(vessel, OpeningLaw{});
+  const vessel::PlacedLesion& lesion = vessel.lesions.front();
+  EXPECT_NEAR(reportLesion(opening.mesh(), vessel.centreline, lesion).stenosis, 0.7, 0.01);
+  Treatment treatment(catheter(false), opening);
+  const TreatmentEvents events = inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion));
+  const LesionReport report = reportLesion(opening.mesh(), vessel.centreline, lesion);
+  EXPECT_NEAR(report.stenosis, 0.10, 0.01);
+  EXPECT_NEAR(report.least_diameter, 0.9 * 3.0e-3, 0.02e-3);
+  EXPECT_NEAR(report.reference_diameter, 3.0e-3, 0.02e-3);
+  EXPECT_FALSE(report.stented);
+  EXPECT_FALSE(events.burst || events.above_rated || events.at_risk);
+}
+
+TEST(Treatment, WithAStentLeavesTheStentsRecoilOnly)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.7);
+  VesselOpening opening(vessel, OpeningLaw{});
+  Treatment treatment(catheter(true), opening);
+  EXPECT_NEAR(treatment.radiusAt(12.5e-3), 0.55e-3, 1e-12);
+  const TreatmentEvents events = inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion));
+  EXPECT_TRUE(events.stent_placed);
+  ASSERT_EQ(treatment.stent()->state(), StentPlacement::State::kPlaced);
+  const LesionReport report =
+      reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
+  EXPECT_NEAR(report.least_diameter, 0.95 * 3.0e-3 + 0.18e-3, 0.03e-3);
+  EXPECT_NEAR(report.coverage, 1.0, 1e-9);
+  EXPECT_GT(report.apposition, 0.99);
+  EXPECT_NEAR(report.placement_error, 0.0, 1e-6);
+  EXPECT_NEAR(treatment.radiusAt(12.5e-3), 0.45e-3, 0.2e-3) << "the folded balloon alone";
+}
+
+TEST(Treatment, HalfOutOfPlaceCoversHalfOfTheLesion)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.5);
+  VesselOpening opening(vessel, OpeningLaw{});
+  Treatment treatment(catheter(true), opening);
+  // The placed stent is 14 mm long: its proximal end stands in the middle of the lesion.
+  const double length = stent().lengthAt(0.95 * 3.0e-3);
+  inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion + 0.5 * length));
+  const LesionReport report =
+      reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
+  EXPECT_NEAR(report.coverage, 0.5, 0.005);
+  EXPECT_NEAR(report.placement_error, 0.5 * length, 0.05e-3);
+}
+
+TEST(Treatment, WithTooSmallAStentLeavesItHangingInTheLumen)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.2, 2.0e-3);
+  VesselOpening opening(vessel, OpeningLaw{});
+  Treatment treatment(catheter(true), opening);
+  inflateAndDeflate(treatment, 5.0 * kAtmosphere, shaftAt(0.045));  // in the healthy vessel behind the lesion
+  const LesionReport report =
+      reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
+  EXPECT_EQ(report.apposition, 0.0) << "2.7 mm in 4 mm";
+  EXPECT_NEAR(report.coverage, 0.0, 1e-9);
+}
+
+TEST(Treatment, TellsRuptureAndTheRiskOfATear)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.5, 1.1e-3);
+  VesselOpening opening(vessel, OpeningLaw{});
+  Treatment treatment(catheter(false), opening);
+  const TreatmentEvents events = inflateAndDeflate(treatment, 25.0 * kAtmosphere, shaftAt(kLesion));
+  EXPECT_TRUE(events.above_rated);
+  EXPECT_TRUE(events.burst);
+  EXPECT_TRUE(events.at_risk);
+  EXPECT_EQ(treatment.inflation().diameter(), 0.9e-3);
+}
+
+TEST(Treatment, NeedsABalloon)
+{
+  VesselOpening opening(tubeWithLesion(0.0), OpeningLaw{});
+  instrument::Instrument wire;
+  wire.name = "guidewire_014";
+  EXPECT_THROW(Treatment(wire, opening), InputError);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::intervention
