@@ -1,9 +1,9 @@
 #include "contact/bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
@@ -16,10 +16,43 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr int kMaxDepth = 128;
-constexpr double kBoundRounding = 1.0 + 1e-12;  // so that no bound's rounding hides the nearest triangle
+constexpr int kMaxDepth = 384;             // of places that wait to be looked at
+constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+float roundedDown(double x)
+{
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) > x ? std::nextafter(nearest, -kNone) : nearest;
+}
+
+float roundedUp(double x)
+{
+  return -roundedDown(-x);
+}
 
 }  // namespace
+
+struct Bvh::Binary
+{
+  fcl::BVHModel<fcl::AABB<double>> model;
+
+  bool isLeaf(int node) const { return model.getBV(node).isLeaf(); }
+  double surface(int node) const
+  {
+    const auto& size = model.getBV(node).bv.max_ - model.getBV(node).bv.min_;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+  }
+};
+
+Bvh::Box::Box(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = roundedDown(from[axis]);
+    high[axis] = roundedUp(to[axis]);
+  }
+}
 
 Bvh::Bvh(const Wall& wall) : wall_(&wall)
 {
@@ -27,46 +60,70 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   triangles.reserve(wall.triangles.size());
   for (const Eigen::Vector3i& t : wall.triangles)
     triangles.emplace_back(t[0], t[1], t[2]);
-  fcl::BVHModel<fcl::AABB<double>> model;
-  model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(wall.vertices.size()));
-  model.addSubModel(wall.vertices, triangles);
-  if (model.endModel() != fcl::BVH_OK)
+  Binary binary;
+  binary.model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(wall.vertices.size()));
+  binary.model.addSubModel(wall.vertices, triangles);
+  if (binary.model.endModel() != fcl::BVH_OK)
     throw InputError("vessel mesh", "", "no bounding volume hierarchy can be built over it: it needs triangles");
-  nodes_.resize(static_cast<std::size_t>(model.getNumBVs()));
-  for (std::size_t n = 0; n < nodes_.size(); ++n)
-  {
-    const auto& from = model.getBV(static_cast<int>(n));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      nodes_[n].low[axis] = from.bv.min_[axis];
-      nodes_[n].high[axis] = from.bv.max_[axis];
-    }
-    if (from.isLeaf())
-      nodes_[n].triangle = from.primitiveId();
-    else
-      nodes_[n].left = from.leftChild();
-  }
-  parent_.assign(nodes_.size(), -1);
-  leaf_of_.assign(wall.triangles.size(), -1);
+  place_of_.resize(wall.triangles.size());
+  copy(binary, 0, {});
   marked_.assign(nodes_.size(), 0);
-  for (std::size_t n = 0; n < nodes_.size(); ++n)
-    if (nodes_[n].left < 0)
-      leaf_of_[nodes_[n].triangle] = static_cast<int>(n);
-    else
-      parent_[nodes_[n].left] = parent_[nodes_[n].left + 1] = static_cast<int>(n);
 }
 
-void Bvh::fitLeaf(Node& leaf) const
+/** Copies what is below a node of the binary tree, opening the largest boxes until there are four.
+ *  @return the copy's index */
+int Bvh::copy(const Binary& binary, int root, Place above)
 {
-  const Eigen::Vector3i& corners = wall_->triangles[leaf.triangle];
+  std::vector<int> members{root};
+  while (members.size() < kWidth)
+  {
+    const auto rank = [&binary](int node) { return binary.isLeaf(node) ? -1.0 : binary.surface(node); };
+    const auto largest =
+        std::max_element(members.begin(), members.end(), [&rank](int a, int b) { return rank(a) < rank(b); });
+    if (binary.isLeaf(*largest))
+      break;
+    const auto& opened = binary.model.getBV(*largest);
+    *largest = opened.leftChild();
+    members.push_back(opened.rightChild());
+  }
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  above_.push_back(above);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double a = wall_->vertices[corners[0]][axis];
-    const double b = wall_->vertices[corners[1]][axis];
-    const double c = wall_->vertices[corners[2]][axis];
-    leaf.low[axis] = std::min({a, b, c});
-    leaf.high[axis] = std::max({a, b, c});
+    nodes_[index].low[axis].setConstant(kNone);
+    nodes_[index].high[axis].setConstant(-kNone);
   }
+  nodes_[index].child.fill(-1);
+  for (int lane = 0; lane < static_cast<int>(members.size()); ++lane)
+  {
+    const auto& member = binary.model.getBV(members[lane]);
+    const Place place{index, lane};
+    setBox(place, Box(member.bv.min_, member.bv.max_));
+    if (member.isLeaf())
+      place_of_[member.primitiveId()] = place;
+    const int child = member.isLeaf() ? ~member.primitiveId() : copy(binary, members[lane], place);
+    nodes_[index].child[lane] = child;
+  }
+  return index;
+}
+
+void Bvh::setBox(Place place, const Box& box)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    nodes_[place.node].low[axis][place.lane] = box.low[axis];
+    nodes_[place.node].high[axis][place.lane] = box.high[axis];
+  }
+}
+
+void Bvh::fitTriangle(int triangle)
+{
+  const Eigen::Vector3i& corners = wall_->triangles[triangle];
+  const Eigen::Vector3d& a = wall_->vertices[corners[0]];
+  const Eigen::Vector3d& b = wall_->vertices[corners[1]];
+  const Eigen::Vector3d& c = wall_->vertices[corners[2]];
+  setBox(place_of_[triangle], Box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)));
 }
 
 void Bvh::refit(const std::vector<int>& triangles)
@@ -74,8 +131,8 @@ void Bvh::refit(const std::vector<int>& triangles)
   ancestors_.clear();
   for (int t : triangles)
   {
-    fitLeaf(nodes_[leaf_of_[t]]);
-    for (int n = parent_[leaf_of_[t]]; n >= 0 && !marked_[n]; n = parent_[n])
+    fitTriangle(t);
+    for (int n = place_of_[t].node; n >= 0 && !marked_[n]; n = above_[n].node)
     {
       marked_[n] = 1;
       ancestors_.push_back(n);
@@ -85,68 +142,60 @@ void Bvh::refit(const std::vector<int>& triangles)
   for (int n : ancestors_)
   {
     marked_[n] = 0;
-    Node& node = nodes_[n];
-    const Node& left = nodes_[node.left];
-    const Node& right = nodes_[node.left + 1];
-    for (int axis = 0; axis < 3; ++axis)
+    const Place above = above_[n];
+    for (int axis = 0; axis < 3 && above.node >= 0; ++axis)
     {
-      node.low[axis] = std::min(left.low[axis], right.low[axis]);
-      node.high[axis] = std::max(left.high[axis], right.high[axis]);
+      nodes_[above.node].low[axis][above.lane] = nodes_[n].low[axis].minCoeff();
+      nodes_[above.node].high[axis][above.lane] = nodes_[n].high[axis].maxCoeff();
     }
   }
 }
 
-double Bvh::squaredDistance(const Node& node, const Eigen::Vector3d& point)
+/** How far four boxes are from another one along an axis; negative where they overlap [m]. */
+Bvh::Lanes Bvh::gaps(const Node& node, const Box& box, int axis)
 {
-  double squared = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
+  return (node.low[axis] - box.high[axis]).max(box.low[axis] - node.high[axis]);
+}
+
+Bvh::Lanes Bvh::squaredGaps(const Node& node, const Box& box)
+{
+  return gaps(node, box, 0).max(0.0F).square() + gaps(node, box, 1).max(0.0F).square() +
+         gaps(node, box, 2).max(0.0F).square();
+}
+
+template <typename Meets, typename Found>
+void Bvh::walk(const Meets& meets, float limit, const Found& found) const
+{
+  std::array<int, kMaxDepth> stack;
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0)
   {
-    const double gap = std::max(0.0, std::max(node.low[axis] - point[axis], point[axis] - node.high[axis]));
-    squared += gap * gap;
+    const Node& node = nodes_[stack[--top]];
+    const Lanes distance = meets(node);
+    for (int lane = 0; lane < kWidth; ++lane)
+      if (distance[lane] <= limit)
+      {
+        if (node.child[lane] < 0)
+          found(~node.child[lane]);
+        else
+          stack[top++] = node.child[lane];
+      }
   }
-  return squared;
 }
 
 void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const
 {
-  const double limit = kBoundRounding * radius * radius;
-  std::array<int, kMaxDepth> stack;
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0)
-  {
-    const Node& node = nodes_[stack[--top]];
-    if (squaredDistance(node, point) > limit)
-      continue;
-    if (node.left < 0)
-      triangles.push_back(node.triangle);
-    else
-    {
-      stack[top++] = node.left + 1;
-      stack[top++] = node.left;
-    }
-  }
+  const Box box(point, point);
+  walk([&box](const Node& node) { return squaredGaps(node, box); }, kLaneRounding * roundedUp(radius * radius),
+       [&triangles](int t) { triangles.push_back(t); });
 }
 
 void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const
 {
-  std::array<int, kMaxDepth> stack;
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0)
-  {
-    const Node& node = nodes_[stack[--top]];
-    if (node.low[0] > high[0] || node.high[0] < low[0] || node.low[1] > high[1] || node.high[1] < low[1] ||
-        node.low[2] > high[2] || node.high[2] < low[2])
-      continue;
-    if (node.left < 0)
-      triangles.push_back(node.triangle);
-    else
-    {
-      stack[top++] = node.left + 1;
-      stack[top++] = node.left;
-    }
-  }
+  const Box box(low, high);
+  walk([&box](const Node& node) -> Lanes { return gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2)); },
+       0.0F, [&triangles](int t) { triangles.push_back(t); });
 }
 
 double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const
@@ -161,39 +210,48 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
 {
   struct Entry
   {
-    int node;
-    double bound;  // squared
+    int child;
+    float bound;  // squared
   };
   std::array<Entry, kMaxDepth> stack;
   int top = 0;
-  stack[top++] = {0, 0.0};
+  stack[top++] = {0, 0.0F};
   Nearest best{-1, max_distance};
+  float limit = kNone;
   // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
-  const auto offer = [&best, &point, this](int t)
+  const auto offer = [&best, &limit, &point, this](int t)
   {
     const double distance = distanceTo(t, point);
     if (distance < best.distance || (distance == best.distance && (best.triangle < 0 || t < best.triangle)))
       best = {t, distance};
+    limit = kLaneRounding * roundedUp(best.distance * best.distance);
   };
+  limit = std::isfinite(max_distance) ? kLaneRounding * roundedUp(max_distance * max_distance) : kNone;
   if (near >= 0)
     offer(near);
+  const Box box(point, point);
   while (top > 0)
   {
     const Entry entry = stack[--top];
-    if (entry.bound > kBoundRounding * best.distance * best.distance)
+    if (entry.bound > limit)
       continue;
-    const Node& node = nodes_[entry.node];
-    if (node.left < 0)
+    if (entry.child < 0)
     {
-      offer(node.triangle);
+      offer(~entry.child);
       continue;
     }
-    Entry left{node.left, squaredDistance(nodes_[node.left], point)};
-    Entry right{node.left + 1, squaredDistance(nodes_[node.left + 1], point)};
-    if (left.bound > right.bound)
-      std::swap(left, right);
-    stack[top++] = right;
-    stack[top++] = left;
+    const Node& node = nodes_[entry.child];
+    const Lanes bounds = squaredGaps(node, box);
+    const int begin = top;
+    for (int lane = 0; lane < kWidth; ++lane)
+      if (bounds[lane] <= limit && bounds[lane] < kNone)
+      {
+        // The nearest one ends on top.
+        int at = top++;
+        for (; at > begin && stack[at - 1].bound < bounds[lane]; --at)
+          stack[at] = stack[at - 1];
+        stack[at] = {node.child[lane], bounds[lane]};
+      }
   }
   return best;
 }

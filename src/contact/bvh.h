@@ -12,9 +12,9 @@ namespace endovascular_sim::contact
 
 /** Bounding volume hierarchy of axis-aligned boxes over the wall's triangles.
  *
- *  FCL builds the tree; the walk is ours: FCL's own sphere query copies and refits the whole model on every call and
- *  reports no depth for it (docs/CONTACT.md). The finished nodes are copied into one flat array, because FCL's
- *  accessors are calls into its library. */
+ *  FCL builds a binary tree; it is copied into nodes of four boxes each, which are looked at together (Wald et al.
+ * 2008). The walk is ours: FCL's own sphere query copies and refits the whole model on every call and reports no depth
+ * for it (docs/CONTACT.md). Boxes are of single precision, rounded outwards, so that nothing is missed. */
 class Bvh
 {
 public:
@@ -43,22 +43,48 @@ public:
   double distanceTo(int triangle, const Eigen::Vector3d& point) const;  ///< [m]
 
 private:
-  /** A box with its children (left at `left`, right at `left` + 1), or its triangle in a leaf. */
+  static constexpr int kWidth = 4;
+  using Lanes = Eigen::Array<float, kWidth, 1>;
+
+  /** Four boxes [m] with what is in them: a node's index, or ~triangle; the boxes of empty places are inside out. */
   struct Node
   {
-    std::array<double, 3> low;
-    std::array<double, 3> high;
-    int left = -1;
-    int triangle = -1;
+    std::array<Lanes, 3> low, high;
+    std::array<int, kWidth> child;
   };
 
-  static double squaredDistance(const Node& node, const Eigen::Vector3d& point);
+  /** A place in a node. */
+  struct Place
+  {
+    int node = -1;
+    int lane = 0;
+  };
 
-  void fitLeaf(Node& leaf) const;
+  /** Axis-aligned box of single precision around one of double precision. */
+  struct Box
+  {
+    std::array<float, 3> low, high;
+    Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+  };
 
-  std::vector<Node> nodes_;            ///< children stand behind their parents
-  std::vector<int> parent_, leaf_of_;  ///< per node; per triangle
-  std::vector<char> marked_;           ///< per node
+  /** What of the binary tree the copy needs. */
+  struct Binary;
+
+  int copy(const Binary& binary, int root, Place above);
+  void setBox(Place place, const Box& box);
+  void fitTriangle(int triangle);
+  static Lanes gaps(const Node& node, const Box& box, int axis);
+  static Lanes squaredGaps(const Node& node, const Box& box);
+
+  /** Hands the triangles of all places that @p meets (node → four numbers, of which those up to @p limit count) lets
+   *  through to @p found. */
+  template <typename Meets, typename Found>
+  void walk(const Meets& meets, float limit, const Found& found) const;
+
+  std::vector<Node> nodes_;      ///< children stand behind their parents
+  std::vector<Place> place_of_;  ///< of each triangle
+  std::vector<Place> above_;     ///< of each node; the root has none
+  std::vector<char> marked_;     ///< per node
   std::vector<int> ancestors_;
   const Wall* wall_;
 };

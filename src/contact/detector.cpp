@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double kRoom = 0.25e-3;            // m that a node may move before what is near it is listed anew
+constexpr std::size_t kUsual = 16;           // entries of a list
 constexpr double kListGuard = 1e-8;          // m by which lists hold more than rounding could miss
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
@@ -46,6 +47,19 @@ std::int64_t featureId(int index, FeatureKind kind)
   return std::int64_t{3} * index + kind;
 }
 
+/** Heights of a point over four planes [m]. */
+inline Eigen::Array4d heights(const std::array<Eigen::Array4d, 4>& planes, const Eigen::Vector3d& point)
+{
+  return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
+}
+
+/** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
+ * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
+inline double outsideOf(const Eigen::Array4d& above)
+{
+  return -std::min({above[1], above[2], above[3]});
+}
+
 }  // namespace
 
 double WallLaw::frictionAt(const Eigen::Vector3d& place) const
@@ -57,12 +71,7 @@ double WallLaw::frictionAt(const Eigen::Vector3d& place) const
 }
 
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : wall_(mesh),
-    bvh_(wall_),
-    law_(law),
-    vessel_version_(vessel_version),
-    edge_marked_(wall_.edges.size(), 0),
-    edge_is_reflex_(wall_.edges.size(), 0)
+  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_is_reflex_(wall_.edges.size(), 0)
 {
   for (std::size_t e = 0; e < wall_.edges.size(); ++e)
     edge_is_reflex_[e] = wall_.edges[e].reflex_angle > kReflexAngle;
@@ -85,13 +94,21 @@ void Detector::makePrism(int triangle)
 {
   Prism& prism = prisms_[triangle];
   prism.bulges = false;
-  prism.planes.col(0) << wall_.normals[triangle], -wall_.plane_offsets[triangle];
+  const auto set = [&prism](int lane, const Eigen::Vector3d& normal, double offset)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      prism.planes[axis][lane] = normal[axis];
+    prism.planes[3][lane] = -offset;
+  };
+  set(0, wall_.normals[triangle], wall_.plane_offsets[triangle]);
   for (int k = 0; k < 3; ++k)
   {
     const int vertex = wall_.triangles[triangle][k];
-    const WallEdge& edge = wall_.edges[wall_.triangle_edges[triangle][k]];
+    const int e = wall_.triangle_edges[triangle][k];
+    const WallEdge& edge = wall_.edges[e];
     const int side = edge.triangles[0] == triangle ? 0 : 1;
-    prism.planes.col(k + 1) << edge.into_triangle[side], -edge.into_triangle[side].dot(wall_.vertices[vertex]);
+    set(k + 1, edge.into_triangle[side], edge.into_triangle[side].dot(wall_.vertices[vertex]));
+    prism.own_edges[k] = side == 0 && edge.reflex_angle > kReflexAngle ? e : -1;
     prism.bulges = prism.bulges || edge.reflex_angle > 0.0 || wall_.vertex_reflex[vertex] != 0;
   }
 }
@@ -138,30 +155,15 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
     const double far = half + near.room + near.limit + kRoom + kListGuard;
     return near.room >= 0.0 && moved.exteriorDistance(0.5 * (near.begin + near.end)) <= far;
   };
-  for (Neighbourhood& near : near_nodes_)
-    if (touches(near))
-      near.room -= farthest;
-  for (Neighbourhood& near : near_edges_)
+  for (Neighbourhood& near : near_)
     if (touches(near))
     {
       near.room -= farthest;
-      const auto middle = static_cast<std::ptrdiff_t>(near.items.size());
-      near.items.insert(near.items.end(), now_reflex_.begin(), now_reflex_.end());
-      std::inplace_merge(near.items.begin(), near.items.begin() + middle, near.items.end());
-      near.items.erase(std::unique(near.items.begin(), near.items.end()), near.items.end());
+      const auto middle = static_cast<std::ptrdiff_t>(near.edges.size());
+      near.edges.insert(near.edges.end(), now_reflex_.begin(), now_reflex_.end());
+      std::inplace_merge(near.edges.begin(), near.edges.begin() + middle, near.edges.end());
+      near.edges.erase(std::unique(near.edges.begin(), near.edges.end()), near.edges.end());
     }
-}
-
-/** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
- * inside [m]. @param height of the point above the plane [m] */
-double Detector::outsideOf(int triangle, const Eigen::Vector3d& point, double& height) const
-{
-  const Eigen::Matrix<double, 4, 4>& planes = prisms_[triangle].planes;
-  std::array<double, 4> above;
-  for (int k = 0; k < 4; ++k)
-    above[k] = planes(0, k) * point.x() + planes(1, k) * point.y() + planes(2, k) * point.z() + planes(3, k);
-  height = above[0];
-  return -std::min({above[1], above[2], above[3]});
 }
 
 double Detector::signedDistance(const Eigen::Vector3d& point) const
@@ -179,10 +181,12 @@ double Detector::signedDistance(const Eigen::Vector3d& point) const
 
 void Detector::makeRoom(const Query& query)
 {
-  if (near_nodes_.size() >= query.nodes.size())
-    return;
-  near_nodes_.resize(query.nodes.size());
-  near_edges_.resize(query.nodes.size());
+  while (near_.size() < query.nodes.size())
+  {
+    near_.emplace_back();
+    near_.back().triangles.reserve(kUsual);
+    near_.back().edges.reserve(kUsual);
+  }
 }
 
 bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
@@ -197,62 +201,61 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
   end = b;
   limit = wanted;
   room = kRoom;
-  items.clear();
+  triangles.clear();
+  edges.clear();
 }
 
-const Detector::Neighbourhood& Detector::triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit)
+/** Of a node and the wire's edge that begins there; the tip has none. */
+const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::size_t index)
 {
-  Neighbourhood& near = near_nodes_[node];
-  if (near.holds(point, point, limit))
-    return near;
-  near.start(point, point, limit);
-  const double reach = limit + kRoom + kListGuard;
-  collected_.clear();
-  bvh_.collect(point, reach, collected_);
-  for (int t : collected_)
+  const std::size_t next = std::min(index + 1, query.nodes.size() - 1);
+  const double limit = std::max(query.radius[index], query.radius[next]) + query.margin;
+  Neighbourhood& near = near_[placeFromTip(query, index)];
+  if (!near.holds(query.nodes[index], query.nodes[next], limit))
   {
-    double height = 0.0;
-    const double beyond = std::max(0.0, outsideOf(t, point, height));
-    if (height * height + beyond * beyond <= reach * reach)
-      near.items.push_back(t);
+    near.start(query.nodes[index], query.nodes[next], limit);
+    list(near);
   }
-  // Sorted, so that results do not depend on how the tree is walked.
-  std::sort(near.items.begin(), near.items.end());
   return near;
 }
 
-const Detector::Neighbourhood& Detector::edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                                           double limit)
+void Detector::list(Neighbourhood& near) const
 {
-  Neighbourhood& near = near_edges_[edge];
-  if (near.holds(a, b, limit))
-    return near;
-  near.start(a, b, limit);
-  const double wide = limit + kRoom + kListGuard;
-  const double reach = 0.5 * (b - a).norm() + kRoom + wide;
+  const double wide = near.limit + kRoom + kListGuard;
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();
-  bvh_.collectBox(a.cwiseMin(b) - around, a.cwiseMax(b) + around, collected_);
-  looked_at_.clear();
+  bvh_.collectBox(near.begin.cwiseMin(near.end) - around, near.begin.cwiseMax(near.end) + around, collected_);
   for (int t : collected_)
-    for (int e : wall_.triangle_edges[t])
-    {
-      if (!edge_is_reflex_[e] || edge_marked_[e])
-        continue;
-      edge_marked_[e] = 1;
-      looked_at_.push_back(e);
-      if (!canMeet(a, b, e, reach, wide))
-        continue;
-      const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
-      const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
-      const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
-      if ((a + pair.first * (b - a) - end0 - pair.second * (end1 - end0)).norm() <= wide)
-        near.items.push_back(e);
-    }
-  for (int e : looked_at_)
-    edge_marked_[e] = 0;
-  std::sort(near.items.begin(), near.items.end());
-  return near;
+  {
+    const Eigen::Array4d above = heights(prisms_[t].planes, near.begin);
+    const double end_height = heights(prisms_[t].planes, near.end)[0];
+    if (std::min(above[0], end_height) > wide || std::max(above[0], end_height) < -wide)
+      continue;
+    const double beyond = std::max(0.0, outsideOf(above));
+    if (above[0] * above[0] + beyond * beyond <= wide * wide)
+      near.triangles.push_back(t);
+    listEdges(t, near, wide);
+  }
+  // Sorted, so that results do not depend on how the tree is walked.
+  std::sort(near.triangles.begin(), near.triangles.end());
+  std::sort(near.edges.begin(), near.edges.end());
+}
+
+void Detector::listEdges(int triangle, Neighbourhood& near, double wide) const
+{
+  const Eigen::Vector3d along = near.end - near.begin;
+  const double reach = 0.5 * along.norm() + kRoom + wide;
+  for (int e : prisms_[triangle].own_edges)
+  {
+    if (e < 0 || !canMeet(near.begin, near.end, e, reach, wide))
+      continue;
+    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
+    const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
+    const SegmentPair pair = closestPointsOfSegments(near.begin, near.end, end0, end1);
+    const Eigen::Vector3d apart = near.begin + pair.first * along - end0 - pair.second * (end1 - end0);
+    if (apart.squaredNorm() <= wide * wide)
+      near.edges.push_back(e);
+  }
 }
 
 void Detector::detect(const Query& query, ContactSet& set)
@@ -313,16 +316,16 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   const Eigen::Vector3d& point = query.nodes[index];
   const double radius = query.radius[index];
   const double limit = radius + query.margin;
-  const Neighbourhood& near = triangleNeighbourhood(placeFromTip(query, index), point, limit);
-  if (near.items.empty())
+  const Neighbourhood& near = neighbourhood(query, index);
+  if (near.triangles.empty())
     return;
   const std::size_t first = features.size();
   const bool last = index + 1 == query.nodes.size();
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
-  for (int t : near.items)
+  Feature feature;
+  for (int t : near.triangles)
   {
-    Feature feature;
     double distance = 0.0;
     bool outside = false;
     const bool minimum = faceFeature(point, t, limit, feature, distance, outside);
@@ -347,7 +350,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
 double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  for (int t : near.items)
+  for (int t : near.triangles)
     nearest = std::min(nearest, bvh_.distanceTo(t, point));
   return nearest;
 }
@@ -359,14 +362,27 @@ double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d&
 bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                            bool& outside) const
 {
-  double height = 0.0;
-  const double beyond = outsideOf(triangle, point, height);
+  const Eigen::Array4d above = heights(prisms_[triangle].planes, point);
+  const double height = above[0];
+  const double beyond = outsideOf(above);
   if (height * height > limit * limit ||
       (beyond > kOffTriangle &&
        ((height >= 0.0 && !prisms_[triangle].bulges) || height * height + beyond * beyond > kFar * limit * limit)))
     return false;
-  const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const Eigen::Vector3d& normal = wall_.normals[triangle];
+  feature.triangle = triangle;
+  feature.stiffness = law_.stiffness;
+  if (beyond < -kOffTriangle)
+  {
+    distance = std::abs(height);
+    outside = height < 0.0;
+    feature.point = point - height * normal;
+    feature.normal = normal;
+    feature.gap = height;
+    feature.id = featureId(triangle, kFace);
+    return true;
+  }
+  const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d offset = point - closest.point;
@@ -375,8 +391,6 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     return false;
   distance = std::sqrt(squared);
   feature.point = closest.point;
-  feature.triangle = triangle;
-  feature.stiffness = law_.stiffness;
   // A foot point on the border of a flat neighbourhood is a face's too: neither neighbour would claim it otherwise.
   const bool foot_inside = closest.edge < 0 && closest.vertex < 0;
   if (foot_inside || (height >= 0.0 && (offset - height * normal).squaredNorm() < kConeTolerance * kConeTolerance))
@@ -454,11 +468,11 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const std::size_t begin = features.size();
   const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   const double reach = 0.5 * (b - a).norm() + limit;
-  for (int e : edgeNeighbourhood(placeFromTip(query, index), a, b, limit).items)
+  Feature feature;
+  for (int e : neighbourhood(query, index).edges)
   {
     if (!edge_is_reflex_[e] || !canMeet(a, b, e, reach, limit))
       continue;
-    Feature feature;
     double distance = 0.0;
     if (!crossing(a, b, e, limit, feature, distance))
       continue;
@@ -518,7 +532,7 @@ double Detector::wallDistance(const Query& query, std::size_t index, double fart
 {
   const Eigen::Vector3d& point = query.nodes[index];
   const double limit = query.radius[index] + query.margin;
-  const double nearest = nearestListed(triangleNeighbourhood(placeFromTip(query, index), point, limit), point);
+  const double nearest = nearestListed(neighbourhood(query, index), point);
   if (nearest <= limit)
     return nearest;
   int& near = nearest_[static_cast<std::size_t>(query.first_node) + index];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -64,24 +65,28 @@ public:
   const Wall& wall() const { return wall_; }
 
 private:
-  /** What a node or an edge of the wire may meet while its ends stay within `room` of where they were. */
+  /** What a node of the wire and the edge from it to the next node may meet while both stay within `room` of where they
+   * were. */
   struct Neighbourhood
   {
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();
     Eigen::Vector3d end = Eigen::Vector3d::Zero();
-    double room = -1.0;   ///< [m]; negative: not listed yet
-    double limit = -1.0;  ///< distance up to which features are wanted [m]
-    std::vector<int> items;
+    double room = -1.0;          ///< [m]; negative: not listed yet
+    double limit = -1.0;         ///< distance up to which features are wanted [m]
+    std::vector<int> triangles;  ///< that the node may meet, ascending
+    std::vector<int> edges;      ///< reflex ones that the wire's edge may meet, ascending
 
     bool holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const;
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
   };
 
-  /** A triangle as its plane and the three planes across it along its edges, each as [unit normal, −offset]. */
+  /** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
   struct Prism
   {
-    Eigen::Matrix<double, 4, 4> planes;  ///< by columns: the triangle's own towards the lumen, then the edges' inward
-    bool bulges = false;                 ///< a closest point on its border can be a local minimum in front of it
+    std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
+    bool bulges = false;                   ///< a closest point on its border can be a local minimum in front of it
+    std::array<int, 3> own_edges{-1, -1,
+                                 -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
   };
 
   /** A mesh edge as its smallest ball with its direction. */
@@ -94,13 +99,13 @@ private:
   };
 
   void makeRoom(const Query& query);
-  const Neighbourhood& triangleNeighbourhood(int node, const Eigen::Vector3d& point, double limit);
-  const Neighbourhood& edgeNeighbourhood(int edge, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit);
+  const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
+  void list(Neighbourhood& near) const;
+  void listEdges(int triangle, Neighbourhood& near, double wide) const;
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
   EdgeBall ballOf(const WallEdge& edge) const;
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
-  double outsideOf(int triangle, const Eigen::Vector3d& point, double& height) const;
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
@@ -118,12 +123,13 @@ private:
   Bvh bvh_;
   WallLaw law_;
   std::uint64_t vessel_version_;
-  std::vector<Neighbourhood> near_nodes_, near_edges_;  ///< by index from the tip
-  std::vector<int> nearest_;                            ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, looked_at_, now_reflex_;
+  std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
+  std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
+  mutable std::vector<int> collected_;
+  std::vector<int> now_reflex_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
-  std::vector<char> edge_marked_, edge_is_reflex_;
+  std::vector<char> edge_is_reflex_;
 };
 
 }  // namespace endovascular_sim::contact
