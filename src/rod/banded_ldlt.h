@@ -21,11 +21,13 @@ class BandedLdlt
 {
 public:
   static constexpr int kStride = Bandwidth + 1;
+  static constexpr int kMarkEvery = 16 * Period;  ///< columns between the places to which rewind() can go back
 
   /** Sets the size and zeroes the band; allocates only when it grows. */
   void reset(int size)
   {
     size_ = size;
+    begin_ = 0;
     band_.resize(static_cast<std::size_t>(size) * kStride);
     std::fill(band_.begin(), band_.end(), 0.0);
   }
@@ -43,7 +45,29 @@ public:
   void copyFrom(const BandedLdlt& other)
   {
     size_ = other.size_;
+    begin_ = 0;
     band_.assign(other.band_.begin(), other.band_.end());
+  }
+
+  /** Makes ready to factorise a matrix that differs from the one factorised last in the columns from @p changed on
+   * only: what was done before them stays done, and factorise() goes on from there to the same bits.
+   *  @param other what the columns not done are copied from
+   *  @return the first column copied; what was added to it and those behind it must be added again */
+  int rewind(const BandedLdlt& other, int changed)
+  {
+    int mark = std::min((changed - kWindow) / kMarkEvery, marks_) - 1;
+    if (mark < 0)
+    {
+      copyFrom(other);
+      return 0;
+    }
+    begin_ = (mark + 1) * kMarkEvery;
+    marks_ = mark + 1;
+    negative_ = negative_before_[mark];
+    std::copy_n(windows_.data() + mark * kWindowSize, kWindowSize, column(begin_));
+    const int copied = begin_ + kWindow;
+    std::copy(other.band_.begin() + static_cast<std::ptrdiff_t>(copied) * kStride, other.band_.end(), column(copied));
+    return copied;
   }
 
   /** Replaces equation @p index by x[index] = value·pivot/pivot, keeping symmetry; @p pivot is its diagonal entry. */
@@ -67,11 +91,16 @@ public:
    *  @return the number of negative pivots, or −1 when a pivot is zero or not a number */
   int factorise()
   {
-    negative_ = 0;
-    int col = 0;
+    int col = begin_;
+    if (col == 0)
+      negative_ = marks_ = 0;
     bool regular = true;
     for (; regular && col + Period + Bandwidth <= size_; col += Period)
+    {
+      if (col > begin_ && col % kMarkEvery == 0)
+        mark(col);
       regular = eliminateBlock(col, std::make_integer_sequence<int, Period>());
+    }
     for (; regular && col < size_; ++col)
       regular = eliminateShort(col);
     return regular ? negative_ : -1;
@@ -99,6 +128,21 @@ public:
   }
 
 private:
+  /** Columns that those before a mark reach into, made whole blocks. */
+  static constexpr int kWindow = (Bandwidth + Period - 1) / Period * Period;
+  static constexpr int kWindowSize = kWindow * kStride;
+
+  /** Remembers how the columns from one on stand before they are eliminated. */
+  void mark(int col)
+  {
+    if (col + kWindow > size_)
+      return;
+    windows_.resize(std::max(windows_.size(), static_cast<std::size_t>(marks_ + 1) * kWindowSize));
+    negative_before_.resize(std::max(negative_before_.size(), static_cast<std::size_t>(marks_ + 1)));
+    std::copy_n(column(col), kWindowSize, windows_.data() + marks_ * kWindowSize);
+    negative_before_[marks_++] = negative_;
+  }
+
   /** Entries below the diagonal of a column of the given place in its block, made even: pairs of entries are worked on
    *  together, and one that was stored alone would have to be waited for. */
   static constexpr int columnLength(int place) { return Bandwidth - place + (place > 0 ? (Bandwidth - place) % 2 : 0); }
@@ -213,7 +257,11 @@ private:
 
   int size_ = 0;
   int negative_ = 0;
+  int begin_ = 0;  ///< column at which factorise() begins
+  int marks_ = 0;
   std::vector<double> band_;
+  std::vector<double> windows_;       ///< per mark the columns from there, as they stood
+  std::vector<int> negative_before_;  ///< per mark
 };
 
 }  // namespace endovascular_sim::rod

@@ -596,10 +596,16 @@ void KktStepper::prescribeNodes(const State& state)
         break;
       continue;
     }
-    for (int axis = 0; axis < 3; ++axis)
-      matrix_.prescribe(row(i) + axis, 0.0, scale_, rhs_);
-    if (i + 1 < rod_.nodes() && isPrescribed(i + 1, state))
-      matrix_.prescribe(multiplierRow(i), 0.0, -scale_, rhs_);
+    const bool next_too = i + 1 < rod_.nodes() && isPrescribed(i + 1, state);
+    if (fresh_ > 0)  // the matrix knows already
+      std::fill_n(rhs_.begin() + row(i), next_too ? 8 : 3, 0.0);
+    else
+    {
+      for (int axis = 0; axis < 3; ++axis)
+        matrix_.prescribe(row(i) + axis, 0.0, scale_, rhs_);
+      if (next_too)
+        matrix_.prescribe(multiplierRow(i), 0.0, -scale_, rhs_);
+    }
   }
 }
 

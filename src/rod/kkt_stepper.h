@@ -121,6 +121,7 @@ private:
   void addBlock(int node, const Eigen::Matrix3d& block);
   void prescribeNodes(const State& state);
   bool solveActiveSet(const State& state, double dt, StepReport& report);
+  bool canRewind(const State& state) const;
   bool factoriseAndSolve(const State& state, StepReport& report);
   void addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt);
   double truncation(const State& state, StepReport& report);
@@ -162,6 +163,7 @@ private:
 
   int first_ = 0;  ///< first simulated node
   Matrix base_, matrix_;
+  int fresh_ = 0;  ///< first column of the matrix that holds nothing but the base
   KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
   std::vector<Eigen::Vector3d> begin_;                 ///< positions at the beginning of the step

@@ -25,9 +25,10 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
   double shift = 0.0;
   bool same_rest = false;
+  int changed = first_;  // the first node whose terms are not those of the last pass
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
-    matrix_.copyFrom(base_);
+    fresh_ = shift > 0.0 || !canRewind(state) ? matrix_.rewind(base_, 0) : matrix_.rewind(base_, row(changed));
     rhs_ = base_rhs_;
     for (std::size_t c = 0; c < contacts_.count(); ++c)
       if (contacts_.spring(c).active)
@@ -43,6 +44,7 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
         return false;
       shift = kShift;
       same_rest = false;
+      changed = first_;
       continue;
     }
     for (int i = first_; i < rod_.nodes(); ++i)
@@ -52,8 +54,21 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
     if (!contacts_changed && !friction_changed)
       return true;
     same_rest = !friction_changed;
+    changed = std::min(contacts_changed ? contacts_.firstChanged() : rod_.nodes(),
+                       friction_changed ? friction_.firstChanged() : rod_.nodes());
   }
   return true;
+}
+
+/** Whether a factorisation may go on from where it stands: only where the prescribed nodes are done with by then. */
+bool KktStepper::canRewind(const State& state) const
+{
+  if (settings_.linear_solver == LinearSolver::kSparse || !boundary_.introducer || boundary_.distal != EndHold::kFree)
+    return false;
+  int free = first_;
+  while (free < rod_.nodes() && isPrescribed(free, state))
+    ++free;
+  return row(free) + kBandwidth <= Matrix::kMarkEvery;
 }
 
 void KktStepper::addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt)
@@ -65,16 +80,16 @@ void KktStepper::addContact(const contact::Feature& feature, const NodalContacts
   for (int col = 0; col < 3; ++col)
   {
     rhs_[r0 + col] += contact.weight0 * push * feature.normal[col];
-    for (int line = col; line < 3; ++line)
+    for (int line = col; line < 3 && r0 >= fresh_; ++line)
       matrix_.at(r0 + line, r0 + col) +=
           stiffness * contact.weight0 * contact.weight0 * feature.normal[line] * feature.normal[col];
     if (contact.weight1 <= 0.0)
       continue;
     rhs_[r1 + col] += contact.weight1 * push * feature.normal[col];
-    for (int line = col; line < 3; ++line)
+    for (int line = col; line < 3 && r1 >= fresh_; ++line)
       matrix_.at(r1 + line, r1 + col) +=
           stiffness * contact.weight1 * contact.weight1 * feature.normal[line] * feature.normal[col];
-    for (int line = 0; line < 3; ++line)
+    for (int line = 0; line < 3 && r0 >= fresh_; ++line)
       matrix_.at(r1 + line, r0 + col) +=
           stiffness * contact.weight0 * contact.weight1 * feature.normal[line] * feature.normal[col];
   }
@@ -86,7 +101,7 @@ void KktStepper::addFriction(const WallFriction::Term& term, double dt)
   for (int col = 0; col < 3; ++col)
   {
     rhs_[r + col] -= dt * dt * term.pull[col];
-    for (int line = col; line < 3; ++line)
+    for (int line = col; line < 3 && r >= fresh_; ++line)
       matrix_.at(r + line, r + col) += dt * dt * term.stiffness(line, col);
   }
 }

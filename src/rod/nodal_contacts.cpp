@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rod/held_wire.h"
 
@@ -185,6 +186,7 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_re
     return false;
   const bool only_add = pass >= kOnlyAddFromPass;
   const double share = same_rest && !only_add ? shareOfLeastEnergy(motion) : 1.0;
+  first_changed_ = std::numeric_limits<int>::max();
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
     Spring& spring = springs_[c];
@@ -192,7 +194,10 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_re
     const double resisted = spring.active ? spring.stiffness * gap : 0.0;
     spring.reached += share * (gap - spring.reached);
     spring.resisted += share * (resisted - spring.resisted);
-    spring.active = spring.reached < 0.0 || (only_add && spring.active);
+    const bool active = spring.reached < 0.0 || (only_add && spring.active);
+    if (active != spring.active)
+      first_changed_ = std::min(first_changed_, spring.node);
+    spring.active = active;
   }
   return true;
 }

@@ -77,6 +77,8 @@ public:
    *  @param same_rest of the system but for the springs as at the last solve; else the way begins at the solution
    *  @return true when something changed */
   bool updateActiveSet(const Motion& motion, int pass, bool same_rest);
+  /** Lowest node of the springs that the last such update closed or opened; beyond all nodes where it did with none. */
+  int firstChanged() const { return first_changed_; }
 
   /** Share of the motion, at most @p factor, in which no point moves further than its free distance. */
   double truncation(const State& state, const Motion& motion, double factor, StepReport& report);
@@ -127,6 +129,7 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
+  int first_changed_ = 0;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
   std::vector<int> crossings_;    ///< compliant contacts between nodes, along the wire

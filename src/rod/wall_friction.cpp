@@ -1,6 +1,7 @@
 #include "rod/wall_friction.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -152,13 +153,16 @@ bool WallFriction::update(const Motion& motion, int pass)
   }
   if (wrong <= kTolerance * whole)
     return false;
+  first_changed_ = std::numeric_limits<int>::max();
   for (std::size_t k = 0; k < terms_.size(); ++k)
   {
     const Term& term = terms_[k];
     const Vector3d stretch = contacts_[k].stretch + tangential(motion[term.node], contacts_[k].normal);
     const Vector3d error = term.pull + term.stiffness * motion[term.node] - force(k, stretch);
-    if (error.norm() > kNodeTolerance * contacts_[k].limit)
-      linearise(k, stretch, pass < kSecantFromPass ? kInertiaWeight : 0.0);
+    if (error.norm() <= kNodeTolerance * contacts_[k].limit)
+      continue;
+    linearise(k, stretch, pass < kSecantFromPass ? kInertiaWeight : 0.0);
+    first_changed_ = std::min(first_changed_, term.node);
   }
   return true;
 }

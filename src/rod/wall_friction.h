@@ -76,6 +76,8 @@ public:
   /** After a pass: takes nodes anew whose friction was not Coulomb's, when it matters.
    *  @return true when something changed */
   bool update(const Motion& motion, int pass);
+  /** Lowest node of those that the last such update took anew; beyond all nodes where it took none. */
+  int firstChanged() const { return first_changed_; }
 
   /** Return mapping at the end of a step. A node that nothing pushes on forgets its stretch.
    *  @param begin positions at the beginning of the step [m]
@@ -100,6 +102,7 @@ private:
   Eigen::Vector3d force(std::size_t index, const Eigen::Vector3d& stretch) const;
 
   double slip_;
+  int first_changed_ = 0;
   std::vector<Contact> contacts_;
   std::vector<Term> terms_;
   std::vector<TwistFriction> about_axis_;
