@@ -17,6 +17,7 @@ constexpr double kTimeStep = 1e-3;   // s, of all scenes here
 constexpr double kPlotted = 0.5e-3;  // m of insertion that a chart's point is the mean of
 constexpr double kFrom = 0.02;       // m of insertion from where on means are taken: the wire touches the wall
 constexpr double kMostNoise = 0.03;  // asked
+constexpr double kTissue = 8e5;      // of an artery's wall per length of wire [N/m²]
 constexpr double kAlike = 0.05;      // curves whose means differ by less are alike
 
 /** A curve of a chart. */
@@ -274,18 +275,22 @@ struct WallCase
 {
   bool anatomy;
   int smoothing;     ///< Loop subdivisions
-  double stiffness;  ///< of the contacts [N/m]
+  double stiffness;  ///< of the contacts with a rigid wall [N/m], or of a wall that gives way [N/m²]
+  bool rigid = true;
 };
 
 void addNoise(Table& table, const WallCase& wall, double travel)
 {
   const std::string scene = shaftScene(wall.anatomy, 480, wall.smoothing, travel);
-  const std::vector<HandSample> samples = pushThrough(scene, {"solver.contact_stiffness=" + number(wall.stiffness, 6)});
+  const std::string law = wall.rigid ? "solver.contact_stiffness=" : "vessel.stiffness=";
+  const std::vector<HandSample> samples = pushThrough(scene, {law + number(wall.stiffness, 6)});
   const vessel::TriangleMesh mesh = meshOf(scene);
   const double off = wall.smoothing > 0 ? departure(meshOf(shaftScene(wall.anatomy, 480, 0, travel)), mesh) : 0.0;
   const double noise = noiseOf(samples, kTimeStep);
   const std::string verdict = noise <= kMostNoise ? "yes" : "no";
-  table.add({wall.anatomy ? "anatomy" : "channel", std::to_string(wall.smoothing), number(1e-3 * wall.stiffness),
+  table.add({wall.anatomy ? "anatomy" : "channel", std::to_string(wall.smoothing),
+             wall.rigid ? "rigid, " + number(1e-3 * wall.stiffness) + " N/mm"
+                        : number(1e-6 * wall.stiffness) + " N/mm per mm",
              std::to_string(mesh.triangles.size()), number(1e3 * off),
              number(1e3 * meanOf(samples, &HandSample::force, kFrom)), number(100.0 * noise, 2),
              wall.smoothing == 0 ? "" : verdict});
@@ -299,13 +304,14 @@ Section smoothness(bool quick, const Progress& progress)
       "mm/s), over the mean; the first and the last half second are left out. It holds whatever is in that band, so "
       "also what tip and wall really do to each other: 1.1 % in the anatomy are slower than 10 Hz. The rest falls with "
       "the facets' size and with the contacts' stiffness. Departure: largest distance between the smoothed surface and "
-      "the original one, corners of both. Contacts: `solver.contact_stiffness`, by default 100 N/mm; 30 give way by "
-      "about 2 µm here. Asked: 3 % on a smoothed wall.",
-      Table({"vessel", "smoothing", "contacts [N/mm]", "triangles", "departure [mm]", "mean force [mN]", "noise [%]",
-             "holds"}),
+      "the original one, corners of both. Wall: rigid, every contact with `solver.contact_stiffness` (by default 100 "
+      "N/mm; 30 give way by about 2 µm here), or a tissue's `vessel.stiffness` per length of wire. Asked: 3 % on a "
+      "smoothed wall.",
+      Table({"vessel", "smoothing", "wall", "triangles", "departure [mm]", "mean force [mN]", "noise [%]", "holds"}),
       ""};
-  const WallCase walls[] = {{false, 0, 1e5}, {false, 1, 1e5}, {false, 2, 1e5}, {true, 0, 1e5},
-                            {true, 1, 1e5},  {true, 2, 1e5},  {true, 2, 3e4}};
+  const WallCase walls[] = {{false, 0, 1e5},          {false, 1, 1e5}, {false, 2, 1e5}, {true, 0, 1e5},
+                            {true, 1, 1e5},           {true, 2, 1e5},  {true, 2, 3e4},  {false, 1, kTissue, false},
+                            {true, 1, kTissue, false}};
   double done = 0.0;
   for (const WallCase& wall : walls)
   {

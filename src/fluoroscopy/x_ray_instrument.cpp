@@ -10,22 +10,6 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-const char* materialName(instrument::Material material)
-{
-  switch (material)
-  {
-    case instrument::Material::kNitinol:
-      return "nitinol";
-    case instrument::Material::kSteel:
-      return "steel";
-    case instrument::Material::kPlatinum:
-      return "platinum";
-    case instrument::Material::kPolymer:
-      return "polymer";
-  }
-  return "";
-}
-
 /** The space inside of a hollow chain: takes away what its solid cylinders have too much. */
 XRayWire lumenOf(XRayWire chain, double inner_radius)
 {
@@ -62,9 +46,9 @@ XRayInstrument::XRayInstrument(const instrument::Instrument& instrument, const A
   if (instrument.materials.size() != instrument.wire.sections.size())
     throw InputError(instrument.name, "materials", "must have one material per section of the wire");
   for (const instrument::Material material : instrument.materials)
-    section_attenuation_.push_back(table.linear(materialName(material), energy) - displaced);
+    section_attenuation_.push_back(table.linear(instrument::materialName(material), energy) - displaced);
   for (const instrument::Marker& marker : instrument.markers)
-    marker_attenuation_.push_back(table.linear(materialName(marker.material), energy) -
+    marker_attenuation_.push_back(table.linear(instrument::materialName(marker.material), energy) -
                                   (section_attenuation_.back() + displaced));
 }
 

@@ -5,6 +5,22 @@
 namespace endovascular_sim::instrument
 {
 
+const char* materialName(Material material)
+{
+  switch (material)
+  {
+    case Material::kNitinol:
+      return "nitinol";
+    case Material::kSteel:
+      return "steel";
+    case Material::kPlatinum:
+      return "platinum";
+    case Material::kPolymer:
+      return "polymer";
+  }
+  return "";
+}
+
 double crossingRadius(const Instrument& instrument)
 {
   double radius = 0.0;

@@ -28,6 +28,9 @@ enum class Material
   kPolymer,
 };
 
+/** As files write it. */
+const char* materialName(Material material);
+
 /** A radiopaque ring on a shaft. */
 struct Marker
 {

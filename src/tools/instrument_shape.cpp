@@ -53,22 +53,6 @@ int wrongUse(const std::string& reason)
   return 2;
 }
 
-const char* materialName(instrument::Material material)
-{
-  switch (material)
-  {
-    case instrument::Material::kNitinol:
-      return "nitinol";
-    case instrument::Material::kSteel:
-      return "steel";
-    case instrument::Material::kPlatinum:
-      return "platinum";
-    case instrument::Material::kPolymer:
-      return "polymer";
-  }
-  return "";
-}
-
 /** A CSV file with a head line; throws when it cannot be written. */
 class Table
 {
@@ -106,8 +90,8 @@ void writeShafts(const fs::path& file, const std::vector<Drawn>& all)
       const rod::Section& section = drawn.instrument.wire.sections[point.section];
       table.row() << drawn.title << "," << point.arc_length << "," << point.position.x() << "," << point.position.y()
                   << "," << point.position.z() << "," << point.section << ","
-                  << materialName(drawn.instrument.materials[point.section]) << "," << 2.0 * section.radius << ","
-                  << 2.0 * drawn.instrument.inner_radius << "," << section.bending_stiffness << ","
+                  << instrument::materialName(drawn.instrument.materials[point.section]) << "," << 2.0 * section.radius
+                  << "," << 2.0 * drawn.instrument.inner_radius << "," << section.bending_stiffness << ","
                   << section.torsional_stiffness << "\n";
     }
   table.close();
@@ -119,7 +103,7 @@ void writeMarkers(const fs::path& file, const std::vector<Drawn>& all)
   for (const Drawn& drawn : all)
     for (const instrument::Marker& marker : drawn.instrument.markers)
       table.row() << drawn.title << "," << marker.from_tip << "," << marker.length << ","
-                  << materialName(marker.material) << "\n";
+                  << instrument::materialName(marker.material) << "\n";
   table.close();
 }
 

@@ -150,9 +150,9 @@ protected:
     const sensor_msgs::Image& image = *images.at(stamp);
     const Eigen::Vector3d along(0.0, 0.0, 0.01), beside(0.003, 0.0, 0.0);
     const int wire = grey(image, pixelOf(kTip - along, info));
-    EXPECT_LT(wire, grey(image, pixelOf(kTip + along, info)) - 20);
-    EXPECT_LT(wire, grey(image, pixelOf(kTip - along + beside, info)) - 20);
-    EXPECT_LT(wire, grey(image, pixelOf(kTip - along - beside, info)) - 20);
+    EXPECT_LT(wire, grey(image, pixelOf(kTip + along, info)) - 30);
+    EXPECT_LT(wire, grey(image, pixelOf(kTip - along + beside, info)) - 30);
+    EXPECT_LT(wire, grey(image, pixelOf(kTip - along - beside, info)) - 30);
   }
 
   std::map<ros::Time, sensor_msgs::ImageConstPtr> images, raws;
