@@ -64,7 +64,7 @@ NodalContacts::Spring NodalContacts::springOf(int index) const
   if (isBacking(feature))
     spring.stiffness *= kBackingStiffness;
   else if (std::isfinite(feature.stiffness))
-    spring.stiffness = feature.stiffness * lengthOf(index);
+    spring.stiffness = feature.stiffness * lengthOf(index) * shareAtNode(index);
   return spring;
 }
 
@@ -145,6 +145,34 @@ double NodalContacts::lengthOf(int index) const
   if (crossing || node + 1 < rod_.nodes())
     length += lengthTowards(index, node, crossing ? feature.parameter : 0.0, 1);
   return length;
+}
+
+/** Share of the wall's stiffness that a node's feature gets where the node touches several: facets that hardly differ
+ *  are one wall, and count together as it does, perpendicular ones are two. The largest stiffness in any direction is
+ *  the wall's. A feature counts as much as it is pressed in, so that it comes and goes without a jump. */
+double NodalContacts::shareAtNode(int index) const
+{
+  const std::vector<contact::Feature>& features = contacts_.features;
+  const contact::Feature& own = features[index];
+  if (own.parameter > 0.0 && own.parameter < 1.0)
+    return 1.0;
+  double sum = 1.0;
+  const auto add = [&features, &own, &sum](int other)
+  {
+    const contact::Feature& f = features[other];
+    if (f.edge != own.edge || f.parameter != own.parameter || isBacking(f))
+      return false;
+    const double pressed = f.gap >= 0.0 ? 0.0 : own.gap >= 0.0 ? 1.0 : std::min(1.0, f.gap / own.gap);
+    sum += pressed * std::max(0.0, f.normal.dot(own.normal));
+    return true;
+  };
+  for (int k = index - 1; k >= 0 && add(k); --k)
+  {
+  }
+  for (int k = index + 1; k < static_cast<int>(features.size()) && add(k); ++k)
+  {
+  }
+  return 1.0 / sum;
 }
 
 /** Half the distance on an edge from a contact at @p place to its next neighbour, forwards or backwards [m]. */

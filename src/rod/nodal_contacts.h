@@ -115,6 +115,7 @@ private:
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings();
   double lengthOf(int index) const;
+  double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
   double shareOfLeastEnergy(const Motion& motion) const;
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "plane_wall.h"
 #include "ridge_wall.h"
@@ -164,6 +165,81 @@ TEST(NodalContacts, ForceOfACompliantWallIsContinuousWhereARidgePassesANode)
   const double before = indentation(41, place - 1e-7, 0.1);
   EXPECT_NEAR(indentation(41, place, 0.1), before, 1e-4 * before);
   EXPECT_NEAR(indentation(41, place + 1e-7, 0.1), before, 1e-4 * before);
+}
+
+/** Two planes that one node touches. */
+class Groove : public contact::ContactSource
+{
+public:
+  double angle = 0.0;           ///< between their normals [rad]
+  double gaps[2] = {0.0, 0.0};  ///< [m]
+
+  void detect(const contact::Query&, contact::ContactSet& set) override
+  {
+    set.features.clear();
+    set.stale = false;
+    for (int k = 0; k < 2; ++k)
+    {
+      contact::Feature feature;
+      feature.edge = 10;
+      feature.normal = Vector3d(0.0, (k == 0 ? 1.0 : -1.0) * std::sin(0.5 * angle), std::cos(0.5 * angle));
+      feature.gap = gaps[k];
+      feature.stiffness = 1e4;
+      feature.id = 3 * k;
+      set.features.push_back(feature);
+    }
+  }
+};
+
+/** The springs of a node in a groove, as its stiffness over the wall's. */
+Eigen::Matrix3d stiffnessInGroove(Groove& groove)
+{
+  const Discretisation rod = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), 21);
+  const Boundary boundary = Bench::freeBoundary(0.0);
+  const StepperSettings settings;
+  NodalContacts contacts(rod, boundary, settings);
+  const State state = Bench(0.0).state;
+  PhaseTimer timer;
+  StepReport report;
+  std::uint32_t asked = 0;
+  contacts.beginStep(StepInput(), &groove, asked, timer);
+  contacts.refresh(state, report);
+  contacts.prepare(state, 1e-3);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t c = 0; c < contacts.count(); ++c)
+    if (contacts.spring(c).gap < 0.0)
+      sum += contacts.spring(c).stiffness * contacts.feature(c).normal * contacts.feature(c).normal.transpose();
+  return sum / (1e4 * 0.1 / 20);
+}
+
+TEST(NodalContacts, FacetsThatANodeTouchesAtOnceGiveWayLikeOneWall)
+{
+  Groove groove;
+  groove.gaps[0] = groove.gaps[1] = -2e-5;
+  for (const double angle : {0.0, 0.02, 0.3, 0.5 * M_PI})
+  {
+    groove.angle = angle;
+    const Eigen::Vector3d values = stiffnessInGroove(groove).selfadjointView<Eigen::Lower>().eigenvalues();
+    EXPECT_NEAR(values.maxCoeff(), 1.0, 1e-9) << angle;
+  }
+}
+
+TEST(NodalContacts, ASecondFacetTakesItsShareGraduallyAsItIsPressedIn)
+{
+  Groove groove;
+  groove.angle = 0.05;
+  groove.gaps[0] = -2e-5;
+  groove.gaps[1] = 1e-9;
+  const Eigen::Matrix3d before = stiffnessInGroove(groove);
+  groove.gaps[1] = -1e-9;
+  const Eigen::Matrix3d after = stiffnessInGroove(groove);
+  EXPECT_NEAR(before(2, 2), std::pow(std::cos(0.025), 2), 1e-9);
+  // What the second one adds at once acts over next to no depth.
+  const Eigen::Vector3d first(0.0, std::sin(0.025), std::cos(0.025));
+  const Eigen::Vector3d across(0.0, -std::sin(0.025), std::cos(0.025));
+  const double own = after(2, 2) / (first.z() * first.z()) - 0.5;
+  EXPECT_NEAR(own, 1.0, 1e-3);
+  EXPECT_LT((after - before - 0.5 * across * across.transpose()).norm(), 1e-2);
 }
 
 /** A wall of one plane per node but the last, each with a direction and distance of its own. */
