@@ -126,6 +126,15 @@ void KktStepper::refreshRod(State& /*state*/, const StepInput& /*input*/, double
 
 void KktStepper::complete(State& /*state*/, double /*dt*/) {}
 
+/** Twist was relaxed with the hand turned on already and the centreline not yet: while a hand turns, that torque is too
+ *  large by the bent tip's stiffness times the turn of a step. */
+void KktStepper::renewTorques(State& state, const StepInput& input)
+{
+  kept_twist_ = state.twist_angle;
+  relaxTwist(state, input, friction_.aboutAxis());
+  state.twist_angle.swap(kept_twist_);
+}
+
 void KktStepper::surfaceAngles(const State& state, std::vector<double>& angle) const
 {
   angle.resize(state.position.size());
@@ -230,6 +239,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
 {
   begin_ = state.position;
   begin_twist_ = state.twist_angle;
+  const bool turned = turns(state, input);
   refreshRod(state, input, dt);
   placePrescribedNodes(state, input.inserted_length, dt);
   placeDistalEnd(state, input.distal, dt);
@@ -264,6 +274,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       return false;
   }
   finish(state, dt);
+  if (turned)
+    renewTorques(state, input);
   if (fading_)
     fading_ = fadeOffsets(state, dt);
   return true;

@@ -67,6 +67,10 @@ protected:
   virtual void surfaceAngles(const State& state, std::vector<double>& angle) const;
   /** The same at the beginning of the step. */
   virtual void surfaceBeginAngles(const State& state, std::vector<double>& angle) const;
+  /** Whether a step turns a hand. */
+  virtual bool turns(const State& state, const StepInput& input) const { return state.rotation != input.rotation; }
+  /** Sets the torques at the ends to those of the centreline as it is now; nothing else changes. */
+  virtual void renewTorques(State& state, const StepInput& input);
   /** After a step that was solved. */
   virtual void complete(State& state, double dt);
   /** Largest work that the hands may have done between two states [J]. */
@@ -88,6 +92,7 @@ protected:
   const StepperSettings& settings() const { return settings_; }
   /** To be used with another input or model until the next step. */
   void useTimer(PhaseTimer& timer) { timer_ = &timer; }
+  const std::vector<TwistFriction>& frictionAboutAxis() { return friction_.aboutAxis(); }
   const StepInput& lastInput() const { return last_input_; }
   Discretisation& rod() { return rod_; }
   const Discretisation& rod() const { return rod_; }
@@ -166,8 +171,9 @@ private:
   int fresh_ = 0;  ///< first column of the matrix that holds nothing but the base
   KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
-  std::vector<Eigen::Vector3d> begin_;                 ///< positions at the beginning of the step
-  std::vector<double> begin_twist_;                    ///< and twist angles
+  std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
+  std::vector<double> begin_twist_;     ///< and twist angles
+  std::vector<double> kept_twist_;
   std::vector<double> surface_begin_, surface_angle_;  ///< of the surface at every node, at the beginning and now
   std::vector<Eigen::Vector3d> slide_;                 ///< motion of every node when the wire slides along itself
   std::vector<double> resistance_;                     ///< of fluid and damping to a node's travel, times Δt² [kg]

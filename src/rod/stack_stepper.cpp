@@ -344,6 +344,23 @@ KktStepper::TwistAction StackStepper::relaxTwist(State& state, const StepInput& 
   return {true, first_curved_, rest_binormal_.data(), torque_.data()};
 }
 
+bool StackStepper::turns(const State& state, const StepInput& input) const
+{
+  for (int k = 0; k < stack_.count(); ++k)
+    if (state.layers[k].rotation != input.layers[k].rotation)
+      return true;
+  return false;
+}
+
+void StackStepper::renewTorques(State& state, const StepInput& input)
+{
+  relaxed_ = state;
+  relaxTwist(relaxed_, input, frictionAboutAxis());
+  for (int k = 0; k < stack_.count(); ++k)
+    state.layers[k].hand_torque = relaxed_.layers[k].hand_torque;
+  state.hand_torque = relaxed_.hand_torque;
+}
+
 /** The rest curvature of all layers together, weighted with their stiffnesses, and the sum of their torques. */
 void StackStepper::combineTwists(const State& state)
 {

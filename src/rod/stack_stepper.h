@@ -58,6 +58,8 @@ protected:
   TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void surfaceBeginAngles(const State& state, std::vector<double>& angle) const override;
+  bool turns(const State& state, const StepInput& input) const override;
+  void renewTorques(State& state, const StepInput& input) override;
   void complete(State& state, double dt) override;
   double handWork(const State& before, const State& after) const override;
   const std::vector<Eigen::Vector3d>* surfaceSlide() const override { return slides_ ? &surface_slide_ : nullptr; }
@@ -124,6 +126,7 @@ private:
   std::vector<MassSlide> mass_slide_;
   std::vector<double> moved_;   ///< insertion of every layer in the step [m]
   std::vector<double> gained_;  ///< the same less what it would be at the speed of the last step [m]
+  State relaxed_;               ///< for torques only
   bool slides_ = false;
   StepInput input_;
 };
