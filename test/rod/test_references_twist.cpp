@@ -227,6 +227,39 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
+// A bent tip that swings freely holds no torque; what is left of it is how far the tip lags behind the hand.
+TEST(ReferencesTwist, AHandThatTurnsABentTipInTheOpenFeelsLessThanAStepsTurnAndLessWithShorterSteps)
+{
+  constexpr double kRate = 4.0;        // rad/s
+  constexpr double kCurvature = 80.0;  // 1/m
+  const int nodes = 60;
+  Wire wire = uniformWire(clampedLength(0.05, nodes), kStiffness, 4e-4, 7000.0);
+  Section tip = wire.sections.front();
+  tip.length = 0.01;
+  wire.sections.front().length -= tip.length;
+  tip.rest_curvature = Eigen::Vector2d(kCurvature, 0.0);
+  wire.sections.push_back(tip);
+  KktStepper stepper(discretiseUniformly(wire, nodes), clampAtOrigin(0.05, nodes), Environment(), StepperSettings());
+  State state = stepper.initialState(0.0, 0.0);
+  StepInput input;
+  PhaseTimer timer;
+  double coarser = 0.0;
+  for (const double dt : {2e-3, 1e-3})
+  {
+    for (int k = 0; k < 1000; ++k)
+    {
+      std::uint32_t pass = 0;
+      input.rotation += kRate * dt;
+      ASSERT_TRUE(stepper.step(state, input, dt, pass, nullptr, timer).solved);
+    }
+    const double of_a_step = kStiffness * kCurvature * kCurvature * tip.length * kRate * dt;
+    EXPECT_LT(state.hand_torque, of_a_step) << dt;
+    if (coarser > 0.0)
+      EXPECT_NEAR(coarser / state.hand_torque, 2.0, 0.05) << "first order in the step";
+    coarser = state.hand_torque;
+  }
+}
+
 // References 11: over one turn of a helix (radius 1, pitch 2π·0.5) the Bishop frame falls behind Frenet's by 2.8099
 // rad, in a polygon of 16, 64 edges by 2.8537, 2.8126. A director held alike at both ends sees that as twist.
 TEST(ReferencesTwist, TransportAlongAHelixTurnsByItsTorsion)
