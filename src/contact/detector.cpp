@@ -166,9 +166,9 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
     }
 }
 
-double Detector::signedDistance(const Eigen::Vector3d& point) const
+double Detector::signedDistance(const Eigen::Vector3d& point, int near) const
 {
-  const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity());
+  const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
   const Eigen::Vector3i& corners = wall_.triangles[nearest.triangle];
   const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
@@ -343,7 +343,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
     }
   }
   if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point) + 1e-12 &&
-      signedDistance(point) < 0.0)
+      signedDistance(point, outside_feature.triangle) < 0.0)
     features.push_back(outside_feature);
 }
 
@@ -515,7 +515,7 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
                 : inside && (offset.dot(edge.into_triangle[0]) > kConeSlack * distance ||
                              offset.dot(edge.into_triangle[1]) > kConeSlack * distance))
     return false;
-  if (!inside && (distance > kOutsideCrossing || signedDistance(axis) > 0.0))
+  if (!inside && (distance > kOutsideCrossing || signedDistance(axis, edge.triangles[0]) > 0.0))
     return false;
   const double sign = inside ? 1.0 : -1.0;
   feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : inward;

@@ -59,8 +59,9 @@ public:
   void moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
                     std::uint64_t vessel_version);
 
-  /** Signed distance from a point to the wall, positive inside the lumen [m]. */
-  double signedDistance(const Eigen::Vector3d& point) const;
+  /** Signed distance from a point to the wall, positive inside the lumen [m].
+   *  @param near a triangle that is expected to be near, or −1; the answer does not depend on it */
+  double signedDistance(const Eigen::Vector3d& point, int near = -1) const;
 
   const Wall& wall() const { return wall_; }
 
