@@ -11,6 +11,7 @@
 
 #include "instrument/instrument.h"
 #include "rod/stepper.h"
+#include "session/scene_procedure.h"
 #include "vessel/lesion.h"
 
 namespace endovascular_sim::session
@@ -100,10 +101,11 @@ struct DriveProfile
 
 enum class DriveSource
 {
-  kNone,    ///< bench scene: nothing is driven
-  kScript,  ///< the scene's own profiles
-  kDevice,  ///< the haptic device (in the graph); offline, the profiles stand in for the operator
-  kTopic,   ///< /instruments/<name>/servo_jp from elsewhere (a robot, a bag)
+  kNone,       ///< bench scene: nothing is driven
+  kScript,     ///< the scene's own profiles
+  kDevice,     ///< the haptic device (in the graph); offline, the profiles stand in for the operator
+  kTopic,      ///< /instruments/<name>/servo_jp from elsewhere (a robot, a bag)
+  kProcedure,  ///< the scripted operator of the scene's procedure
 };
 
 /** Where the motion at the hand comes from. */
@@ -238,6 +240,7 @@ struct Scene
   std::optional<VesselScene> vessel;
   EntryScene entry;
   std::vector<DrivenInstrument> instruments;        ///< from the inside out; at least one
+  std::optional<ProcedureScene> procedure;          ///< of a scripted operator
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
   DistalScene distal;      ///< the motion of a held distal end

@@ -9,7 +9,7 @@ namespace
 {
 
 // Numbers of DriveSource, SamplingKind.
-const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
+const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
@@ -133,6 +133,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     checkBenchDrive(fields, scene);
   if (scene.instruments.size() > 1)
     checkStack(fields, scene);
+  checkProcedure(fields, scene);
   checkEnds(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
@@ -293,6 +294,12 @@ void visitScene(SceneFields& fields, Scene& scene)
   }
   fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
   visitInstruments(fields, scene);
+  if (fields.reading() ? fields.has("procedure") : scene.procedure.has_value())
+  {
+    if (!scene.procedure)
+      scene.procedure.emplace();
+    fields.map("procedure", [&scene](SceneFields& procedure) { visitProcedure(procedure, *scene.procedure); });
+  }
   if (fields.reading())
     scene.introducer = scene.instruments.front().drive.source != DriveSource::kNone;
   fields.boolean("introducer", scene.introducer);

@@ -38,6 +38,10 @@ void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
+
+/** Refuses a procedure that the scene cannot carry out. */
+void checkProcedure(const SceneFields& fields, const Scene& scene);
 
 /** Whether a profile is zero at all times. */
 bool isTrivial(const DriveProfile& profile);

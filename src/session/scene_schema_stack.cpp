@@ -80,7 +80,7 @@ void checkStack(const SceneFields& fields, const Scene& scene)
     const DrivenInstrument& driven = scene.instruments[k];
     if (driven.drive.source == DriveSource::kNone)
       fields.refuse(number(k) + ".drive.source",
-                    "missing; every one of several instruments is driven: script, topic or device");
+                    "missing; every one of several instruments is driven: script, topic, device or procedure");
     devices += driven.drive.source == DriveSource::kDevice;
     if (devices > 1)
       fields.refuse(number(k) + ".drive.source", "is device, like another one's; a device drives one instrument");

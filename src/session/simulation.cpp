@@ -110,6 +110,11 @@ HandState Simulation::hand(int instrument) const
   return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
 }
 
+bool Simulation::isOutside(int instrument) const
+{
+  return stack_ != nullptr && hand(instrument).insertion <= stack_->outside() + kAtIntroducer;
+}
+
 /** What the hand asks for in a step, as far as it can move at all. */
 HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
@@ -142,7 +147,7 @@ double Simulation::mostInsertion(int instrument) const
   for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
   {
     const bool inner = k < instrument;
-    if (k != instrument && hand(k).insertion > stack_->outside() + kAtIntroducer &&
+    if (k != instrument && !isOutside(k) &&
         !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
                                 scene_.instruments[inner ? instrument : k].instrument))
       return std::max(stack_->outside(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));

@@ -55,6 +55,9 @@ public:
   /** What the hand on an instrument has and feels. */
   HandState hand(int instrument) const;
 
+  /** Whether an instrument has left the introducer altogether, so that others need not fit to it. */
+  bool isOutside(int instrument) const;
+
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
 

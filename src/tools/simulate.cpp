@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "contact/detector.h"
+#include "procedure/operator.h"
 #include "session/run_result.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -170,6 +171,21 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
   file << line;
 }
 
+/** One row per instrument: what its hand has and feels, and where its tip is. */
+void writeInstruments(std::ofstream& file, const session::Scene& scene, const session::Simulation& simulation)
+{
+  char line[300];
+  for (int k = 0; k < simulation.instruments(); ++k)
+  {
+    const session::HandState hand = simulation.hand(k);
+    const Eigen::Vector3d tip = procedure::pointAt(simulation, std::max(0.0, hand.insertion));
+    std::snprintf(line, sizeof line, "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
+                  scene.instruments[static_cast<std::size_t>(k)].instrument.name.c_str(), hand.insertion, hand.rotation,
+                  hand.force, hand.torque, tip.x(), tip.y(), tip.z());
+    file << line;
+  }
+}
+
 /** The vessel of a scene with everything that is made from it. */
 struct Surroundings
 {
@@ -203,11 +219,13 @@ Surroundings build(const session::Scene& scene)
 }
 
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
-         const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
+         const Surroundings& surroundings, procedure::Operator* person, session::RunResult& result, std::uint64_t steps)
 {
   session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
   std::ofstream hand_force = openFile(options.out + "/hand_force.csv");
   hand_force << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
+  std::ofstream instruments = openFile(options.out + "/instruments.csv");
+  instruments << "time,instrument,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z\n";
   std::ofstream nodes;
   if (options.record_nodes)
   {
@@ -222,7 +240,10 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   for (std::uint64_t k = 1; k <= steps; ++k)
   {
     const double end_time = static_cast<double>(k) * scene.solver.time_step;
-    const std::vector<session::HandCommand> commands = session::commandsAt(scene, end_time);
+    if (person != nullptr && person->progress() != procedure::Progress::kRunning)
+      break;
+    const std::vector<session::HandCommand> commands =
+        person != nullptr ? person->next(simulation) : session::commandsAt(scene, end_time);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
@@ -236,6 +257,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     if (!trajectory.add(rowOf(simulation)))
       diskRefused(options.out + "/trajectory.csv");
     writeHandForce(hand_force, simulation);
+    writeInstruments(instruments, scene, simulation);
     if (surroundings.wall)
       result.checkOutside(simulation, *surroundings.wall);
     if (options.record_nodes)
@@ -250,6 +272,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     diskRefused(options.out + "/trajectory.csv");
   if (!hand_force.flush())
     diskRefused(options.out + "/hand_force.csv");
+  if (!instruments.flush())
+    diskRefused(options.out + "/instruments.csv");
   if (options.record_nodes && !nodes.flush())
     diskRefused(options.out + "/nodes.csv");
 }
@@ -282,7 +306,16 @@ int simulate(const Options& options)
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);
-  run(scene, options, simulation, surroundings, result, steps);
+  std::unique_ptr<procedure::Operator> person;
+  if (scene.procedure)
+    person = std::make_unique<procedure::Operator>(scene, surroundings.centreline, surroundings.entry.position);
+  run(scene, options, simulation, surroundings, person.get(), result, steps);
+  if (person != nullptr)
+    for (const procedure::StepRecord& record : person->records())
+      std::fprintf(stderr, "%7.2f %7.2f  %s (%d new tries, %d wrong branches)\n", record.begin, record.end,
+                   record.name.c_str(), record.retries, record.wrong_branches);
+  if (person != nullptr && person->progress() == procedure::Progress::kFailed)
+    std::cerr << "simulate: " << person->failure() << "\n";
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
