@@ -8,6 +8,7 @@ struct HandCommand
 {
   double insertion = 0.0;  ///< [m]
   double rotation = 0.0;   ///< [rad]
+  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
 };
 
 /** Paces the hand while contact sets fail to come, so that neither their absence nor their return is felt as a jump.
@@ -17,7 +18,7 @@ struct HandCommand
  *  |p''| ≤ v²/D² while braking (v its speed before, D the travel left), which is the least that comes to rest in time,
  *  and |p''| ≤ ω² while recovering; what was missed is released at the speed q with q'' = ω²(missed/τ − q) − 2ωq', with
  *  τ = 27/(4ω), where all roots are real, and missed/τ limited to 5 mm/s and a fifth of v.
- *  While no set has failed it passes every number on unchanged. */
+ *  While no set has failed it passes every number on unchanged; a pressure is never paced. */
 class BlindHand
 {
 public:

@@ -114,6 +114,11 @@ double DriveScene::rotationAt(double t) const
   return source == DriveSource::kNone ? initial_rotation : initial_rotation + rotation.at(t);
 }
 
+double DriveScene::pressureAt(double t) const
+{
+  return source == DriveSource::kNone ? 0.0 : pressure.at(t);
+}
+
 double Scene::longest() const
 {
   double length = 0.0;

@@ -119,6 +119,7 @@ struct DriveScene
   double initial_rotation = 0.0;   ///< added to the rotation at all times [rad]
   DriveProfile insertion;          ///< [m], added to initial_insertion
   DriveProfile rotation;           ///< [rad], added to initial_rotation
+  DriveProfile pressure;           ///< at the inflator of the instrument's balloon [Pa]
   double force_limit = 5.0;        ///< axial force at which the hand slips [N]
   double torque_limit = 0.05;      ///< torque at which the hand slips [N·m]
 
@@ -128,6 +129,8 @@ struct DriveScene
   /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone
    * [rad]. */
   double rotationAt(double t) const;
+  /** Commanded pressure of the balloon at time t [s]; 0 where the source is kNone [Pa, above that of the blood]. */
+  double pressureAt(double t) const;
 };
 
 /** One instrument, and the hand that drives it. Several lie one inside the other (docs/PHYSICS.md, "Concentric stack"):

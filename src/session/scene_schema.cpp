@@ -21,6 +21,8 @@ constexpr double kSameLength = 1e-9;
 constexpr double kTravelsPerEdge = 4.0;
 constexpr double kEdgePerGuide = 0.5;
 
+constexpr double kAtmosphere = 101325.0;  // Pa
+
 // Of the wire's length: the shortest edge that sampling may make.
 constexpr double kShortestEdge = 2e-5;
 
@@ -190,7 +192,20 @@ std::pair<double, double> bounds(const DriveProfile& profile)
   return {low - swing, high + swing};
 }
 
-void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion)
+namespace
+{
+
+/** The inflator of a balloon. */
+void visitPressure(SceneFields& fields, DriveProfile& pressure)
+{
+  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, "Pa"); });
+  if (fields.reading() && bounds(pressure).first < -kAtmosphere)
+    fields.refuse("pressure", "is less than a vacuum; must be at least -101325 Pa");
+}
+
+}  // namespace
+
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
 {
   fields.option("source", drive.source, kDriveSources);
   fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
@@ -206,9 +221,14 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
   if (!by_speed)
     fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
   fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
+  if (balloon)
+    visitPressure(fields, drive.pressure);
+  else if (fields.has("pressure"))
+    fields.refuse("pressure", "has no balloon to inflate; use a balloon_catheter, or remove it");
   fields.number("force_limit", drive.force_limit, "N", Range::positive());
   fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
-  const bool moves = by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation);
+  const bool moves =
+      by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation) || !isTrivial(drive.pressure);
   if (fields.reading() && drive.source == DriveSource::kNone && moves)
     fields.refuse("source", "is none, but a motion is given; set source: script");
 }

@@ -47,7 +47,7 @@ std::vector<HandCommand> commandsAt(const Scene& scene, double time)
 {
   std::vector<HandCommand> commands;
   for (const DrivenInstrument& driven : scene.instruments)
-    commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time)});
+    commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time), driven.drive.pressureAt(time)});
   return commands;
 }
 
@@ -105,9 +105,19 @@ void Simulation::setMaxInsertions()
 HandState Simulation::hand(int instrument) const
 {
   if (stack_ == nullptr)
-    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque};
+    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque, channels_.front().pressure};
   const rod::LayerState& layer = state_.layers[instrument];
-  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
+  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque, channels_[instrument].pressure};
+}
+
+void Simulation::setPressures(const std::vector<HandCommand>& commands)
+{
+  for (int k = 0; k < instruments(); ++k)
+  {
+    if (commands[k].pressure != 0.0 && !scene_.instruments[k].instrument.balloon)
+      throw std::invalid_argument("Simulation: a pressure for an instrument without a balloon");
+    channels_[k].pressure = commands[k].pressure;
+  }
 }
 
 bool Simulation::isOutside(int instrument) const
@@ -262,6 +272,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
 {
   if (commands.size() != channels_.size())
     throw std::invalid_argument("Simulation: one command for every instrument");
+  setPressures(commands);
   timer_.reset();
   resample();
   double travel = 0.0;

@@ -28,6 +28,7 @@ struct HandState
   double rotation = 0.0;   ///< of its handle [rad]
   double force = 0.0;      ///< on the hand, positive where it resists pushing [N]
   double torque = 0.0;     ///< that the hand holds [N·m]
+  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
 };
 
 /** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
@@ -46,7 +47,9 @@ public:
   void step(const HandCommand& command) { stepAll({command}); }
 
   /** The same with one command for every instrument of the scene, in its order. An instrument goes no further than its
-   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside. */
+   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside.
+   *  @throws std::invalid_argument when there is not one command for every instrument, or a pressure for one without a
+   *          balloon */
   void stepAll(const std::vector<HandCommand>& commands);
 
   /** Of the scene. */
@@ -94,9 +97,11 @@ private:
     double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
     double turning_grip = 1.0;       ///< on turning
     double max_insertion = 0.0;      ///< [m]
+    double pressure = 0.0;           ///< commanded at its balloon's inflator [Pa]
   };
 
   void setMaxInsertions();
+  void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
   HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);
   double leastInsertion(int instrument) const;

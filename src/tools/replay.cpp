@@ -117,7 +117,7 @@ int replay(const std::string& file, bool keep_going)
       contacts->setFirstStalePass(applied->first_stale_pass);
     commands.clear();
     for (std::size_t k = 0; k < applied->insertion.size(); ++k)
-      commands.push_back({applied->insertion[k], applied->rotation.at(k)});
+      commands.push_back({applied->insertion[k], applied->rotation.at(k), applied->pressure.at(k)});
     simulation.stepAll(commands);
     if (simulation.stateHash() != applied->state_hash)
     {

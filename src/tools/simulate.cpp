@@ -156,6 +156,8 @@ session::TrajectoryRow rowOf(const session::Simulation& simulation)
   row.hand_force = state.hand_force;
   row.hand_torque = state.hand_torque;
   row.tip = state.position.back();
+  for (int k = 0; k < simulation.instruments(); ++k)
+    row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
   row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - session::firstInsertedNode(simulation));
   return row;
 }

@@ -47,5 +47,6 @@ constexpr auto kServoJp = "/servo_jp";
 constexpr auto kOperatingState = "/operating_state";
 constexpr auto kInsertionJoint = "insertion";
 constexpr auto kRotationJoint = "rotation";
+constexpr auto kPressureJoint = "pressure";  ///< of instruments with a balloon
 
 }  // namespace endovascular_sim::nodes::names

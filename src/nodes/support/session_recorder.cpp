@@ -225,6 +225,8 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     row.hand_torque = rod.hand_torque.at(furthest);
     row.tip = {tip.x, tip.y, tip.z};
     row.nodes = rod.nodes.size();
+    for (double pressure : rod.pressure)
+      row.pressure = std::max(row.pressure, pressure);
     report_.addTip(row.tip, row.insertion, row.nodes);
     if (!trajectory_.add(row) && error_.empty())
     {
