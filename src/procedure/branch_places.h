@@ -46,6 +46,8 @@ public:
   /** Whether every branch lies on the way from one branch to another, both included. Without a goal (−1) all do. */
   std::vector<bool> wayBetween(int from, int to) const;
 
+  const vessel::Polyline& line(int branch) const { return lines_[static_cast<std::size_t>(branch)]; }
+
   int branches() const { return static_cast<int>(names_.size()); }
 
 private:

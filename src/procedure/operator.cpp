@@ -151,14 +151,14 @@ const std::vector<session::HandCommand>& Operator::move(double end_time)
     const session::DriveScene& drive = scene_.instruments[k].drive;
     if (!hand.scripted)
     {
-      commands_[k] = {drive.insertionAt(end_time), drive.rotationAt(end_time)};
+      commands_[k] = {drive.insertionAt(end_time), drive.rotationAt(end_time), drive.pressureAt(end_time)};
       continue;
     }
     hand.speed = towards(hand.speed, hand.wanted, hand_.acceleration * dt);
     hand.turn_speed = towards(hand.turn_speed, hand.wanted_turn, hand_.turn_acceleration * dt);
     hand.insertion += dt * hand.speed;
     hand.rotation += dt * hand.turn_speed;
-    commands_[k] = {hand.insertion, hand.rotation};
+    commands_[k] = {hand.insertion, hand.rotation, hand.pressure};
   }
   return commands_;
 }

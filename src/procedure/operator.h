@@ -62,9 +62,6 @@ public:
   const BranchPlaces& places() const { return places_; }
   int enteredBranch() const { return entered_; }  ///< in which the introducer sits
 
-  /** Pressure that the operator asks of an instrument's balloon [Pa]. */
-  double pressure(int instrument) const { return hands_[static_cast<std::size_t>(instrument)].pressure; }
-
 private:
   /** What he does within a step. */
   enum class Mode

@@ -113,12 +113,13 @@ void visitHand(SceneFields& fields, HandScene& hand)
   fields.number("speed_scale", hand.speed_scale, "1", Range::positive());
 }
 
-bool isDriven(const Scene& scene, const std::string& instrument)
+/** The instrument of this name, if the procedure drives it; else null. */
+const DrivenInstrument* scripted(const Scene& scene, const std::string& instrument)
 {
   for (const DrivenInstrument& driven : scene.instruments)
     if (driven.instrument.name == instrument && driven.drive.source == DriveSource::kProcedure)
-      return true;
-  return false;
+      return &driven;
+  return nullptr;
 }
 
 }  // namespace
@@ -158,9 +159,11 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
     const std::string remedy =
         "' is no instrument that the procedure drives; name one of the scene's and set its "
         "drive.source: procedure";
-    if (step.action != StepAction::kWait && !isDriven(scene, step.instrument))
+    if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
       fields.refuse(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
-    if (step.action == StepAction::kExchange && !isDriven(scene, step.replacement))
+    if (step.action == StepAction::kInflate && !scripted(scene, step.instrument)->instrument.balloon)
+      fields.refuse(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
+    if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
       fields.refuse(path + "for", "'" + step.replacement + remedy);
   }
 }

@@ -10,7 +10,7 @@
 
 #include "common/error.h"
 #include "contact/detector.h"
-#include "procedure/operator.h"
+#include "procedure/session_run.h"
 #include "session/run_result.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -31,7 +31,8 @@ same trajectory bit for bit.
 
 usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
 
-  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv and plots there; made when it is missing
+  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
+                        metrics.html and instruments.csv there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
@@ -39,7 +40,8 @@ usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [-
   --quiet               no progress bar
   --help                prints this
 
-exit code: 0 done, 1 the scene is refused or a step could not be solved (the reason goes to the error stream), 2 wrong use
+exit code: 0 done, 1 the scene is refused, a step could not be solved or the scene's procedure failed (the reason goes to the
+error stream), 2 wrong use
 )";
 
 struct Options
@@ -173,26 +175,12 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
   file << line;
 }
 
-/** One row per instrument: what its hand has and feels, and where its tip is. */
-void writeInstruments(std::ofstream& file, const session::Scene& scene, const session::Simulation& simulation)
-{
-  char line[300];
-  for (int k = 0; k < simulation.instruments(); ++k)
-  {
-    const session::HandState hand = simulation.hand(k);
-    const Eigen::Vector3d tip = procedure::pointAt(simulation, std::max(0.0, hand.insertion));
-    std::snprintf(line, sizeof line, "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
-                  scene.instruments[static_cast<std::size_t>(k)].instrument.name.c_str(), hand.insertion, hand.rotation,
-                  hand.force, hand.torque, tip.x(), tip.y(), tip.z());
-    file << line;
-  }
-}
-
 /** The vessel of a scene with everything that is made from it. */
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   std::unique_ptr<session::WallForceMap> wall_forces;
+  std::unique_ptr<procedure::SessionRun> session;  ///< null without a vessel
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
@@ -217,17 +205,16 @@ Surroundings build(const session::Scene& scene)
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
+  made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
   return made;
 }
 
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
-         const Surroundings& surroundings, procedure::Operator* person, session::RunResult& result, std::uint64_t steps)
+         const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
 {
   session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
   std::ofstream hand_force = openFile(options.out + "/hand_force.csv");
   hand_force << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
-  std::ofstream instruments = openFile(options.out + "/instruments.csv");
-  instruments << "time,instrument,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z\n";
   std::ofstream nodes;
   if (options.record_nodes)
   {
@@ -241,11 +228,11 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   const Clock::time_point begin = Clock::now();
   for (std::uint64_t k = 1; k <= steps; ++k)
   {
-    const double end_time = static_cast<double>(k) * scene.solver.time_step;
-    if (person != nullptr && person->progress() != procedure::Progress::kRunning)
+    if (surroundings.session && surroundings.session->isOver())
       break;
     const std::vector<session::HandCommand> commands =
-        person != nullptr ? person->next(simulation) : session::commandsAt(scene, end_time);
+        surroundings.session ? surroundings.session->commands(simulation)
+                             : session::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
@@ -253,13 +240,13 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     {
       session::wallContacts(simulation, contacts);
       surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
+      surroundings.session->addStep(simulation, contacts);
     }
     if (k % row_every != 0 && k != steps)
       continue;
     if (!trajectory.add(rowOf(simulation)))
       diskRefused(options.out + "/trajectory.csv");
     writeHandForce(hand_force, simulation);
-    writeInstruments(instruments, scene, simulation);
     if (surroundings.wall)
       result.checkOutside(simulation, *surroundings.wall);
     if (options.record_nodes)
@@ -274,8 +261,6 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     diskRefused(options.out + "/trajectory.csv");
   if (!hand_force.flush())
     diskRefused(options.out + "/hand_force.csv");
-  if (!instruments.flush())
-    diskRefused(options.out + "/instruments.csv");
   if (options.record_nodes && !nodes.flush())
     diskRefused(options.out + "/nodes.csv");
 }
@@ -288,6 +273,26 @@ void writeWallForces(const std::string& folder, const Surroundings& surroundings
     rows.push_back({force, map.centre(force.triangle), map.regionName(force.region)});
   writeFile(folder + "/wall_forces.csv", session::wallForcesCsv(std::move(rows)));
   writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
+}
+
+void writeSession(const std::string& folder, const Surroundings& surroundings)
+{
+  procedure::SessionMetrics& metrics = surroundings.session->metrics();
+  metrics.setWallForces(surroundings.wall_forces->summary());
+  surroundings.session->write(folder);
+}
+
+/** How the scripted operator got on. */
+void tellProcedure(const Surroundings& surroundings)
+{
+  if (!surroundings.session || !surroundings.session->person())
+    return;
+  const procedure::Operator& person = *surroundings.session->person();
+  for (const procedure::StepRecord& step : person.records())
+    std::fprintf(stderr, "%7.2f to %7.2f s: %s%s\n", step.begin, step.end, step.name.c_str(),
+                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " new tries)").c_str() : "");
+  if (!person.failure().empty())
+    std::cerr << "simulate: the procedure failed: " << person.failure() << "\n";
 }
 
 void plot(const Options& options)
@@ -308,31 +313,30 @@ int simulate(const Options& options)
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);
-  std::unique_ptr<procedure::Operator> person;
-  if (scene.procedure)
-    person = std::make_unique<procedure::Operator>(scene, surroundings.centreline, surroundings.entry.position);
-  run(scene, options, simulation, surroundings, person.get(), result, steps);
-  if (person != nullptr)
-    for (const procedure::StepRecord& record : person->records())
-      std::fprintf(stderr, "%7.2f %7.2f  %s (%d new tries, %d wrong branches)\n", record.begin, record.end,
-                   record.name.c_str(), record.retries, record.wrong_branches);
-  if (person != nullptr && person->progress() == procedure::Progress::kFailed)
-    std::cerr << "simulate: " << person->failure() << "\n";
+  run(scene, options, simulation, surroundings, result, steps);
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
   if (surroundings.wall_forces)
+  {
     writeWallForces(options.out, surroundings);
+    writeSession(options.out, surroundings);
+  }
   if (options.plots)
     plot(options);
   if (!options.quiet)
     std::cout << text;
+  if (!options.quiet)
+    tellProcedure(surroundings);
   if (result.refusedSteps() > 0)
   {
     std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
     return 1;
   }
-  return 0;
+  return surroundings.session && surroundings.session->person() &&
+                 surroundings.session->person()->progress() == procedure::Progress::kFailed
+             ? 1
+             : 0;
 }
 
 }  // namespace

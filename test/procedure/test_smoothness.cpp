@@ -1,0 +1,51 @@
+#include "procedure/smoothness.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+/** The speed of a movement of least jerk, and the same done in @p parts with a stop after each. */
+std::vector<double> movement(int parts)
+{
+  std::vector<double> speed;
+  for (int k = 0; k < 200; ++k)
+  {
+    const double t = std::fmod(static_cast<double>(k) / 200.0 * parts, 1.0);
+    speed.push_back(30.0 * t * t * (1.0 - t) * (1.0 - t));
+  }
+  return speed;
+}
+
+TEST(SpectralArcLength, OfAMovementOfLeastJerkIsTheValueThatItsAuthorsGive)
+{
+  // −1.4 in their Fig. 3, for one second at 100 Hz.
+  EXPECT_NEAR(spectralArcLength(movement(1), 200.0), -1.4, 0.05);
+}
+
+TEST(SpectralArcLength, GetsWorseWithEveryStop)
+{
+  EXPECT_GT(spectralArcLength(movement(1), 200.0), spectralArcLength(movement(2), 200.0) + 0.2);
+  EXPECT_GT(spectralArcLength(movement(2), 200.0), spectralArcLength(movement(4), 200.0) + 0.2);
+}
+
+TEST(SpectralArcLength, DoesNotDependOnTheSizeOfTheMovement)
+{
+  std::vector<double> larger = movement(2);
+  for (double& speed : larger)
+    speed *= 7.0;
+  EXPECT_NEAR(spectralArcLength(larger, 200.0), spectralArcLength(movement(2), 200.0), 1e-12);
+}
+
+TEST(SpectralArcLength, IsZeroWhereNothingMoves)
+{
+  EXPECT_EQ(spectralArcLength({}, 20.0), 0.0);
+  EXPECT_EQ(spectralArcLength(std::vector<double>(50, 0.0), 20.0), 0.0);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::procedure
