@@ -21,10 +21,13 @@ std::vector<double> movement(int parts)
   return speed;
 }
 
-TEST(SpectralArcLength, OfAMovementOfLeastJerkIsTheValueThatItsAuthorsGive)
+TEST(SpectralArcLength, IsThatOfItsAuthorsProgram)
 {
-  // −1.4 in their Fig. 3, for one second at 100 Hz.
-  EXPECT_NEAR(spectralArcLength(movement(1), 200.0), -1.4, 0.05);
+  // The example that comes with their sparc(): exp(-5 t²), t from -1 to 1 in steps of 0.01.
+  std::vector<double> speed;
+  for (int k = 0; k < 200; ++k)
+    speed.push_back(std::exp(-5.0 * std::pow(-1.0 + 0.01 * k, 2)));
+  EXPECT_NEAR(spectralArcLength(speed, 100.0), -1.41403, 1e-5);
 }
 
 TEST(SpectralArcLength, GetsWorseWithEveryStop)
