@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "contact/detector.h"
+#include "session/moving_wall.h"
 #include "session/run_result.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -176,6 +177,7 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
+  std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
@@ -201,6 +203,7 @@ Surroundings build(const session::Scene& scene)
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
+  made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
   return made;
 }
 
@@ -280,7 +283,8 @@ int simulate(const Options& options)
   const session::Scene scene = session::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
   const Surroundings surroundings = build(scene);
-  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline);
+  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
+                                 surroundings.moving_wall.get());
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);
