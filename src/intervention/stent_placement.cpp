@@ -50,6 +50,8 @@ void StentPlacement::stripOff()
 {
   if (state_ == State::kCrimped)
     state_ = State::kLost;
+  else if (state_ == State::kExpanding)
+    state_ = State::kPlaced;
 }
 
 void StentPlacement::layAlong(const ShaftLine& shaft)

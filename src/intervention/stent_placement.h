@@ -34,12 +34,13 @@ public:
    *  @return the state afterwards */
   State follow(const ShaftLine& shaft, double pressure, double balloon_diameter);
 
-  /** It is pulled off its balloon: lost, unless it was opened before. */
+  /** It is pulled off its balloon: lost, or, if it was opened before, placed where it is. */
   void stripOff();
 
   State state() const { return state_; }
   double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]
   double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< now [m]
+  double crimpedDiameter() const { return stent_.crimped_diameter; }                       ///< outer [m]
   double length() const { return stent_.lengthAt(inner_diameter_); }  ///< now: it shortens as it opens [m]
   bool overExpanded() const { return over_expanded_; }  ///< the balloon wanted more than its largest diameter
 

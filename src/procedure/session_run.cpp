@@ -53,10 +53,23 @@ void SessionRun::addStep(const session::Simulation& simulation, const std::vecto
   metrics_.add(std::move(sample));
 }
 
-void SessionRun::write(const std::string& folder)
+void SessionRun::finish(const session::Simulation& simulation, const vessel::TriangleMesh* wall)
 {
   if (operator_)
     metrics_.setSteps(operator_->records(), operator_->failure());
+  for (const session::TimedEvent& event : simulation.events())
+    metrics_.addEvent(session::nameOf(event.event), event.instrument, event.time);
+  const intervention::RoundBody* stent = nullptr;
+  for (int k = 0; k < simulation.instruments(); ++k)
+    if (const intervention::Treatment* treatment = simulation.treatment(k);
+        treatment != nullptr && treatment->stent() &&
+        treatment->stent()->state() == intervention::StentPlacement::State::kPlaced)
+      stent = &treatment->stent()->sleeve();
+  metrics_.setLesions(lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, stent));
+}
+
+void SessionRun::write(const std::string& folder) const
+{
   writeMetrics(metrics_, folder);
 }
 

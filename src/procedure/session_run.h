@@ -35,9 +35,12 @@ public:
   const std::optional<Operator>& person() const { return operator_; }
   const vessel::Vessel& vessel() const { return vessel_; }
 
+  /** Takes down how it ended. @param wall as it is now; null: it did not move */
+  void finish(const session::Simulation& simulation, const vessel::TriangleMesh* wall);
+
   /** Writes metrics.json, metrics.html and instruments.csv.
    *  @throws InputError when the disk refuses them */
-  void write(const std::string& folder);
+  void write(const std::string& folder) const;
 
 private:
   session::Scene scene_;

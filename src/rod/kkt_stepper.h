@@ -30,6 +30,7 @@ public:
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override;
   const contact::ContactSet& contactSet() const override { return contacts_.set(); }
+  void setContactRadii(const std::vector<double>& radii) override { contacts_.setRadii(radii); }
   void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return rod_; }
   bool resample(const Discretisation& rod) override;

@@ -47,6 +47,9 @@ public:
   /** @param source null without a vessel */
   void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
 
+  /** Least radius of the surface at every node until the nodes change; empty: the rod's own [m]. */
+  void setRadii(const std::vector<double>& radii) { radii_ = radii; }
+
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
   void invalidate() { valid_ = false; }
@@ -112,6 +115,7 @@ private:
   double carriedForce(const contact::Feature& feature) const;
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings();
+  double radiusOf(int node) const;
   double lengthOf(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
   double shareOfLeastEnergy(const Motion& motion) const;
@@ -121,6 +125,7 @@ private:
   void ask(const State& state, contact::ContactSet& answer, StepReport& report);
   void askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report);
   void send(contact::ContactSet& answer, StepReport& report);
+  void widen();
 
   const Discretisation& rod_;
   const Boundary& boundary_;
@@ -140,6 +145,8 @@ private:
   std::uint32_t* pass_ = nullptr;
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
+  std::uint64_t vessel_version_ = 0;
+  std::vector<double> radii_;  ///< least ones, per node; empty: none [m]
 };
 
 }  // namespace endovascular_sim::rod

@@ -86,10 +86,11 @@ struct StepInput
 {
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
-  double inserted_length = 0.0;    ///< at the end of the step [m]
-  double rotation = 0.0;           ///< at the end of the step [rad]
-  std::vector<LayerInput> layers;  ///< of a stack, in place of the two above; empty for one wire
-  EndMotion distal;                ///< of a held distal end, at the end of the step
+  std::uint64_t vessel_version = 0;  ///< that contact must be found with; 0: any
+  double inserted_length = 0.0;      ///< at the end of the step [m]
+  double rotation = 0.0;             ///< at the end of the step [rad]
+  std::vector<LayerInput> layers;    ///< of a stack, in place of the two above; empty for one wire
+  EndMotion distal;                  ///< of a held distal end, at the end of the step
   std::vector<NodalForce> forces;
   double tip_torque = 0.0;          ///< [N·m]
   std::vector<double> edge_torque;  ///< from outside about the axis of every edge; empty: none [N·m]
@@ -132,6 +133,10 @@ public:
   /** Contact set of the state that the last step left; empty without a vessel. */
   virtual const contact::ContactSet& contactSet() const = 0;
 
+  /** Least radius of the surface at every node where it meets the wall, from now on until the nodes change; empty:
+   *  the wire's own [m]. Only what the `kkt` scheme is made of heeds it. */
+  virtual void setContactRadii(const std::vector<double>& radii);
+
   /** Forgets the contact set, after the state was changed from outside. */
   virtual void invalidateContacts() = 0;
 
@@ -141,6 +146,8 @@ public:
    *  @return false when the scheme keeps the nodes that it was made with */
   virtual bool resample(const Discretisation& rod);
 };
+
+inline void Stepper::setContactRadii(const std::vector<double>& /*radii*/) {}
 
 inline bool Stepper::resample(const Discretisation& /*rod*/)
 {

@@ -131,6 +131,10 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
   for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
     checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (!isTrivial(scene.instruments[k].drive.pressure) && scene.solver.scheme != "kkt")
+      fields.refuse(drivePath(scene, k) + "drive.pressure",
+                    "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
   if (scene.instruments.size() > 1)

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "session/scene_schema.h"
 
@@ -81,7 +82,7 @@ void visitStep(SceneFields& fields, StepScene& step)
     return;
   if (step.action == StepAction::kInflate)
   {
-    fields.number("pressure", step.pressure, "Pa", Range::nonNegative(), Need::kRequired);
+    fields.number("pressure", step.pressure, "Pa", {-101325.0, std::numeric_limits<double>::max()}, Need::kRequired);
     fields.number("for", step.duration, "s", Range::nonNegative(), Need::kRequired);
     return;
   }

@@ -14,6 +14,7 @@
 #include "session/blind_hand.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
+#include "session/treatments.h"
 
 namespace endovascular_sim::session
 {
@@ -38,9 +39,10 @@ class Simulation
 public:
   /** @param contacts where contact sets come from, null without a vessel; must outlive the simulation
    *  @param centreline of the vessel, by which adaptive sampling looks ahead of the tip; null: it does not
+   *  @param wall what balloons move, e.g. a MovingWall; null: no wall moves. Must outlive the simulation
    *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
   Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
-             const vessel::CentrelineTree* centreline = nullptr);
+             const vessel::CentrelineTree* centreline = nullptr, intervention::WallMover* wall = nullptr);
 
   /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
@@ -79,6 +81,12 @@ public:
   /** Depth of the wire's surface beyond the wall after the last step, by the contact set; 0 without contact [m]. */
   double surfacePenetration() const;
 
+  /** What balloons and stents did so far. */
+  const std::vector<TimedEvent>& events() const { return treatments_.events(); }
+
+  /** The balloon of an instrument, with its stent; null where there is none. */
+  const intervention::Treatment* treatment(int instrument) const { return treatments_.of(instrument); }
+
   std::uint64_t stateHash() const { return state_hash_; }  ///< of the state after the last step
 
   /** What the solver asks before its first step: for finding out whether the contact source answers. */
@@ -97,7 +105,6 @@ private:
     double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
     double turning_grip = 1.0;       ///< on turning
     double max_insertion = 0.0;      ///< [m]
-    double pressure = 0.0;           ///< commanded at its balloon's inflator [Pa]
   };
 
   void setMaxInsertions();
@@ -125,6 +132,8 @@ private:
   std::vector<HandCommand> wanted_, parts_;
   const rod::StackStepper* stack_ = nullptr;  ///< the stepper, where there are several instruments
   rod::Valve valve_;
+  Treatments treatments_;
+  std::vector<double> pressures_;  ///< commanded, per instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;

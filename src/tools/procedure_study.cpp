@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
 #include "procedure/session_run.h"
+#include "session/moving_wall.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
 #include "session/simulation.h"
@@ -103,7 +105,8 @@ std::string run(const session::Scene& scene, const vessel::Vessel& vessel, const
   const session::EntryPose entry = session::resolveEntry(scene.entry, vessel, scene.file);
   contact::Detector wall(vessel.mesh, session::wallLaw(*scene.vessel));
   procedure::SessionRun session(scene, vessel, entry.position);
-  session::Simulation simulation(scene, entry, &wall, &vessel.centreline);
+  const std::unique_ptr<session::MovingWall> moving_wall = session::makeMovingWall(scene, vessel, wall);
+  session::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
   std::vector<session::WallContact> contacts;
   const auto steps = static_cast<std::uint64_t>(scene.duration / scene.solver.time_step);
   while (simulation.steps() < steps && !session.isOver())
@@ -114,6 +117,7 @@ std::string run(const session::Scene& scene, const vessel::Vessel& vessel, const
   }
   seconds = simulation.time();
   std::filesystem::create_directories(folder);
+  session.finish(simulation, moving_wall ? &moving_wall->opening().mesh() : nullptr);
   session.write(folder);
   if (session.person()->progress() == procedure::Progress::kRunning)
     return "not finished within the scene's duration";

@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "contact/detector.h"
 #include "procedure/session_run.h"
+#include "session/moving_wall.h"
 #include "session/run_result.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -179,6 +180,7 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
+  std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
   std::unique_ptr<procedure::SessionRun> session;  ///< null without a vessel
   session::EntryPose entry;
@@ -205,6 +207,7 @@ Surroundings build(const session::Scene& scene)
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
+  made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
   made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
   return made;
 }
@@ -275,10 +278,11 @@ void writeWallForces(const std::string& folder, const Surroundings& surroundings
   writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
 }
 
-void writeSession(const std::string& folder, const Surroundings& surroundings)
+void writeSession(const std::string& folder, const session::Simulation& simulation, const Surroundings& surroundings)
 {
-  procedure::SessionMetrics& metrics = surroundings.session->metrics();
-  metrics.setWallForces(surroundings.wall_forces->summary());
+  surroundings.session->metrics().setWallForces(surroundings.wall_forces->summary());
+  const session::MovingWall* wall = surroundings.moving_wall.get();
+  surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
   surroundings.session->write(folder);
 }
 
@@ -309,7 +313,8 @@ int simulate(const Options& options)
   const session::Scene scene = session::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
   const Surroundings surroundings = build(scene);
-  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline);
+  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
+                                 surroundings.moving_wall.get());
   const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
   const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
   session::RunResult result(scene, surroundings.mesh_hash, steps);
@@ -320,7 +325,7 @@ int simulate(const Options& options)
   if (surroundings.wall_forces)
   {
     writeWallForces(options.out, surroundings);
-    writeSession(options.out, surroundings);
+    writeSession(options.out, simulation, surroundings);
   }
   if (options.plots)
     plot(options);
