@@ -29,6 +29,7 @@ constexpr auto kContactForceMap = "contact/force_map";
 constexpr auto kContactForceMarker = "contact/force_marker";
 
 constexpr auto kDriveApplied = "drive/applied";
+constexpr auto kProcedureStep = "procedure/step";
 constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionStop = "session/stop";
 

@@ -104,13 +104,16 @@ void RodLoop::receiveCommand(std::size_t instrument, const sensor_msgs::JointSta
 const std::vector<session::HandCommand>& RodLoop::nextCommands()
 {
   const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
+  if (procedure_)
+    next_ = procedure_->next(*simulation_);
   const std::lock_guard<std::mutex> lock(command_mutex_);
   for (std::size_t k = 0; k < next_.size(); ++k)
   {
     const session::DriveScene& drive = scene_.instruments[k].drive;
-    next_[k] = command_subscriber_[k]
-                   ? command_[k]
-                   : session::HandCommand{drive.insertionAt(end), drive.rotationAt(end), kNoPressure};
+    if (command_subscriber_[k])
+      next_[k] = command_[k];
+    else if (!procedure_)
+      next_[k] = {drive.insertionAt(end), drive.rotationAt(end), kNoPressure};
     if (std::isnan(next_[k].pressure))
       next_[k].pressure = drive.pressureAt(end);
   }
@@ -142,6 +145,8 @@ bool RodLoop::makeSimulation()
   else if (!waitForVessel(entry, vessel))
     return false;
   simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline);
+  if (scene_.procedure)
+    procedure_ = std::make_unique<ProcedureDriver>(node_, scene_, vessel.centreline, entry.position);
   if (!contacts_)
     return true;
   ROS_INFO("rod_dynamics: waiting for the contact node");
