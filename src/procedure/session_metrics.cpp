@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kNoticed = 3e-3;   // m beyond an ostium that count as an entry
 constexpr double kAhead = 2e-3;     // m by which a balloon catheter's tip is ahead of its wire's
 constexpr double kMoving = 0.5e-3;  // m/s
+constexpr double kSameTime = 1.0;   // s within which a force that returns is still the same mishap
 constexpr double kTurning = 0.05;   // rad/s
 
 /** For every instrument, the branches on the way to any goal that the procedure sets it. An instrument without a goal,
@@ -56,6 +57,15 @@ Json toJson(const intervention::LesionReport& report)
   return json;
 }
 
+/** The instrument that reaches furthest. */
+int foremostOf(const Observation& seen)
+{
+  const auto further = [](const InstrumentView& a, const InstrumentView& b)
+  { return a.hand.insertion < b.hand.insertion; };
+  return static_cast<int>(std::max_element(seen.instruments.begin(), seen.instruments.end(), further) -
+                          seen.instruments.begin());
+}
+
 const char* word(Progress progress)
 {
   switch (progress)
@@ -71,6 +81,15 @@ const char* word(Progress progress)
 }
 
 }  // namespace
+
+void Sample::addContact(const Eigen::Vector3d& position, double force)
+{
+  wall_force += force;
+  largest = std::max(largest, force);
+  const InstrumentView& foremost = seen.instruments[static_cast<std::size_t>(foremostOf(seen))];
+  if ((position - foremost.tip).norm() < kTipReach)
+    at_tip += force;
+}
 
 SessionMetrics::SessionMetrics(const session::Scene& scene, const vessel::CentrelineTree& tree,
                                const Eigen::Vector3d& entry)
@@ -179,17 +198,14 @@ void SessionMetrics::followExchanges(const Sample& sample)
 
 void SessionMetrics::followForces(const Sample& sample)
 {
-  const bool pressing = sample.largest > kPerforation;
-  if (pressing && !pressing_)
-  {
-    int furthest = 0;
-    for (std::size_t k = 0; k < was_in_.size(); ++k)
-      if (sample.seen.instruments[k].hand.insertion >
-          sample.seen.instruments[static_cast<std::size_t>(furthest)].hand.insertion)
-        furthest = static_cast<int>(k);
-    mishaps_.push_back({"risk of perforation", furthest, sample.seen.time, sample.largest, "N"});
-  }
-  pressing_ = pressing;
+  const int foremost = foremostOf(sample.seen);
+  if (sample.at_tip <= kPerforation ||
+      scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
+    return;
+  if (sample.seen.time > pressing_until_ + kSameTime)
+    mishaps_.push_back({"risk of perforation", foremost, sample.seen.time, sample.at_tip, "N"});
+  mishaps_.back().value = std::max(mishaps_.back().value, sample.at_tip);
+  pressing_until_ = sample.seen.time;
 }
 
 /** Time in which some hand moves: a person looks at X-rays while he moves something. [s] */

@@ -47,12 +47,20 @@ struct LesionOutcome
   intervention::LesionReport after;
 };
 
+/** Contacts this near to the foremost tip are what the tip pushes against [m]. */
+constexpr double kTipReach = 5e-3;
+
 /** One moment of a session. */
 struct Sample
 {
   Observation seen;
   double wall_force = 0.0;  ///< sum of the normal forces [N]
   double largest = 0.0;     ///< of one contact [N]
+  double at_tip = 0.0;      ///< sum within kTipReach of the foremost tip [N]
+
+  /** Counts a contact of the wall in, after `seen` is complete.
+   *  @param force normal one [N] */
+  void addContact(const Eigen::Vector3d& position, double force);
 };
 
 /** What a trainer wants to know of a session (docs/PROCEDURES.md says how each number is defined). Knows no clock, no
@@ -61,7 +69,7 @@ class SessionMetrics
 {
 public:
   static constexpr double kRate = 20.0;        ///< of the samples [Hz]
-  static constexpr double kPerforation = 0.5;  ///< force of one contact from which a perforation is a risk [N]
+  static constexpr double kPerforation = 0.5;  ///< of a guidewire's tip on the wall: from here a risk; assumed [N]
 
   /** @param entry the introducer, patient frame [m] */
   SessionMetrics(const session::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
@@ -110,7 +118,7 @@ private:
   std::vector<Mishap> mishaps_;
   std::vector<bool> ahead_;         ///< per instrument: further than every wire
   std::vector<double> ahead_time_;  ///< [s]
-  bool pressing_ = false;           ///< with a force that may perforate
+  double pressing_until_ = -1e9;    ///< with a force that may perforate [s]
   std::vector<bool> was_in_;        ///< per instrument
   std::vector<int> entries_;        ///< of every instrument into the introducer
   int withdrawn_ = 0;               ///< instruments that left and were not followed by another one yet

@@ -46,10 +46,7 @@ void SessionRun::addStep(const session::Simulation& simulation, const std::vecto
   Sample sample;
   sample.seen = observe(scene_, simulation, metrics_.places());
   for (const session::WallContact& contact : contacts)
-  {
-    sample.wall_force += contact.normal_force.norm();
-    sample.largest = std::max(sample.largest, contact.normal_force.norm());
-  }
+    sample.addContact(contact.position, contact.normal_force.norm());
   metrics_.add(std::move(sample));
 }
 

@@ -95,20 +95,16 @@ void MetricsRecorder::add(const RodStateVisual& rod)
     return;
   procedure::Sample sample;
   sample.seen = observationFrom(rod, scene_, metrics_->places(), pressures_);
-  sample.wall_force = wall_force_;
-  sample.largest = largest_;
+  for (const auto& [position, force] : contacts_)
+    sample.addContact(position, force);
   metrics_->add(std::move(sample));
 }
 
 void MetricsRecorder::add(const ContactForces& forces)
 {
-  wall_force_ = largest_ = 0.0;
+  contacts_.clear();
   for (const ContactForce& contact : forces.contacts)
-  {
-    const double force = magnitude(contact.normal_force);
-    wall_force_ += force;
-    largest_ = std::max(largest_, force);
-  }
+    contacts_.emplace_back(toVector(contact.position), magnitude(contact.normal_force));
 }
 
 void MetricsRecorder::add(const ProcedureStep& step)

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "endovascular_sim/ContactForces.h"
@@ -43,8 +44,7 @@ private:
   std::vector<procedure::StepRecord> steps_;
   std::string failure_;
   std::vector<double> pressures_;
-  double wall_force_ = 0.0;  ///< newest sum [N]
-  double largest_ = 0.0;     ///< newest [N]
+  std::vector<std::pair<Eigen::Vector3d, double>> contacts_;  ///< newest: place [m] and normal force [N]
 };
 
 /** The observation that a message holds.
