@@ -203,8 +203,11 @@ void SessionMetrics::followForces(const Sample& sample)
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
   if (sample.seen.time > pressing_until_ + kSameTime)
+  {
+    pressing_ = mishaps_.size();
     mishaps_.push_back({"risk of perforation", foremost, sample.seen.time, sample.at_tip, "N"});
-  mishaps_.back().value = std::max(mishaps_.back().value, sample.at_tip);
+  }
+  mishaps_[pressing_].value = std::max(mishaps_[pressing_].value, sample.at_tip);
   pressing_until_ = sample.seen.time;
 }
 

@@ -118,6 +118,7 @@ private:
   std::vector<Mishap> mishaps_;
   std::vector<bool> ahead_;         ///< per instrument: further than every wire
   std::vector<double> ahead_time_;  ///< [s]
+  std::size_t pressing_ = 0;        ///< the newest mishap of this kind
   double pressing_until_ = -1e9;    ///< with a force that may perforate [s]
   std::vector<bool> was_in_;        ///< per instrument
   std::vector<int> entries_;        ///< of every instrument into the introducer
