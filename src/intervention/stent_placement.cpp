@@ -50,7 +50,11 @@ void StentPlacement::stripOff()
 {
   if (state_ == State::kCrimped)
     state_ = State::kLost;
-  else if (state_ == State::kExpanding)
+}
+
+void StentPlacement::release()
+{
+  if (state_ == State::kExpanding)
     state_ = State::kPlaced;
 }
 

@@ -34,8 +34,11 @@ public:
    *  @return the state afterwards */
   State follow(const ShaftLine& shaft, double pressure, double balloon_diameter);
 
-  /** It is pulled off its balloon: lost, or, if it was opened before, placed where it is. */
+  /** It is pulled off its balloon: lost, unless it was opened before. */
   void stripOff();
+
+  /** An opened one comes off its balloon: placed where it is. */
+  void release();
 
   State state() const { return state_; }
   double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]

@@ -112,6 +112,7 @@ void Treatment::stripStent()
   if (!carriesStent())
     return;
   stent_->stripOff();
+  stent_->release();
   stripped_ = true;
 }
 

@@ -9,7 +9,8 @@ namespace endovascular_sim::session
 namespace
 {
 
-constexpr double kIndent = 5e-6;  // m by which an inflated balloon presses into the wall: half a newton per contact
+constexpr double kGrip = 200.0;        // N/m with which an inflated balloon presses on what holds it back: assumed
+constexpr double kGrowth = 10e-6;      // m by which a balloon may widen at once
 constexpr int kSettlePressings = 200;  // after the last pressure: the wall has come to rest by then
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -37,14 +38,14 @@ const char* nameOf(TreatmentEvent event)
 }
 
 Treatments::Treatments(const Scene& scene, intervention::WallMover* wall)
-  : time_step_(scene.solver.time_step), wall_(wall)
+  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.contact_stiffness), wall_(wall)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
     const instrument::Instrument& instrument = scene.instruments[k].instrument;
     lumens_.push_back(instrument.inner_radius);
     if (instrument.balloon)
-      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument)});
+      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument), {}, {}});
   }
   if (wall_ != nullptr)
     shown_ = due_ = promised_ = wall_->version();
@@ -141,27 +142,50 @@ void Treatments::measureRoom(const rod::State& state, const contact::ContactSet&
   }
 }
 
+/** Radius at a place when contacts were last asked for; 0 where it was not there [m]. */
+double Treatments::lastWidth(const Worked& worked, double from_tip)
+{
+  const std::vector<double>& places = worked.places;
+  const auto next = std::upper_bound(places.begin(), places.end(), from_tip);
+  if (next == places.begin() || next == places.end())
+    return 0.0;
+  const auto k = static_cast<std::size_t>(next - places.begin());
+  const double t = (from_tip - places[k - 1]) / (places[k] - places[k - 1]);
+  return worked.widths[k - 1] + t * (worked.widths[k] - worked.widths[k - 1]);
+}
+
+void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod)
+{
+  const double tip = tipOf(worked.instrument, state, rod);
+  const double covered_from = coveredFrom(worked.instrument, state, rod);
+  places_.clear();
+  widths_.clear();
+  for (int i = rod.nodes() - 1; i >= state.first_node; --i)
+  {
+    const double from_tip = tip - rod.position[i];
+    if (from_tip >= std::min(worked.treatment.end(), covered_from))
+      break;
+    if (from_tip <= worked.treatment.begin())
+      continue;
+    const double hard = worked.treatment.crossingRadiusAt(from_tip);
+    const double most = std::min(room_[i] + kGrip * rod.cell_length[i] / contact_stiffness_,
+                                 std::max(hard, lastWidth(worked, from_tip)) + kGrowth);
+    const double width = std::min(worked.treatment.radiusAt(from_tip), std::max(hard, most));
+    radii_[i] = std::max(radii_[i], width);
+    places_.push_back(from_tip);
+    widths_.push_back(width);
+  }
+  worked.places.swap(places_);
+  worked.widths.swap(widths_);
+}
+
 const std::vector<double>& Treatments::contactRadii(const rod::State& state, const rod::Discretisation& rod,
                                                     const contact::ContactSet& contacts)
 {
   radii_.assign(state.position.size(), 0.0);
   measureRoom(state, contacts);
-  for (const Worked& worked : treatments_)
-  {
-    const double tip = tipOf(worked.instrument, state, rod);
-    const double covered_from = coveredFrom(worked.instrument, state, rod);
-    for (int i = rod.nodes() - 1; i >= state.first_node; --i)
-    {
-      const double from_tip = tip - rod.position[i];
-      if (from_tip >= std::min(worked.treatment.end(), covered_from))
-        break;
-      if (from_tip <= worked.treatment.begin())
-        continue;
-      const double hard = worked.treatment.crossingRadiusAt(from_tip);
-      const double free = worked.treatment.radiusAt(from_tip);
-      radii_[i] = std::max(radii_[i], std::min(free, std::max(hard, room_[i] + kIndent)));
-    }
-  }
+  for (Worked& worked : treatments_)
+    widen(worked, state, rod);
   return radii_;
 }
 

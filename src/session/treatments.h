@@ -55,7 +55,8 @@ public:
   std::uint64_t beginStep(std::uint64_t step);
 
   /** Least radius of the rod's surface at every node: of balloons and stents where they stand out of the shaft. An
-   *  inflated balloon gives way to the wall: it is no wider than where it presses with a small force [m].
+   *  inflated balloon gives way to the wall: it is no wider than where it presses with a small force, and widens
+   *  gradually, so that a new node finds out where the wall is [m].
    *  @param contacts last found for the state */
   const std::vector<double>& contactRadii(const rod::State& state, const rod::Discretisation& rod,
                                           const contact::ContactSet& contacts);
@@ -79,6 +80,8 @@ private:
   {
     int instrument;
     intervention::Treatment treatment;
+    /** Radius with which it touched the wall last, at distances from the tip, ascending [m]. */
+    std::vector<double> places, widths;
   };
 
   double tipOf(int instrument, const rod::State& state, const rod::Discretisation& rod) const;
@@ -88,10 +91,13 @@ private:
   bool isHeldBack(const Worked& worked, double covered_from) const;
   void collectEvents(const Worked& worked, std::uint64_t step);
   void addEvent(std::uint64_t step, int instrument, TreatmentEvent event);
+  static double lastWidth(const Worked& worked, double from_tip);
+  void widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod);
   void measureRoom(const rod::State& state, const contact::ContactSet& contacts);
   void pressWall(std::uint64_t step);
 
   double time_step_;
+  double contact_stiffness_;    ///< [N/m]
   std::vector<double> lumens_;  ///< inner radius of every instrument [m]
   std::vector<Worked> treatments_;
   intervention::WallMover* wall_;
@@ -103,7 +109,7 @@ private:
   int still_ = 0;                ///< pressings without pressure since the last one with
   bool pressed_ = false;         ///< ever
   bool at_risk_ = false;         ///< told already
-  std::vector<double> radii_, room_;
+  std::vector<double> radii_, room_, places_, widths_;
 };
 
 }  // namespace endovascular_sim::session
