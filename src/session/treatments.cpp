@@ -73,6 +73,9 @@ double Treatments::tipOf(int instrument, const rod::State& state, const rod::Dis
 double Treatments::coveredFrom(int instrument, const rod::State& state, const rod::Discretisation& rod) const
 {
   double covered = kInfinity;
+  // In front of the introducer the order of the places is not that of the instruments: nothing covers another one.
+  if (!state.layers.empty() && state.layers[static_cast<std::size_t>(instrument)].inserted_length <= 0.0)
+    return covered;
   const double tip = tipOf(instrument, state, rod);
   for (std::size_t k = static_cast<std::size_t>(instrument) + 1; k < state.layers.size(); ++k)
     if (state.layers[k].inserted_length > 0.0)
@@ -105,7 +108,7 @@ std::optional<intervention::ShaftLine> Treatments::shaftOf(const Worked& worked,
 }
 
 /** A stent that is wider than the catheter into which it is drawn stays at that catheter's tip. */
-bool Treatments::isHeldBack(const Worked& worked, double covered_from) const
+bool Treatments::isHeldBack(const Worked& worked, double covered_from, const rod::State& state) const
 {
   if (!worked.treatment.carriesStent() || covered_from == kInfinity)
     return false;
@@ -114,7 +117,8 @@ bool Treatments::isHeldBack(const Worked& worked, double covered_from) const
   const double proximal_end = balloon.from_tip + 0.5 * balloon.length + 0.5 * stent.length();
   double lumen = kInfinity;
   for (std::size_t k = static_cast<std::size_t>(worked.instrument) + 1; k < lumens_.size(); ++k)
-    lumen = std::min(lumen, lumens_[k]);
+    if (state.layers[k].inserted_length > 0.0)
+      lumen = std::min(lumen, lumens_[k]);
   return covered_from < proximal_end && 0.5 * stent.outerDiameter() > lumen;
 }
 
@@ -216,7 +220,7 @@ void Treatments::endStep(std::uint64_t step, const std::vector<double>& commande
   for (Worked& worked : treatments_)
   {
     const double covered_from = coveredFrom(worked.instrument, state, rod);
-    if (isHeldBack(worked, covered_from))
+    if (isHeldBack(worked, covered_from, state))
       worked.treatment.stripStent();
     const std::optional<intervention::ShaftLine> shaft = shaftOf(worked, state, rod);
     const intervention::Pressing& pressing = worked.treatment.step(

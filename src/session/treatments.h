@@ -88,7 +88,7 @@ private:
   double coveredFrom(int instrument, const rod::State& state, const rod::Discretisation& rod) const;
   std::optional<intervention::ShaftLine> shaftOf(const Worked& worked, const rod::State& state,
                                                  const rod::Discretisation& rod) const;
-  bool isHeldBack(const Worked& worked, double covered_from) const;
+  bool isHeldBack(const Worked& worked, double covered_from, const rod::State& state) const;
   void collectEvents(const Worked& worked, std::uint64_t step);
   void addEvent(std::uint64_t step, int instrument, TreatmentEvent event);
   static double lastWidth(const Worked& worked, double from_tip);
