@@ -21,6 +21,14 @@ Eigen::Vector3d pointAt(const session::Simulation& simulation, double inserted)
   return state.position[k - 1] + share * (state.position[k] - state.position[k - 1]);
 }
 
+void markCovered(Observation& seen)
+{
+  for (std::size_t k = 0; k < seen.instruments.size(); ++k)
+    for (std::size_t outer = k + 1; outer < seen.instruments.size(); ++outer)
+      seen.instruments[k].covered =
+          seen.instruments[k].covered || seen.instruments[outer].hand.insertion > seen.instruments[k].hand.insertion;
+}
+
 Observation observe(const session::Scene& scene, const session::Simulation& simulation, const BranchPlaces& places)
 {
   Observation seen;
@@ -39,6 +47,7 @@ Observation observe(const session::Scene& scene, const session::Simulation& simu
       view.balloon = pointAt(simulation, middle);
     seen.instruments.push_back(view);
   }
+  markCovered(seen);
   return seen;
 }
 

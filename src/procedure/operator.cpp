@@ -310,7 +310,7 @@ void Operator::act(const Observation& seen)
     return fail(&view, written("not done within %.0f s", step().time_limit));
   if (mode_ != Mode::kGo)
     return manoeuvre(view, seen.time);
-  const bool astray = view.place.branch >= 0 && !on_way_[static_cast<std::size_t>(view.place.branch)];
+  const bool astray = !view.covered && view.place.branch >= 0 && !on_way_[static_cast<std::size_t>(view.place.branch)];
   if (step().action == StepAction::kAdvance && astray && view.place.depth > kNoticed)
   {
     ++records_.back().wrong_branches;

@@ -143,7 +143,8 @@ void SessionMetrics::followBranches(const Sample& sample)
   for (std::size_t k = 0; k < wrong_now_.size(); ++k)
   {
     const BranchPlace& place = sample.seen.instruments[k].place;
-    const bool wrong = place.branch >= 0 && !on_way_[k][static_cast<std::size_t>(place.branch)];
+    const bool wrong =
+        !sample.seen.instruments[k].covered && place.branch >= 0 && !on_way_[k][static_cast<std::size_t>(place.branch)];
     int& now = wrong_now_[k];
     if (now >= 0 && (!wrong || wrong_[static_cast<std::size_t>(now)].branch != place.branch))
       now = -1;

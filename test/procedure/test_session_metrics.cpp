@@ -46,6 +46,7 @@ public:
           view.place = metrics.places().at(view.tip);
         sample.seen.instruments.push_back(view);
       }
+      markCovered(sample.seen);
       metrics.add(sample);
     }
   }
@@ -78,6 +79,14 @@ TEST(SessionMetrics, CountsVisitsOfBranchesThatDoNotLeadToTheGoal)
   // From 3 mm beyond the ostium at 7 mm to the deepest place at 40 mm and back to the ostium, at 40 mm/s.
   EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.030 + 0.033) / 0.04, 0.1);
   EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
+}
+
+TEST(SessionMetrics, ATipInsideOfAnotherInstrumentIsInNoWrongBranch)
+{
+  Session session;
+  session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.1}}, {0.1, 0.15});
+  session.move(1.0, {{0.04, 0, 0.1}, {0.05, 0, 0.1}}, {0.14, 0.15});
+  EXPECT_TRUE(session.json()["wrong_branches"].empty());
 }
 
 TEST(SessionMetrics, AnInstrumentWithoutAGoalMayBeAnywhere)

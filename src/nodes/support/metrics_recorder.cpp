@@ -61,6 +61,7 @@ procedure::Observation observationFrom(const RodStateVisual& rod, const session:
       view.balloon = pointBehindTip(rod, furthest - middle);
     seen.instruments.push_back(view);
   }
+  procedure::markCovered(seen);
   return seen;
 }
 
