@@ -7,6 +7,7 @@ import csv
 import json
 import pathlib
 import sys
+import textwrap
 
 import matplotlib
 
@@ -15,6 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 COLOURS = ["#d62728", "#ff9900", "#111111", "#1f77b4", "#2ca02c", "#9467bd"]
 WIDTHS = [1.2, 2.2, 1.6, 4.0]   # points, from the inside out
+COLUMNS = 6
 ZOOM = 0.075                    # half the width of a picture [m]
 
 
@@ -126,21 +128,26 @@ def main():
     except (OSError, KeyError) as error:
         sys.exit(f"procedure_pictures: {error}; give results of a procedure, recorded with --record nodes")
     pictures = [picture_near(options.results, end, times[-1]) for end in times]
-    rows = 2 if any(pictures) else 1
-    figure, axes = plt.subplots(rows, len(moments), figsize=(2.2 * len(moments), 2.5 * rows), squeeze=False)
-    for k, (name, end) in enumerate(moments):
-        draw(axes[0][k], vessel, nodes[k], inside[k])
-        axes[0][k].set_title(f"{name}\n{end:.0f} s", fontsize=7)
-        if rows == 2:
-            axes[1][k].axis("off")
-            if pictures[k]:
-                axes[1][k].imshow(plt.imread(pictures[k]), cmap="gray")
+    layers = 2 if any(pictures) else 1
+    lines = -(-len(moments) // COLUMNS)
+    figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
+    for axis in axes.flat:
+        axis.set_visible(False)
     handles = {}
-    for axis in axes[0]:
+    for k, (name, end) in enumerate(moments):
+        axis = axes[k // COLUMNS * layers][k % COLUMNS]
+        axis.set_visible(True)
+        draw(axis, vessel, nodes[k], inside[k])
+        axis.set_title("\n".join(textwrap.wrap(f"{name}, {end:.0f} s", 30)), fontsize=7)
         for handle, label in zip(*axis.get_legend_handles_labels()):
             handles[label] = handle
+        if pictures[k]:
+            below = axes[k // COLUMNS * layers + 1][k % COLUMNS]
+            below.set_visible(True)
+            below.axis("off")
+            below.imshow(plt.imread(pictures[k]), cmap="gray")
+    figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
-    figure.tight_layout(rect=(0, 0.06 if rows == 1 else 0.03, 1, 1))
     figure.savefig(options.out or options.results / "phases.png", dpi=130)
 
 
