@@ -4,6 +4,11 @@
 
 #include "instrument/balloon.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::intervention
 {
 
@@ -39,6 +44,8 @@ public:
   /** The distances from the tip between which radiusAt() is positive [m]. */
   double begin() const { return balloon_.from_tip - coneLength(); }
   double end() const { return balloon_.from_tip + balloon_.length + coneLength(); }
+
+  void archive(Archive& archive);  ///< saves or loads all that changes
 
 private:
   double radiusOf(double diameter, double from_tip) const;

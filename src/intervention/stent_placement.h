@@ -9,6 +9,11 @@
 #include "intervention/shaft_line.h"
 #include "intervention/vessel_opening.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::intervention
 {
 
@@ -54,6 +59,8 @@ public:
    *  @param crowns of each ring
    *  @param ring_length along the stent [m] */
   std::vector<std::vector<Eigen::Vector3d>> struts(int crowns = 8, double ring_length = 1.5e-3) const;
+
+  void archive(Archive& archive);  ///< saves or loads all that changes
 
 private:
   void layAlong(const ShaftLine& shaft);

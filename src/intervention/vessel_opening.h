@@ -46,6 +46,10 @@ struct Pressing
   std::optional<RoundBody> sleeve;  ///< of a stent that was placed in this step and holds the wall from now on
 };
 
+/** Saves or loads them. */
+void archive(Archive& archive, RoundBody& body);
+void archive(Archive& archive, Pressing& pressing);
+
 /** Vertices of the vessel's mesh that have moved, and where they are now. */
 struct MovedVertices
 {
@@ -90,6 +94,8 @@ public:
   bool atRisk() const { return largest_stretch_ > law_.risky_stretch; }
 
   const vessel::TriangleMesh& mesh() const { return mesh_; }  ///< as it is now
+
+  const std::vector<Eigen::Vector3d>& firstVertices() const { return first_; }  ///< of the mesh at the beginning [m]
 
   /** Saves or loads all that changes. */
   void archive(Archive& archive);

@@ -4,6 +4,11 @@
 
 #include "intervention/vessel_opening.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::intervention
 {
 
@@ -25,6 +30,10 @@ public:
 
   /** Whether some wall was stretched so far that it may tear, as far as is known. */
   virtual bool atRisk() const = 0;
+
+  /** Saves or loads all that changes, what contact searches included; loading needs the wall of the beginning.
+   *  @throws std::logic_error where the wall is another process's */
+  virtual void archive(Archive& archive) = 0;
 };
 
 }  // namespace endovascular_sim::intervention

@@ -8,6 +8,11 @@
 
 #include "rod/stepper.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::rod
 {
 
@@ -33,6 +38,8 @@ public:
     double reached = 0.0;    ///< gap at the point that the search for the active set has reached [m]
     double resisted = 0.0;   ///< stiffness times gap that the systems solved so far had there [N]
     bool active = false;
+
+    void archive(Archive& archive);
   };
   using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
 
@@ -99,6 +106,9 @@ public:
    *  contacts go on with the forces that they had. */
   void settle(State& state);
 
+  /** Saves or loads what the next step needs. */
+  void archive(Archive& archive);
+
 private:
   /** What a contact did before the nodes changed. */
   struct Carried
@@ -106,6 +116,8 @@ private:
     std::int64_t id;  ///< of the feature
     double place;     ///< along the wire [m]
     double force;     ///< [N]
+
+    void archive(Archive& archive);
   };
 
   Spring springOf(int index) const;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +11,11 @@
 #include "contact/contact_set.h"
 #include "rod/discretisation.h"
 #include "rod/state.h"
+
+namespace endovascular_sim
+{
+class Archive;
+}
 
 namespace endovascular_sim::rod
 {
@@ -142,12 +148,22 @@ public:
 
   virtual const Discretisation& discretisation() const = 0;
 
+  /** Saves what the next step needs besides its state, or loads it into a stepper with the same nodes.
+   *  @param state that it belongs to
+   *  @throws std::logic_error in schemes that do not know how: all but `kkt` */
+  virtual void archive(Archive& archive, const State& state);
+
   /** Goes on with another sampling of the same wire; the state is carried over by the caller.
    *  @return false when the scheme keeps the nodes that it was made with */
   virtual bool resample(const Discretisation& rod);
 };
 
 inline void Stepper::setContactRadii(const std::vector<double>& /*radii*/) {}
+
+inline void Stepper::archive(Archive& /*archive*/, const State& /*state*/)
+{
+  throw std::logic_error("Stepper: this scheme's state cannot be saved");
+}
 
 inline bool Stepper::resample(const Discretisation& /*rod*/)
 {

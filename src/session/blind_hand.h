@@ -1,5 +1,10 @@
 #pragma once
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::session
 {
 
@@ -37,6 +42,8 @@ public:
   /** What of the last motion given was not made after all. */
   void miss(const HandCommand& motion);
 
+  void archive(Archive& archive);  ///< saves or loads all that changes
+
 private:
   /** One direction of motion; units m or rad. */
   struct Channel
@@ -46,6 +53,7 @@ private:
     double release_rate = 0.0;  ///< [1/s²]
 
     double follow(double wanted, double pace, bool blind, double most, double dt);
+    void archive(Archive& archive);
   };
 
   void brake();

@@ -9,6 +9,11 @@
 #include "session/scene.h"
 #include "vessel/vessel.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::session
 {
 
@@ -30,19 +35,21 @@ public:
 
   const intervention::VesselOpening& opening() const { return opening_; }
 
-  /** Saves or loads all that changes; loading needs a detector with the wall of the beginning. */
-  void archive(Archive& archive);
+  void archive(Archive& archive) override;
 
 private:
   struct Change
   {
     std::uint64_t version = 0;
     intervention::MovedVertices moved;
+
+    void archive(Archive& archive);
   };
 
   intervention::VesselOpening opening_;
   contact::Detector& detector_;
   std::uint64_t version_ = 1;
+  std::uint64_t shown_ = 1;     ///< that contact searches
   std::deque<Change> waiting_;  ///< that contact does not search yet
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/hash.h"
@@ -66,6 +68,17 @@ public:
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
 
+  /** Writes everything that the trajectory depends on from here on.
+   *  @param vessel_hash of the mesh as it was at the beginning; 0 without a vessel
+   *  @throws InputError for a scheme whose state cannot be saved: all but `kkt` */
+  void save(std::ostream& stream, std::uint64_t vessel_hash = 0);
+
+  /** Goes on from a saved state, bit for bit as the simulation that was saved would have. To be called before the first
+   *  step; sums over past steps (forces on the wall, results) begin anew.
+   *  @param origin names the stream in errors
+   *  @throws InputError when it is damaged, of another version, scene or vessel; the simulation is then of no use */
+  void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state");
+
   /** From now on the nodes stay where they are along the wire. */
   void keepSampling() { sampling_.reset(); }
 
@@ -105,9 +118,12 @@ private:
     double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
     double turning_grip = 1.0;       ///< on turning
     double max_insertion = 0.0;      ///< [m]
+
+    void archive(Archive& archive);
   };
 
   void setMaxInsertions();
+  void archive(Archive& archive);
   void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
   HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);

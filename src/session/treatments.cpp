@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/archive.h"
+
 namespace endovascular_sim::session
 {
 namespace
@@ -256,6 +258,25 @@ void Treatments::pressWall(std::uint64_t step)
   if (wall_->atRisk() && !at_risk_)
     addEvent(step, treatments_.front().instrument, TreatmentEvent::kAtRisk);
   at_risk_ = wall_->atRisk();
+}
+
+void archive(Archive& archive, TimedEvent& event)
+{
+  archive(event.step, event.time, event.instrument, event.event);
+}
+
+void Treatments::Worked::archive(Archive& archive)
+{
+  archive(treatment, places, widths);
+}
+
+void Treatments::archive(Archive& archive)
+{
+  for (Worked& worked : treatments_)
+    archive(worked);
+  archive(events_, next_, shown_, due_, promised_, still_, pressed_, at_risk_);
+  if (wall_ != nullptr)
+    archive(*wall_);
 }
 
 }  // namespace endovascular_sim::session

@@ -11,6 +11,11 @@
 #include "rod/state.h"
 #include "session/scene.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::session
 {
 
@@ -72,7 +77,7 @@ public:
   /** Of an instrument with a balloon; else null. */
   const intervention::Treatment* of(int instrument) const;
 
-  /** Saves or loads all that changes, but for the wall. */
+  /** Saves or loads all that changes, with the wall. */
   void archive(Archive& archive);
 
 private:
@@ -82,6 +87,8 @@ private:
     intervention::Treatment treatment;
     /** Radius with which it touched the wall last, at distances from the tip, ascending [m]. */
     std::vector<double> places, widths;
+
+    void archive(Archive& archive);
   };
 
   double tipOf(int instrument, const rod::State& state, const rod::Discretisation& rod) const;

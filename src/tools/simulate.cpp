@@ -30,13 +30,16 @@ constexpr auto kUsage =
     R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
 same trajectory bit for bit.
 
-usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
+usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes]
+                [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
 
   --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
                         metrics.html and instruments.csv there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
+  --save-state FILE     writes the state at the time of --at T, in seconds of simulated time, and goes on
+  --from-state FILE     begins with a state that was saved in this scene; T of --seconds is then counted from it
   --no-plots            leaves the plots out
   --quiet               no progress bar
   --help                prints this
@@ -51,6 +54,9 @@ struct Options
   std::string out;
   double seconds = NAN;
   std::vector<std::string> overrides;
+  std::string save_state;
+  double save_at = NAN;  ///< [s]
+  std::string from_state;
   bool record_nodes = false;
   bool plots = true;
   bool quiet = false;
@@ -62,6 +68,7 @@ int wrongUse(const std::string& reason)
   return 2;
 }
 
+/** @return false where it is not a positive number */
 bool parseSeconds(const std::string& text, double& seconds)
 {
   char* end = nullptr;
@@ -94,6 +101,15 @@ int parse(int argc, char** argv, Options& options)
       if (!parseSeconds(argv[++i], options.seconds))
         return wrongUse(std::string("--seconds takes a positive number of seconds, not '") + argv[i] + "'");
     }
+    else if (word == "--save-state" && has_value)
+      options.save_state = argv[++i];
+    else if (word == "--from-state" && has_value)
+      options.from_state = argv[++i];
+    else if (word == "--at" && has_value)
+    {
+      if (!parseSeconds(argv[++i], options.save_at))
+        return wrongUse(std::string("--at takes a positive number of seconds, not '") + argv[i] + "'");
+    }
     else if (word == "--record" && has_value)
     {
       if (std::string(argv[++i]) != "nodes")
@@ -107,6 +123,8 @@ int parse(int argc, char** argv, Options& options)
   }
   if (options.scene.empty() || options.out.empty())
     return wrongUse("a scene and --out are needed");
+  if (options.save_state.empty() != std::isnan(options.save_at))
+    return wrongUse("--save-state FILE and --at T belong together");
   return -1;
 }
 
@@ -212,6 +230,43 @@ Surroundings build(const session::Scene& scene)
   return made;
 }
 
+std::uint64_t stepsIn(double seconds, const session::Scene& scene)
+{
+  return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
+}
+
+void saveState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+{
+  std::ofstream stream(path, std::ios::binary);
+  if (stream)
+    simulation.save(stream, surroundings.mesh_hash);
+  if (!stream.flush())
+    throw InputError(path, "", "cannot be written; choose a folder that exists and has room");
+}
+
+void loadState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+{
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw InputError(path, "", "cannot be read; give the path of a state saved with --save-state");
+  simulation.load(stream, surroundings.mesh_hash, path);
+}
+
+/** Steps until the end, those before a loaded state included. */
+std::uint64_t lastStep(const session::Scene& scene, const Options& options, const session::Simulation& simulation)
+{
+  const std::uint64_t last = std::isfinite(options.seconds) ? simulation.steps() + stepsIn(options.seconds, scene)
+                                                            : stepsIn(scene.duration, scene);
+  if (last <= simulation.steps())
+    throw InputError(options.from_state, "", "is of the scene's end or later; give --seconds T to go on from there");
+  const std::uint64_t save_at = options.save_state.empty() ? last : stepsIn(options.save_at, scene);
+  if (save_at <= simulation.steps() || save_at > last)
+    throw InputError(options.save_state, "--at",
+                     "is not within the time that is simulated, " + std::to_string(simulation.time()) + " to " +
+                         std::to_string(static_cast<double>(last) * scene.solver.time_step) + " s");
+  return last;
+}
+
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
          const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
 {
@@ -224,12 +279,14 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     nodes = openFile(options.out + "/nodes.csv");
     nodes << "time,node,x,y,z\n";
   }
+  const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
   std::vector<session::WallContact> contacts;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
-  for (std::uint64_t k = 1; k <= steps; ++k)
+  const std::uint64_t first = simulation.steps() + 1;
+  for (std::uint64_t k = first; k <= steps; ++k)
   {
     if (surroundings.session && surroundings.session->isOver())
       break;
@@ -239,6 +296,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
+    if (k == save_at)
+      saveState(options.save_state, simulation, surroundings);
     if (surroundings.wall_forces)
     {
       session::wallContacts(simulation, contacts);
@@ -255,8 +314,9 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     if (options.record_nodes)
       writeNodes(nodes, simulation);
     if (progress)
-      drawProgress(static_cast<double>(k) / static_cast<double>(steps),
-                   simulation.time() / std::chrono::duration<double>(Clock::now() - begin).count());
+      drawProgress(static_cast<double>(k + 1 - first) / static_cast<double>(steps + 1 - first),
+                   static_cast<double>(k + 1 - first) * scene.solver.time_step /
+                       std::chrono::duration<double>(Clock::now() - begin).count());
   }
   if (progress)
     std::fputc('\n', stderr);
@@ -315,9 +375,10 @@ int simulate(const Options& options)
   const Surroundings surroundings = build(scene);
   session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
                                  surroundings.moving_wall.get());
-  const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
-  const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
-  session::RunResult result(scene, surroundings.mesh_hash, steps);
+  if (!options.from_state.empty())
+    loadState(options.from_state, simulation, surroundings);
+  const std::uint64_t steps = lastStep(scene, options, simulation);
+  session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
