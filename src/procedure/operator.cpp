@@ -197,10 +197,7 @@ void Operator::begin(const Observation& seen)
   record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
   record.begin = record.end = seen.time;
   records_.push_back(record);
-  active_ = instrumentOf(scene_, step().instrument);
-  const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
-  goal_branch_ = branch.empty() ? -1 : places_.find(branch);
-  on_way_ = places_.wayBetween(entered_, step().any_branch ? -1 : goal_branch_);
+  prepareStep();
   mode_ = Mode::kGo;
   reached_since_ = -1.0;
   begin_time_ = progress_time_ = seen.time;
@@ -215,6 +212,15 @@ void Operator::begin(const Observation& seen)
     hand.insertion = std::max(hand.insertion, view.hand.insertion);
   if (step().action == StepAction::kInflate)
     hands_[static_cast<std::size_t>(active_)].pressure = step().pressure;
+}
+
+/** What follows from the step alone. */
+void Operator::prepareStep()
+{
+  active_ = instrumentOf(scene_, step().instrument);
+  const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
+  goal_branch_ = branch.empty() ? -1 : places_.find(branch);
+  on_way_ = places_.wayBetween(entered_, step().any_branch ? -1 : goal_branch_);
 }
 
 void Operator::finishStep(double time)
@@ -390,6 +396,42 @@ void Operator::manoeuvre(const InstrumentView& view, double time)
   }
   else
     hand.wanted_turn = std::copysign(std::min(2.0, hand_.max_turn), retry.turn);
+}
+
+/** Names follow from the steps. */
+void Operator::archiveRecords(Archive& archive)
+{
+  std::uint64_t count = records_.size();
+  archive(count);
+  if (archive.reading() && count > steps_.size())
+    throw ArchiveError("has more steps than the procedure");
+  records_.resize(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < records_.size(); ++k)
+  {
+    StepRecord& record = records_[k];
+    archive(record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
+    record.name = nameOf(steps_[k]);
+    record.phase = steps_[k].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[k].phase;
+  }
+}
+
+void Operator::archive(Archive& archive)
+{
+  std::uint64_t current = current_;
+  archive(current, begun_, progress_, mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_,
+          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
+  for (Hand& hand : hands_)
+    archive(hand);
+  archiveRecords(archive);
+  if (!archive.reading())
+    return;
+  if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))
+    throw ArchiveError("is of a step that the procedure does not have");
+  current_ = static_cast<std::size_t>(current);
+  if (begun_ && current_ < steps_.size())
+    prepareStep();
+  if (progress_ == Progress::kFailed)
+    failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") had failed before";
 }
 
 }  // namespace endovascular_sim::procedure

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/archive.h"
 #include "procedure/branch_places.h"
 #include "procedure/observation.h"
 #include "session/scene.h"
@@ -62,6 +63,9 @@ public:
   const BranchPlaces& places() const { return places_; }
   int enteredBranch() const { return entered_; }  ///< in which the introducer sits
 
+  /** Saves or loads all that changes. */
+  void archive(Archive& archive);
+
 private:
   /** What he does within a step. */
   enum class Mode
@@ -78,12 +82,15 @@ private:
     double speed = 0.0, turn_speed = 0.0;    ///< now [m/s], [rad/s]
     double wanted = 0.0, wanted_turn = 0.0;  ///< that he accelerates to
     double pressure = 0.0;                   ///< [Pa]
-    bool scripted = false;                   ///< driven by the procedure
+    void archive(Archive& archive) { archive(insertion, rotation, speed, turn_speed, wanted, wanted_turn, pressure); }
+    bool scripted = false;  ///< driven by the procedure
   };
 
   void expand();
   void checkBranches() const;
   void begin(const Observation& seen);
+  void prepareStep();
+  void archiveRecords(Archive& archive);
   void act(const Observation& seen);
   void go(const InstrumentView& view);
   void manoeuvre(const InstrumentView& view, double time);
@@ -98,7 +105,7 @@ private:
   std::string nameOf(const session::StepScene& step) const;
 
   session::Scene scene_;
-  const session::HandScene hand_;
+  session::HandScene hand_;
   BranchPlaces places_;
   int entered_ = -1;
   std::uint64_t look_every_ = 1;

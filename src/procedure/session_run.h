@@ -31,6 +31,13 @@ public:
   /** After every step. @param contacts of the step */
   void addStep(const session::Simulation& simulation, const std::vector<session::WallContact>& contacts);
 
+  /** Saves or loads the operator; the metrics count from the loaded state on. */
+  void archive(Archive& archive)
+  {
+    if (operator_)
+      operator_->archive(archive);
+  }
+
   SessionMetrics& metrics() { return metrics_; }
   const std::optional<Operator>& person() const { return operator_; }
   const vessel::Vessel& vessel() const { return vessel_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -70,14 +71,16 @@ public:
 
   /** Writes everything that the trajectory depends on from here on.
    *  @param vessel_hash of the mesh as it was at the beginning; 0 without a vessel
+   *  @param more of whoever drives the simulation, saved after it
    *  @throws InputError for a scheme whose state cannot be saved: all but `kkt` */
-  void save(std::ostream& stream, std::uint64_t vessel_hash = 0);
+  void save(std::ostream& stream, std::uint64_t vessel_hash = 0, const std::function<void(Archive&)>& more = nullptr);
 
   /** Goes on from a saved state, bit for bit as the simulation that was saved would have. To be called before the first
    *  step; sums over past steps (forces on the wall, results) begin anew.
    *  @param origin names the stream in errors
    *  @throws InputError when it is damaged, of another version, scene or vessel; the simulation is then of no use */
-  void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state");
+  void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
+            const std::function<void(Archive&)>& more = nullptr);
 
   /** From now on the nodes stay where they are along the wire. */
   void keepSampling() { sampling_.reset(); }

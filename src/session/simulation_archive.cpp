@@ -99,7 +99,7 @@ void Simulation::archive(Archive& archive)
   archive(treatments_);
 }
 
-void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash)
+void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std::function<void(Archive&)>& more)
 {
   if (scene_.solver.scheme != "kkt")
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be saved; use kkt");
@@ -109,13 +109,16 @@ void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash)
   head.vessel_hash = vessel_hash;
   out(head);
   archive(out);
+  if (more)
+    more(out);
   const std::string& bytes = out.bytes();
   const std::uint64_t hash = hashOf(bytes.data(), bytes.size());
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.write(reinterpret_cast<const char*>(&hash), sizeof hash);
 }
 
-void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin)
+void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin,
+                      const std::function<void(Archive&)>& more)
 {
   if (scene_.solver.scheme != "kkt")
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be loaded; use kkt");
@@ -129,6 +132,8 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
     in(head);
     checkHead(head, wanted, origin);
     archive(in);
+    if (more)
+      more(in);
   }
   catch (const ArchiveError& error)
   {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -235,11 +236,22 @@ std::uint64_t stepsIn(double seconds, const session::Scene& scene)
   return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
 }
 
+/** The scripted operator's part of a saved state. */
+std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
+{
+  procedure::SessionRun* session = surroundings.session.get();
+  return [session](Archive& archive)
+  {
+    if (session != nullptr)
+      session->archive(archive);
+  };
+}
+
 void saveState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
 {
   std::ofstream stream(path, std::ios::binary);
   if (stream)
-    simulation.save(stream, surroundings.mesh_hash);
+    simulation.save(stream, surroundings.mesh_hash, sessionOf(surroundings));
   if (!stream.flush())
     throw InputError(path, "", "cannot be written; choose a folder that exists and has room");
 }
@@ -249,7 +261,7 @@ void loadState(const std::string& path, session::Simulation& simulation, const S
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw InputError(path, "", "cannot be read; give the path of a state saved with --save-state");
-  simulation.load(stream, surroundings.mesh_hash, path);
+  simulation.load(stream, surroundings.mesh_hash, path, sessionOf(surroundings));
 }
 
 /** Steps until the end, those before a loaded state included. */

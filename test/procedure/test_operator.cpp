@@ -189,5 +189,50 @@ TEST(Operator, KnowsBranchesByTheProceduresNames)
   EXPECT_EQ(world.person.places().find("goal"), 2) << "the vessel's own name still counts";
 }
 
+TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
+{
+  const session::Scene scene = sceneWith(
+      "    - {advance: wire, until: {tip_in: trunk, beyond: 0.05}, speed: 0.02, turn_speed: 1}\n"
+      "    - {rotate: wire, until: {turned: 3}}\n"
+      "    - {withdraw: wire, until: {insertion: 0.02}}\n");
+  const auto caught = [](double insertion, double rotation)
+  { return Eigen::Vector3d(0.0, 0.0, rotation < 4.0 ? std::min(insertion, 0.03) : insertion); };
+  for (const double at : {0.5, 3.0, 6.0, 11.0})  // on the way, in a manoeuvre, later
+  {
+    PlainWorld world(scene, caught);
+    world.run(at);
+    Archive saved;
+    world.person.archive(saved);
+    PlainWorld other(world);
+    other.person = Operator(scene, forkedTree(), {0, 0, 0.001});
+    Archive loaded(saved.bytes());
+    other.person.archive(loaded);
+    EXPECT_TRUE(loaded.atEnd());
+    world.run(10.0);
+    other.run(10.0);
+    ASSERT_EQ(world.history.size(), other.history.size());
+    for (std::size_t k = 0; k < world.history.size(); ++k)
+    {
+      ASSERT_EQ(world.history[k][0].insertion, other.history[k][0].insertion) << at << " " << k;
+      ASSERT_EQ(world.history[k][0].rotation, other.history[k][0].rotation) << at << " " << k;
+    }
+    EXPECT_EQ(world.person.records().size(), other.person.records().size());
+    EXPECT_EQ(world.person.records().back().name, other.person.records().back().name);
+    EXPECT_EQ(world.person.records().back().retries, other.person.records().back().retries);
+  }
+}
+
+TEST(Operator, RefusesASavedStateOfALongerProcedure)
+{
+  const std::string wait = "    - {wait: 0.1}\n";
+  PlainWorld longer(sceneWith(wait + wait + wait));
+  longer.run(0.35);
+  Archive saved;
+  longer.person.archive(saved);
+  PlainWorld shorter{sceneWith(wait)};
+  Archive loaded(saved.bytes());
+  EXPECT_THROW(shorter.person.archive(loaded), ArchiveError);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::procedure
