@@ -49,6 +49,9 @@ public:
 
   std::uint64_t value() const { return state_; }
 
+  /** Goes on from a value(). */
+  void resume(std::uint64_t value) { state_ = value; }
+
   /** The value as 16 hexadecimal digits. */
   std::string hex() const { return toHex(state_); }
 

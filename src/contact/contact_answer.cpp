@@ -33,8 +33,9 @@ bool makesSense(const Query& query, const Feature& feature)
 bool answers(const Query& query, const ContactSet& set)
 {
   const std::size_t edges = query.nodes.empty() ? 0 : query.nodes.size() - 1;
-  return set.step == query.step && set.substep == query.substep && set.pass == query.pass &&
-         set.first_edge == query.first_node && set.free_distance.size() == edges &&
+  return (query.vessel_version == 0 || set.vessel_version == query.vessel_version) && set.step == query.step &&
+         set.substep == query.substep && set.pass == query.pass && set.first_edge == query.first_node &&
+         set.free_distance.size() == edges &&
          std::all_of(set.free_distance.begin(), set.free_distance.end(),
                      [](double distance) { return distance >= 0.0; }) &&
          std::all_of(set.features.begin(), set.features.end(),

@@ -33,6 +33,7 @@ struct Query
   std::uint32_t pass = 0;
   /** Above 0, free distances up to this are asked for instead of features [m]; larger ones need not be told apart. */
   double wanted_free_distance = 0.0;
+  std::uint64_t vessel_version = 0;    ///< of the wall that is to be searched; 0: whichever there is
   double margin = 0.0;                 ///< features closer than this to the wire's surface are listed [m]
   int first_node = 0;                  ///< index of nodes[0] in the whole wire
   std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]

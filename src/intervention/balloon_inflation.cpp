@@ -31,11 +31,11 @@ BalloonInflation::Event BalloonInflation::step(double dt, double commanded)
   return before <= rated && peak_pressure_ > rated ? Event::kAboveRated : Event::kNone;
 }
 
-double BalloonInflation::radiusAt(double from_tip) const
+double BalloonInflation::radiusOf(double diameter, double from_tip) const
 {
   const double cylinder_end = balloon_.from_tip + balloon_.length;
   const double beyond = std::max(balloon_.from_tip - from_tip, from_tip - cylinder_end);
-  return 0.5 * diameter() * std::clamp(1.0 - beyond / coneLength(), 0.0, 1.0);
+  return 0.5 * diameter * std::clamp(1.0 - beyond / coneLength(), 0.0, 1.0);
 }
 
 }  // namespace endovascular_sim::intervention

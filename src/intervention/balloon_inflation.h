@@ -4,6 +4,11 @@
 
 #include "instrument/balloon.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::intervention
 {
 
@@ -32,13 +37,18 @@ public:
 
   /** Radius of the free balloon at a distance from the catheter's tip [m]; 0 where there is none. A cylinder between
    *  cones that are as long as the labelled diameter (assumed; a slope of about 1 in 2). */
-  double radiusAt(double from_tip) const;
+  double radiusAt(double from_tip) const { return radiusOf(diameter(), from_tip); }
+  /** The same of the folded balloon [m]. */
+  double foldedRadiusAt(double from_tip) const { return radiusOf(balloon_.folded_diameter, from_tip); }
 
   /** The distances from the tip between which radiusAt() is positive [m]. */
   double begin() const { return balloon_.from_tip - coneLength(); }
   double end() const { return balloon_.from_tip + balloon_.length + coneLength(); }
 
+  void archive(Archive& archive);  ///< saves or loads all that changes
+
 private:
+  double radiusOf(double diameter, double from_tip) const;
   double coneLength() const { return balloon_.nominalDiameter(); }
 
   instrument::Balloon balloon_;

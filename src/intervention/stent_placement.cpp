@@ -52,6 +52,12 @@ void StentPlacement::stripOff()
     state_ = State::kLost;
 }
 
+void StentPlacement::release()
+{
+  if (state_ == State::kExpanding)
+    state_ = State::kPlaced;
+}
+
 void StentPlacement::layAlong(const ShaftLine& shaft)
 {
   const double length = stent_.lengthAt(inner_diameter_);

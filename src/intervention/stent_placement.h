@@ -9,6 +9,11 @@
 #include "intervention/shaft_line.h"
 #include "intervention/vessel_opening.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::intervention
 {
 
@@ -37,9 +42,13 @@ public:
   /** It is pulled off its balloon: lost, unless it was opened before. */
   void stripOff();
 
+  /** An opened one comes off its balloon: placed where it is. */
+  void release();
+
   State state() const { return state_; }
   double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]
   double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< now [m]
+  double crimpedDiameter() const { return stent_.crimped_diameter; }                       ///< outer [m]
   double length() const { return stent_.lengthAt(inner_diameter_); }  ///< now: it shortens as it opens [m]
   bool overExpanded() const { return over_expanded_; }  ///< the balloon wanted more than its largest diameter
 
@@ -50,6 +59,8 @@ public:
    *  @param crowns of each ring
    *  @param ring_length along the stent [m] */
   std::vector<std::vector<Eigen::Vector3d>> struts(int crowns = 8, double ring_length = 1.5e-3) const;
+
+  void archive(Archive& archive);  ///< saves or loads all that changes
 
 private:
   void layAlong(const ShaftLine& shaft);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -8,7 +7,12 @@
 #include "intervention/balloon_inflation.h"
 #include "intervention/shaft_line.h"
 #include "intervention/stent_placement.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/wall_mover.h"
+
+namespace endovascular_sim
+{
+class Archive;
+}
 
 namespace endovascular_sim::intervention
 {
@@ -20,44 +24,58 @@ struct TreatmentEvents
   bool burst = false;          ///< the balloon ruptured
   bool stent_placed = false;   ///< the balloon left the opened stent
   bool over_expanded = false;  ///< the balloon opened the stent beyond its largest diameter
-  bool at_risk = false;        ///< the vessel was stretched so far that it may tear
+  bool stent_lost = false;     ///< the stent came off its balloon unopened, or was opened outside of the vessel
 };
 
-/** One balloon catheter, with or without a stent, at work in a vessel. */
+/** One balloon catheter, with or without a stent, at work in a vessel: the instrument's side. What it does to the wall
+ *  is a WallMover's matter. */
 class Treatment
 {
 public:
   /** @param instrument a balloon catheter
-   *  @param opening of the vessel, shared by all instruments in it; must outlive the treatment
    *  @throws InputError when the instrument has no balloon */
-  Treatment(const instrument::Instrument& instrument, VesselOpening& opening);
+  explicit Treatment(const instrument::Instrument& instrument);
 
   /** Advances by @p dt [s].
    *  @param commanded pressure at the inflator [Pa]
-   *  @param shaft as it lies now; must reach over the balloon with its cones
-   *  @param most vertices to move in this step, see VesselOpening::press()
-   *  @return the vertices that moved; valid until the next step */
-  const MovedVertices& step(double dt, double commanded, const ShaftLine& shaft,
-                            std::size_t most = std::numeric_limits<std::size_t>::max());
+   *  @param shaft as it lies now, as far as it is in the vessel; null: the balloon is outside
+   *  @param covered_from distance from the tip from which on another instrument covers it [m]
+   *  @return what the wall is to be told; valid until the next step */
+  const Pressing& step(double dt, double commanded, const ShaftLine* shaft,
+                       double covered_from = std::numeric_limits<double>::infinity());
 
   const TreatmentEvents& events() const { return events_; }  ///< of the last step
   const BalloonInflation& inflation() const { return inflation_; }
   const std::optional<StentPlacement>& stent() const { return stent_; }
-  /** The stent came off its balloon unopened. */
+  const Pressing& pressing() const { return pressing_; }  ///< of the last step
+
+  /** The stent is held back: it comes off its balloon where it is. Tells its event with the next step's. */
   void stripStent();
 
   /** Outer radius at a distance from the tip, of the balloon and a stent that is still on it; 0 where there is neither
    *  [m]. The shaft's own counts where it is larger. */
   double radiusAt(double from_tip) const;
 
+  /** The same of the folded balloon and the crimped stent: what cannot give way [m]. */
+  double crossingRadiusAt(double from_tip) const;
+
+  double begin() const { return inflation_.begin(); }  ///< distance from the tip from which on it is there [m]
+  double end() const { return inflation_.end(); }      ///< and up to which [m]
+  bool carriesStent() const;                           ///< on the balloon, crimped or opened
+
+  /** Saves or loads all that changes. */
+  void archive(Archive& archive);
+
 private:
-  bool carriesStent() const;
-  RoundBody body(const ShaftLine& shaft) const;
+  void followStent(const ShaftLine* shaft);
+  bool isUnderStent(double from_tip) const;
+  void layBody(const ShaftLine& shaft, double covered_from);
 
   BalloonInflation inflation_;
   std::optional<StentPlacement> stent_;
-  VesselOpening& opening_;
+  bool stripped_ = false;  ///< since the last step
   TreatmentEvents events_;
+  Pressing pressing_;
 };
 
 }  // namespace endovascular_sim::intervention

@@ -201,6 +201,13 @@ const MovedVertices& VesselOpening::press(const RoundBody& balloon, double press
   return moved_;
 }
 
+const MovedVertices& VesselOpening::press(const Pressing& pressing, std::size_t most)
+{
+  if (pressing.sleeve)
+    hold(*pressing.sleeve);
+  return press(pressing.balloon, pressing.balloon.axis.empty() ? 0.0 : pressing.pressure, most);
+}
+
 void VesselOpening::hold(const RoundBody& sleeve)
 {
   const vessel::Polyline axis(sleeve.axis);

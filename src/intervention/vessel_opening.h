@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,11 @@
 #include "vessel/point_tree.h"
 #include "vessel/polyline.h"
 #include "vessel/vessel.h"
+
+namespace endovascular_sim
+{
+class Archive;
+}
 
 namespace endovascular_sim::intervention
 {
@@ -31,6 +37,18 @@ struct RoundBody
   std::vector<Eigen::Vector3d> axis;  ///< [m], two points or more
   std::vector<double> radii;          ///< [m], one per point; 0 where there is no body
 };
+
+/** What the wall is told of one step: all that the vessel needs to know of an instrument. */
+struct Pressing
+{
+  RoundBody balloon;                ///< with a stent that is still on it; empty where nothing is in the vessel
+  double pressure = 0.0;            ///< [Pa]; not positive: the balloon presses no longer
+  std::optional<RoundBody> sleeve;  ///< of a stent that was placed in this step and holds the wall from now on
+};
+
+/** Saves or loads them. */
+void archive(Archive& archive, RoundBody& body);
+void archive(Archive& archive, Pressing& pressing);
 
 /** Vertices of the vessel's mesh that have moved, and where they are now. */
 struct MovedVertices
@@ -65,6 +83,9 @@ public:
   const MovedVertices& press(const RoundBody& balloon, double pressure,
                              std::size_t most = std::numeric_limits<std::size_t>::max());
 
+  /** The same of all that an instrument does to the wall in a step. */
+  const MovedVertices& press(const Pressing& pressing, std::size_t most = std::numeric_limits<std::size_t>::max());
+
   /** From now on the wall is at no place narrower than this sleeve. Moved vertices come with the next press(). */
   void hold(const RoundBody& sleeve);
 
@@ -73,6 +94,11 @@ public:
   bool atRisk() const { return largest_stretch_ > law_.risky_stretch; }
 
   const vessel::TriangleMesh& mesh() const { return mesh_; }  ///< as it is now
+
+  const std::vector<Eigen::Vector3d>& firstVertices() const { return first_; }  ///< of the mesh at the beginning [m]
+
+  /** Saves or loads all that changes. */
+  void archive(Archive& archive);
 
 private:
   /** What a vertex has been through. */

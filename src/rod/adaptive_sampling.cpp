@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/archive.h"
 #include "rod/bending.h"
 
 namespace endovascular_sim::rod
@@ -160,6 +161,15 @@ void AdaptiveSampling::restrictDemand(const State& state)
     if (rod_.position[j] < fine_end)
       limit(j, 0);
   }
+}
+
+void AdaptiveSampling::archive(Archive& archive)
+{
+  archive(tree_, beyond_tip_, looked_from_);
+  if (!archive.reading())
+    return;
+  tree_.positions(position_);
+  discretise(wire_, position_, rod_);
 }
 
 }  // namespace endovascular_sim::rod

@@ -9,6 +9,11 @@
 #include "rod/sampling_tree.h"
 #include "rod/stepper.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::rod
 {
 
@@ -32,6 +37,9 @@ public:
   /** Splits and merges by the shape of the wire, and carries the state over.
    *  @return whether the sampling changed; then the stepper must be told */
   bool update(State& state);
+
+  /** Saves where the nodes are and what is known of the way ahead, or loads it. */
+  void archive(Archive& archive);
 
 private:
   void measureCurvature(const State& state);

@@ -30,9 +30,11 @@ public:
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override;
   const contact::ContactSet& contactSet() const override { return contacts_.set(); }
+  void setContactRadii(const std::vector<double>& radii) override { contacts_.setRadii(radii); }
   void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return rod_; }
   bool resample(const Discretisation& rod) override;
+  void archive(Archive& archive, const State& state) override;
 
   /** Gradient of the elastic energy at the nodes of a state whose twist has been relaxed [N]; for tests. */
   std::vector<Eigen::Vector3d> elasticGradient(State state, const StepInput& input);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/archive.h"
 #include "rod/kkt_stepper.h"
 
 // The part of the scheme that solves an assembled system: contact springs with their active set, trust region.
@@ -196,6 +197,12 @@ bool KktStepper::resample(const Discretisation& rod)
   fading_ = true;
   rod_ = rod;
   return true;
+}
+
+/** All else is made anew in every step. */
+void KktStepper::archive(Archive& archive, const State& /*state*/)
+{
+  archive(contacts_, fading_, strain_);
 }
 
 }  // namespace endovascular_sim::rod

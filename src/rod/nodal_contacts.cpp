@@ -39,6 +39,19 @@ void NodalContacts::beginStep(const StepInput& input, contact::ContactSource* so
   timer_ = &timer;
   step_ = input.step;
   substep_ = input.substep;
+  vessel_version_ = input.vessel_version;
+}
+
+double NodalContacts::radiusOf(int node) const
+{
+  return radii_.empty() ? rod_.radius[node] : std::max(rod_.radius[node], radii_[node]);
+}
+
+/** What is asked about is as wide as what the wire carries. */
+void NodalContacts::widen()
+{
+  for (std::size_t i = 0; i < query_.radius.size() && !radii_.empty(); ++i)
+    query_.radius[i] = std::max(query_.radius[i], radii_[static_cast<std::size_t>(query_.first_node) + i]);
 }
 
 void NodalContacts::refresh(const State& state, StepReport& report)
@@ -349,7 +362,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
     const double t = feature.parameter;
     const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
     const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
-    const double radius = (1.0 - t) * rod_.radius[feature.edge] + t * rod_.radius[next];
+    const double radius = (1.0 - t) * radiusOf(feature.edge) + t * radiusOf(next);
     feature.gap = feature.normal.dot(axis - feature.point) - radius;
   }
   addBacking();
@@ -361,6 +374,7 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
   query_.wanted_free_distance = 0.0;
   const HeldWire held(rod_, boundary_);
   held.describe(state, query_);
+  widen();
   const double mouth = held.describeMouth(state, query_);
   send(answer, report);
   if (answer.stale)
@@ -377,6 +391,7 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   PhaseTimer::Scope scope(*timer_, Phase::kCollision);
   const HeldWire held(rod_, boundary_);
   held.describe(state, query_);
+  widen();
   held.describeMouth(state, query_);
   double farthest = 0.0;
   int resting = query_.first_node;
@@ -401,6 +416,7 @@ void NodalContacts::send(contact::ContactSet& answer, StepReport& report)
   query_.substep = substep_;
   query_.pass = *pass_;
   query_.margin = settings_.contact_margin;
+  query_.vessel_version = vessel_version_;
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_)

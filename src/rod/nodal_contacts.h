@@ -8,6 +8,11 @@
 
 #include "rod/stepper.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::rod
 {
 
@@ -33,6 +38,8 @@ public:
     double reached = 0.0;    ///< gap at the point that the search for the active set has reached [m]
     double resisted = 0.0;   ///< stiffness times gap that the systems solved so far had there [N]
     bool active = false;
+
+    void archive(Archive& archive);
   };
   using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
 
@@ -46,6 +53,9 @@ public:
 
   /** @param source null without a vessel */
   void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
+
+  /** Least radius of the surface at every node until the nodes change; empty: the rod's own [m]. */
+  void setRadii(const std::vector<double>& radii) { radii_ = radii; }
 
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
@@ -98,6 +108,9 @@ public:
    *  contacts go on with the forces that they had. */
   void settle(State& state);
 
+  /** Saves or loads what the next step needs. */
+  void archive(Archive& archive);
+
 private:
   /** What a contact did before the nodes changed. */
   struct Carried
@@ -105,6 +118,8 @@ private:
     std::int64_t id;  ///< of the feature
     double place;     ///< along the wire [m]
     double force;     ///< [N]
+
+    void archive(Archive& archive);
   };
 
   Spring springOf(int index) const;
@@ -114,6 +129,7 @@ private:
   double carriedForce(const contact::Feature& feature) const;
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings();
+  double radiusOf(int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
@@ -124,6 +140,7 @@ private:
   void ask(const State& state, contact::ContactSet& answer, StepReport& report);
   void askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report);
   void send(contact::ContactSet& answer, StepReport& report);
+  void widen();
 
   const Discretisation& rod_;
   const Boundary& boundary_;
@@ -144,6 +161,8 @@ private:
   std::uint32_t* pass_ = nullptr;
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
+  std::uint64_t vessel_version_ = 0;
+  std::vector<double> radii_;  ///< least ones, per node; empty: none [m]
 };
 
 }  // namespace endovascular_sim::rod

@@ -28,6 +28,7 @@ void NodalContacts::resample(const Discretisation& to)
     else
       moveToSampling(feature, to);
   valid_ = valid_ && same;
+  radii_.clear();
   carry();
 }
 

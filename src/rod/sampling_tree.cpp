@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/archive.h"
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -120,6 +122,16 @@ void SamplingTree::rebuild()
     }
   }
   leaves_.swap(next_);
+}
+
+void archive(Archive& archive, SamplingLeaf& leaf)
+{
+  archive(leaf.begin, leaf.level, leaf.age);
+}
+
+void SamplingTree::archive(Archive& archive)
+{
+  archive(leaves_);
 }
 
 }  // namespace endovascular_sim::rod

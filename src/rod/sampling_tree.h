@@ -4,6 +4,11 @@
 #include <limits>
 #include <vector>
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::rod
 {
 
@@ -66,6 +71,9 @@ public:
    *  @param demand per leaf
    *  @return whether any leaf changed */
   bool update(const std::vector<SamplingDemand>& demand);
+
+  /** Saves the leaves, or loads those of a tree of the same wire. */
+  void archive(Archive& archive);
 
 private:
   enum class Change : char

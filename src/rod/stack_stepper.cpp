@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/archive.h"
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -85,6 +87,13 @@ bool StackStepper::resample(const Discretisation& resampled)
   KktStepper::resample(resampled);
   stack_.setNodes(resampled.position);
   return true;
+}
+
+void StackStepper::archive(Archive& archive, const State& state)
+{
+  KktStepper::archive(archive, state);
+  if (archive.reading())
+    place(state);
 }
 
 void StackStepper::exchange(State& state, int k, Layer layer)

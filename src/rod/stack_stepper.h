@@ -33,6 +33,7 @@ public:
   Energy energy(const State& state) override;
 
   bool resample(const Discretisation& rod) override;
+  void archive(Archive& archive, const State& state) override;
 
   /** ∂E/∂ℓ of every layer at fixed nodes, the others' insertions fixed: of its elastic energy, its weight and, where
    *  its tip stands between the wall and the layer inside, of the wall's [N]; for tests. The reference's is not one of

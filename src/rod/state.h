@@ -8,6 +8,11 @@
 
 #include "rod/discretisation.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::rod
 {
 
@@ -97,6 +102,9 @@ struct State
   /** 64-bit hash over the positions and twist angles, of all layers, from first_node on, as IEEE-754 bytes. */
   std::uint64_t hash() const;
 };
+
+/** Saves or loads all of a state. */
+void archive(Archive& archive, State& state);
 
 /** Elastic energies of the simulated part of the wire [J]. */
 struct Energy

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +11,11 @@
 #include "contact/contact_set.h"
 #include "rod/discretisation.h"
 #include "rod/state.h"
+
+namespace endovascular_sim
+{
+class Archive;
+}
 
 namespace endovascular_sim::rod
 {
@@ -86,10 +92,11 @@ struct StepInput
 {
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
-  double inserted_length = 0.0;    ///< at the end of the step [m]
-  double rotation = 0.0;           ///< at the end of the step [rad]
-  std::vector<LayerInput> layers;  ///< of a stack, in place of the two above; empty for one wire
-  EndMotion distal;                ///< of a held distal end, at the end of the step
+  std::uint64_t vessel_version = 0;  ///< that contact must be found with; 0: any
+  double inserted_length = 0.0;      ///< at the end of the step [m]
+  double rotation = 0.0;             ///< at the end of the step [rad]
+  std::vector<LayerInput> layers;    ///< of a stack, in place of the two above; empty for one wire
+  EndMotion distal;                  ///< of a held distal end, at the end of the step
   std::vector<NodalForce> forces;
   double tip_torque = 0.0;          ///< [N·m]
   std::vector<double> edge_torque;  ///< from outside about the axis of every edge; empty: none [N·m]
@@ -132,15 +139,31 @@ public:
   /** Contact set of the state that the last step left; empty without a vessel. */
   virtual const contact::ContactSet& contactSet() const = 0;
 
+  /** Least radius of the surface at every node where it meets the wall, from now on until the nodes change; empty:
+   *  the wire's own [m]. Only what the `kkt` scheme is made of heeds it. */
+  virtual void setContactRadii(const std::vector<double>& radii);
+
   /** Forgets the contact set, after the state was changed from outside. */
   virtual void invalidateContacts() = 0;
 
   virtual const Discretisation& discretisation() const = 0;
 
+  /** Saves what the next step needs besides its state, or loads it into a stepper with the same nodes.
+   *  @param state that it belongs to
+   *  @throws std::logic_error in schemes that do not know how: all but `kkt` */
+  virtual void archive(Archive& archive, const State& state);
+
   /** Goes on with another sampling of the same wire; the state is carried over by the caller.
    *  @return false when the scheme keeps the nodes that it was made with */
   virtual bool resample(const Discretisation& rod);
 };
+
+inline void Stepper::setContactRadii(const std::vector<double>& /*radii*/) {}
+
+inline void Stepper::archive(Archive& /*archive*/, const State& /*state*/)
+{
+  throw std::logic_error("Stepper: this scheme's state cannot be saved");
+}
 
 inline bool Stepper::resample(const Discretisation& /*rod*/)
 {

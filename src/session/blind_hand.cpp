@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/archive.h"
+
 namespace endovascular_sim::session
 {
 namespace
@@ -117,6 +119,16 @@ void BlindHand::miss(const HandCommand& motion)
 {
   insertion_.missed += motion.insertion;
   rotation_.missed += motion.rotation;
+}
+
+void BlindHand::Channel::archive(Archive& archive)
+{
+  archive(missed, release, release_rate);
+}
+
+void BlindHand::archive(Archive& archive)
+{
+  archive(insertion_, rotation_, pace_, pace_rate_, jerk_, speed_, last_, travel_);
 }
 
 }  // namespace endovascular_sim::session

@@ -1,5 +1,10 @@
 #pragma once
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::session
 {
 
@@ -8,6 +13,7 @@ struct HandCommand
 {
   double insertion = 0.0;  ///< [m]
   double rotation = 0.0;   ///< [rad]
+  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
 };
 
 /** Paces the hand while contact sets fail to come, so that neither their absence nor their return is felt as a jump.
@@ -17,7 +23,7 @@ struct HandCommand
  *  |p''| ≤ v²/D² while braking (v its speed before, D the travel left), which is the least that comes to rest in time,
  *  and |p''| ≤ ω² while recovering; what was missed is released at the speed q with q'' = ω²(missed/τ − q) − 2ωq', with
  *  τ = 27/(4ω), where all roots are real, and missed/τ limited to 5 mm/s and a fifth of v.
- *  While no set has failed it passes every number on unchanged. */
+ *  While no set has failed it passes every number on unchanged; a pressure is never paced. */
 class BlindHand
 {
 public:
@@ -36,6 +42,8 @@ public:
   /** What of the last motion given was not made after all. */
   void miss(const HandCommand& motion);
 
+  void archive(Archive& archive);  ///< saves or loads all that changes
+
 private:
   /** One direction of motion; units m or rad. */
   struct Channel
@@ -45,6 +53,7 @@ private:
     double release_rate = 0.0;  ///< [1/s²]
 
     double follow(double wanted, double pace, bool blind, double most, double dt);
+    void archive(Archive& archive);
   };
 
   void brake();

@@ -25,7 +25,14 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
   return nullptr;
 }
 
-/** Replaces the names of instruments by their files' content, and `vessel: none` by nothing. */
+/** Replaces the path of a procedure by the file's content. */
+void expandProcedure(SceneNode& procedure, const std::string& file)
+{
+  if (procedure.kind == SceneNode::Kind::kScalar)
+    procedure = readSceneTree(findSceneFile(procedure, "procedure", file));
+}
+
+/** Replaces the names of instruments and procedures by their files' content, and `vessel: none` by nothing. */
 void normalise(SceneNode& root, const std::string& file)
 {
   if (SceneNode* instrument = fieldOf(root, "instrument"))
@@ -34,6 +41,8 @@ void normalise(SceneNode& root, const std::string& file)
     for (std::size_t k = 0; k < instruments->items.size(); ++k)
       if (SceneNode* instrument = fieldOf(instruments->items[k], "instrument"))
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
+  if (SceneNode* procedure = fieldOf(root, "procedure"))
+    expandProcedure(*procedure, file);
   for (const char* key : {"vessel", "fluoroscopy"})
   {
     SceneNode* part = fieldOf(root, key);
@@ -103,6 +112,11 @@ double DriveScene::insertionAt(double t) const
 double DriveScene::rotationAt(double t) const
 {
   return source == DriveSource::kNone ? initial_rotation : initial_rotation + rotation.at(t);
+}
+
+double DriveScene::pressureAt(double t) const
+{
+  return source == DriveSource::kNone ? 0.0 : pressure.at(t);
 }
 
 double Scene::longest() const

@@ -11,6 +11,7 @@
 
 #include "instrument/instrument.h"
 #include "rod/stepper.h"
+#include "session/scene_procedure.h"
 #include "vessel/lesion.h"
 
 namespace endovascular_sim::session
@@ -100,10 +101,11 @@ struct DriveProfile
 
 enum class DriveSource
 {
-  kNone,    ///< bench scene: nothing is driven
-  kScript,  ///< the scene's own profiles
-  kDevice,  ///< the haptic device (in the graph); offline, the profiles stand in for the operator
-  kTopic,   ///< /instruments/<name>/servo_jp from elsewhere (a robot, a bag)
+  kNone,       ///< bench scene: nothing is driven
+  kScript,     ///< the scene's own profiles
+  kDevice,     ///< the haptic device (in the graph); offline, the profiles stand in for the operator
+  kTopic,      ///< /instruments/<name>/servo_jp from elsewhere (a robot, a bag)
+  kProcedure,  ///< the scripted operator of the scene's procedure
 };
 
 /** Where the motion at the hand comes from. */
@@ -117,6 +119,7 @@ struct DriveScene
   double initial_rotation = 0.0;   ///< added to the rotation at all times [rad]
   DriveProfile insertion;          ///< [m], added to initial_insertion
   DriveProfile rotation;           ///< [rad], added to initial_rotation
+  DriveProfile pressure;           ///< at the inflator of the instrument's balloon [Pa]
   double force_limit = 5.0;        ///< axial force at which the hand slips [N]
   double torque_limit = 0.05;      ///< torque at which the hand slips [N·m]
 
@@ -126,6 +129,8 @@ struct DriveScene
   /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone
    * [rad]. */
   double rotationAt(double t) const;
+  /** Commanded pressure of the balloon at time t [s]; 0 where the source is kNone [Pa, above that of the blood]. */
+  double pressureAt(double t) const;
 };
 
 /** One instrument, and the hand that drives it. Several lie one inside the other (docs/PHYSICS.md, "Concentric stack"):
@@ -238,6 +243,7 @@ struct Scene
   std::optional<VesselScene> vessel;
   EntryScene entry;
   std::vector<DrivenInstrument> instruments;        ///< from the inside out; at least one
+  std::optional<ProcedureScene> procedure;          ///< of a scripted operator
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
   DistalScene distal;      ///< the motion of a held distal end

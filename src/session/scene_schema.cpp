@@ -9,7 +9,7 @@ namespace
 {
 
 // Numbers of DriveSource, SamplingKind.
-const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic"};
+const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
@@ -20,6 +20,8 @@ constexpr double kSameLength = 1e-9;
 // Least edge of adaptive sampling over the hand's travel in a sub-step.
 constexpr double kTravelsPerEdge = 4.0;
 constexpr double kEdgePerGuide = 0.5;
+
+constexpr double kAtmosphere = 101325.0;  // Pa
 
 // Of the wire's length: the shortest edge that sampling may make.
 constexpr double kShortestEdge = 2e-5;
@@ -129,10 +131,15 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
   for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
     checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (!isTrivial(scene.instruments[k].drive.pressure) && scene.solver.scheme != "kkt")
+      fields.refuse(drivePath(scene, k) + "drive.pressure",
+                    "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
   if (scene.instruments.size() > 1)
     checkStack(fields, scene);
+  checkProcedure(fields, scene);
   checkEnds(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
@@ -189,7 +196,20 @@ std::pair<double, double> bounds(const DriveProfile& profile)
   return {low - swing, high + swing};
 }
 
-void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion)
+namespace
+{
+
+/** The inflator of a balloon. */
+void visitPressure(SceneFields& fields, DriveProfile& pressure)
+{
+  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, "Pa"); });
+  if (fields.reading() && bounds(pressure).first < -kAtmosphere)
+    fields.refuse("pressure", "is less than a vacuum; must be at least -101325 Pa");
+}
+
+}  // namespace
+
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
 {
   fields.option("source", drive.source, kDriveSources);
   fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
@@ -205,9 +225,14 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
   if (!by_speed)
     fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
   fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
+  if (balloon)
+    visitPressure(fields, drive.pressure);
+  else if (fields.has("pressure"))
+    fields.refuse("pressure", "has no balloon to inflate; use a balloon_catheter, or remove it");
   fields.number("force_limit", drive.force_limit, "N", Range::positive());
   fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
-  const bool moves = by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation);
+  const bool moves =
+      by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation) || !isTrivial(drive.pressure);
   if (fields.reading() && drive.source == DriveSource::kNone && moves)
     fields.refuse("source", "is none, but a motion is given; set source: script");
 }
@@ -293,6 +318,12 @@ void visitScene(SceneFields& fields, Scene& scene)
   }
   fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
   visitInstruments(fields, scene);
+  if (fields.reading() ? fields.has("procedure") : scene.procedure.has_value())
+  {
+    if (!scene.procedure)
+      scene.procedure.emplace();
+    fields.map("procedure", [&scene](SceneFields& procedure) { visitProcedure(procedure, *scene.procedure); });
+  }
   if (fields.reading())
     scene.introducer = scene.instruments.front().drive.source != DriveSource::kNone;
   fields.boolean("introducer", scene.introducer);

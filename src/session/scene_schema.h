@@ -31,13 +31,18 @@ void visitInstruments(SceneFields& fields, Scene& scene);
 std::string drivePath(const Scene& scene, std::size_t k);
 /** Refuses what several instruments on one centreline cannot be. */
 void checkStack(const SceneFields& fields, const Scene& scene);
-/** @param initial_insertion what it may be [m] */
-void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion);
+/** @param initial_insertion what it may be [m]
+ *  @param balloon whether the instrument has one, which the drive can inflate */
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
 void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
 void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
+
+/** Refuses a procedure that the scene cannot carry out. */
+void checkProcedure(const SceneFields& fields, const Scene& scene);
 
 /** Whether a profile is zero at all times. */
 bool isTrivial(const DriveProfile& profile);

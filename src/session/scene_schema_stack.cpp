@@ -18,7 +18,8 @@ void visitLayer(SceneFields& fields, DrivenInstrument& driven)
   if (fields.reading() && !fields.has("instrument"))
     fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
   fields.map("instrument", [&driven](SceneFields& wire) { visitDrivenInstrument(wire, driven.instrument); });
-  fields.map("drive", [&driven](SceneFields& drive) { visitDrive(drive, driven.drive, kAnywhere); });
+  fields.map("drive", [&driven](SceneFields& drive)
+             { visitDrive(drive, driven.drive, kAnywhere, driven.instrument.balloon.has_value()); });
   fields.number("friction", driven.friction, "1", Range::nonNegative());
   fields.number("fit_load", driven.fit_load, "N/m", Range::nonNegative());
 }
@@ -54,7 +55,8 @@ void visitInstruments(SceneFields& fields, Scene& scene)
     if (fields.reading() && !fields.has("instrument"))
       fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
     fields.map("instrument", [&only](SceneFields& wire) { visitDrivenInstrument(wire, only.instrument); });
-    fields.map("drive", [&only](SceneFields& drive) { visitDrive(drive, only.drive, Range::nonNegative()); });
+    fields.map("drive", [&only](SceneFields& drive)
+               { visitDrive(drive, only.drive, Range::nonNegative(), only.instrument.balloon.has_value()); });
     return;
   }
   for (const char* key : {"instrument", "drive"})
@@ -80,7 +82,7 @@ void checkStack(const SceneFields& fields, const Scene& scene)
     const DrivenInstrument& driven = scene.instruments[k];
     if (driven.drive.source == DriveSource::kNone)
       fields.refuse(number(k) + ".drive.source",
-                    "missing; every one of several instruments is driven: script, topic or device");
+                    "missing; every one of several instruments is driven: script, topic, device or procedure");
     devices += driven.drive.source == DriveSource::kDevice;
     if (devices > 1)
       fields.refuse(number(k) + ".drive.source", "is device, like another one's; a device drives one instrument");

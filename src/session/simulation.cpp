@@ -47,12 +47,12 @@ std::vector<HandCommand> commandsAt(const Scene& scene, double time)
 {
   std::vector<HandCommand> commands;
   for (const DrivenInstrument& driven : scene.instruments)
-    commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time)});
+    commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time), driven.drive.pressureAt(time)});
   return commands;
 }
 
 Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
-                       const vessel::CentrelineTree* centreline)
+                       const vessel::CentrelineTree* centreline, intervention::WallMover* wall)
   : scene_(scene),
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
     contacts_(contacts),
@@ -65,7 +65,9 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     wanted_(channels_.size()),
     parts_(channels_.size()),
     stack_(dynamic_cast<const rod::StackStepper*>(stepper_.get())),
-    valve_(scene.entry.valve_friction)
+    valve_(scene.entry.valve_friction),
+    treatments_(scene, wall),
+    pressures_(channels_.size(), 0.0)
 {
   if (sampling_ && !stepper_->resample(sampling_->discretisation()))
     throw InputError(scene.file, "sampling.kind",
@@ -105,9 +107,24 @@ void Simulation::setMaxInsertions()
 HandState Simulation::hand(int instrument) const
 {
   if (stack_ == nullptr)
-    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque};
+    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque, pressures_.front()};
   const rod::LayerState& layer = state_.layers[instrument];
-  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
+  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque, pressures_[instrument]};
+}
+
+void Simulation::setPressures(const std::vector<HandCommand>& commands)
+{
+  for (int k = 0; k < instruments(); ++k)
+  {
+    if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || scene_.solver.scheme != "kkt"))
+      throw std::invalid_argument("Simulation: a pressure for an instrument without a balloon, or without scheme kkt");
+    pressures_[k] = commands[k].pressure;
+  }
+}
+
+bool Simulation::isOutside(int instrument) const
+{
+  return stack_ != nullptr && hand(instrument).insertion <= stack_->outside() + kAtIntroducer;
 }
 
 /** What the hand asks for in a step, as far as it can move at all. */
@@ -142,7 +159,7 @@ double Simulation::mostInsertion(int instrument) const
   for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
   {
     const bool inner = k < instrument;
-    if (k != instrument && hand(k).insertion > stack_->outside() + kAtIntroducer &&
+    if (k != instrument && !isOutside(k) &&
         !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
                                 scene_.instruments[inner ? instrument : k].instrument))
       return std::max(stack_->outside(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
@@ -210,6 +227,8 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
 {
   const double insertion = state_.inserted_length;
   const double rotation = state_.rotation;
+  if (!treatments_.empty())
+    stepper_->setContactRadii(treatments_.contactRadii(state_, discretisation(), contactSet()));
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
   if (stack_ != nullptr)
@@ -257,6 +276,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
 {
   if (commands.size() != channels_.size())
     throw std::invalid_argument("Simulation: one command for every instrument");
+  setPressures(commands);
   timer_.reset();
   resample();
   double travel = 0.0;
@@ -274,11 +294,13 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     parts_[k] = {wanted_[k].insertion / substeps, wanted_[k].rotation / substeps};
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
+  const std::uint64_t vessel_version = treatments_.beginStep(steps_);
   for (int k = 1; k <= substeps; ++k)
   {
     rod::StepInput input;
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
+    input.vessel_version = vessel_version;
     // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
     const bool blind =
         k > 1 && travel > channels_.front().blind_hand.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
@@ -289,6 +311,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     if (!report_.solved)
       break;  // the wire stays where it is; the hand's motion is made up for in the steps that follow
   }
+  treatments_.endStep(steps_, pressures_, state_, discretisation());
   ++steps_;
   state_hash_ = state_.hash();
   trajectory_.add(state_hash_);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <iosfwd>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/hash.h"
@@ -14,6 +17,7 @@
 #include "session/blind_hand.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
+#include "session/treatments.h"
 
 namespace endovascular_sim::session
 {
@@ -28,6 +32,7 @@ struct HandState
   double rotation = 0.0;   ///< of its handle [rad]
   double force = 0.0;      ///< on the hand, positive where it resists pushing [N]
   double torque = 0.0;     ///< that the hand holds [N·m]
+  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
 };
 
 /** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
@@ -37,16 +42,19 @@ class Simulation
 public:
   /** @param contacts where contact sets come from, null without a vessel; must outlive the simulation
    *  @param centreline of the vessel, by which adaptive sampling looks ahead of the tip; null: it does not
+   *  @param wall what balloons move, e.g. a MovingWall; null: no wall moves. Must outlive the simulation
    *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
   Simulation(const Scene& scene, const EntryPose& entry, contact::ContactSource* contacts,
-             const vessel::CentrelineTree* centreline = nullptr);
+             const vessel::CentrelineTree* centreline = nullptr, intervention::WallMover* wall = nullptr);
 
   /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
    *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
   void step(const HandCommand& command) { stepAll({command}); }
 
   /** The same with one command for every instrument of the scene, in its order. An instrument goes no further than its
-   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside. */
+   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside.
+   *  @throws std::invalid_argument when there is not one command for every instrument, or a pressure for one without a
+   *          balloon */
   void stepAll(const std::vector<HandCommand>& commands);
 
   /** Of the scene. */
@@ -55,8 +63,24 @@ public:
   /** What the hand on an instrument has and feels. */
   HandState hand(int instrument) const;
 
+  /** Whether an instrument has left the introducer altogether, so that others need not fit to it. */
+  bool isOutside(int instrument) const;
+
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
+
+  /** Writes everything that the trajectory depends on from here on.
+   *  @param vessel_hash of the mesh as it was at the beginning; 0 without a vessel
+   *  @param more of whoever drives the simulation, saved after it
+   *  @throws InputError for a scheme whose state cannot be saved: all but `kkt` */
+  void save(std::ostream& stream, std::uint64_t vessel_hash = 0, const std::function<void(Archive&)>& more = nullptr);
+
+  /** Goes on from a saved state, bit for bit as the simulation that was saved would have. To be called before the first
+   *  step; sums over past steps (forces on the wall, results) begin anew.
+   *  @param origin names the stream in errors
+   *  @throws InputError when it is damaged, of another version, scene or vessel; the simulation is then of no use */
+  void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
+            const std::function<void(Archive&)>& more = nullptr);
 
   /** From now on the nodes stay where they are along the wire. */
   void keepSampling() { sampling_.reset(); }
@@ -72,6 +96,12 @@ public:
 
   /** Depth of the wire's surface beyond the wall after the last step, by the contact set; 0 without contact [m]. */
   double surfacePenetration() const;
+
+  /** What balloons and stents did so far. */
+  const std::vector<TimedEvent>& events() const { return treatments_.events(); }
+
+  /** The balloon of an instrument, with its stent; null where there is none. */
+  const intervention::Treatment* treatment(int instrument) const { return treatments_.of(instrument); }
 
   std::uint64_t stateHash() const { return state_hash_; }  ///< of the state after the last step
 
@@ -91,9 +121,13 @@ private:
     double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
     double turning_grip = 1.0;       ///< on turning
     double max_insertion = 0.0;      ///< [m]
+
+    void archive(Archive& archive);
   };
 
   void setMaxInsertions();
+  void archive(Archive& archive);
+  void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
   HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);
   double leastInsertion(int instrument) const;
@@ -117,6 +151,8 @@ private:
   std::vector<HandCommand> wanted_, parts_;
   const rod::StackStepper* stack_ = nullptr;  ///< the stepper, where there are several instruments
   rod::Valve valve_;
+  Treatments treatments_;
+  std::vector<double> pressures_;  ///< commanded, per instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;

@@ -11,10 +11,10 @@ namespace endovascular_sim::session
 
 std::string toCsv(const TrajectoryRow& row)
 {
-  std::array<char, 320> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.9g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu",
+  std::array<char, 360> text{};
+  const int length = std::snprintf(text.data(), text.size(), "%.9g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu,%.17g",
                                    row.time, row.insertion, row.rotation, row.hand_force, row.hand_torque, row.tip.x(),
-                                   row.tip.y(), row.tip.z(), row.nodes);
+                                   row.tip.y(), row.tip.z(), row.nodes, row.pressure);
   return {text.data(), static_cast<std::size_t>(length)};
 }
 

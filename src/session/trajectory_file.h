@@ -19,10 +19,11 @@ struct TrajectoryRow
   double hand_torque = 0.0;                       ///< [N·m]
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< patient frame [m]
   std::size_t nodes = 0;                          ///< nodes beyond the introducer
+  double pressure = 0.0;                          ///< largest at the inflators of balloons [Pa]
 };
 
 /** The head line of trajectory.csv. */
-constexpr auto kTrajectoryColumns = "time,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z,nodes";
+constexpr auto kTrajectoryColumns = "time,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z,nodes,pressure";
 
 /** One row as text, numbers with all their digits, without the line's end. */
 std::string toCsv(const TrajectoryRow& row);

@@ -14,6 +14,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/names.h"
 #include "nodes/support/vessel_conversions.h"
+#include "session/moving_wall.h"
 #include "session/replay_source.h"
 #include "session/simulation.h"
 
@@ -84,6 +85,7 @@ int replay(const std::string& file, bool keep_going)
   const session::Scene scene = session::parseScene(recording.info->scene_yaml, file);
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<session::ReplayContactSource> contacts;
+  std::unique_ptr<session::MovingWall> wall;
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
   if (scene.vessel)
@@ -98,11 +100,12 @@ int replay(const std::string& file, bool keep_going)
     entry = session::resolveEntry(scene.entry, vessel, file);
     centreline = vessel.centreline;
     detector = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
+    wall = session::makeMovingWall(scene, vessel, *detector);
     contacts = std::make_unique<session::ReplayContactSource>(*detector);
   }
   else
     entry = session::resolveEntry(scene.entry, file);
-  session::Simulation simulation(scene, entry, contacts.get(), &centreline);
+  session::Simulation simulation(scene, entry, contacts.get(), &centreline, wall.get());
   std::vector<session::HandCommand> commands;
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
@@ -117,7 +120,7 @@ int replay(const std::string& file, bool keep_going)
       contacts->setFirstStalePass(applied->first_stale_pass);
     commands.clear();
     for (std::size_t k = 0; k < applied->insertion.size(); ++k)
-      commands.push_back({applied->insertion[k], applied->rotation.at(k)});
+      commands.push_back({applied->insertion[k], applied->rotation.at(k), applied->pressure.at(k)});
     simulation.stepAll(commands);
     if (simulation.stateHash() != applied->state_hash)
     {

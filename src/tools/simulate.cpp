@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 
 #include "common/error.h"
 #include "contact/detector.h"
+#include "procedure/session_run.h"
+#include "session/moving_wall.h"
 #include "session/run_result.h"
 #include "session/scene.h"
 #include "session/scene_vessel.h"
@@ -28,17 +31,22 @@ constexpr auto kUsage =
     R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
 same trajectory bit for bit.
 
-usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes] [--no-plots] [--quiet]
+usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes]
+                [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
 
-  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv and plots there; made when it is missing
+  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
+                        metrics.html and instruments.csv there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
+  --save-state FILE     writes the state at the time of --at T, in seconds of simulated time, and goes on
+  --from-state FILE     begins with a state that was saved in this scene; T of --seconds is then counted from it
   --no-plots            leaves the plots out
   --quiet               no progress bar
   --help                prints this
 
-exit code: 0 done, 1 the scene is refused or a step could not be solved (the reason goes to the error stream), 2 wrong use
+exit code: 0 done, 1 the scene is refused, a step could not be solved or the scene's procedure failed (the reason goes to the
+error stream), 2 wrong use
 )";
 
 struct Options
@@ -47,6 +55,9 @@ struct Options
   std::string out;
   double seconds = NAN;
   std::vector<std::string> overrides;
+  std::string save_state;
+  double save_at = NAN;  ///< [s]
+  std::string from_state;
   bool record_nodes = false;
   bool plots = true;
   bool quiet = false;
@@ -58,6 +69,7 @@ int wrongUse(const std::string& reason)
   return 2;
 }
 
+/** @return false where it is not a positive number */
 bool parseSeconds(const std::string& text, double& seconds)
 {
   char* end = nullptr;
@@ -90,6 +102,15 @@ int parse(int argc, char** argv, Options& options)
       if (!parseSeconds(argv[++i], options.seconds))
         return wrongUse(std::string("--seconds takes a positive number of seconds, not '") + argv[i] + "'");
     }
+    else if (word == "--save-state" && has_value)
+      options.save_state = argv[++i];
+    else if (word == "--from-state" && has_value)
+      options.from_state = argv[++i];
+    else if (word == "--at" && has_value)
+    {
+      if (!parseSeconds(argv[++i], options.save_at))
+        return wrongUse(std::string("--at takes a positive number of seconds, not '") + argv[i] + "'");
+    }
     else if (word == "--record" && has_value)
     {
       if (std::string(argv[++i]) != "nodes")
@@ -103,6 +124,8 @@ int parse(int argc, char** argv, Options& options)
   }
   if (options.scene.empty() || options.out.empty())
     return wrongUse("a scene and --out are needed");
+  if (options.save_state.empty() != std::isnan(options.save_at))
+    return wrongUse("--save-state FILE and --at T belong together");
   return -1;
 }
 
@@ -155,6 +178,8 @@ session::TrajectoryRow rowOf(const session::Simulation& simulation)
   row.hand_force = state.hand_force;
   row.hand_torque = state.hand_torque;
   row.tip = state.position.back();
+  for (int k = 0; k < simulation.instruments(); ++k)
+    row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
   row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - session::firstInsertedNode(simulation));
   return row;
 }
@@ -174,7 +199,9 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
+  std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
+  std::unique_ptr<procedure::SessionRun> session;  ///< null without a vessel
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
@@ -199,7 +226,57 @@ Surroundings build(const session::Scene& scene)
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
+  made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
+  made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
   return made;
+}
+
+std::uint64_t stepsIn(double seconds, const session::Scene& scene)
+{
+  return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
+}
+
+/** The scripted operator's part of a saved state. */
+std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
+{
+  procedure::SessionRun* session = surroundings.session.get();
+  return [session](Archive& archive)
+  {
+    if (session != nullptr)
+      session->archive(archive);
+  };
+}
+
+void saveState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+{
+  std::ofstream stream(path, std::ios::binary);
+  if (stream)
+    simulation.save(stream, surroundings.mesh_hash, sessionOf(surroundings));
+  if (!stream.flush())
+    throw InputError(path, "", "cannot be written; choose a folder that exists and has room");
+}
+
+void loadState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+{
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw InputError(path, "", "cannot be read; give the path of a state saved with --save-state");
+  simulation.load(stream, surroundings.mesh_hash, path, sessionOf(surroundings));
+}
+
+/** Steps until the end, those before a loaded state included. */
+std::uint64_t lastStep(const session::Scene& scene, const Options& options, const session::Simulation& simulation)
+{
+  const std::uint64_t last = std::isfinite(options.seconds) ? simulation.steps() + stepsIn(options.seconds, scene)
+                                                            : stepsIn(scene.duration, scene);
+  if (last <= simulation.steps())
+    throw InputError(options.from_state, "", "is of the scene's end or later; give --seconds T to go on from there");
+  const std::uint64_t save_at = options.save_state.empty() ? last : stepsIn(options.save_at, scene);
+  if (save_at <= simulation.steps() || save_at > last)
+    throw InputError(options.save_state, "--at",
+                     "is not within the time that is simulated, " + std::to_string(simulation.time()) + " to " +
+                         std::to_string(static_cast<double>(last) * scene.solver.time_step) + " s");
+  return last;
 }
 
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
@@ -214,22 +291,30 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     nodes = openFile(options.out + "/nodes.csv");
     nodes << "time,node,x,y,z\n";
   }
+  const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
   std::vector<session::WallContact> contacts;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
-  for (std::uint64_t k = 1; k <= steps; ++k)
+  const std::uint64_t first = simulation.steps() + 1;
+  for (std::uint64_t k = first; k <= steps; ++k)
   {
-    const double end_time = static_cast<double>(k) * scene.solver.time_step;
-    const std::vector<session::HandCommand> commands = session::commandsAt(scene, end_time);
+    if (surroundings.session && surroundings.session->isOver())
+      break;
+    const std::vector<session::HandCommand> commands =
+        surroundings.session ? surroundings.session->commands(simulation)
+                             : session::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
+    if (k == save_at)
+      saveState(options.save_state, simulation, surroundings);
     if (surroundings.wall_forces)
     {
       session::wallContacts(simulation, contacts);
       surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
+      surroundings.session->addStep(simulation, contacts);
     }
     if (k % row_every != 0 && k != steps)
       continue;
@@ -241,8 +326,9 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     if (options.record_nodes)
       writeNodes(nodes, simulation);
     if (progress)
-      drawProgress(static_cast<double>(k) / static_cast<double>(steps),
-                   simulation.time() / std::chrono::duration<double>(Clock::now() - begin).count());
+      drawProgress(static_cast<double>(k + 1 - first) / static_cast<double>(steps + 1 - first),
+                   static_cast<double>(k + 1 - first) * scene.solver.time_step /
+                       std::chrono::duration<double>(Clock::now() - begin).count());
   }
   if (progress)
     std::fputc('\n', stderr);
@@ -264,6 +350,27 @@ void writeWallForces(const std::string& folder, const Surroundings& surroundings
   writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
 }
 
+void writeSession(const std::string& folder, const session::Simulation& simulation, const Surroundings& surroundings)
+{
+  surroundings.session->metrics().setWallForces(surroundings.wall_forces->summary());
+  const session::MovingWall* wall = surroundings.moving_wall.get();
+  surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
+  surroundings.session->write(folder);
+}
+
+/** How the scripted operator got on. */
+void tellProcedure(const Surroundings& surroundings)
+{
+  if (!surroundings.session || !surroundings.session->person())
+    return;
+  const procedure::Operator& person = *surroundings.session->person();
+  for (const procedure::StepRecord& step : person.records())
+    std::fprintf(stderr, "%7.2f to %7.2f s: %s%s\n", step.begin, step.end, step.name.c_str(),
+                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " new tries)").c_str() : "");
+  if (!person.failure().empty())
+    std::cerr << "simulate: the procedure failed: " << person.failure() << "\n";
+}
+
 void plot(const Options& options)
 {
   const std::filesystem::path script =
@@ -278,26 +385,36 @@ int simulate(const Options& options)
   const session::Scene scene = session::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
   const Surroundings surroundings = build(scene);
-  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline);
-  const double seconds = std::isfinite(options.seconds) ? options.seconds : scene.duration;
-  const auto steps = static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
-  session::RunResult result(scene, surroundings.mesh_hash, steps);
+  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
+                                 surroundings.moving_wall.get());
+  if (!options.from_state.empty())
+    loadState(options.from_state, simulation, surroundings);
+  const std::uint64_t steps = lastStep(scene, options, simulation);
+  session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
   if (surroundings.wall_forces)
+  {
     writeWallForces(options.out, surroundings);
+    writeSession(options.out, simulation, surroundings);
+  }
   if (options.plots)
     plot(options);
   if (!options.quiet)
     std::cout << text;
+  if (!options.quiet)
+    tellProcedure(surroundings);
   if (result.refusedSteps() > 0)
   {
     std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
     return 1;
   }
-  return 0;
+  return surroundings.session && surroundings.session->person() &&
+                 surroundings.session->person()->progress() == procedure::Progress::kFailed
+             ? 1
+             : 0;
 }
 
 }  // namespace

@@ -8,11 +8,40 @@
 #include "vessel/iso_surface.h"
 #include "vessel/mesh_cache.h"
 #include "vessel/mesh_check.h"
+#include "vessel/polyline.h"
 #include "vessel/remesh.h"
 #include "vessel/vessel_field.h"
 
 namespace endovascular_sim::vessel
 {
+namespace
+{
+
+/** The stenoses that the anatomy was made with, as lesions of the vessel. */
+std::vector<PlacedLesion> lesionsOf(const Anatomy& anatomy, const CentrelineTree& centreline)
+{
+  std::vector<PlacedLesion> lesions;
+  for (std::size_t b = 0; b < anatomy.branches.size(); ++b)
+    for (const Stenosis& stenosis : anatomy.branches[b].stenoses)
+    {
+      const Polyline line(centreline.branches[b].points);
+      PlacedLesion placed;
+      placed.branch = static_cast<int>(b);
+      placed.middle = stenosis.position * line.length();
+      placed.begin = placed.middle - 0.5 * stenosis.length;
+      placed.end = placed.middle + 0.5 * stenosis.length;
+      placed.narrowed_diameter = 2.0 * line.interpolate(centreline.branches[b].radii, placed.middle);
+      placed.healthy_diameter = placed.narrowed_diameter / (1.0 - stenosis.reduction);
+      placed.lesion.branch = anatomy.branches[b].name;
+      placed.lesion.from_start = placed.middle;
+      placed.lesion.length = stenosis.length;
+      placed.lesion.grade = stenosis.reduction;
+      lesions.push_back(placed);
+    }
+  return lesions;
+}
+
+}  // namespace
 
 TriangleMesh generateAnatomyMesh(const Anatomy& anatomy, const std::vector<AnatomyChain>& chains)
 {
@@ -43,6 +72,7 @@ Vessel loadAnatomy(const std::string& file, const std::string& cache_folder)
   Vessel vessel;
   vessel.source = file;
   vessel.centreline = anatomyCentreline(anatomy, chains);
+  vessel.lesions = lesionsOf(anatomy, vessel.centreline);
 
   Hash64 key;
   key.add(anatomy.content_hash);

@@ -17,7 +17,7 @@ struct Vessel
   CentrelineTree centreline;          ///< patient frame [m]; empty when it was not asked for
   std::string source;                 ///< file or generator
   std::vector<std::string> notes;     ///< what was repaired or changed, for people
-  std::vector<PlacedLesion> lesions;  ///< that were put on it
+  std::vector<PlacedLesion> lesions;  ///< of the anatomy, then those that were put on it
 };
 
 }  // namespace endovascular_sim::vessel

@@ -23,20 +23,20 @@ instrument::Instrument catheter(bool with_stent)
 }
 
 /** Up to a pressure, held, and empty again. @return events of all steps */
-TreatmentEvents inflateAndDeflate(Treatment& treatment, double pressure, const ShaftLine& shaft)
+TreatmentEvents inflateAndDeflate(Treatment& treatment, VesselOpening& opening, double pressure, const ShaftLine& shaft)
 {
   TreatmentEvents all;
   const auto run = [&](double duration, double commanded)
   {
     for (double t = 0.0; t < duration; t += 0.05)
     {
-      treatment.step(0.05, commanded, shaft);
+      opening.press(treatment.step(0.05, commanded, &shaft));
       const TreatmentEvents& events = treatment.events();
       all.above_rated |= events.above_rated;
       all.burst |= events.burst;
       all.stent_placed |= events.stent_placed;
       all.over_expanded |= events.over_expanded;
-      all.at_risk |= events.at_risk;
+      all.stent_lost |= events.stent_lost;
     }
   };
   run(10.0, pressure);
@@ -50,23 +50,23 @@ TEST(Treatment, OfALesionByABalloonLeavesTheRecoilAsStenosis)
   VesselOpening opening(vessel, OpeningLaw{});
   const vessel::PlacedLesion& lesion = vessel.lesions.front();
   EXPECT_NEAR(reportLesion(opening.mesh(), vessel.centreline, lesion).stenosis, 0.7, 0.01);
-  Treatment treatment(catheter(false), opening);
-  const TreatmentEvents events = inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion));
+  Treatment treatment(catheter(false));
+  const TreatmentEvents events = inflateAndDeflate(treatment, opening, 8.0 * kAtmosphere, shaftAt(kLesion));
   const LesionReport report = reportLesion(opening.mesh(), vessel.centreline, lesion);
   EXPECT_NEAR(report.stenosis, 0.10, 0.01);
   EXPECT_NEAR(report.least_diameter, 0.9 * 3.0e-3, 0.02e-3);
   EXPECT_NEAR(report.reference_diameter, 3.0e-3, 0.02e-3);
   EXPECT_FALSE(report.stented);
-  EXPECT_FALSE(events.burst || events.above_rated || events.at_risk);
+  EXPECT_FALSE(events.burst || events.above_rated || events.stent_lost || opening.atRisk());
 }
 
 TEST(Treatment, WithAStentLeavesTheStentsRecoilOnly)
 {
   const vessel::Vessel vessel = tubeWithLesion(0.7);
   VesselOpening opening(vessel, OpeningLaw{});
-  Treatment treatment(catheter(true), opening);
+  Treatment treatment(catheter(true));
   EXPECT_NEAR(treatment.radiusAt(12.5e-3), 0.55e-3, 1e-12);
-  const TreatmentEvents events = inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion));
+  const TreatmentEvents events = inflateAndDeflate(treatment, opening, 8.0 * kAtmosphere, shaftAt(kLesion));
   EXPECT_TRUE(events.stent_placed);
   ASSERT_EQ(treatment.stent()->state(), StentPlacement::State::kPlaced);
   const LesionReport report =
@@ -82,10 +82,10 @@ TEST(Treatment, HalfOutOfPlaceCoversHalfOfTheLesion)
 {
   const vessel::Vessel vessel = tubeWithLesion(0.5);
   VesselOpening opening(vessel, OpeningLaw{});
-  Treatment treatment(catheter(true), opening);
+  Treatment treatment(catheter(true));
   // The placed stent is 14 mm long: its proximal end stands in the middle of the lesion.
   const double length = stent().lengthAt(0.95 * 3.0e-3);
-  inflateAndDeflate(treatment, 8.0 * kAtmosphere, shaftAt(kLesion + 0.5 * length));
+  inflateAndDeflate(treatment, opening, 8.0 * kAtmosphere, shaftAt(kLesion + 0.5 * length));
   const LesionReport report =
       reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
   EXPECT_NEAR(report.coverage, 0.5, 0.005);
@@ -96,8 +96,8 @@ TEST(Treatment, WithTooSmallAStentLeavesItHangingInTheLumen)
 {
   const vessel::Vessel vessel = tubeWithLesion(0.2, 2.0e-3);
   VesselOpening opening(vessel, OpeningLaw{});
-  Treatment treatment(catheter(true), opening);
-  inflateAndDeflate(treatment, 5.0 * kAtmosphere, shaftAt(0.045));  // in the healthy vessel behind the lesion
+  Treatment treatment(catheter(true));
+  inflateAndDeflate(treatment, opening, 5.0 * kAtmosphere, shaftAt(0.045));  // in the healthy vessel behind the lesion
   const LesionReport report =
       reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
   EXPECT_EQ(report.apposition, 0.0) << "2.7 mm in 4 mm";
@@ -108,20 +108,56 @@ TEST(Treatment, TellsRuptureAndTheRiskOfATear)
 {
   const vessel::Vessel vessel = tubeWithLesion(0.5, 1.1e-3);
   VesselOpening opening(vessel, OpeningLaw{});
-  Treatment treatment(catheter(false), opening);
-  const TreatmentEvents events = inflateAndDeflate(treatment, 25.0 * kAtmosphere, shaftAt(kLesion));
+  Treatment treatment(catheter(false));
+  const TreatmentEvents events = inflateAndDeflate(treatment, opening, 25.0 * kAtmosphere, shaftAt(kLesion));
   EXPECT_TRUE(events.above_rated);
   EXPECT_TRUE(events.burst);
-  EXPECT_TRUE(events.at_risk);
+  EXPECT_TRUE(opening.atRisk());
   EXPECT_EQ(treatment.inflation().diameter(), 0.9e-3);
+}
+
+TEST(Treatment, UnderAnotherCatheterDoesNotPressAndOutsideOfTheVesselLosesItsStent)
+{
+  Treatment covered(catheter(false));
+  const ShaftLine shaft = shaftAt(kLesion);
+  for (int k = 0; k < 40; ++k)
+    covered.step(0.05, 8.0 * kAtmosphere, &shaft, 12.5e-3);
+  const RoundBody& body = covered.pressing().balloon;
+  for (std::size_t k = 0; k < body.axis.size(); ++k)
+    if (body.axis[k].z() > kLesion + 1e-9 && body.axis[k].z() < kLesion + 7.5e-3)
+      EXPECT_GT(body.radii[k], 1.4e-3);
+    else if (body.axis[k].z() < kLesion - 1e-9)
+      EXPECT_EQ(body.radii[k], 0.0);
+  Treatment outside(catheter(true));
+  bool lost = false;
+  for (int k = 0; k < 40; ++k)
+  {
+    EXPECT_TRUE(outside.step(0.05, 8.0 * kAtmosphere, nullptr).balloon.axis.empty());
+    lost = lost || outside.events().stent_lost;
+  }
+  EXPECT_TRUE(lost);
+  EXPECT_EQ(outside.stent()->state(), StentPlacement::State::kLost);
+}
+
+TEST(Treatment, AStentThatIsStrippedIsLostWhereItWasNotOpened)
+{
+  Treatment treatment(catheter(true));
+  const ShaftLine shaft = shaftAt(kLesion);
+  treatment.step(0.05, 0.0, &shaft);
+  treatment.stripStent();
+  EXPECT_FALSE(treatment.carriesStent());
+  EXPECT_FALSE(treatment.step(0.05, 0.0, &shaft).sleeve);
+  EXPECT_TRUE(treatment.events().stent_lost);
+  treatment.step(0.05, 0.0, &shaft);
+  EXPECT_FALSE(treatment.events().stent_lost) << "told once";
+  EXPECT_NEAR(treatment.radiusAt(12.5e-3), 0.45e-3, 1e-12) << "the folded balloon alone";
 }
 
 TEST(Treatment, NeedsABalloon)
 {
-  VesselOpening opening(tubeWithLesion(0.0), OpeningLaw{});
   instrument::Instrument wire;
   wire.name = "guidewire_014";
-  EXPECT_THROW(Treatment(wire, opening), InputError);
+  EXPECT_THROW(Treatment{wire}, InputError);
 }
 
 }  // namespace

@@ -150,5 +150,19 @@ TEST(Instruments, AreRefusedWithAReason)
   EXPECT_NE(refusalOf(stack(both, "instrument: " + kWire + "\n")).find("given besides instruments"), std::string::npos);
 }
 
+TEST(Instruments, ABalloonGetsThePressureOfItsDriveAndNothingElseDoes)
+{
+  const Scene scene = parseScene(
+      stack(layer(kWire, 0.05) + "  - {instrument: {use: balloon_300_12_nc, name: balloon}, drive: {source: script, "
+                                 "initial_insertion: -0.1, pressure: {points: [[0, 0], [1, 8.0e5]]}}}\n"),
+      "two.yaml");
+  const std::vector<HandCommand> commands = commandsAt(scene, 0.5);
+  EXPECT_EQ(commands[0].pressure, 0.0);
+  EXPECT_EQ(commands[1].pressure, 4.0e5);
+  EXPECT_EQ(parseScene(scene.resolved_yaml, "two.yaml").hash(), scene.hash());
+  Bench bench(stack(layer(kWire, 0.05) + layer(kCatheter, -0.1)));
+  EXPECT_THROW(bench.simulation->stepAll({{0.05, 0.0, 1.0e5}, {-0.1, 0.0}}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::session

@@ -64,6 +64,8 @@ const std::vector<Refusal> kRefusals = {
     {"bad_profile_times_do_not_increase.yaml", "drive.insertion.points (line 15)", "increasing"},
     {"bad_profile_row_of_three.yaml", "drive.insertion.points.0 (line 15)", "a list of 2 numbers"},
     {"bad_sine_without_frequency.yaml", "drive.rotation.frequency (line 14)", "frequency in Hz"},
+    {"bad_pressure_without_balloon.yaml", "drive.pressure (line 14)", "use a balloon_catheter"},
+    {"bad_pressure_below_vacuum.yaml", "drive.pressure (line 5)", "at least -101325 Pa"},
     {"bad_speed_without_travel.yaml", "drive.travel (line 12)", "give a number in m"},
     {"bad_speed_and_profile.yaml", "drive.insertion (line 16)", "keep one of the two"},
     {"bad_motion_without_source.yaml", "drive.source (line 12)", "set source: script"},

@@ -29,6 +29,7 @@ constexpr auto kContactForceMap = "contact/force_map";
 constexpr auto kContactForceMarker = "contact/force_marker";
 
 constexpr auto kDriveApplied = "drive/applied";
+constexpr auto kProcedureStep = "procedure/step";
 constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionStop = "session/stop";
 
@@ -47,5 +48,6 @@ constexpr auto kServoJp = "/servo_jp";
 constexpr auto kOperatingState = "/operating_state";
 constexpr auto kInsertionJoint = "insertion";
 constexpr auto kRotationJoint = "rotation";
+constexpr auto kPressureJoint = "pressure";  ///< of instruments with a balloon
 
 }  // namespace endovascular_sim::nodes::names

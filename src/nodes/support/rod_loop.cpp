@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include <ros/topic.h>
@@ -24,7 +25,8 @@ constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
 constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
 constexpr double kForceBand = 5e-3;         // N, of the bridges over missing sets
 constexpr double kTorqueBand = 5e-5;        // N·m
-constexpr double kIdlePeriod = 10e-3;       // s between forces of zero while paused
+constexpr double kNoPressure = std::numeric_limits<double>::quiet_NaN();  // none came: the scene's own counts
+constexpr double kIdlePeriod = 10e-3;                                     // s between forces of zero while paused
 
 std::chrono::steady_clock::duration period(double seconds)
 {
@@ -50,7 +52,7 @@ RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant
   for (std::size_t k = 0; k < instruments; ++k)
   {
     const session::DriveScene& drive = scene_.instruments[k].drive;
-    command_.push_back({drive.insertionAt(0.0), drive.rotationAt(0.0)});
+    command_.push_back({drive.insertionAt(0.0), drive.rotationAt(0.0), kNoPressure});
     if (drive.source == session::DriveSource::kDevice || drive.source == session::DriveSource::kTopic)
       subscribe(k);
   }
@@ -69,7 +71,7 @@ void RodLoop::subscribe(std::size_t instrument)
 
 void RodLoop::receiveCommand(std::size_t instrument, const sensor_msgs::JointStateConstPtr& message)
 {
-  session::HandCommand command;
+  session::HandCommand command{0.0, 0.0, kNoPressure};
   bool insertion = false;
   bool rotation = false;
   for (std::size_t i = 0; i < std::min(message->name.size(), message->position.size()); ++i)
@@ -84,6 +86,8 @@ void RodLoop::receiveCommand(std::size_t instrument, const sensor_msgs::JointSta
       command.rotation = message->position[i];
       rotation = true;
     }
+    if (message->name[i] == names::kPressureJoint && std::isfinite(message->position[i]))
+      command.pressure = message->position[i];
   }
   if (!insertion || !rotation)
   {
@@ -92,18 +96,26 @@ void RodLoop::receiveCommand(std::size_t instrument, const sensor_msgs::JointSta
     return;
   }
   const std::lock_guard<std::mutex> lock(command_mutex_);
+  if (std::isnan(command.pressure) || !scene_.instruments[instrument].instrument.balloon)
+    command.pressure = command_[instrument].pressure;
   command_[instrument] = command;
 }
 
 const std::vector<session::HandCommand>& RodLoop::nextCommands()
 {
   const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
+  if (procedure_)
+    next_ = procedure_->next(*simulation_);
   const std::lock_guard<std::mutex> lock(command_mutex_);
   for (std::size_t k = 0; k < next_.size(); ++k)
   {
     const session::DriveScene& drive = scene_.instruments[k].drive;
-    next_[k] =
-        command_subscriber_[k] ? command_[k] : session::HandCommand{drive.insertionAt(end), drive.rotationAt(end)};
+    if (command_subscriber_[k])
+      next_[k] = command_[k];
+    else if (!procedure_)
+      next_[k] = {drive.insertionAt(end), drive.rotationAt(end), kNoPressure};
+    if (std::isnan(next_[k].pressure))
+      next_[k].pressure = drive.pressureAt(end);
   }
   return next_;
 }
@@ -133,6 +145,8 @@ bool RodLoop::makeSimulation()
   else if (!waitForVessel(entry, vessel))
     return false;
   simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline);
+  if (scene_.procedure)
+    procedure_ = std::make_unique<ProcedureDriver>(node_, scene_, vessel.centreline, entry.position);
   if (!contacts_)
     return true;
   ROS_INFO("rod_dynamics: waiting for the contact node");

@@ -11,6 +11,7 @@
 
 #include "nodes/support/contact_force_publisher.h"
 #include "nodes/support/direct_callback_queue.h"
+#include "nodes/support/procedure_driver.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
 #include "nodes/support/rod_publisher.h"
@@ -73,6 +74,7 @@ private:
   double seconds_;      ///< of simulated time; 0: endless
   std::unique_ptr<RemoteContactSource> contacts_;
   std::unique_ptr<session::Simulation> simulation_;
+  std::unique_ptr<ProcedureDriver> procedure_;  ///< null where the scene has none
   RodPublisher publisher_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DirectCallbackQueue command_queue_;

@@ -28,15 +28,14 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   {
     const std::string instrument = names::kInstruments + driven.instrument.name;
     hand_.push_back(node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue));
+    has_balloon_.push_back(driven.instrument.balloon.has_value());
     operating_.push_back(node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true));
   }
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
-  hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
-  hand_message_.position.resize(2);
-  hand_message_.effort.resize(2);
   applied_message_.insertion.resize(hand_.size());
   applied_message_.rotation.resize(hand_.size());
+  applied_message_.pressure.resize(hand_.size());
   visual_message_.header.frame_id = names::kPatientFrame;
 }
 
@@ -45,8 +44,15 @@ void RodPublisher::publishHands(const std::vector<Hand>& hands, double share)
   hand_message_.header.stamp = ros::Time::now();
   for (std::size_t k = 0; k < hand_.size(); ++k)
   {
+    hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
     hand_message_.position = {hands[k].command.insertion, hands[k].command.rotation};
     hand_message_.effort = {share * hands[k].force, share * hands[k].torque};
+    if (has_balloon_[k])
+    {
+      hand_message_.name.emplace_back(names::kPressureJoint);
+      hand_message_.position.push_back(hands[k].command.pressure);
+      hand_message_.effort.push_back(0.0);
+    }
     hand_[k].publish(hand_message_);
   }
 }
@@ -60,6 +66,7 @@ void RodPublisher::publishStep(const session::Simulation& simulation, const std:
   {
     applied_message_.insertion[k] = hands[k].command.insertion;
     applied_message_.rotation[k] = hands[k].command.rotation;
+    applied_message_.pressure[k] = hands[k].command.pressure;
   }
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
@@ -82,6 +89,7 @@ void RodPublisher::publishVisual(const session::Simulation& simulation)
   message.rotation.clear();
   message.hand_force.clear();
   message.hand_torque.clear();
+  message.pressure.clear();
   for (int k = 0; k < simulation.instruments(); ++k)
   {
     const session::HandState hand = simulation.hand(k);
@@ -89,6 +97,7 @@ void RodPublisher::publishVisual(const session::Simulation& simulation)
     message.rotation.push_back(hand.rotation);
     message.hand_force.push_back(hand.force);
     message.hand_torque.push_back(hand.torque);
+    message.pressure.push_back(hand.pressure);
   }
   const int first = session::firstInsertedNode(simulation);
   message.first_node = static_cast<std::uint32_t>(first);

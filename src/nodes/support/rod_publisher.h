@@ -47,6 +47,7 @@ private:
 
   std::uint64_t visual_every_;
   std::vector<ros::Publisher> hand_, operating_;  ///< per instrument
+  std::vector<bool> has_balloon_;                 ///< per instrument
   ros::Publisher applied_, visual_;
   tf2_ros::TransformBroadcaster transforms_;
   sensor_msgs::JointState hand_message_;

@@ -103,6 +103,7 @@ SessionRecorder::SessionRecorder(ros::NodeHandle node, session::Scene scene, Rec
     info_(infoOf(scene_)),
     report_(identityOf(scene_)),
     trajectory_(madeFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
+    metrics_(scene_),
     bag_(settings_.folder + "/session.bag"),
     pose_(scene_.record.pose_rate),
     joints_(scene_.instruments.size(), Throttle(kJointRate)),
@@ -167,7 +168,19 @@ void SessionRecorder::subscribeToWire()
 void SessionRecorder::subscribeToVessel()
 {
   listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
-  record<VesselCentreline>(names::kVesselCentreline, 1);
+  listen<VesselCentreline>(names::kVesselCentreline, 1,
+                           [this](const auto& event)
+                           {
+                             metrics_.add(*event.getMessage());
+                             bag_.write(node_.resolveName(names::kVesselCentreline), event);
+                           });
+  if (scene_.procedure)
+    listen<ProcedureStep>(names::kProcedureStep, kStepQueue,
+                          [this](const auto& event)
+                          {
+                            metrics_.add(*event.getMessage());
+                            bag_.write(node_.resolveName(names::kProcedureStep), event);
+                          });
   listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
   listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
 }
@@ -204,6 +217,7 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
                   drive.state_hash);
   last_step_ = ros::SteadyTime::now();
+  metrics_.setPressures(drive.pressure);
   bag_.write(node_.resolveName(names::kDriveApplied), event);
 }
 
@@ -212,6 +226,7 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   if (finished_)
     return;
   const RodStateVisual& rod = *event.getMessage();
+  metrics_.add(rod);
   if (!rod.nodes.empty())
   {
     const geometry_msgs::Point& tip = rod.nodes.back();
@@ -225,6 +240,8 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     row.hand_torque = rod.hand_torque.at(furthest);
     row.tip = {tip.x, tip.y, tip.z};
     row.nodes = rod.nodes.size();
+    for (double pressure : rod.pressure)
+      row.pressure = std::max(row.pressure, pressure);
     report_.addTip(row.tip, row.insertion, row.nodes);
     if (!trajectory_.add(row) && error_.empty())
     {
@@ -254,6 +271,7 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
   if (finished_)
     return;
   const ContactForces& forces = *event.getMessage();
+  metrics_.add(forces);
   double largest = 0.0;
   for (const ContactForce& contact : forces.contacts)
     largest = std::max(largest, magnitude(contact.normal_force, contact.friction_force));
@@ -274,6 +292,7 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   vessel_ = event.getConstMessage();
+  metrics_.add(*vessel_);
   if (!info_published_)
   {
     info_.mesh_hash = event.getMessage()->content_hash;
@@ -409,6 +428,23 @@ bool SessionRecorder::writeWallForces() const
   return forces.flush() && points.flush();
 }
 
+bool SessionRecorder::writeMetrics()
+{
+  session::WallForceSummary forces;
+  if (force_map_)
+    forces = summaryFromMessage(*force_map_);
+  try
+  {
+    metrics_.write(settings_.folder, force_map_ ? &forces : nullptr);
+  }
+  catch (const InputError& error)
+  {
+    ROS_ERROR("[session] %s", error.what());
+    return false;
+  }
+  return true;
+}
+
 bool SessionRecorder::finish()
 {
   if (finished_)
@@ -426,12 +462,14 @@ bool SessionRecorder::finish()
   std::ofstream file(path("report.json"));
   file << report_.json(outcome, error_);
   file.close();
+  const bool metrics_written = writeMetrics();
   const bool map_written = writeWallForces();
   if (!map_written)
     ROS_ERROR("[session] %s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
   if (!file)
     ROS_ERROR("[session] %s cannot be written: is the disk full?", path("report.json").c_str());
-  complete_ = static_cast<bool>(file) && rows_written && map_written && outcome.error.empty() && error_.empty();
+  complete_ = static_cast<bool>(file) && rows_written && map_written && metrics_written && outcome.error.empty() &&
+              error_.empty();
   ROS_INFO("[session] recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()),
            settings_.folder.c_str());
   return complete_;

@@ -20,6 +20,7 @@
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/bag_writer.h"
+#include "nodes/support/metrics_recorder.h"
 #include "session/report.h"
 #include "session/scene.h"
 #include "session/trajectory_file.h"
@@ -86,6 +87,8 @@ private:
   void onTimer(const ros::SteadyTimerEvent&);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
+  /** metrics.json, metrics.html and instruments.csv. @return false when the disk refused them */
+  bool writeMetrics();
   /** wall_forces.csv and vessel_points.csv. @return false when the disk refused them */
   bool writeWallForces() const;
   void savePicture(const sensor_msgs::ImageConstPtr& image);
@@ -102,6 +105,7 @@ private:
   SessionInfo info_;
   session::SessionReport report_;
   session::TrajectoryFile trajectory_;
+  MetricsRecorder metrics_;
   BagWriter bag_;
   Throttle pose_;
   std::vector<Throttle> joints_;  ///< per instrument

@@ -1,0 +1,137 @@
+#include "nodes/support/metrics_recorder.h"
+
+#include <algorithm>
+
+#include "nodes/support/procedure_driver.h"
+#include "nodes/support/vessel_conversions.h"
+#include "procedure/session_run.h"
+#include "session/scene_vessel.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kOutside = 19e-3;  // m before the introducer
+
+Eigen::Vector3d toVector(const geometry_msgs::Point& point)
+{
+  return {point.x, point.y, point.z};
+}
+
+double magnitude(const geometry_msgs::Vector3& v)
+{
+  return Eigen::Vector3d(v.x, v.y, v.z).norm();
+}
+
+/** The point of the wire at a length behind its end; the first node beyond. [m] */
+Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
+{
+  for (std::size_t k = rod.nodes.size() - 1; k > 0; --k)
+  {
+    const Eigen::Vector3d end = toVector(rod.nodes[k]);
+    const Eigen::Vector3d edge = toVector(rod.nodes[k - 1]) - end;
+    if (length <= edge.norm())
+      return end + length / std::max(edge.norm(), 1e-12) * edge;
+    length -= edge.norm();
+  }
+  return toVector(rod.nodes.front());
+}
+
+}  // namespace
+
+procedure::Observation observationFrom(const RodStateVisual& rod, const session::Scene& scene,
+                                       const procedure::BranchPlaces& places, const std::vector<double>& pressures)
+{
+  procedure::Observation seen;
+  seen.time = rod.time;
+  const double furthest = *std::max_element(rod.insertion.begin(), rod.insertion.end());
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    procedure::InstrumentView view;
+    view.hand = {rod.insertion.at(k), rod.rotation.at(k), rod.hand_force.at(k), rod.hand_torque.at(k),
+                 k < pressures.size() ? pressures[k] : 0.0};
+    view.outside = view.hand.insertion < -kOutside;
+    view.tip = pointBehindTip(rod, furthest - std::max(0.0, view.hand.insertion));
+    if (view.hand.insertion > 0.0)
+      view.place = places.at(view.tip);
+    const auto& balloon = scene.instruments[k].instrument.balloon;
+    const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
+    if (middle > 0.0)
+      view.balloon = pointBehindTip(rod, furthest - middle);
+    seen.instruments.push_back(view);
+  }
+  procedure::markCovered(seen);
+  return seen;
+}
+
+void MetricsRecorder::add(const VesselMesh& mesh)
+{
+  if (metrics_)
+    return;  // the vessel of the beginning tells where the branches are
+  vessel_.mesh = fromMessage(mesh);
+  vessel_.source = mesh.source;
+  begin();
+}
+
+void MetricsRecorder::add(const VesselCentreline& centreline)
+{
+  if (metrics_)
+    return;
+  vessel_.centreline = fromMessage(centreline);
+  begin();
+}
+
+void MetricsRecorder::begin()
+{
+  if (vessel_.mesh.triangles.empty() || vessel_.centreline.branches.empty())
+    return;
+  const session::EntryPose entry = session::resolveEntry(scene_.entry, vessel_, scene_.file);
+  metrics_ = std::make_unique<procedure::SessionMetrics>(scene_, vessel_.centreline, entry.position);
+}
+
+void MetricsRecorder::add(const RodStateVisual& rod)
+{
+  if (!metrics_ || rod.nodes.empty() || rod.insertion.size() != scene_.instruments.size() || !metrics_->wants(rod.time))
+    return;
+  procedure::Sample sample;
+  sample.seen = observationFrom(rod, scene_, metrics_->places(), pressures_);
+  for (const auto& [position, force] : contacts_)
+    sample.addContact(position, force);
+  metrics_->add(std::move(sample));
+}
+
+void MetricsRecorder::add(const ContactForces& forces)
+{
+  contacts_.clear();
+  for (const ContactForce& contact : forces.contacts)
+    contacts_.emplace_back(toVector(contact.position), magnitude(contact.normal_force));
+}
+
+void MetricsRecorder::add(const ProcedureStep& step)
+{
+  if (steps_.size() + 1 == step.begun)
+  {
+    if (!steps_.empty() && steps_.back().outcome == procedure::Progress::kRunning)
+    {
+      steps_.back().outcome = procedure::Progress::kDone;
+      steps_.back().end = step.begin;
+    }
+    steps_.push_back(fromMessage(step));
+  }
+  else if (steps_.size() == step.begun && !steps_.empty())
+    steps_.back() = fromMessage(step);
+  failure_ = step.failure;
+}
+
+void MetricsRecorder::write(const std::string& folder, const session::WallForceSummary* forces)
+{
+  if (!metrics_)
+    return;
+  metrics_->setSteps(steps_, failure_);
+  if (forces != nullptr)
+    metrics_->setWallForces(*forces);
+  procedure::writeMetrics(*metrics_, folder);
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,97 @@
+#include "procedure/branch_places.h"
+
+#include <algorithm>
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+constexpr double kOstiumStep = 0.5e-3;  // m along a branch, in search of where it leaves its parent
+
+}  // namespace
+
+BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<session::NamedBranch>& names)
+  : finder_(tree)
+{
+  for (const vessel::CentrelineBranch& branch : tree.branches)
+  {
+    lines_.emplace_back(branch.points);
+    parent_.push_back(branch.parent);
+    names_.push_back(branch.name);
+  }
+  own_names_ = names_;
+  for (const session::NamedBranch& named : names)
+    if (const int branch = finder_.nearest(named.at); branch >= 0)
+      names_[static_cast<std::size_t>(branch)] = named.name;
+  for (std::size_t b = 0; b < lines_.size(); ++b)
+  {
+    double arc = 0.0;
+    while (arc < lines_[b].length() && finder_.nearest(lines_[b].at(arc)) != static_cast<int>(b))
+      arc += kOstiumStep;
+    ostium_.push_back(arc < lines_[b].length() ? arc : 0.0);
+  }
+}
+
+BranchPlace BranchPlaces::at(const Eigen::Vector3d& point) const
+{
+  const int branch = finder_.nearest(point);
+  return {branch, branch < 0 ? 0.0 : depthIn(branch, point)};
+}
+
+double BranchPlaces::depthIn(int branch, const Eigen::Vector3d& point) const
+{
+  const auto b = static_cast<std::size_t>(branch);
+  return lines_[b].nearest(point).arc - ostium_[b];
+}
+
+int BranchPlaces::find(const std::string& name) const
+{
+  for (const std::vector<std::string>* list : {&names_, &own_names_})
+    if (const auto found = std::find(list->begin(), list->end(), name); found != list->end())
+      return static_cast<int>(found - list->begin());
+  return -1;
+}
+
+const std::string& BranchPlaces::name(int branch) const
+{
+  static const std::string outside = "outside";
+  return branch < 0 ? outside : names_[static_cast<std::size_t>(branch)];
+}
+
+std::string BranchPlaces::names() const
+{
+  std::string text;
+  for (const std::string& name : names_)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<bool> BranchPlaces::wayBetween(int from, int to) const
+{
+  std::vector<bool> on_way(names_.size(), to < 0 || from < 0);
+  if (to < 0 || from < 0)
+    return on_way;
+  const auto rootwards = [this](int branch)
+  {
+    std::vector<int> chain;
+    for (; branch >= 0 && chain.size() <= parent_.size(); branch = parent_[static_cast<std::size_t>(branch)])
+      chain.push_back(branch);
+    return chain;
+  };
+  const std::vector<int> up = rootwards(from);
+  const std::vector<int> down = rootwards(to);
+  for (const std::vector<int>* chain : {&up, &down})
+  {
+    const std::vector<int>& other = chain == &up ? down : up;
+    for (const int branch : *chain)
+    {
+      on_way[static_cast<std::size_t>(branch)] = true;
+      if (std::find(other.begin(), other.end(), branch) != other.end())
+        break;  // the fork of both ways
+    }
+  }
+  return on_way;
+}
+
+}  // namespace endovascular_sim::procedure

@@ -1,0 +1,437 @@
+#include "procedure/operator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/error.h"
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+constexpr double kProgress = 2e-3;       // m that count as progress of a tip
+constexpr double kNoticed = 3e-3;        // m beyond its ostium where a tip is seen to be in a wrong branch
+constexpr double kSlowFrom = 0.6;        // of the force at which he stops: from here he pushes more slowly
+constexpr double kManoeuvreLimit = 8.0;  // s for one pull back or turn
+constexpr double kFastBack = 0.02;       // m/s, of pulling back
+
+using session::StepAction;
+using session::StepScene;
+
+int instrumentOf(const session::Scene& scene, const std::string& name)
+{
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (scene.instruments[k].instrument.name == name)
+      return static_cast<int>(k);
+  return -1;
+}
+
+std::string inMillimetres(const Eigen::Vector3d& point)
+{
+  char text[80];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f) mm", 1e3 * point.x(), 1e3 * point.y(), 1e3 * point.z());
+  return text;
+}
+
+std::string written(const char* format, double value)
+{
+  char text[80];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/** @return @p from moved towards @p to by at most @p most */
+double towards(double from, double to, double most)
+{
+  return from + std::clamp(to - from, -most, most);
+}
+
+}  // namespace
+
+Operator::Operator(const session::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry)
+  : scene_(scene),
+    hand_(scene.procedure->hand),
+    places_(tree, scene.procedure->branches),
+    entered_(places_.at(entry).branch),
+    look_every_(static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step))))
+{
+  expand();
+  checkBranches();
+  for (const session::DrivenInstrument& driven : scene.instruments)
+  {
+    Hand hand;
+    hand.insertion = driven.drive.insertionAt(0.0);
+    hand.rotation = driven.drive.rotationAt(0.0);
+    hand.scripted = driven.drive.source == session::DriveSource::kProcedure;
+    hands_.push_back(hand);
+  }
+  commands_.resize(hands_.size());
+}
+
+/** An exchange is a withdrawal and an insertion. */
+void Operator::expand()
+{
+  for (const StepScene& step : scene_.procedure->steps)
+  {
+    steps_.push_back(step);
+    if (step.action != StepAction::kExchange)
+      continue;
+    steps_.back().action = StepAction::kWithdraw;
+    steps_.back().until = session::GoalScene();
+    steps_.back().until.outside = true;
+    steps_.push_back(step);
+    steps_.back().action = StepAction::kAdvance;
+    steps_.back().instrument = step.replacement;
+  }
+}
+
+void Operator::checkBranches() const
+{
+  for (std::size_t k = 0; k < scene_.procedure->steps.size(); ++k)
+    for (const std::string* name :
+         {&scene_.procedure->steps[k].until.tip_in, &scene_.procedure->steps[k].until.balloon_in})
+      if (!name->empty() && places_.find(*name) < 0)
+        throw InputError(scene_.file, "procedure.steps." + std::to_string(k) + ".until",
+                         "the vessel has no branch '" + *name + "'; it has " + places_.names());
+}
+
+std::string Operator::nameOf(const StepScene& step) const
+{
+  const auto goal = [&step](const std::string& verb)
+  {
+    std::string text = verb + " " + step.instrument;
+    if (!step.until.tip_in.empty())
+      text += " until its tip is in " + step.until.tip_in;
+    if (!step.until.balloon_in.empty())
+      text += " until its balloon is in " + step.until.balloon_in;
+    if (step.until.beyond != 0.0)
+      text += written(" by %.1f mm", 1e3 * step.until.beyond);
+    if (step.until.outside)
+      text += " until it is out";
+    if (!std::isnan(step.until.insertion))
+      text += written(" to %.1f mm", 1e3 * step.until.insertion);
+    if (!std::isnan(step.until.by))
+      text += written(" by %.1f mm", 1e3 * step.until.by);
+    if (!std::isnan(step.until.turned))
+      text += written(" by %.2f rad", step.until.turned);
+    return text;
+  };
+  switch (step.action)
+  {
+    case StepAction::kAdvance:
+      return goal("advance");
+    case StepAction::kWithdraw:
+      return goal("withdraw");
+    case StepAction::kRotate:
+      return goal("rotate");
+    case StepAction::kInflate:
+      return "inflate " + step.instrument + written(" to %.1f atm", step.pressure / 101325.0);
+    case StepAction::kExchange:
+    case StepAction::kWait:
+      break;
+  }
+  return written("wait %.1f s", step.duration);
+}
+
+const std::vector<session::HandCommand>& Operator::next(const session::Simulation& simulation)
+{
+  if (looksBefore(simulation.steps()))
+    see(observe(scene_, simulation, places_));
+  return move(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
+}
+
+const std::vector<session::HandCommand>& Operator::move(double end_time)
+{
+  const double dt = scene_.solver.time_step;
+  for (std::size_t k = 0; k < hands_.size(); ++k)
+  {
+    Hand& hand = hands_[k];
+    const session::DriveScene& drive = scene_.instruments[k].drive;
+    if (!hand.scripted)
+    {
+      commands_[k] = {drive.insertionAt(end_time), drive.rotationAt(end_time), drive.pressureAt(end_time)};
+      continue;
+    }
+    hand.speed = towards(hand.speed, hand.wanted, hand_.acceleration * dt);
+    hand.turn_speed = towards(hand.turn_speed, hand.wanted_turn, hand_.turn_acceleration * dt);
+    hand.insertion += dt * hand.speed;
+    hand.rotation += dt * hand.turn_speed;
+    commands_[k] = {hand.insertion, hand.rotation, hand.pressure};
+  }
+  return commands_;
+}
+
+void Operator::rest()
+{
+  for (Hand& hand : hands_)
+    hand.wanted = hand.wanted_turn = 0.0;
+}
+
+void Operator::see(const Observation& seen)
+{
+  if (progress_ != Progress::kRunning)
+    return;
+  if (!begun_)
+    begin(seen);
+  records_.back().end = seen.time;
+  const bool reached = isReached(seen);
+  if (!reached)
+    reached_since_ = -1.0;
+  else if (reached_since_ < 0.0)
+    reached_since_ = seen.time;
+  if (reached && seen.time - reached_since_ >= step().until.held)
+    finishStep(seen.time);
+  else if (reached && mode_ == Mode::kGo)
+    rest();
+  else
+    act(seen);
+}
+
+void Operator::begin(const Observation& seen)
+{
+  begun_ = true;
+  StepRecord record;
+  record.name = nameOf(step());
+  record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
+  record.begin = record.end = seen.time;
+  records_.push_back(record);
+  prepareStep();
+  mode_ = Mode::kGo;
+  reached_since_ = -1.0;
+  begin_time_ = progress_time_ = seen.time;
+  if (active_ < 0)
+    return;
+  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+  begin_insertion_ = progress_insertion_ = view.hand.insertion;
+  begin_rotation_ = view.hand.rotation;
+  progress_tip_ = view.tip;
+  // An instrument that waits further out than the introducer feels anything is brought there first.
+  if (Hand& hand = hands_[static_cast<std::size_t>(active_)]; view.outside)
+    hand.insertion = std::max(hand.insertion, view.hand.insertion);
+  if (step().action == StepAction::kInflate)
+    hands_[static_cast<std::size_t>(active_)].pressure = step().pressure;
+}
+
+/** What follows from the step alone. */
+void Operator::prepareStep()
+{
+  active_ = instrumentOf(scene_, step().instrument);
+  const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
+  goal_branch_ = branch.empty() ? -1 : places_.find(branch);
+  on_way_ = places_.wayBetween(entered_, step().any_branch ? -1 : goal_branch_);
+}
+
+void Operator::finishStep(double time)
+{
+  rest();
+  records_.back().outcome = Progress::kDone;
+  records_.back().end = time;
+  begun_ = false;
+  if (++current_ == steps_.size())
+    progress_ = Progress::kDone;
+}
+
+void Operator::fail(const InstrumentView* view, const std::string& why)
+{
+  rest();
+  progress_ = Progress::kFailed;
+  records_.back().outcome = Progress::kFailed;
+  failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + "): " + why;
+  if (view != nullptr)
+    failure_ += "; the tip of " + step().instrument + " is in " + places_.name(view->place.branch) +
+                written(", %.1f mm beyond its ostium, at ", 1e3 * view->place.depth) + inMillimetres(view->tip);
+}
+
+bool Operator::isReached(const Observation& seen) const
+{
+  if (step().action == StepAction::kWait || step().action == StepAction::kInflate)
+    return seen.time - begin_time_ >= step().duration - 1e-9;
+  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+  const session::GoalScene& goal = step().until;
+  const double forward = step().action == StepAction::kWithdraw ? -1.0 : 1.0;
+  if (goal.outside && !view.outside)
+    return false;
+  if (goal_branch_ >= 0)
+  {
+    const bool by_tip = !goal.tip_in.empty();
+    if (!by_tip && !view.balloon)
+      return false;
+    const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
+    if (places_.at(point).branch != goal_branch_ ||
+        forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+      return false;
+  }
+  if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)
+    return false;
+  if (!std::isnan(goal.by) && forward * (view.hand.insertion - begin_insertion_) < goal.by)
+    return false;
+  return std::isnan(goal.turned) || std::abs(view.hand.rotation - begin_rotation_) >= std::abs(goal.turned);
+}
+
+/** Speed at which he moves on against the force that he feels. */
+double Operator::pushed(const InstrumentView& view, double speed) const
+{
+  const double limit = speed > 0.0 ? hand_.push_force : hand_.pull_force;
+  const double against = speed > 0.0 ? view.hand.force : -view.hand.force;
+  const double share = (limit - against) / ((1.0 - kSlowFrom) * limit);
+  const double scaled = std::clamp(hand_.speed_scale * speed, -hand_.max_speed, hand_.max_speed);
+  return std::clamp(share, 0.0, 1.0) * scaled;
+}
+
+void Operator::go(const InstrumentView& view)
+{
+  Hand& hand = hands_[static_cast<std::size_t>(active_)];
+  const double turn = std::clamp(hand_.speed_scale * step().turn_speed, -hand_.max_turn, hand_.max_turn);
+  switch (step().action)
+  {
+    case StepAction::kAdvance:
+      hand.wanted = pushed(view, step().speed);
+      hand.wanted_turn = turn;
+      break;
+    case StepAction::kWithdraw:
+      hand.wanted = pushed(view, -step().speed);
+      hand.wanted_turn = turn;
+      break;
+    case StepAction::kRotate:
+      hand.wanted_turn = step().until.turned < 0.0 ? -std::abs(turn) : turn;
+      break;
+    case StepAction::kInflate:
+    case StepAction::kExchange:
+    case StepAction::kWait:
+      break;
+  }
+}
+
+void Operator::act(const Observation& seen)
+{
+  rest();
+  if (active_ < 0)
+    return;
+  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+  if (step().action == StepAction::kInflate)
+    return;
+  if (seen.time - begin_time_ > step().time_limit)
+    return fail(&view, written("not done within %.0f s", step().time_limit));
+  if (mode_ != Mode::kGo)
+    return manoeuvre(view, seen.time);
+  const bool astray = !view.covered && view.place.branch >= 0 && !on_way_[static_cast<std::size_t>(view.place.branch)];
+  if (step().action == StepAction::kAdvance && astray && view.place.depth > kNoticed)
+  {
+    ++records_.back().wrong_branches;
+    if (tryAgain(Mode::kLeave, view, "entered " + places_.name(view.place.branch) + " again and again"))
+      mode_time_ = seen.time;
+    return;
+  }
+  if (step().action == StepAction::kAdvance && stalls(view, seen.time))
+  {
+    if (tryAgain(Mode::kBack, view, "makes no progress"))
+      mode_time_ = seen.time;
+    return;
+  }
+  go(view);
+}
+
+bool Operator::stalls(const InstrumentView& view, double time)
+{
+  const bool outside = view.hand.insertion <= 0.0;
+  if (outside ? std::abs(view.hand.insertion - progress_insertion_) > kProgress
+              : (view.tip - progress_tip_).norm() > kProgress)
+  {
+    progress_time_ = time;
+    progress_tip_ = view.tip;
+    progress_insertion_ = view.hand.insertion;
+  }
+  return time - progress_time_ > hand_.patience;
+}
+
+/** @return false when he has tried often enough */
+bool Operator::tryAgain(Mode mode, const InstrumentView& view, const std::string& why)
+{
+  if (records_.back().retries == step().retry.times)
+  {
+    fail(&view, why + written(", after %.0f new tries", records_.back().retries));
+    return false;
+  }
+  ++records_.back().retries;
+  mode_ = mode;
+  mode_insertion_ = view.hand.insertion;
+  mode_rotation_ = view.hand.rotation;
+  return true;
+}
+
+/** Out of a wrong branch, a little back, a turn. Each of them ends at its goal or when it takes too long. */
+void Operator::manoeuvre(const InstrumentView& view, double time)
+{
+  Hand& hand = hands_[static_cast<std::size_t>(active_)];
+  const bool late = time - mode_time_ > kManoeuvreLimit;
+  const session::RetryScene& retry = step().retry;
+  const auto enter = [this, &view, time](Mode mode)
+  {
+    mode_ = mode;
+    mode_insertion_ = view.hand.insertion;
+    mode_rotation_ = view.hand.rotation;
+    mode_time_ = time;
+  };
+  if (mode_ == Mode::kLeave)
+  {
+    const bool out = view.place.branch < 0 || on_way_[static_cast<std::size_t>(view.place.branch)];
+    if (out || late)
+      return enter(Mode::kBack);
+    hand.wanted = pushed(view, -kFastBack);
+  }
+  else if (mode_ == Mode::kBack)
+  {
+    if (mode_insertion_ - view.hand.insertion >= retry.back || late)
+      return enter(Mode::kTurn);
+    hand.wanted = pushed(view, -kFastBack);
+  }
+  else if (std::abs(view.hand.rotation - mode_rotation_) >= std::abs(retry.turn) || late)
+  {
+    enter(Mode::kGo);
+    progress_time_ = time;
+    progress_tip_ = view.tip;
+    progress_insertion_ = view.hand.insertion;
+  }
+  else
+    hand.wanted_turn = std::copysign(std::min(2.0, hand_.max_turn), retry.turn);
+}
+
+/** Names follow from the steps. */
+void Operator::archiveRecords(Archive& archive)
+{
+  std::uint64_t count = records_.size();
+  archive(count);
+  if (archive.reading() && count > steps_.size())
+    throw ArchiveError("has more steps than the procedure");
+  records_.resize(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < records_.size(); ++k)
+  {
+    StepRecord& record = records_[k];
+    archive(record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
+    record.name = nameOf(steps_[k]);
+    record.phase = steps_[k].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[k].phase;
+  }
+}
+
+void Operator::archive(Archive& archive)
+{
+  std::uint64_t current = current_;
+  archive(current, begun_, progress_, mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_,
+          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
+  for (Hand& hand : hands_)
+    archive(hand);
+  archiveRecords(archive);
+  if (!archive.reading())
+    return;
+  if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))
+    throw ArchiveError("is of a step that the procedure does not have");
+  current_ = static_cast<std::size_t>(current);
+  if (begun_ && current_ < steps_.size())
+    prepareStep();
+  if (progress_ == Progress::kFailed)
+    failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") had failed before";
+}
+
+}  // namespace endovascular_sim::procedure

@@ -1,0 +1,25 @@
+#include "contact/contact_set_archive.h"
+#include "rod/nodal_contacts.h"
+
+// What the contacts of one step leave to the next.
+
+namespace endovascular_sim::rod
+{
+
+void NodalContacts::Spring::archive(Archive& archive)
+{
+  archive(node, weight0, weight1, stiffness, gap, force, reached, resisted, active);
+}
+
+void NodalContacts::Carried::archive(Archive& archive)
+{
+  archive(id, place, force);
+}
+
+void NodalContacts::archive(Archive& archive)
+{
+  archive(contacts_, previous_contacts_, springs_, previous_springs_, carried_, radii_);
+  archive(valid_, moved_on_, step_is_stale_, stale_budget_, step_, substep_, vessel_version_, query_.first_node);
+}
+
+}  // namespace endovascular_sim::rod

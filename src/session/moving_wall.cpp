@@ -1,0 +1,58 @@
+#include "session/moving_wall.h"
+
+#include <algorithm>
+
+#include "common/archive.h"
+
+namespace endovascular_sim::session
+{
+
+MovingWall::MovingWall(const vessel::Vessel& vessel, contact::Detector& detector)
+  : opening_(vessel, intervention::OpeningLaw{}), detector_(detector)
+{
+}
+
+std::uint64_t MovingWall::press(std::uint64_t /*step*/, const intervention::Pressing& pressing)
+{
+  waiting_.push_back({++version_, opening_.press(pressing, kMostMovedVertices)});
+  return version_;
+}
+
+void MovingWall::show(std::uint64_t version)
+{
+  shown_ = version;
+  for (; !waiting_.empty() && waiting_.front().version <= version; waiting_.pop_front())
+    detector_.moveVertices(waiting_.front().moved.indices, waiting_.front().moved.positions, waiting_.front().version);
+}
+
+void MovingWall::Change::archive(Archive& archive)
+{
+  archive(version, moved.indices, moved.positions);
+}
+
+void MovingWall::archive(Archive& archive)
+{
+  // The detector lags behind the opening: its vertices are compared with those of the beginning.
+  intervention::MovedVertices moved;
+  const std::vector<Eigen::Vector3d>& shown = detector_.wall().vertices;
+  const std::vector<Eigen::Vector3d>& first = opening_.firstVertices();
+  for (std::size_t v = 0; v < first.size() && !archive.reading(); ++v)
+    if (shown[v] != first[v])
+    {
+      moved.indices.push_back(static_cast<int>(v));
+      moved.positions.push_back(shown[v]);
+    }
+  archive(opening_, version_, shown_, waiting_, moved.indices, moved.positions);
+  if (archive.reading())
+    detector_.moveVertices(moved.indices, moved.positions, shown_);
+}
+
+std::unique_ptr<MovingWall> makeMovingWall(const Scene& scene, const vessel::Vessel& vessel,
+                                           contact::Detector& detector)
+{
+  const bool needed = std::any_of(scene.instruments.begin(), scene.instruments.end(),
+                                  [](const DrivenInstrument& driven) { return driven.instrument.balloon.has_value(); });
+  return needed ? std::make_unique<MovingWall>(vessel, detector) : nullptr;
+}
+
+}  // namespace endovascular_sim::session

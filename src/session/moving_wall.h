@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+
+#include "contact/detector.h"
+#include "intervention/wall_mover.h"
+#include "session/scene.h"
+#include "vessel/vessel.h"
+
+namespace endovascular_sim
+{
+class Archive;
+}
+
+namespace endovascular_sim::session
+{
+
+/** Vertices that may move in one step: what contact must take up at once. */
+constexpr std::size_t kMostMovedVertices = 200;
+
+/** The wall of a vessel that balloons move, and the detector that searches it, in this process. */
+class MovingWall : public intervention::WallMover
+{
+public:
+  /** @param vessel as the detector has it
+   *  @param detector must outlive this */
+  MovingWall(const vessel::Vessel& vessel, contact::Detector& detector);
+
+  std::uint64_t press(std::uint64_t step, const intervention::Pressing& pressing) override;
+  void show(std::uint64_t version) override;
+  std::uint64_t version() const override { return version_; }
+  bool atRisk() const override { return opening_.atRisk(); }
+
+  const intervention::VesselOpening& opening() const { return opening_; }
+
+  void archive(Archive& archive) override;
+
+private:
+  struct Change
+  {
+    std::uint64_t version = 0;
+    intervention::MovedVertices moved;
+
+    void archive(Archive& archive);
+  };
+
+  intervention::VesselOpening opening_;
+  contact::Detector& detector_;
+  std::uint64_t version_ = 1;
+  std::uint64_t shown_ = 1;     ///< that contact searches
+  std::deque<Change> waiting_;  ///< that contact does not search yet
+};
+
+/** The moving wall of a scene; null where no instrument has a balloon. Parameters as of MovingWall. */
+std::unique_ptr<MovingWall> makeMovingWall(const Scene& scene, const vessel::Vessel& vessel,
+                                           contact::Detector& detector);
+
+}  // namespace endovascular_sim::session

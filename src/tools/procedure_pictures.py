@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+"""Draws the phases of a procedure side by side: the instruments in the vessel as they lie at each phase's end, and below
+the fluoroscopy picture nearest to that moment, where there are pictures."""
+
+import argparse
+import csv
+import json
+import pathlib
+import sys
+import textwrap
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+COLOURS = ["#d62728", "#ff9900", "#111111", "#1f77b4", "#2ca02c", "#9467bd"]
+WIDTHS = [1.2, 2.2, 1.6, 4.0]   # points, from the inside out
+COLUMNS = 6
+ZOOM = 0.075                    # half the width of a picture [m]
+
+
+def read(path):
+    """Rows of a CSV file."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        yield from csv.DictReader(stream)
+
+
+def phases(folder):
+    """Name and end of every phase, in their order [s]."""
+    found = {}
+    for step in json.loads((folder / "metrics.json").read_text(encoding="utf-8"))["steps"]:
+        found[step["phase"] or step["step"]] = step["end"]
+    return list(found.items())
+
+
+def shapes(path, times):
+    """Polyline of the nodes at the recorded moment nearest before each time, streamed: the file is large."""
+    found = [None] * len(times)
+    rows = []
+    now = None
+
+    def keep():
+        for k, wanted in enumerate(times):
+            if now is not None and now <= wanted + 1e-9:
+                found[k] = rows
+    for row in read(path):
+        time = float(row["time"])
+        if time != now:
+            keep()
+            now, rows = time, []
+        rows.append((float(row["x"]), float(row["y"]), float(row["z"])))
+    keep()
+    return found
+
+
+def insertions(path, times):
+    """Insertion of every instrument at the sample nearest to each time, in the scene's order [m]."""
+    found = [{} for _ in times]
+    best = [{} for _ in times]
+    for row in read(path):
+        for k, wanted in enumerate(times):
+            away = abs(float(row["time"]) - wanted)
+            if away < best[k].get(row["instrument"], 1e9):
+                best[k][row["instrument"]] = away
+                found[k][row["instrument"]] = float(row["insertion"])
+    return found
+
+
+def upto(nodes, length):
+    """The part of a polyline from its beginning that is so long."""
+    part = nodes[:1]
+    for a, b in zip(nodes, nodes[1:]):
+        step = sum((q - p) ** 2 for p, q in zip(a, b)) ** 0.5
+        if step > length:
+            share = length / step
+            return part + [tuple(p + share * (q - p) for p, q in zip(a, b))]
+        length -= step
+        part.append(b)
+    return part
+
+
+def picture_near(folder, time, duration):
+    """The fluoroscopy picture of a moment: pictures are taken evenly over the run."""
+    pictures = sorted((folder / "fluoroscopy").glob("frame_*.png"))
+    if not pictures:
+        return None
+    last = int(pictures[-1].stem.split("_")[1])
+    return min(pictures, key=lambda one: abs(int(one.stem.split("_")[1]) / max(last, 1) * duration - time))
+
+
+def draw(axis, vessel, nodes, inside):
+    """One phase from the front: the vessel's points grey, every instrument as far as it reaches."""
+    axis.scatter([p[0] for p in vessel], [p[2] for p in vessel], s=1.0, c="#c9a9a0", linewidths=0)
+    names = list(inside)
+    tip = (0.0, 0.0, 0.0)
+    for k in reversed(range(len(names))):
+        length = inside[names[k]]
+        if length <= 0.002 or not nodes:
+            continue
+        part = upto(nodes, length)
+        axis.plot([p[0] for p in part], [p[2] for p in part], color=COLOURS[k % len(COLOURS)],
+                  linewidth=WIDTHS[k % len(WIDTHS)], solid_capstyle="round", label=names[k])
+    if nodes:
+        tip = nodes[-1]
+    axis.set_xlim(tip[0] - ZOOM, tip[0] + ZOOM)
+    axis.set_ylim(tip[2] - ZOOM, tip[2] + ZOOM)
+    axis.set_aspect("equal")
+    axis.set_xticks([])
+    axis.set_yticks([])
+
+
+def main():
+    """Reads the results, draws, writes."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=pathlib.Path, help="folder of results of simulate or of a session")
+    parser.add_argument("--shapes", type=pathlib.Path, metavar="DIR",
+                        help="folder of `simulate --record nodes` of the same scene (default: the results)")
+    parser.add_argument("--out", type=pathlib.Path, default=None, help="picture (default: phases.png in the results)")
+    options = parser.parse_args()
+    shape_folder = options.shapes or options.results
+    try:
+        moments = phases(options.results)
+        times = [end for _, end in moments]
+        nodes = shapes(shape_folder / "nodes.csv", times)
+        inside = insertions(shape_folder / "instruments.csv", times)
+        vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in read(shape_folder / "vessel_points.csv")]
+    except (OSError, KeyError) as error:
+        sys.exit(f"procedure_pictures: {error}; give results of a procedure, recorded with --record nodes")
+    pictures = [picture_near(options.results, end, times[-1]) for end in times]
+    layers = 2 if any(pictures) else 1
+    lines = -(-len(moments) // COLUMNS)
+    figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
+    for axis in axes.flat:
+        axis.set_visible(False)
+    handles = {}
+    for k, (name, end) in enumerate(moments):
+        axis = axes[k // COLUMNS * layers][k % COLUMNS]
+        axis.set_visible(True)
+        draw(axis, vessel, nodes[k], inside[k])
+        axis.set_title("\n".join(textwrap.wrap(f"{name}, {end:.0f} s", 30)), fontsize=7)
+        for handle, label in zip(*axis.get_legend_handles_labels()):
+            handles[label] = handle
+        if pictures[k]:
+            below = axes[k // COLUMNS * layers + 1][k % COLUMNS]
+            below.set_visible(True)
+            below.axis("off")
+            below.imshow(plt.imread(pictures[k]), cmap="gray")
+    figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
+    figure.savefig(options.out or options.results / "phases.png", dpi=130)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "procedure/observation.h"
+#include "procedure/operator.h"
+#include "session/scene.h"
+#include "vessel/centreline.h"
+
+namespace endovascular_sim::procedure
+{
+
+/** A trunk of 200 mm along z with a side branch at 100 mm and a goal branch at 150 mm, 60 mm long, to both sides. */
+inline vessel::CentrelineTree forkedTree()
+{
+  vessel::CentrelineTree tree;
+  const auto add = [&tree](const std::string& name, int parent, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                           double radius)
+  {
+    vessel::CentrelineBranch branch;
+    branch.name = name;
+    branch.parent = parent;
+    for (int k = 0; k <= 40; ++k)
+    {
+      branch.points.push_back(from + k / 40.0 * (to - from));
+      branch.radii.push_back(radius);
+    }
+    tree.branches.push_back(branch);
+  };
+  add("trunk", -1, {0, 0, 0}, {0, 0, 0.2}, 0.01);
+  add("side", 0, {0, 0, 0.1}, {0.06, 0, 0.1}, 0.003);
+  add("goal", 0, {0, 0, 0.15}, {-0.06, 0, 0.15}, 0.003);
+  return tree;
+}
+
+/** A scene with a wire and a catheter that the operator drives. @param steps YAML of the procedure's steps */
+inline session::Scene sceneWith(const std::string& steps, const std::string& hand = "{}")
+{
+  return session::parseScene(
+      "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
+      "instruments:\n"
+      "  - {instrument: {use: guidewire_035_j, name: wire}, drive: {source: procedure}}\n"
+      "  - {instrument: {use: catheter_5f_jl4, name: catheter}, drive: {source: procedure}}\n"
+      "procedure:\n  hand: " +
+          hand + "\n  steps:\n" + steps,
+      "test scene");
+}
+
+/** A world in which instruments follow their commands at once; their tips lie where @p tip puts them. */
+class PlainWorld
+{
+public:
+  using Tip = std::function<Eigen::Vector3d(double insertion, double rotation)>;
+
+  explicit PlainWorld(
+      const session::Scene& scene,
+      Tip tip = [](double insertion, double /*rotation*/) { return Eigen::Vector3d(0.0, 0.0, insertion); })
+    : person(scene, forkedTree(), {0, 0, 0.001}), tip_(std::move(tip)), hands_(scene.instruments.size())
+  {
+  }
+
+  void run(double seconds)
+  {
+    for (const double end = time + seconds; time < end - 1e-9; ++steps_)
+    {
+      if (person.looksBefore(steps_))
+        person.see(seen());
+      time = static_cast<double>(steps_ + 1) * 1e-3;
+      const std::vector<session::HandCommand> commands = person.move(time);
+      for (std::size_t k = 0; k < hands_.size(); ++k)
+      {
+        hands_[k].insertion = commands[k].insertion;
+        hands_[k].rotation = commands[k].rotation;
+        hands_[k].pressure = commands[k].pressure;
+      }
+      history.push_back(commands);
+    }
+  }
+
+  Observation seen() const
+  {
+    Observation observation;
+    observation.time = time;
+    for (const session::HandState& hand : hands_)
+    {
+      InstrumentView view;
+      view.hand = hand;
+      view.hand.force = force;
+      view.outside = hand.insertion <= -0.02;
+      view.tip = tip_(hand.insertion, hand.rotation);
+      view.place = hand.insertion > 0.0 ? person.places().at(view.tip) : BranchPlace();
+      observation.instruments.push_back(view);
+    }
+    return observation;
+  }
+
+  Operator person;
+  double time = 0.0;
+  double force = 0.0;  ///< on every hand [N]
+  std::vector<std::vector<session::HandCommand>> history;
+  const session::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
+
+private:
+  Tip tip_;
+  std::uint64_t steps_ = 0;
+  std::vector<session::HandState> hands_;
+};
+
+}  // namespace endovascular_sim::procedure

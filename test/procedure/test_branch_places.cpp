@@ -1,0 +1,50 @@
+#include "procedure/branch_places.h"
+
+#include <gtest/gtest.h>
+
+#include "procedure_fixtures.h"
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+TEST(BranchPlaces, DepthCountsFromTheOstium)
+{
+  const BranchPlaces places(forkedTree());
+  const BranchPlace place = places.at({0.03, 0.001, 0.1});
+  EXPECT_EQ(places.name(place.branch), "side");
+  // The lumens are 10 and 3 mm wide: at 10 mm a point is as far beyond the trunk's wall as the side's wall is away, 7
+  // mm from the trunk's axis both lie equally deep; in front of that the trunk has it.
+  EXPECT_NEAR(place.depth, 0.03 - 0.007, 0.0006);
+  EXPECT_EQ(places.name(places.at({0.005, 0.0, 0.1}).branch), "trunk");
+}
+
+TEST(BranchPlaces, TheWayBetweenTwoBranchesGoesOverTheirFork)
+{
+  vessel::CentrelineTree tree = forkedTree();
+  const BranchPlaces places(tree);
+  EXPECT_EQ(places.wayBetween(1, 2), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(places.wayBetween(0, 2), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(places.wayBetween(2, 0), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(places.wayBetween(0, -1), (std::vector<bool>{true, true, true})) << "without a goal every branch will do";
+}
+
+TEST(BranchPlaces, TheWayDoesNotGoBehindTheFork)
+{
+  // Two branches of the side branch: the trunk is not on the way from one to the other.
+  vessel::CentrelineTree tree = forkedTree();
+  for (const double z : {0.08, 0.12})
+  {
+    vessel::CentrelineBranch twig;
+    twig.name = z < 0.1 ? "low" : "high";
+    twig.parent = 1;
+    twig.points = {{0.06, 0, 0.1}, {0.08, 0, z}};
+    twig.radii = {0.002, 0.002};
+    tree.branches.push_back(twig);
+  }
+  EXPECT_EQ(BranchPlaces(tree).wayBetween(3, 4), (std::vector<bool>{false, true, false, true, true}));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::procedure

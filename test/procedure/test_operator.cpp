@@ -1,0 +1,238 @@
+#include "procedure/operator.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "procedure_fixtures.h"
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+TEST(Operator, GoesThroughTheStepsInTheirOrder)
+{
+  PlainWorld world(
+      sceneWith("    - {advance: wire, until: {tip_in: trunk, beyond: 0.08}, speed: 0.04}\n"
+                "    - {rotate: wire, until: {turned: 1.5}, turn_speed: 2}\n"
+                "    - {wait: 0.5}\n"
+                "    - {withdraw: wire, until: {insertion: 0.02}, speed: 0.05}\n"));
+  world.run(10.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone);
+  ASSERT_EQ(world.person.records().size(), 4U);
+  EXPECT_EQ(world.person.records()[0].name, "advance wire until its tip is in trunk by 80.0 mm");
+  for (const StepRecord& record : world.person.records())
+    EXPECT_EQ(record.outcome, Progress::kDone);
+  EXPECT_NEAR(world.hand(0).insertion, 0.02, 0.01);
+  EXPECT_NEAR(world.hand(0).rotation, 1.5, 0.3);
+  EXPECT_EQ(world.hand(1).insertion, 0.0) << "nobody moved the catheter";
+}
+
+TEST(Operator, MovesWithinTheLimitsOfItsHands)
+{
+  PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.15}, speed: 0.5, turn_speed: 50}\n",
+                             "{max_speed: 0.03, max_turn: 2, acceleration: 0.1, turn_acceleration: 5}"));
+  world.run(8.0);
+  double speed_before = 0.0;
+  double turn_before = 0.0;
+  double fastest = 0.0;
+  for (std::size_t k = 1; k < world.history.size(); ++k)
+  {
+    const double speed = (world.history[k][0].insertion - world.history[k - 1][0].insertion) / 1e-3;
+    const double turn = (world.history[k][0].rotation - world.history[k - 1][0].rotation) / 1e-3;
+    EXPECT_LE(std::abs(speed), 0.03 + 1e-9);
+    EXPECT_LE(std::abs(turn), 2.0 + 1e-9);
+    if (k > 1)
+    {
+      EXPECT_LE(std::abs(speed - speed_before), 0.1 * 1e-3 + 1e-9);
+      EXPECT_LE(std::abs(turn - turn_before), 5.0 * 1e-3 + 1e-9);
+    }
+    speed_before = speed;
+    turn_before = turn;
+    fastest = std::max(fastest, speed);
+  }
+  EXPECT_NEAR(fastest, 0.03, 1e-6) << "the limit is reached, so it is what was tested";
+}
+
+TEST(Operator, LooksOnlyAtItsReactionInterval)
+{
+  const PlainWorld world(sceneWith("    - {wait: 1}\n", "{reaction: 0.05}"));
+  EXPECT_TRUE(world.person.looksBefore(0));
+  EXPECT_FALSE(world.person.looksBefore(49));
+  EXPECT_TRUE(world.person.looksBefore(50));
+}
+
+TEST(Operator, GivesTheSameCommandsForTheSameObservations)
+{
+  const std::string steps = "    - {advance: wire, until: {tip_in: trunk, beyond: 0.12}, turn_speed: 1}\n";
+  PlainWorld one(sceneWith(steps));
+  PlainWorld other(sceneWith(steps));
+  one.run(5.0);
+  other.run(5.0);
+  for (std::size_t k = 0; k < one.history.size(); ++k)
+  {
+    ASSERT_EQ(one.history[k][0].insertion, other.history[k][0].insertion);
+    ASSERT_EQ(one.history[k][0].rotation, other.history[k][0].rotation);
+  }
+}
+
+TEST(Operator, StopsPushingAtItsForce)
+{
+  PlainWorld world(
+      sceneWith("    - {advance: wire, until: {by: 0.15}, speed: 0.02}\n", "{push_force: 1.0, patience: 100}"));
+  world.run(2.0);
+  const double before = world.hand(0).insertion;
+  EXPECT_GT(before, 0.02);
+  world.force = 1.2;
+  world.run(2.0);
+  EXPECT_LT(world.hand(0).insertion - before, 0.005) << "he brakes within a reaction and stands";
+  world.force = 0.3;
+  world.run(1.0);
+  EXPECT_GT(world.hand(0).insertion - before, 0.01) << "he goes on when the force is gone";
+}
+
+TEST(Operator, PullsBackTurnsAndTriesAgainWhereTheTipMakesNoWay)
+{
+  // The tip is caught at 60 mm until the wire has been turned.
+  PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: trunk, beyond: 0.1}, speed: 0.02,\n"
+                             "       retry: {back: 0.01, turn: 0.8, times: 5}}\n"),
+                   [](double insertion, double rotation)
+                   { return Eigen::Vector3d(0.0, 0.0, rotation < 1.2 ? std::min(insertion, 0.06) : insertion); });
+  world.run(25.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone);
+  EXPECT_EQ(world.person.records().front().retries, 2);
+  EXPECT_GE(world.hand(0).rotation, 1.2);
+}
+
+TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
+{
+  // Unturned, the wire goes into the side branch; turned, it stays in the trunk and enters the goal.
+  const auto tip = [](double insertion, double rotation) -> Eigen::Vector3d
+  {
+    const double turn_off = rotation < 0.5 ? 0.1 : 0.15;
+    const double side = rotation < 0.5 ? 1.0 : -1.0;
+    const double beyond = std::max(0.0, insertion - turn_off);
+    return {side * beyond, 0.0, std::min(insertion, turn_off)};
+  };
+  PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: goal, beyond: 0.01}, speed: 0.02,\n"
+                             "       retry: {back: 0.005, turn: 0.8, times: 3}}\n"),
+                   tip);
+  world.run(30.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_EQ(world.person.records().front().wrong_branches, 1);
+}
+
+TEST(Operator, FailureNamesTheStepTheReasonAndThePlaceOfTheTip)
+{
+  PlainWorld world(sceneWith("    - {wait: 0.1}\n"
+                             "    - {advance: wire, until: {tip_in: goal}, speed: 0.02, retry: {times: 1}}\n"),
+                   [](double insertion, double /*rotation*/)
+                   { return Eigen::Vector3d(0.0, 0.0, std::min(insertion, 0.06)); });
+  world.run(30.0);
+  EXPECT_EQ(world.person.progress(), Progress::kFailed);
+  EXPECT_EQ(world.person.failure(),
+            "step 2 (advance wire until its tip is in goal): makes no progress, after 1 new tries; the tip of wire is "
+            "in trunk, 60.0 mm beyond its ostium, at (0.0, 0.0, 60.0) mm");
+  const double rest = world.hand(0).insertion;
+  world.run(5.0);
+  EXPECT_NEAR(world.hand(0).insertion, rest, 1e-3) << "he takes his hands off";
+}
+
+TEST(Operator, FailsWhenItsTimeIsOver)
+{
+  PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.4}, speed: 0.01, time_limit: 3}\n"));
+  world.run(5.0);
+  EXPECT_EQ(world.person.progress(), Progress::kFailed);
+  EXPECT_NE(world.person.failure().find("not done within 3 s"), std::string::npos) << world.person.failure();
+}
+
+TEST(Operator, ExchangeDrawsOneOutBeforeTheOtherGoesIn)
+{
+  PlainWorld world(
+      sceneWith("    - {advance: wire, until: {by: 0.05}, speed: 0.05}\n"
+                "    - {exchange: wire, for: catheter, until: {insertion: 0.03}, speed: 0.05}\n"));
+  world.run(10.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone);
+  for (const std::vector<session::HandCommand>& commands : world.history)
+    EXPECT_TRUE(commands[1].insertion <= 0.0 || commands[0].insertion <= -0.02)
+        << commands[0].insertion << " " << commands[1].insertion;
+  EXPECT_GT(world.hand(1).insertion, 0.03);
+}
+
+TEST(Operator, RefusesABranchThatTheVesselDoesNotHave)
+{
+  try
+  {
+    PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: gaol}}\n"));
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "test scene: procedure.steps.0.until: the vessel has no branch 'gaol'; it has trunk, "
+                 "side, goal");
+  }
+}
+
+TEST(Operator, KnowsBranchesByTheProceduresNames)
+{
+  const session::Scene scene = session::parseScene(
+      "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
+      "instrument: {use: guidewire_035_j}\ndrive: {source: procedure}\n"
+      "procedure:\n  branches: [{name: left_main, at: [-0.04, 0, 0.15]}]\n"
+      "  steps: [{advance: guidewire, until: {tip_in: left_main}}]\n",
+      "test scene");
+  const PlainWorld world(scene);
+  EXPECT_EQ(world.person.places().find("left_main"), 2);
+  EXPECT_EQ(world.person.places().find("goal"), 2) << "the vessel's own name still counts";
+}
+
+TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
+{
+  const session::Scene scene = sceneWith(
+      "    - {advance: wire, until: {tip_in: trunk, beyond: 0.05}, speed: 0.02, turn_speed: 1}\n"
+      "    - {rotate: wire, until: {turned: 3}}\n"
+      "    - {withdraw: wire, until: {insertion: 0.02}}\n");
+  const auto caught = [](double insertion, double rotation)
+  { return Eigen::Vector3d(0.0, 0.0, rotation < 4.0 ? std::min(insertion, 0.03) : insertion); };
+  for (const double at : {0.5, 3.0, 6.0, 11.0})  // on the way, in a manoeuvre, later
+  {
+    PlainWorld world(scene, caught);
+    world.run(at);
+    Archive saved;
+    world.person.archive(saved);
+    PlainWorld other(world);
+    other.person = Operator(scene, forkedTree(), {0, 0, 0.001});
+    Archive loaded(saved.bytes());
+    other.person.archive(loaded);
+    EXPECT_TRUE(loaded.atEnd());
+    world.run(10.0);
+    other.run(10.0);
+    ASSERT_EQ(world.history.size(), other.history.size());
+    for (std::size_t k = 0; k < world.history.size(); ++k)
+    {
+      ASSERT_EQ(world.history[k][0].insertion, other.history[k][0].insertion) << at << " " << k;
+      ASSERT_EQ(world.history[k][0].rotation, other.history[k][0].rotation) << at << " " << k;
+    }
+    EXPECT_EQ(world.person.records().size(), other.person.records().size());
+    EXPECT_EQ(world.person.records().back().name, other.person.records().back().name);
+    EXPECT_EQ(world.person.records().back().retries, other.person.records().back().retries);
+  }
+}
+
+TEST(Operator, RefusesASavedStateOfALongerProcedure)
+{
+  const std::string wait = "    - {wait: 0.1}\n";
+  PlainWorld longer(sceneWith(wait + wait + wait));
+  longer.run(0.35);
+  Archive saved;
+  longer.person.archive(saved);
+  PlainWorld shorter{sceneWith(wait)};
+  Archive loaded(saved.bytes());
+  EXPECT_THROW(shorter.person.archive(loaded), ArchiveError);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::procedure

@@ -1,0 +1,73 @@
+#include "procedure/perturbation.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "procedure_fixtures.h"
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+const std::string kSteps =
+    "    - {phase: In, advance: wire, until: {insertion: 0.1}}\n"
+    "    - {wait: 1}\n"
+    "    - {phase: Out, withdraw: wire, until: {by: 0.05}}\n";
+
+TEST(Perturbation, OfSeedZeroIsTheSceneItself)
+{
+  const session::Scene scene = sceneWith(kSteps);
+  const session::Scene same = perturbed(scene, Spread(), 0);
+  EXPECT_EQ(same.instruments[0].drive.initial_rotation, scene.instruments[0].drive.initial_rotation);
+  EXPECT_EQ(same.procedure->hand.speed_scale, 1.0);
+}
+
+TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
+{
+  const session::Scene scene = sceneWith(kSteps);
+  double least = 1e9;
+  double most = -1e9;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed)
+  {
+    const session::Scene other = perturbed(scene, Spread(), seed);
+    const double rotation = other.instruments[1].drive.initial_rotation;
+    least = std::min(least, rotation);
+    most = std::max(most, rotation);
+    EXPECT_LE(std::abs(other.procedure->hand.speed_scale - 1.0), 0.2);
+    EXPECT_LE(std::abs(other.procedure->steps[0].until.insertion - 0.1), 5e-3);
+    EXPECT_GE(other.instruments[0].drive.initial_insertion, 0.0) << "what is in the introducer stays in it";
+  }
+  EXPECT_GE(least, -0.5);
+  EXPECT_LE(most, 0.5);
+  EXPECT_LT(least, -0.45);
+  EXPECT_GT(most, 0.45);
+}
+
+TEST(Perturbation, OfTheSameSeedIsTheSame)
+{
+  const session::Scene scene = sceneWith(kSteps);
+  EXPECT_EQ(perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation,
+            perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation);
+  EXPECT_NE(perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation,
+            perturbed(scene, Spread(), 8).instruments[0].drive.initial_rotation);
+}
+
+TEST(Perturbation, AProcedureCanEndWithAPhase)
+{
+  EXPECT_EQ(endingWith(sceneWith(kSteps), "In").procedure->steps.size(), 2U)
+      << "steps without a phase of their own belong to the one before";
+  EXPECT_EQ(endingWith(sceneWith(kSteps), "Out").procedure->steps.size(), 3U);
+  try
+  {
+    endingWith(sceneWith(kSteps), "Through");
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_STREQ(error.what(), "test scene: procedure: has no phase 'Through'; it has In, Out");
+  }
+}
+
+}  // namespace
+}  // namespace endovascular_sim::procedure
