@@ -158,7 +158,8 @@ private:
   void receiveVessel(const VesselMesh& vessel)
   {
     heat_ = std::make_unique<session::WallHeat>(fromMessage(vessel), kHeatRadius, kHeatInset);
-    vessel_hash_ = vessel.content_hash;
+    if (vessel.version == 1 || vessel_hash_ == 0)
+      vessel_hash_ = vessel.content_hash;  // the map names the wall as it was at the beginning
     if (newest_map_)
       drawHeat(*newest_map_);  // it came before the vessel
     if (vessel_marker_)

@@ -196,6 +196,7 @@ struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
+  vessel::Vessel treated;                            ///< at the beginning; empty without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
@@ -222,6 +223,8 @@ Surroundings build(const session::Scene& scene)
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
   made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
+  if (made.moving_wall)
+    made.treated = vessel;
   return made;
 }
 
@@ -350,6 +353,12 @@ int simulate(const Options& options)
   const std::uint64_t steps = lastStep(scene, options, simulation);
   session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
+  if (surroundings.moving_wall)
+    result.setTreatment(
+        scene, simulation,
+        session::lesionOutcomes(surroundings.treated, surroundings.moving_wall->opening().mesh(), simulation));
+  else if (session::hasBalloon(scene))
+    result.setTreatment(scene, simulation, {});
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);

@@ -17,6 +17,8 @@ constexpr auto kXRaySourceFrame = "x_ray_source_optical";
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
 constexpr auto kGetVessel = "vessel/get";
+constexpr auto kVesselPressing = "vessel/pressing";
+constexpr auto kVesselMoved = "vessel/moved";
 constexpr auto kVesselMarker = "vessel/marker";
 
 constexpr auto kRodState = "rod/state";

@@ -13,6 +13,7 @@
 #include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
+#include "nodes/support/remote_wall.h"
 #include "nodes/support/rod_publisher.h"
 #include "session/force_bridge.h"
 #include "session/simulation.h"
@@ -72,6 +73,7 @@ private:
   double pause_after_;  ///< [s]
   double seconds_;      ///< of simulated time; 0: endless
   std::unique_ptr<RemoteContactSource> contacts_;
+  std::unique_ptr<RemoteWall> wall_;  ///< null without a vessel or without a balloon
   std::unique_ptr<session::Simulation> simulation_;
   RodPublisher publisher_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel

@@ -168,6 +168,7 @@ void SessionRecorder::subscribeToVessel()
 {
   listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
   record<VesselCentreline>(names::kVesselCentreline, 1);
+  record<VesselMoved>(names::kVesselMoved, kStepQueue);
   listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
   listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
 }
@@ -275,15 +276,14 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
+  if (info_published_)
+    return;  // the wall has moved: vessel/moved says where
   vessel_ = event.getConstMessage();
-  if (!info_published_)
-  {
-    info_.mesh_hash = event.getMessage()->content_hash;
-    report_.setMeshHash(info_.mesh_hash);
-    for (const geometry_msgs::Point& vertex : event.getMessage()->mesh.vertices)
-      report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
-    publishInfo();
-  }
+  info_.mesh_hash = vessel_->content_hash;
+  report_.setMeshHash(info_.mesh_hash);
+  for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
+    report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+  publishInfo();
   bag_.write(node_.resolveName(names::kVesselMesh), event);
 }
 
