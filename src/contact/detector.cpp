@@ -14,7 +14,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kRoom = 0.25e-3;            // m that a node may move before what is near it is listed anew
+constexpr double kRoom = 0.25e-3;  // m that a node may move before what is near it is listed anew
+// m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
+constexpr double kLimitSlack = 0.1e-3;
 constexpr double kListGuard = 1e-8;          // m by which lists hold more than rounding could miss
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
@@ -187,7 +189,7 @@ void Detector::makeRoom(const Query& query)
 
 bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
 {
-  return room >= 0.0 && wanted == limit && (a - begin).squaredNorm() < room * room &&
+  return room >= 0.0 && wanted <= limit && wanted >= limit - kLimitSlack && (a - begin).squaredNorm() < room * room &&
          (b - end).squaredNorm() < room * room;
 }
 
@@ -195,7 +197,7 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
 {
   begin = a;
   end = b;
-  limit = wanted;
+  limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
   room = kRoom;
   items.clear();
 }
@@ -206,7 +208,7 @@ const Detector::Neighbourhood& Detector::triangleNeighbourhood(int node, const E
   if (near.holds(point, point, limit))
     return near;
   near.start(point, point, limit);
-  const double reach = limit + kRoom + kListGuard;
+  const double reach = near.limit + kRoom + kListGuard;
   collected_.clear();
   bvh_.collect(point, reach, collected_);
   for (int t : collected_)
@@ -228,7 +230,7 @@ const Detector::Neighbourhood& Detector::edgeNeighbourhood(int edge, const Eigen
   if (near.holds(a, b, limit))
     return near;
   near.start(a, b, limit);
-  const double wide = limit + kRoom + kListGuard;
+  const double wide = near.limit + kRoom + kListGuard;
   const double reach = 0.5 * (b - a).norm() + kRoom + wide;
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();

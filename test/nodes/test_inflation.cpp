@@ -137,7 +137,9 @@ TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
     const std::vector<session::HandCommand> commands = session::commandsAt(scene_, end);
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
+    {
       EXPECT_EQ(known->second.pressure.at(0), commands[0].pressure);
+    }
     simulation.stepAll(commands);
     if (known == steps.end())
       continue;
