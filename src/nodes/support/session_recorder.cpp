@@ -16,6 +16,7 @@
 #include "common/hash.h"
 #include "contact/contact_set.h"
 #include "endovascular_sim/OperatingState.h"
+#include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
 #include "nodes/support/contact_force_conversions.h"
@@ -155,6 +156,7 @@ void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
+  record<TreatmentVisual>(names::kTreatmentVisual, kQueue);
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
   {
     const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
