@@ -14,7 +14,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kRoom = 0.25e-3;            // m that a node may move before what is near it is listed anew
+constexpr double kRoom = 0.25e-3;  // m that a node may move before what is near it is listed anew
+// m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
+constexpr double kLimitSlack = 0.1e-3;
 constexpr std::size_t kUsual = 16;           // entries of a list
 constexpr double kListGuard = 1e-8;          // m by which lists hold more than rounding could miss
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
@@ -191,7 +193,7 @@ void Detector::makeRoom(const Query& query)
 
 bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
 {
-  return room >= 0.0 && wanted == limit && (a - begin).squaredNorm() < room * room &&
+  return room >= 0.0 && wanted <= limit && wanted >= limit - kLimitSlack && (a - begin).squaredNorm() < room * room &&
          (b - end).squaredNorm() < room * room;
 }
 
@@ -199,7 +201,7 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
 {
   begin = a;
   end = b;
-  limit = wanted;
+  limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
   room = kRoom;
   triangles.clear();
   edges.clear();

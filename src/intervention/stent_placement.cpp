@@ -68,15 +68,15 @@ void StentPlacement::layAlong(const ShaftLine& shaft)
   sleeve_.radii.assign(sleeve_.axis.size(), 0.5 * outerDiameter());
 }
 
-std::vector<std::vector<Eigen::Vector3d>> StentPlacement::struts(int crowns, double ring_length) const
+std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int crowns, double ring_length)
 {
   std::vector<std::vector<Eigen::Vector3d>> rings;
-  if (sleeve_.axis.size() < 2)
+  if (sleeve.axis.size() < 2)
     return rings;
-  const vessel::Polyline axis(sleeve_.axis);
+  const vessel::Polyline axis(sleeve.axis);
   const int count = std::max(1, static_cast<int>(std::lround(axis.length() / ring_length)));
   const double spacing = axis.length() / count;
-  const double radius = 0.5 * outerDiameter();
+  const double radius = sleeve.radii.front();
   Eigen::Vector3d side = axis.tangentAt(0.0).unitOrthogonal();
   for (int ring = 0; ring < count; ++ring)
   {

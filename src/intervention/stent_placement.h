@@ -17,6 +17,12 @@ class Archive;
 namespace endovascular_sim::intervention
 {
 
+/** Struts of a stent for pictures: rings of a zigzag, one ring per line [m]. Drawn, not the maker's pattern.
+ *  @param crowns of each ring
+ *  @param ring_length along the stent [m] */
+std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int crowns = 8,
+                                                   double ring_length = 1.5e-3);
+
 /** A stent from its balloon to its place in the vessel. */
 class StentPlacement
 {
@@ -48,6 +54,7 @@ public:
   State state() const { return state_; }
   double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]
   double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< now [m]
+  double strutThickness() const { return stent_.strut_thickness; }    ///< [m]
   double crimpedDiameter() const { return stent_.crimped_diameter; }                       ///< outer [m]
   double length() const { return stent_.lengthAt(inner_diameter_); }  ///< now: it shortens as it opens [m]
   bool overExpanded() const { return over_expanded_; }  ///< the balloon wanted more than its largest diameter
@@ -55,10 +62,11 @@ public:
   /** Its axis and outer radius where it is now. Empty before the first follow(). */
   const RoundBody& sleeve() const { return sleeve_; }
 
-  /** Its struts for pictures: rings of a zigzag, one ring per line [m]. Drawn, not the maker's pattern.
-   *  @param crowns of each ring
-   *  @param ring_length along the stent [m] */
-  std::vector<std::vector<Eigen::Vector3d>> struts(int crowns = 8, double ring_length = 1.5e-3) const;
+  /** Its struts for pictures, see strutsOf(). */
+  std::vector<std::vector<Eigen::Vector3d>> struts(int crowns = 8, double ring_length = 1.5e-3) const
+  {
+    return strutsOf(sleeve_, crowns, ring_length);
+  }
 
   void archive(Archive& archive);  ///< saves or loads all that changes
 

@@ -1,11 +1,14 @@
 #include <atomic>
+#include <deque>
 #include <memory>
+#include <mutex>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include "common/error.h"
 #include "contact/detector.h"
+#include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/direct_callback_queue.h"
@@ -21,6 +24,7 @@ namespace
 {
 
 constexpr int kQueue = 4;
+constexpr int kMovedQueue = 1000;  // none may be lost
 constexpr int kPriority = 60;
 
 /** Answers every rod state with the wall's features near it. */
@@ -40,7 +44,8 @@ public:
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     ros::NodeHandle direct(node_);
     direct.setCallbackQueue(&queue_);
-    vessel_subscriber_ = direct.subscribe(names::kVesselMesh, 1, &ContactNode::receiveVessel, this, hints);
+    vessel_subscriber_ = node_.subscribe(names::kVesselMesh, 1, &ContactNode::receiveVessel, this, hints);
+    moved_subscriber_ = direct.subscribe(names::kVesselMoved, kMovedQueue, &ContactNode::receiveMoved, this, hints);
     state_subscriber_ = direct.subscribe(names::kRodState, kQueue, &ContactNode::receiveState, this, hints);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("contact", this, &ContactNode::diagnose);
@@ -49,18 +54,67 @@ public:
   }
 
 private:
+  /** The first mesh, and the first one of a vessel_server that was started anew; in between vessel/moved tells all. */
   void receiveVessel(const VesselMeshConstPtr& message)
   {
-    detector_ = std::make_unique<contact::Detector>(fromMessage(*message), law_, message->version);
-    triangles_ = message->mesh.triangles.size();
-    ROS_INFO("contact: vessel version %lu, %zu triangles", static_cast<unsigned long>(message->version),
-             message->mesh.triangles.size());
+    if (detector_ && message->version != 1)
+      return;
+    GetVessel vessel;
+    // What is latched may be older than the wall that the rod is at.
+    const bool newer = message->version != 1 && ros::service::call(node_.resolveName(names::kGetVessel), vessel);
+    const VesselMesh& mesh = newer ? vessel.response.mesh : *message;
+    auto detector = std::make_unique<contact::Detector>(fromMessage(mesh), law_, mesh.version);
+    triangles_ = mesh.mesh.triangles.size();
+    ROS_INFO("contact: vessel version %lu, %zu triangles", static_cast<unsigned long>(mesh.version),
+             mesh.mesh.triangles.size());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    detector_ = std::move(detector);
+    version_ = mesh.version;
+    for (auto moved = vessel.response.moved.rbegin(); moved != vessel.response.moved.rend(); ++moved)
+      waiting_.push_front(boost::make_shared<VesselMoved>(*moved));
+  }
+
+  void receiveMoved(const VesselMovedConstPtr& message)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.push_back(message);
+    if (!asked_)
+      return;
+    const RodStateConstPtr asked = std::move(asked_);
+    asked_.reset();
+    answer(asked);
   }
 
   void receiveState(const RodStateConstPtr& message)
   {
-    if (!detector_ || message->radius.size() != message->nodes.size())
+    const std::lock_guard<std::mutex> lock(mutex_);
+    asked_.reset();
+    if (detector_ && message->radius.size() == message->nodes.size())
+      answer(message);
+  }
+
+  /** Moves the wall up to the version that is asked for, and never beyond it. @return whether it is there */
+  bool moveWallTo(std::uint64_t version)
+  {
+    for (; !waiting_.empty() && waiting_.front()->version <= version; waiting_.pop_front())
+    {
+      if (waiting_.front()->version != version_ + 1)
+        continue;  // it is in the mesh already
+      const intervention::MovedVertices moved = fromMessage(*waiting_.front());
+      detector_->moveVertices(moved.indices, moved.positions, ++version_);
+    }
+    return version == 0 || version_ == version;
+  }
+
+  /** Answers with the wall that is asked for; without it when it comes. */
+  void answer(const RodStateConstPtr& message)
+  {
+    if (!moveWallTo(message->vessel_version))
+    {
+      asked_ = message;
+      late_walls_ = late_walls_ + 1;
       return;
+    }
     fromMessage(*message, query_);
     detector_->detect(query_, set_);
     toMessage(set_, answer_);
@@ -83,12 +137,17 @@ private:
     status.add("answered", answered_.load());
     status.add("features in the last set", features_.load());
     status.add("triangles", triangles_.load());
+    status.add("vessel version", version_.load());
+    status.add("waited for the vessel server", late_walls_.load());
   }
 
   ros::NodeHandle node_;
   RealTimeGrant grant_;
   contact::WallLaw law_;
-  std::unique_ptr<contact::Detector> detector_;
+  std::mutex mutex_;                             ///< vessels come in another thread than all else
+  std::unique_ptr<contact::Detector> detector_;  ///< guarded, as the next two
+  std::deque<VesselMovedConstPtr> waiting_;      ///< movements that no state has asked for yet
+  RodStateConstPtr asked_;                       ///< that cannot be answered yet
   contact::Query query_;
   contact::ContactSet set_;
   ContactSet answer_;
@@ -96,9 +155,11 @@ private:
   std::atomic<std::uint64_t> answered_{0};
   std::atomic<std::size_t> features_{0};
   std::atomic<std::size_t> triangles_{0};
+  std::atomic<std::uint64_t> version_{0};
+  std::atomic<std::uint64_t> late_walls_{0};
   ros::Publisher publisher_;
   DirectCallbackQueue queue_;
-  ros::Subscriber vessel_subscriber_, state_subscriber_;
+  ros::Subscriber vessel_subscriber_, moved_subscriber_, state_subscriber_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;
 };

@@ -18,6 +18,7 @@
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
+#include "nodes/support/treatment_conversions.h"
 
 namespace endovascular_sim::nodes
 {
@@ -43,6 +44,8 @@ fluoroscopy::XRayScene toXRayScene(const session::Scene& scene, const fluoroscop
   result.tissue_thickness = xray.tissue_thickness;
   return result;
 }
+
+constexpr double kBalloonIodine = 185.0;  // mgI/ml: contrast of 370 mgI/ml, diluted by half (assumed)
 
 /** What the wire displaces: contrast in a vessel, else tissue, else air [1/m]. */
 double displacedAttenuation(const session::Scene& scene, const fluoroscopy::XRayScene& xray)
@@ -73,6 +76,9 @@ public:
     const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
     mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &Fluoroscopy::takeMesh, this, no_delay);
     rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &Fluoroscopy::takeRod, this, no_delay);
+    filling_ = table.contrast(kBalloonIodine, xray_.energy) - displacedAttenuation(scene, fluoroscope_.scene());
+    metal_ = table.linear("steel", xray_.energy) - displacedAttenuation(scene, fluoroscope_.scene());
+    treatment_subscriber_ = node.subscribe(names::kTreatmentVisual, 1, &Fluoroscopy::takeTreatment, this, no_delay);
     c_arm_subscriber_ = node.subscribe(names::kCArmCommand, 1, &Fluoroscopy::takeCommand, this, no_delay);
     updater_.setHardwareID("simulated C-arm");
     updater_.add("Fluoroscopy", this, &Fluoroscopy::diagnose);
@@ -108,6 +114,11 @@ private:
       tip_ = toEigen(message.nodes.back());
     if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
       guarded([&] { moveIsocentre(toEigen(message.nodes[message.nodes.size() / 2])); });
+  }
+
+  void takeTreatment(const TreatmentVisual& message)
+  {
+    guarded([&] { treatment_ = toXRayWires(message, filling_, metal_); });
   }
 
   void takeCommand(const CArm& message)
@@ -162,7 +173,9 @@ private:
     std_msgs::Header header;
     header.stamp = ros::Time::now();
     header.frame_id = names::kXRaySourceFrame;
-    const fluoroscopy::Frame& frame = fluoroscope_.render(wires_);
+    std::vector<fluoroscopy::XRayWire> wires = wires_;
+    wires.insert(wires.end(), treatment_.begin(), treatment_.end());
+    const fluoroscopy::Frame& frame = fluoroscope_.render(wires);
     render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     ++frames_;
     camera_info_.publish(toCameraInfo(header, fluoroscope_.geometry()));
@@ -219,6 +232,9 @@ private:
   fluoroscopy::Fluoroscope fluoroscope_;
   std::vector<fluoroscopy::XRayInstrument> instruments_;  ///< of the scene
   std::vector<fluoroscopy::XRayWire> wires_;
+  std::vector<fluoroscopy::XRayWire> treatment_;  ///< balloons and stents
+  double filling_ = 0.0,
+         metal_ = 0.0;  ///< attenuation of a balloon's filling and of a stent, less what they displace [1/m]
   std::optional<Eigen::Vector3d> tip_;  ///< of the instrument that reaches furthest [m]
   bool has_mesh_ = false;
   bool isocentre_known_;
@@ -229,7 +245,7 @@ private:
   std::string new_error_, last_error_;
 
   ros::Publisher raw_, image_, camera_info_;
-  ros::Subscriber mesh_subscriber_, rod_subscriber_, c_arm_subscriber_;
+  ros::Subscriber mesh_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer frame_timer_, diagnostics_timer_;

@@ -1,3 +1,6 @@
+#include <atomic>
+#include <memory>
+
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
@@ -9,10 +12,13 @@
 #include "common/hash.h"
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/support/contact_conversions.h"
+#include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/vessel_conversions.h"
+#include "nodes/support/wall_keeper.h"
+#include "session/moving_wall.h"
 #include "session/scene_vessel.h"
 
 namespace endovascular_sim::nodes
@@ -20,7 +26,11 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** Loads or makes the scene's vessel and hands it out: latched topics, a service, rviz's marker, static frames. */
+constexpr int kQueue = 100;               // of pressings and answers: none may be lost
+constexpr double kRepublishPeriod = 0.5;  // s between two meshes of a wall that moves
+
+/** Loads or makes the scene's vessel and hands it out: latched topics, a service, rviz's marker, static frames. Moves
+ *  its wall where balloons press. */
 class VesselServer
 {
 public:
@@ -46,6 +56,8 @@ public:
     centreline_publisher_.publish(centreline_);
     mesh_publisher_.publish(mesh_);
     marker_publisher_.publish(marker(vessel.mesh));
+    if (session::hasBalloon(scene))
+      keepWall(vessel);
     service_ = node_.advertiseService(names::kGetVessel, &VesselServer::get, this);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("vessel", this, &VesselServer::diagnose);
@@ -56,6 +68,61 @@ public:
   }
 
 private:
+  /** Pressings are answered in the thread that reads them: meshes for pictures are made in another one. */
+  void keepWall(const vessel::Vessel& vessel)
+  {
+    wall_ = std::make_unique<WallKeeper>(vessel);
+    moved_.header.frame_id = names::kPatientFrame;
+    moved_publisher_ = node_.advertise<VesselMoved>(names::kVesselMoved, kQueue);
+    ros::NodeHandle direct(node_);
+    direct.setCallbackQueue(&queue_);
+    pressing_subscriber_ = direct.subscribe(names::kVesselPressing, kQueue, &VesselServer::receivePressing, this,
+                                            ros::TransportHints().tcpNoDelay());
+    republish_timer_ =
+        node_.createWallTimer(ros::WallDuration(kRepublishPeriod), [this](const ros::WallTimerEvent&) { republish(); });
+  }
+
+  void receivePressing(const VesselPressingConstPtr& message)
+  {
+    try
+    {
+      lost_ = !wall_->press(*message, moved_);
+    }
+    catch (const InputError& error)
+    {
+      ROS_WARN_THROTTLE(1.0, "vessel_server: %s", error.what());
+      return;
+    }
+    if (lost_)
+    {
+      ROS_ERROR_THROTTLE(
+          5.0,
+          "vessel_server: rod_dynamics presses on version %lu, this wall is version %lu: one of both was "
+          "started anew; start the session again",
+          static_cast<unsigned long>(message->version - 1), static_cast<unsigned long>(wall_->version()));
+      return;
+    }
+    moved_.header.stamp = ros::Time::now();
+    moved_publisher_.publish(moved_);
+  }
+
+  /** For pictures and late joiners: the wall as it is, when it has moved. */
+  void republish()
+  {
+    if (wall_->version() == mesh_.version)
+      return;
+    WallKeeper::Snapshot now = wall_->snapshot();
+    for (const VesselMoved& moved : now.moved)
+      for (std::size_t k = 0; k < moved.index.size(); ++k)
+        now.mesh.vertices[moved.index[k]] = fromMessage(moved.position[k]);
+    mesh_.header.stamp = ros::Time::now();
+    mesh_.version = now.version + now.moved.size();
+    mesh_.content_hash = now.mesh.hash();
+    toMessage(now.mesh, mesh_);
+    mesh_publisher_.publish(mesh_);
+    marker_publisher_.publish(marker(now.mesh));
+  }
+
   void fillMessages(const vessel::Vessel& vessel)
   {
     mesh_.header.stamp = centreline_.header.stamp = ros::Time::now();
@@ -106,13 +173,24 @@ private:
   bool get(GetVessel::Request&, GetVessel::Response& response)
   {
     response.mesh = mesh_;
+    if (wall_)
+    {
+      const WallKeeper::Snapshot now = wall_->snapshot();
+      toMessage(now.mesh, response.mesh);
+      response.mesh.version = now.version;
+      response.mesh.content_hash = now.mesh.hash();
+      response.moved = now.moved;
+    }
     response.centreline = centreline_;
     return true;
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "published");
+    if (lost_)
+      status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "does not know the wall that the rod presses on");
+    else
+      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "published");
     status.add("source", mesh_.source);
     status.add("version", mesh_.version);
     status.add("content hash", Hash64::toHex(mesh_.content_hash));
@@ -128,6 +206,13 @@ private:
   std::vector<std::string> notes_;
   tf2_ros::StaticTransformBroadcaster frames_;
   ros::Publisher mesh_publisher_, centreline_publisher_, marker_publisher_;
+  std::unique_ptr<WallKeeper> wall_;  ///< null without a balloon
+  VesselMoved moved_;
+  std::atomic<bool> lost_{false};
+  ros::Publisher moved_publisher_;
+  DirectCallbackQueue queue_;
+  ros::Subscriber pressing_subscriber_;
+  ros::WallTimer republish_timer_;
   ros::ServiceServer service_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;

@@ -8,11 +8,14 @@
 #include <ros/ros.h>
 #include <visualization_msgs/Marker.h>
 
+#include "common/error.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "intervention/stent_placement.h"
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
+#include "nodes/support/treatment_conversions.h"
 #include "nodes/support/vessel_conversions.h"
 #include "session/tube_mesh.h"
 #include "session/wall_heat.h"
@@ -27,8 +30,10 @@ constexpr int kTubeSides = 8;                 ///< corners of the drawn wire's c
 constexpr std::size_t kTipPathPoints = 2000;  ///< the path keeps its newest points
 constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two of them [m]
 constexpr double kTipPathWidth = 0.6e-3;      ///< [m]
-constexpr double kHeatRadius = 2e-3;          ///< over which a touched triangle's colour fades [m]
-constexpr double kHeatInset = 0.1e-3;         ///< of the coloured triangles from the wall, into the lumen [m]
+constexpr int kBalloonSides = 24;
+constexpr double kStrutWidth = 0.12e-3;  ///< of drawn struts [m]
+constexpr double kHeatRadius = 2e-3;     ///< over which a touched triangle's colour fades [m]
+constexpr double kHeatInset = 0.1e-3;    ///< of the coloured triangles from the wall, into the lumen [m]
 
 Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
 {
@@ -80,6 +85,8 @@ public:
       heat_full_scale_(parameters.param("heat_full_scale", 0.1)),
       wire_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
       tip_path_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
+      balloon_marker_(node.advertise<visualization_msgs::Marker>(names::kBalloonMarker, 1, true)),
+      stent_marker_(node.advertise<visualization_msgs::Marker>(names::kStentMarker, 1, true)),
       heat_marker_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true))
   {
     const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
@@ -93,6 +100,7 @@ public:
     if (parameters.param("draw_vessel", false))
       vessel_marker_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
     vessel_ = node.subscribe(names::kVesselMesh, 1, &Visualization::receiveVessel, this, no_delay);
+    treatment_ = node.subscribe(names::kTreatmentVisual, 2, &Visualization::drawTreatment, this, no_delay);
     force_map_ = node.subscribe(names::kContactForceMap, 1, &Visualization::receiveForceMap, this, no_delay);
   }
 
@@ -158,11 +166,67 @@ private:
   void receiveVessel(const VesselMesh& vessel)
   {
     heat_ = std::make_unique<session::WallHeat>(fromMessage(vessel), kHeatRadius, kHeatInset);
-    vessel_hash_ = vessel.content_hash;
+    if (vessel.version == 1 || vessel_hash_ == 0)
+      vessel_hash_ = vessel.content_hash;  // the map names the wall as it was at the beginning
     if (newest_map_)
       drawHeat(*newest_map_);  // it came before the vessel
     if (vessel_marker_)
       drawVessel(vessel);
+  }
+
+  void drawTreatment(const TreatmentVisual& message)
+  {
+    if (std::abs(message.time - last_treatment_) < 1.0 / kMarkerRate - 1e-4)
+      return;
+    last_treatment_ = message.time;
+    try
+    {
+      drawBalloons(message);
+      drawStents(message);
+    }
+    catch (const InputError& error)
+    {
+      ROS_WARN_THROTTLE(1.0, "visualization: %s", error.what());
+    }
+  }
+
+  void drawBalloons(const TreatmentVisual& message)
+  {
+    visualization_msgs::Marker balloons = marker(message.header, "balloon", visualization_msgs::Marker::TRIANGLE_LIST);
+    balloons.color.r = 0.95F;
+    balloons.color.g = 0.9F;
+    balloons.color.b = 0.6F;
+    balloons.color.a = 0.5F;
+    for (const TreatmentBody& body : message.balloons)
+    {
+      const intervention::RoundBody balloon = fromMessage(body);
+      for (const Eigen::Vector3d& corner : session::tubeMesh(balloon.axis, balloon.radii, kBalloonSides, 1.0).corners)
+        balloons.points.push_back(toPoint(corner));
+    }
+    publishOrRemove(balloons, balloon_marker_);
+  }
+
+  void drawStents(const TreatmentVisual& message)
+  {
+    visualization_msgs::Marker stents = marker(message.header, "stent", visualization_msgs::Marker::LINE_LIST);
+    stents.color.r = stents.color.g = stents.color.b = 0.75F;
+    stents.scale.x = kStrutWidth;
+    for (const TreatmentBody& body : message.stents)
+      for (const std::vector<Eigen::Vector3d>& ring : intervention::strutsOf(fromMessage(body)))
+        for (std::size_t k = 0; k + 1 < ring.size(); ++k)
+        {
+          stents.points.push_back(toPoint(ring[k]));
+          stents.points.push_back(toPoint(ring[k + 1]));
+        }
+    publishOrRemove(stents, stent_marker_);
+  }
+
+  /** rviz refuses an empty list. */
+  static void publishOrRemove(visualization_msgs::Marker& marker, const ros::Publisher& publisher)
+  {
+    if (marker.points.empty())
+      marker.action = visualization_msgs::Marker::DELETE;
+    publisher.publish(marker);
   }
 
   void receiveForceMap(const ContactForceMapConstPtr& map)
@@ -216,14 +280,17 @@ private:
   std::uint64_t vessel_hash_ = 0;
   ContactForceMapConstPtr newest_map_;
   double last_time_ = -1.0;
+  double last_treatment_ = -1.0;
   std::deque<geometry_msgs::Point> path_;
   ros::Publisher wire_;
   ros::Publisher tip_path_;
+  ros::Publisher balloon_marker_, stent_marker_;
   ros::Publisher heat_marker_;
   ros::Publisher vessel_marker_;
   ros::Subscriber rod_;
   ros::Subscriber vessel_;
   ros::Subscriber force_map_;
+  ros::Subscriber treatment_;
 };
 
 }  // namespace

@@ -47,12 +47,16 @@ void MovingWall::archive(Archive& archive)
     detector_.moveVertices(moved.indices, moved.positions, shown_);
 }
 
+bool hasBalloon(const Scene& scene)
+{
+  return std::any_of(scene.instruments.begin(), scene.instruments.end(),
+                     [](const DrivenInstrument& driven) { return driven.instrument.balloon.has_value(); });
+}
+
 std::unique_ptr<MovingWall> makeMovingWall(const Scene& scene, const vessel::Vessel& vessel,
                                            contact::Detector& detector)
 {
-  const bool needed = std::any_of(scene.instruments.begin(), scene.instruments.end(),
-                                  [](const DrivenInstrument& driven) { return driven.instrument.balloon.has_value(); });
-  return needed ? std::make_unique<MovingWall>(vessel, detector) : nullptr;
+  return hasBalloon(scene) ? std::make_unique<MovingWall>(vessel, detector) : nullptr;
 }
 
 }  // namespace endovascular_sim::session

@@ -53,6 +53,9 @@ private:
   std::deque<Change> waiting_;  ///< that contact does not search yet
 };
 
+/** Whether any instrument can move a wall. */
+bool hasBalloon(const Scene& scene);
+
 /** The moving wall of a scene; null where no instrument has a balloon. Parameters as of MovingWall. */
 std::unique_ptr<MovingWall> makeMovingWall(const Scene& scene, const vessel::Vessel& vessel,
                                            contact::Detector& detector);

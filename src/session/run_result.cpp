@@ -113,6 +113,12 @@ void RunResult::checkOutside(const Simulation& simulation, const contact::Detect
   nodes_outside_ = std::max(nodes_outside_, outside);
 }
 
+void RunResult::setTreatment(const Scene& scene, const Simulation& simulation,
+                             const std::vector<LesionOutcome>& lesions)
+{
+  treatment_ = toJson(scene, simulation, lesions).dump();
+}
+
 std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_forces) const
 {
   const rod::State& state = simulation.state();
@@ -148,6 +154,7 @@ std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_for
       {"distal_force", toJson(state.distal_force)},
       {"distal_torque", state.distal_torque},
       {"wall_forces", wall_forces ? toJson(wall_forces->summary(), wall_forces->touched().size()) : Json(nullptr)},
+      {"treatment", Json::parse(treatment_)},
       {"energy", {{"bending", energy.bending}, {"twist", energy.twist}, {"stretch", energy.stretch}}},
       {"solver",
        {{"solves", work_.solves},

@@ -7,6 +7,7 @@
 #include "contact/detector.h"
 #include "session/report.h"
 #include "session/simulation.h"
+#include "session/treatment_report.h"
 #include "session/wall_force_map.h"
 
 namespace endovascular_sim::session
@@ -42,6 +43,9 @@ public:
    *  @param wall_forces of all steps; null without a vessel */
   std::string json(Simulation& simulation, const WallForceMap* wall_forces = nullptr) const;
 
+  /** Adds what balloons and stents did. */
+  void setTreatment(const Scene& scene, const Simulation& simulation, const std::vector<LesionOutcome>& lesions);
+
   int nodesOutside() const { return nodes_outside_; }
   std::uint64_t refusedSteps() const { return refused_; }
 
@@ -62,6 +66,7 @@ private:
   std::array<RunningValue, 6> hand_parts_;  ///< as kHandParts
   rod::StepReport work_;
   std::uint64_t refused_ = 0;
+  std::string treatment_ = "null";  ///< JSON
 };
 
 /** Nodes beyond the introducer's plane. */

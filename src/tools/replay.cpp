@@ -67,7 +67,7 @@ Recording read(const std::string& file)
     }
     else if (isTopic(message.getTopic(), nodes::names::kSessionInfo))
       recording.info = message.instantiate<SessionInfo>();
-    else if (isTopic(message.getTopic(), nodes::names::kVesselMesh))
+    else if (isTopic(message.getTopic(), nodes::names::kVesselMesh) && !recording.mesh)
       recording.mesh = message.instantiate<VesselMesh>();
     else if (isTopic(message.getTopic(), nodes::names::kVesselCentreline))
       recording.centreline = message.instantiate<VesselCentreline>();

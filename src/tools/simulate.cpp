@@ -200,6 +200,7 @@ struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
+  vessel::Vessel treated;                            ///< at the beginning; empty without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
   std::unique_ptr<procedure::SessionRun> session;  ///< null without a vessel
   session::EntryPose entry;
@@ -227,6 +228,8 @@ Surroundings build(const session::Scene& scene)
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
   made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
+  if (made.moving_wall)
+    made.treated = vessel;
   made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
   return made;
 }
@@ -392,6 +395,12 @@ int simulate(const Options& options)
   const std::uint64_t steps = lastStep(scene, options, simulation);
   session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
+  if (surroundings.moving_wall)
+    result.setTreatment(
+        scene, simulation,
+        session::lesionOutcomes(surroundings.treated, surroundings.moving_wall->opening().mesh(), simulation));
+  else if (session::hasBalloon(scene))
+    result.setTreatment(scene, simulation, {});
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);

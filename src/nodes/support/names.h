@@ -17,12 +17,17 @@ constexpr auto kXRaySourceFrame = "x_ray_source_optical";
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
 constexpr auto kGetVessel = "vessel/get";
+constexpr auto kVesselPressing = "vessel/pressing";
+constexpr auto kVesselMoved = "vessel/moved";
 constexpr auto kVesselMarker = "vessel/marker";
 
 constexpr auto kRodState = "rod/state";
 constexpr auto kRodStateVisual = "rod/state_visual";
 constexpr auto kWireMarker = "wire/marker";
 constexpr auto kTipPathMarker = "wire/tip_path";
+constexpr auto kTreatmentVisual = "treatment/state_visual";
+constexpr auto kBalloonMarker = "treatment/balloon_marker";
+constexpr auto kStentMarker = "treatment/stent_marker";
 constexpr auto kContactSet = "contact/set";
 constexpr auto kContactForces = "contact/forces";
 constexpr auto kContactForceMap = "contact/force_map";

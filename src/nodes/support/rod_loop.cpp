@@ -7,10 +7,12 @@
 
 #include <ros/topic.h>
 
+#include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/names.h"
 #include "nodes/support/vessel_conversions.h"
+#include "session/moving_wall.h"
 
 namespace endovascular_sim::nodes
 {
@@ -31,6 +33,15 @@ constexpr double kIdlePeriod = 10e-3;                                     // s b
 std::chrono::steady_clock::duration period(double seconds)
 {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/** The wall may have moved since the message that is latched. */
+std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
+{
+  GetVessel vessel;
+  if (!ros::service::call(node.resolveName(names::kGetVessel), vessel))
+    return mesh.version;
+  return vessel.response.mesh.version + vessel.response.moved.size();
 }
 
 }  // namespace
@@ -133,6 +144,8 @@ bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel)
   vessel.source = mesh->source;
   entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
   forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel, mesh->content_hash);
+  if (session::hasBalloon(scene_))
+    wall_ = std::make_unique<RemoteWall>(node_, newestVersion(*mesh, node_));
   return true;
 }
 
@@ -144,7 +157,7 @@ bool RodLoop::makeSimulation()
     entry = session::resolveEntry(scene_.entry, scene_.file);
   else if (!waitForVessel(entry, vessel))
     return false;
-  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline);
+  simulation_ = std::make_unique<session::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline, wall_.get());
   if (scene_.procedure)
     procedure_ = std::make_unique<ProcedureDriver>(node_, scene_, vessel.centreline, entry.position);
   if (!contacts_)
@@ -280,7 +293,7 @@ void RodLoop::pause()
 {
   ++counters_.pauses;
   counters_.paused = true;
-  publisher_.publishOperatingState("PAUSED", "the contact node does not answer");
+  publisher_.publishOperatingState("PAUSED", "the contact node, or the vessel server behind it, does not answer");
   ROS_WARN("rod_dynamics: paused at step %lu: the contact node does not answer; going on when it does",
            static_cast<unsigned long>(simulation_->steps()));
   contacts_->startListening();

@@ -14,6 +14,7 @@
 #include "nodes/support/procedure_driver.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
+#include "nodes/support/remote_wall.h"
 #include "nodes/support/rod_publisher.h"
 #include "session/force_bridge.h"
 #include "session/simulation.h"
@@ -73,6 +74,7 @@ private:
   double pause_after_;  ///< [s]
   double seconds_;      ///< of simulated time; 0: endless
   std::unique_ptr<RemoteContactSource> contacts_;
+  std::unique_ptr<RemoteWall> wall_;  ///< null without a vessel or without a balloon
   std::unique_ptr<session::Simulation> simulation_;
   std::unique_ptr<ProcedureDriver> procedure_;  ///< null where the scene has none
   RodPublisher publisher_;

@@ -8,6 +8,8 @@
 #include "endovascular_sim/OperatingState.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
+#include "nodes/support/treatment_conversions.h"
+#include "session/moving_wall.h"
 #include "session/run_result.h"
 
 namespace endovascular_sim::nodes
@@ -33,6 +35,8 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   }
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
+  if (session::hasBalloon(scene))
+    treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, 2);
   applied_message_.insertion.resize(hand_.size());
   applied_message_.rotation.resize(hand_.size());
   applied_message_.pressure.resize(hand_.size());
@@ -74,6 +78,8 @@ void RodPublisher::publishStep(const session::Simulation& simulation, const std:
   if (simulation.steps() % visual_every_ != 0)
     return;
   publishVisual(simulation);
+  if (treatment_)
+    publishTreatment(simulation);
   publishTip(simulation);
 }
 
@@ -111,6 +117,15 @@ void RodPublisher::publishVisual(const session::Simulation& simulation)
     message.contact_force.push_back(toVector(state.wall_force[i]));
   }
   visual_.publish(message);
+}
+
+void RodPublisher::publishTreatment(const session::Simulation& simulation)
+{
+  treatment_message_.header = visual_message_.header;
+  treatment_message_.step = visual_message_.step;
+  treatment_message_.time = visual_message_.time;
+  toMessage(simulation, treatment_message_);
+  treatment_.publish(treatment_message_);
 }
 
 void RodPublisher::publishTip(const session::Simulation& simulation)

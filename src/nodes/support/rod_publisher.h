@@ -7,6 +7,7 @@
 
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/TreatmentVisual.h"
 #include "sensor_msgs/JointState.h"
 #include "session/simulation.h"
 
@@ -43,16 +44,18 @@ public:
 
 private:
   void publishVisual(const session::Simulation& simulation);
+  void publishTreatment(const session::Simulation& simulation);
   void publishTip(const session::Simulation& simulation);
 
   std::uint64_t visual_every_;
   std::vector<ros::Publisher> hand_, operating_;  ///< per instrument
   std::vector<bool> has_balloon_;                 ///< per instrument
-  ros::Publisher applied_, visual_;
+  ros::Publisher applied_, visual_, treatment_;
   tf2_ros::TransformBroadcaster transforms_;
   sensor_msgs::JointState hand_message_;
   DriveApplied applied_message_;
   RodStateVisual visual_message_;
+  TreatmentVisual treatment_message_;
   std::string operating_state_;
 };
 

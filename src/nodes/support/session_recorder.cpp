@@ -16,6 +16,7 @@
 #include "common/hash.h"
 #include "contact/contact_set.h"
 #include "endovascular_sim/OperatingState.h"
+#include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
 #include "nodes/support/contact_force_conversions.h"
@@ -156,6 +157,7 @@ void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
+  record<TreatmentVisual>(names::kTreatmentVisual, kQueue);
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
   {
     const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
@@ -174,6 +176,7 @@ void SessionRecorder::subscribeToVessel()
                              metrics_.add(*event.getMessage());
                              bag_.write(node_.resolveName(names::kVesselCentreline), event);
                            });
+  record<VesselMoved>(names::kVesselMoved, kStepQueue);
   if (scene_.procedure)
     listen<ProcedureStep>(names::kProcedureStep, kStepQueue,
                           [this](const auto& event)
@@ -291,16 +294,15 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
+  if (info_published_)
+    return;  // the wall has moved: vessel/moved says where
   vessel_ = event.getConstMessage();
   metrics_.add(*vessel_);
-  if (!info_published_)
-  {
-    info_.mesh_hash = event.getMessage()->content_hash;
-    report_.setMeshHash(info_.mesh_hash);
-    for (const geometry_msgs::Point& vertex : event.getMessage()->mesh.vertices)
-      report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
-    publishInfo();
-  }
+  info_.mesh_hash = vessel_->content_hash;
+  report_.setMeshHash(info_.mesh_hash);
+  for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
+    report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+  publishInfo();
   bag_.write(node_.resolveName(names::kVesselMesh), event);
 }
 

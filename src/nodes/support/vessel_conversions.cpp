@@ -66,4 +66,63 @@ vessel::CentrelineTree fromMessage(const VesselCentreline& message)
   return tree;
 }
 
+namespace
+{
+
+void toMessage(const intervention::RoundBody& body, std::vector<geometry_msgs::Point>& axis,
+               std::vector<double>& radius)
+{
+  axis.clear();
+  for (const Eigen::Vector3d& point : body.axis)
+    axis.push_back(toPoint(point));
+  radius = body.radii;
+}
+
+intervention::RoundBody bodyOf(const std::vector<geometry_msgs::Point>& axis, const std::vector<double>& radius)
+{
+  if (axis.size() != radius.size() || axis.size() == 1)
+    throw InputError(names::kVesselPressing, "axis, radius", "must be as long as each other, and not of one point");
+  intervention::RoundBody body;
+  for (const geometry_msgs::Point& point : axis)
+    body.axis.push_back(fromMessage(point));
+  body.radii = radius;
+  return body;
+}
+
+}  // namespace
+
+void toMessage(const intervention::Pressing& pressing, VesselPressing& message)
+{
+  message.pressure = pressing.pressure;
+  toMessage(pressing.balloon, message.axis, message.radius);
+  toMessage(pressing.sleeve.value_or(intervention::RoundBody()), message.stent_axis, message.stent_radius);
+}
+
+intervention::Pressing pressingFromMessage(const VesselPressing& message)
+{
+  intervention::Pressing pressing;
+  pressing.pressure = message.pressure;
+  pressing.balloon = bodyOf(message.axis, message.radius);
+  if (!message.stent_axis.empty())
+    pressing.sleeve = bodyOf(message.stent_axis, message.stent_radius);
+  return pressing;
+}
+
+void toMessage(const intervention::MovedVertices& moved, VesselMoved& message)
+{
+  message.index.assign(moved.indices.begin(), moved.indices.end());
+  message.position.clear();
+  for (const Eigen::Vector3d& position : moved.positions)
+    message.position.push_back(toPoint(position));
+}
+
+intervention::MovedVertices fromMessage(const VesselMoved& message)
+{
+  intervention::MovedVertices moved;
+  moved.indices.assign(message.index.begin(), message.index.end());
+  for (const geometry_msgs::Point& position : message.position)
+    moved.positions.push_back(fromMessage(position));
+  return moved;
+}
+
 }  // namespace endovascular_sim::nodes

@@ -2,6 +2,9 @@
 
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "endovascular_sim/VesselMoved.h"
+#include "endovascular_sim/VesselPressing.h"
+#include "intervention/vessel_opening.h"
 #include "vessel/centreline.h"
 #include "vessel/mesh.h"
 
@@ -13,5 +16,10 @@ void toMessage(const vessel::TriangleMesh& mesh, VesselMesh& message);
 vessel::TriangleMesh fromMessage(const VesselMesh& message);
 void toMessage(const vessel::CentrelineTree& tree, VesselCentreline& message);
 vessel::CentrelineTree fromMessage(const VesselCentreline& message);
+void toMessage(const intervention::Pressing& pressing, VesselPressing& message);
+/** @throws InputError when axes and radii do not fit together */
+intervention::Pressing pressingFromMessage(const VesselPressing& message);
+void toMessage(const intervention::MovedVertices& moved, VesselMoved& message);
+intervention::MovedVertices fromMessage(const VesselMoved& message);
 
 }  // namespace endovascular_sim::nodes

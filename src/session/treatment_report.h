@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "intervention/lesion_report.h"
+#include "session/moving_wall.h"
+#include "session/simulation.h"
+#include "vessel/vessel.h"
+
+namespace endovascular_sim::session
+{
+
+/** A lesion before and after what was done to it. */
+struct LesionOutcome
+{
+  std::string branch;
+  double place = 0.0;  ///< of its middle along the branch [m]
+  intervention::LesionReport before, after;
+};
+
+/** Stents that were opened, whether or not they have left their balloons, measured where they are now. */
+std::vector<intervention::RoundBody> openedStents(const Simulation& simulation);
+
+/** Measures every lesion of a vessel; costs some milliseconds each.
+ *  @param vessel as it was at the beginning
+ *  @param mesh of it as it is now */
+std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& vessel, const vessel::TriangleMesh& mesh,
+                                          const Simulation& simulation);
+
+/** `treatment` of result.json (docs/SIMULATE.md): events, balloons, stents, lesions; SI units. */
+nlohmann::ordered_json toJson(const Scene& scene, const Simulation& simulation,
+                              const std::vector<LesionOutcome>& lesions);
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,175 @@
+#include <signal.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include <XmlRpcClient.h>
+#include <gtest/gtest.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/ros.h>
+
+#include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/OperatingState.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "endovascular_sim/VesselMoved.h"
+#include "nodes/support/names.h"
+#include "nodes/support/scene_parameters.h"
+#include "nodes/support/vessel_conversions.h"
+#include "session/moving_wall.h"
+#include "session/replay_source.h"
+#include "session/simulation.h"
+
+namespace endovascular_sim
+{
+namespace
+{
+
+/** What the graph says of its steps and of its wall. */
+class Listener
+{
+public:
+  explicit Listener(const std::string& instrument)
+  {
+    applied_ = listen<DriveApplied>(nodes::names::kDriveApplied, 20000,
+                                    [this](const DriveApplied& message) { steps_[message.step] = message; });
+    moved_ = listen<VesselMoved>(nodes::names::kVesselMoved, 5000,
+                                 [this](const VesselMoved& message) { moved_vertices_ += message.index.size(); });
+    mesh_ = listen<VesselMesh>(nodes::names::kVesselMesh, 10,
+                               [this](const VesselMesh& message) { newest_mesh_ = message; });
+    state_ = listen<OperatingState>(nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
+                                    [this](const OperatingState& message) { operating_ = message.state; });
+  }
+
+  std::map<std::uint64_t, DriveApplied> steps() const { return guarded(steps_); }
+  std::size_t movedVertices() const { return guarded(moved_vertices_); }
+  VesselMesh newestMesh() const { return guarded(newest_mesh_); }
+  std::string operatingState() const { return guarded(operating_); }
+
+private:
+  template <typename Value>
+  Value guarded(const Value& value) const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return value;
+  }
+
+  template <typename Message, typename Take>
+  ros::Subscriber listen(const std::string& topic, std::uint32_t queue, Take take)
+  {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this, take](const boost::shared_ptr<const Message>& message)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      take(*message);
+    };
+    return node_.subscribe<Message>(topic, queue, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  }
+
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, DriveApplied> steps_;
+  std::size_t moved_vertices_ = 0;
+  VesselMesh newest_mesh_;
+  std::string operating_;
+  ros::Subscriber applied_, moved_, mesh_, state_;
+};
+
+template <typename Condition>
+bool eventually(double seconds, Condition condition)
+{
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::WallTime::now() < end && !condition())
+    ros::WallDuration(0.01).sleep();
+  return condition();
+}
+
+/** Ends a node the hard way, as a crash would. */
+bool killNode(const std::string& name)
+{
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = name;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, response, payload, false) ||
+      !ros::network::splitURI(payload, host, port))
+    return false;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = ros::this_node::getName();
+  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
+}
+
+class Inflation : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    scene_ = nodes::sceneFromParameters(ros::NodeHandle());
+    listener_ = std::make_unique<Listener>(scene_.instruments.front().instrument.name);
+    ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 100; })) << "the graph does not step";
+  }
+
+  session::Scene scene_;
+  std::unique_ptr<Listener> listener_;
+};
+
+TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
+{
+  ASSERT_TRUE(eventually(120.0, [this] { return listener_->steps().rbegin()->first > 2500; }));
+  EXPECT_GT(listener_->movedVertices(), 500U);
+  const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
+  const vessel::Vessel vessel =
+      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, session::wallLaw(*scene_.vessel));
+  session::MovingWall wall(vessel, detector);
+  session::ReplayContactSource source(detector);
+  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source,
+                                 &vessel.centreline, &wall);
+  // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
+  std::uint64_t compared = 0;
+  while (simulation.steps() <= steps.rbegin()->first)
+  {
+    const auto known = steps.find(simulation.steps());
+    const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
+    const std::vector<session::HandCommand> commands = session::commandsAt(scene_, end);
+    source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
+    if (known != steps.end())
+    {
+      EXPECT_EQ(known->second.pressure.at(0), commands[0].pressure);
+    }
+    simulation.stepAll(commands);
+    if (known == steps.end())
+      continue;
+    ASSERT_EQ(known->second.state_hash, simulation.stateHash()) << "step " << known->first;
+    ++compared;
+  }
+  EXPECT_GT(compared, 2000U);
+  EXPECT_GT(wall.version(), 100U);
+  // Pictures follow: the wall is published anew while it moves.
+  ASSERT_TRUE(eventually(10.0, [this] { return listener_->newestMesh().version > 100; }));
+  EXPECT_NE(listener_->newestMesh().content_hash, vessel.mesh.hash());
+  EXPECT_EQ(listener_->newestMesh().content_hash, nodes::fromMessage(listener_->newestMesh()).hash());
+}
+
+TEST_F(Inflation, B_DeathOfTheVesselServerPausesAndDoesNotHang)
+{
+  ASSERT_TRUE(eventually(20.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  ASSERT_TRUE(killNode("/vessel_server"));
+  // The balloon is still emptying: the rod asks for a wall that nobody makes.
+  EXPECT_TRUE(eventually(10.0, [this] { return listener_->operatingState() == "PAUSED"; }));
+}
+
+}  // namespace
+}  // namespace endovascular_sim
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "test_inflation");
+  testing::InitGoogleTest(&argc, argv);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
