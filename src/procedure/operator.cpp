@@ -259,8 +259,9 @@ bool Operator::isReached(const Observation& seen) const
     if (!by_tip && !view.balloon)
       return false;
     const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
-    if (places_.at(point).branch != goal_branch_ ||
-        forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+    if (places_.at(point).branch != goal_branch_)
+      return false;
+    if (goal.beyond != 0.0 && forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
       return false;
   }
   if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)
