@@ -259,8 +259,9 @@ bool Operator::isReached(const Observation& seen) const
     if (!by_tip && !view.balloon)
       return false;
     const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
-    if (places_.at(point).branch != goal_branch_ ||
-        forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+    if (places_.at(point).branch != goal_branch_)
+      return false;
+    if (goal.beyond != 0.0 && forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
       return false;
   }
   if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)
@@ -396,42 +397,6 @@ void Operator::manoeuvre(const InstrumentView& view, double time)
   }
   else
     hand.wanted_turn = std::copysign(std::min(2.0, hand_.max_turn), retry.turn);
-}
-
-/** Names follow from the steps. */
-void Operator::archiveRecords(Archive& archive)
-{
-  std::uint64_t count = records_.size();
-  archive(count);
-  if (archive.reading() && count > steps_.size())
-    throw ArchiveError("has more steps than the procedure");
-  records_.resize(static_cast<std::size_t>(count));
-  for (std::size_t k = 0; k < records_.size(); ++k)
-  {
-    StepRecord& record = records_[k];
-    archive(record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
-    record.name = nameOf(steps_[k]);
-    record.phase = steps_[k].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[k].phase;
-  }
-}
-
-void Operator::archive(Archive& archive)
-{
-  std::uint64_t current = current_;
-  archive(current, begun_, progress_, mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_,
-          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
-  for (Hand& hand : hands_)
-    archive(hand);
-  archiveRecords(archive);
-  if (!archive.reading())
-    return;
-  if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))
-    throw ArchiveError("is of a step that the procedure does not have");
-  current_ = static_cast<std::size_t>(current);
-  if (begun_ && current_ < steps_.size())
-    prepareStep();
-  if (progress_ == Progress::kFailed)
-    failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") had failed before";
 }
 
 }  // namespace endovascular_sim::procedure

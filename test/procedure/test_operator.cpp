@@ -30,6 +30,22 @@ TEST(Operator, GoesThroughTheStepsInTheirOrder)
   EXPECT_EQ(world.hand(1).insertion, 0.0) << "nobody moved the catheter";
 }
 
+TEST(Operator, DrawsBackIntoABranchAndInItToADepth)
+{
+  const auto tip = [](double insertion, double /*rotation*/)
+  { return Eigen::Vector3d(std::max(0.0, insertion - 0.1), 0.0, std::min(insertion, 0.1)); };
+  PlainWorld world(sceneWith("    - {advance: wire, until: {insertion: 0.15}, any_branch: true, speed: 0.05}\n"
+                             "    - {withdraw: wire, until: {tip_in: side, beyond: 0.02}}\n"
+                             "    - {wait: 1}\n"
+                             "    - {withdraw: wire, until: {tip_in: trunk}}\n"),
+                   tip);
+  world.run(6.0);
+  EXPECT_NEAR(world.hand(0).insertion, 0.1 + 0.007 + 0.02, 0.003);
+  world.run(5.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_NEAR(world.hand(0).insertion, 0.107, 0.003);
+}
+
 TEST(Operator, MovesWithinTheLimitsOfItsHands)
 {
   PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.15}, speed: 0.5, turn_speed: 50}\n",

@@ -104,7 +104,7 @@ TEST(SceneProcedure, IsMissedByADriveThatFollowsIt)
   catch (const InputError& error)
   {
     EXPECT_STREQ(error.what(),
-                 "scene.yaml: instruments.0.drive.source: is procedure, but the scene has none; give "
+                 "scene.yaml: instruments.0.drive.source (line 2): is procedure, but the scene has none; give "
                  "procedure: FILE, or another source");
   }
 }

@@ -1,0 +1,44 @@
+#include "procedure/operator.h"
+
+// What of the scripted operator a saved state holds.
+
+namespace endovascular_sim::procedure
+{
+
+/** Names follow from the steps. */
+void Operator::archiveRecords(Archive& archive)
+{
+  std::uint64_t count = records_.size();
+  archive(count);
+  if (archive.reading() && count > steps_.size())
+    throw ArchiveError("has more steps than the procedure");
+  records_.resize(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < records_.size(); ++k)
+  {
+    StepRecord& record = records_[k];
+    archive(record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
+    record.name = nameOf(steps_[k]);
+    record.phase = steps_[k].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[k].phase;
+  }
+}
+
+void Operator::archive(Archive& archive)
+{
+  std::uint64_t current = current_;
+  archive(current, begun_, progress_, mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_,
+          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
+  for (Hand& hand : hands_)
+    archive(hand);
+  archiveRecords(archive);
+  if (!archive.reading())
+    return;
+  if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))
+    throw ArchiveError("is of a step that the procedure does not have");
+  current_ = static_cast<std::size_t>(current);
+  if (begun_ && current_ < steps_.size())
+    prepareStep();
+  if (progress_ == Progress::kFailed)
+    failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") had failed before";
+}
+
+}  // namespace endovascular_sim::procedure
