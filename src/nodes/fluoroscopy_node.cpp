@@ -19,6 +19,7 @@
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/treatment_conversions.h"
+#include "session/x_ray_room.h"
 
 namespace endovascular_sim::nodes
 {
@@ -27,34 +28,6 @@ namespace
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
 
-/** The scene's X-ray; refuses a scene without one. */
-session::FluoroscopyScene xRayOf(const session::Scene& scene)
-{
-  if (!scene.fluoroscopy)
-    throw InputError(scene.file, "fluoroscopy", "missing; add it or do not start the fluoroscopy node");
-  return *scene.fluoroscopy;
-}
-
-fluoroscopy::XRayScene toXRayScene(const session::Scene& scene, const fluoroscopy::AttenuationTable& table)
-{
-  const session::FluoroscopyScene xray = xRayOf(scene);
-  fluoroscopy::XRayScene result;
-  result.tissue_attenuation = table.linear("soft_tissue", xray.energy);
-  result.vessel_attenuation = table.contrast(xray.iodine, xray.energy);
-  result.tissue_thickness = xray.tissue_thickness;
-  return result;
-}
-
-constexpr double kBalloonIodine = 185.0;  // mgI/ml: contrast of 370 mgI/ml, diluted by half (assumed)
-
-/** What the wire displaces: contrast in a vessel, else tissue, else air [1/m]. */
-double displacedAttenuation(const session::Scene& scene, const fluoroscopy::XRayScene& xray)
-{
-  if (scene.vessel)
-    return xray.vessel_attenuation;
-  return xray.tissue_thickness > 0.0 ? xray.tissue_attenuation : 0.0;
-}
-
 /** Draws what the C-arm sees, as long as somebody looks. */
 class Fluoroscopy
 {
@@ -62,22 +35,18 @@ public:
   Fluoroscopy(ros::NodeHandle& node, const session::Scene& scene, const fluoroscopy::AttenuationTable& table,
               std::string scheduling)
     : scene_(scene),
-      xray_(xRayOf(scene)),
-      fluoroscope_(toPose(xray_), toXRayScene(scene, table)),
+      room_(scene_, table),
+      xray_(*scene_.fluoroscopy),
+      fluoroscope_(room_.fluoroscope()),
       isocentre_known_(xray_.isocentre.has_value()),
       scheduling_(std::move(scheduling)),
       raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
       image_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2)),
       camera_info_(node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2))
   {
-    for (const session::DrivenInstrument& driven : scene_.instruments)
-      instruments_.emplace_back(driven.instrument, table, xray_.energy,
-                                displacedAttenuation(scene, fluoroscope_.scene()));
     const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
     mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &Fluoroscopy::takeMesh, this, no_delay);
     rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &Fluoroscopy::takeRod, this, no_delay);
-    filling_ = table.contrast(kBalloonIodine, xray_.energy) - displacedAttenuation(scene, fluoroscope_.scene());
-    metal_ = table.linear("steel", xray_.energy) - displacedAttenuation(scene, fluoroscope_.scene());
     treatment_subscriber_ = node.subscribe(names::kTreatmentVisual, 1, &Fluoroscopy::takeTreatment, this, no_delay);
     c_arm_subscriber_ = node.subscribe(names::kCArmCommand, 1, &Fluoroscopy::takeCommand, this, no_delay);
     updater_.setHardwareID("simulated C-arm");
@@ -109,7 +78,7 @@ private:
 
   void takeRod(const RodStateVisual& message)
   {
-    guarded([&] { wires_ = toXRayWires(message, instruments_); });
+    guarded([&] { wires_ = toXRayWires(message, room_.instruments()); });
     if (!message.nodes.empty())
       tip_ = toEigen(message.nodes.back());
     if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
@@ -118,7 +87,7 @@ private:
 
   void takeTreatment(const TreatmentVisual& message)
   {
-    guarded([&] { treatment_ = toXRayWires(message, filling_, metal_); });
+    guarded([&] { treatment_ = toXRayWires(message, room_.filling(), room_.metal()); });
   }
 
   void takeCommand(const CArm& message)
@@ -228,14 +197,12 @@ private:
   }
 
   session::Scene scene_;
+  session::XRayRoom room_;
   session::FluoroscopyScene xray_;
-  fluoroscopy::Fluoroscope fluoroscope_;
-  std::vector<fluoroscopy::XRayInstrument> instruments_;  ///< of the scene
+  fluoroscopy::Fluoroscope& fluoroscope_;
   std::vector<fluoroscopy::XRayWire> wires_;
   std::vector<fluoroscopy::XRayWire> treatment_;  ///< balloons and stents
-  double filling_ = 0.0,
-         metal_ = 0.0;  ///< attenuation of a balloon's filling and of a stent, less what they displace [1/m]
-  std::optional<Eigen::Vector3d> tip_;  ///< of the instrument that reaches furthest [m]
+  std::optional<Eigen::Vector3d> tip_;            ///< of the instrument that reaches furthest [m]
   bool has_mesh_ = false;
   bool isocentre_known_;
 

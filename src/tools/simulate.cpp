@@ -11,6 +11,7 @@
 
 #include "common/error.h"
 #include "contact/detector.h"
+#include "procedure/phase_pictures.h"
 #include "procedure/session_run.h"
 #include "session/moving_wall.h"
 #include "session/run_result.h"
@@ -32,13 +33,14 @@ constexpr auto kUsage =
 same trajectory bit for bit.
 
 usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes]
-                [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
+                [--pictures] [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
 
   --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
                         metrics.html and instruments.csv there; made when it is missing
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
+  --pictures            also writes fluoroscopy/phase_01.png and so on: what the C-arm sees at the end of every phase of a procedure
   --save-state FILE     writes the state at the time of --at T, in seconds of simulated time, and goes on
   --from-state FILE     begins with a state that was saved in this scene; T of --seconds is then counted from it
   --no-plots            leaves the plots out
@@ -59,6 +61,7 @@ struct Options
   double save_at = NAN;  ///< [s]
   std::string from_state;
   bool record_nodes = false;
+  bool pictures = false;
   bool plots = true;
   bool quiet = false;
 };
@@ -91,6 +94,8 @@ int parse(int argc, char** argv, Options& options)
     }
     if (word == "--no-plots")
       options.plots = false;
+    else if (word == "--pictures")
+      options.pictures = true;
     else if (word == "--quiet")
       options.quiet = true;
     else if (word == "--out" && has_value)
@@ -202,7 +207,8 @@ struct Surroundings
   std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
   vessel::Vessel treated;                            ///< at the beginning; empty without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
-  std::unique_ptr<procedure::SessionRun> session;  ///< null without a vessel
+  std::unique_ptr<procedure::SessionRun> session;      ///< null without a vessel
+  std::unique_ptr<procedure::PhasePictures> pictures;  ///< null where none are wanted
   session::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
@@ -282,6 +288,14 @@ std::uint64_t lastStep(const session::Scene& scene, const Options& options, cons
   return last;
 }
 
+void takePicture(const Surroundings& surroundings, const session::Simulation& simulation)
+{
+  if (surroundings.pictures)
+    surroundings.pictures->look(
+        simulation, *surroundings.session->person(),
+        surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
+}
+
 void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
          const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
 {
@@ -319,6 +333,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
       surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
       surroundings.session->addStep(simulation, contacts);
     }
+    takePicture(surroundings, simulation);
     if (k % row_every != 0 && k != steps)
       continue;
     if (!trajectory.add(rowOf(simulation)))
@@ -333,6 +348,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
                    static_cast<double>(k + 1 - first) * scene.solver.time_step /
                        std::chrono::duration<double>(Clock::now() - begin).count());
   }
+  takePicture(surroundings, simulation);
   if (progress)
     std::fputc('\n', stderr);
   if (!trajectory.flush())
@@ -387,7 +403,13 @@ int simulate(const Options& options)
 {
   const session::Scene scene = session::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
-  const Surroundings surroundings = build(scene);
+  Surroundings surroundings = build(scene);
+  if (options.pictures)
+  {
+    if (!surroundings.session || !surroundings.session->person())
+      throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
+    surroundings.pictures = std::make_unique<procedure::PhasePictures>(scene, options.out);
+  }
   session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
                                  surroundings.moving_wall.get());
   if (!options.from_state.empty())

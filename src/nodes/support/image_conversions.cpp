@@ -108,19 +108,6 @@ CArm toMessage(const fluoroscopy::CArmPose& pose)
   return message;
 }
 
-fluoroscopy::CArmPose toPose(const session::FluoroscopyScene& scene)
-{
-  fluoroscopy::CArmPose pose;
-  pose.primary_angle = scene.primary_angle;
-  pose.secondary_angle = scene.secondary_angle;
-  pose.source_to_detector = scene.source_to_detector;
-  pose.source_to_patient = scene.source_to_patient;
-  pose.isocentre = scene.isocentre.value_or(Eigen::Vector3d::Zero());
-  pose.detector_width = scene.detector_width;
-  pose.pixels = scene.pixels;
-  return pose;
-}
-
 vessel::TriangleMesh toMesh(const VesselMesh& message)
 {
   vessel::TriangleMesh mesh;

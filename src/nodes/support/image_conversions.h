@@ -40,9 +40,6 @@ fluoroscopy::CArmPose toPose(const CArm& message, int pixels);
 /** The command that a pose answers; header left empty. */
 CArm toMessage(const fluoroscopy::CArmPose& pose);
 
-/** Initial pose of a scene; its isocentre is the origin when the scene leaves it open. */
-fluoroscopy::CArmPose toPose(const session::FluoroscopyScene& scene);
-
 /** Triangles of a vessel message [m].
  *  @throws InputError when an index has no vertex or a coordinate is not finite */
 vessel::TriangleMesh toMesh(const VesselMesh& message);
