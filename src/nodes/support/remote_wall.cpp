@@ -25,6 +25,13 @@ RemoteWall::RemoteWall(ros::NodeHandle node, std::uint64_t version) : version_(v
                                             ros::TransportHints().tcpNoDelay());
 }
 
+bool RemoteWall::waitForServer() const
+{
+  while (ros::ok() && publisher_.getNumSubscribers() == 0)
+    ros::WallDuration(0.01).sleep();
+  return ros::ok();
+}
+
 std::uint64_t RemoteWall::press(std::uint64_t step, const intervention::Pressing& pressing)
 {
   toMessage(pressing, message_);

@@ -21,6 +21,9 @@ public:
   /** @param version of the vessel at the beginning */
   RemoteWall(ros::NodeHandle node, std::uint64_t version);
 
+  /** Waits until vessel_server listens: what is told before is lost. @return false when ROS ended */
+  bool waitForServer() const;
+
   std::uint64_t press(std::uint64_t step, const intervention::Pressing& pressing) override;
   void show(std::uint64_t /*version*/) override {}  // every rod/state says it
   std::uint64_t version() const override { return version_; }

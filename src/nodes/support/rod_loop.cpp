@@ -163,7 +163,7 @@ bool RodLoop::makeSimulation()
   if (!contacts_)
     return true;
   ROS_INFO("rod_dynamics: waiting for the contact node");
-  return contacts_->waitForNode(simulation_->initialQuery());
+  return contacts_->waitForNode(simulation_->initialQuery()) && (!wall_ || wall_->waitForServer());
 }
 
 bool RodLoop::run()
