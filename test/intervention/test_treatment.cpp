@@ -124,10 +124,11 @@ TEST(Treatment, UnderAnotherCatheterDoesNotPressAndOutsideOfTheVesselLosesItsSte
     covered.step(0.05, 8.0 * kAtmosphere, &shaft, 12.5e-3);
   const RoundBody& body = covered.pressing().balloon;
   for (std::size_t k = 0; k < body.axis.size(); ++k)
-    if (body.axis[k].z() > kLesion + 1e-9 && body.axis[k].z() < kLesion + 7.5e-3)
-      EXPECT_GT(body.radii[k], 1.4e-3);
-    else if (body.axis[k].z() < kLesion - 1e-9)
-      EXPECT_EQ(body.radii[k], 0.0);
+  {
+    const double z = body.axis[k].z();
+    EXPECT_TRUE(z <= kLesion + 1e-9 || z >= kLesion + 7.5e-3 || body.radii[k] > 1.4e-3) << z;
+    EXPECT_TRUE(z >= kLesion - 1e-9 || body.radii[k] == 0.0) << z;
+  }
   Treatment outside(catheter(true));
   bool lost = false;
   for (int k = 0; k < 40; ++k)
