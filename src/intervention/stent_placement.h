@@ -54,7 +54,7 @@ public:
   State state() const { return state_; }
   double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]
   double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< now [m]
-  double strutThickness() const { return stent_.strut_thickness; }    ///< [m]
+  double strutThickness() const { return stent_.strut_thickness; }                         ///< [m]
   double crimpedDiameter() const { return stent_.crimped_diameter; }                       ///< outer [m]
   double length() const { return stent_.lengthAt(inner_diameter_); }  ///< now: it shortens as it opens [m]
   bool overExpanded() const { return over_expanded_; }  ///< the balloon wanted more than its largest diameter

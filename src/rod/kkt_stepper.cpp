@@ -127,7 +127,7 @@ void KktStepper::complete(State& /*state*/, double /*dt*/) {}
 void KktStepper::renewTorques(State& state, const StepInput& input)
 {
   kept_twist_ = state.twist_angle;
-  relaxTwist(state, input, friction_.aboutAxis());
+  relaxTwist(state, input, friction_.lastAboutAxis());
   state.twist_angle.swap(kept_twist_);
 }
 

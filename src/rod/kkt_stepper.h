@@ -94,7 +94,7 @@ protected:
   const StepperSettings& settings() const { return settings_; }
   /** To be used with another input or model until the next step. */
   void useTimer(PhaseTimer& timer) { timer_ = &timer; }
-  const std::vector<TwistFriction>& frictionAboutAxis() { return friction_.aboutAxis(); }
+  const std::vector<TwistFriction>& frictionAboutAxis() const { return friction_.lastAboutAxis(); }
   const StepInput& lastInput() const { return last_input_; }
   Discretisation& rod() { return rod_; }
   const Discretisation& rod() const { return rod_; }

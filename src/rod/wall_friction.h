@@ -65,6 +65,8 @@ public:
   /** Friction about the axis, by ascending nodes, at the motion to be expected; after collect() with a surface's
    *  motion. */
   const std::vector<TwistFriction>& aboutAxis();
+  /** What that gave last. */
+  const std::vector<TwistFriction>& lastAboutAxis() const { return about_axis_; }
 
   /** Linearises what was collected for the first pass of a solve.
    *  @param surface as it was collected, with its present angles */

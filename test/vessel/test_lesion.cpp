@@ -56,7 +56,7 @@ Lesion lesionOf(double grade, double length = 0.01)
 /** Largest share of the diameter that is lost along the lesion, against the vessel before. */
 double measuredGrade(const Vessel& before, const Vessel& after)
 {
-  const PlacedLesion& placed = after.lesions.front();
+  const PlacedLesion& placed = after.lesions.back();  // an anatomy may have some of its own before it
   const auto b = static_cast<std::size_t>(placed.branch);
   const Polyline now(after.centreline.branches[b].points);
   const Polyline healthy(before.centreline.branches[b].points);
