@@ -80,8 +80,11 @@ def upto(nodes, length):
     return part
 
 
-def picture_near(folder, time, duration):
-    """The fluoroscopy picture of a moment: pictures are taken evenly over the run."""
+def picture_of(folder, phase, time, duration):
+    """The fluoroscopy picture of a phase's end: `simulate --pictures` takes one there, a session evenly over the run."""
+    own = folder / "fluoroscopy" / f"phase_{phase + 1:02d}.png"
+    if own.exists():
+        return own
     pictures = sorted((folder / "fluoroscopy").glob("frame_*.png"))
     if not pictures:
         return None
@@ -127,7 +130,7 @@ def main():
         vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in read(shape_folder / "vessel_points.csv")]
     except (OSError, KeyError) as error:
         sys.exit(f"procedure_pictures: {error}; give results of a procedure, recorded with --record nodes")
-    pictures = [picture_near(options.results, end, times[-1]) for end in times]
+    pictures = [picture_of(options.results, k, end, times[-1]) for k, end in enumerate(times)]
     layers = 2 if any(pictures) else 1
     lines = -(-len(moments) // COLUMNS)
     figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
