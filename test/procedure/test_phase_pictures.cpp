@@ -1,0 +1,102 @@
+#include "procedure/phase_pictures.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "contact/detector.h"
+#include "procedure/session_run.h"
+#include "session/scene_vessel.h"
+
+namespace endovascular_sim::procedure
+{
+namespace
+{
+
+session::Scene twoPhases(const std::string& fluoroscopy)
+{
+  return session::parseScene(
+      "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.2}]}}\n"
+      "entry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n"
+      "instruments:\n"
+      "  - {instrument: {use: guidewire_035_j, name: wire}, drive: {source: procedure, initial_insertion: 0.06}}\n" +
+          fluoroscopy +
+          "procedure:\n"
+          "  steps:\n"
+          "    - {phase: First, advance: wire, until: {insertion: 0.07}, speed: 0.05}\n"
+          "    - {phase: First, wait: 0.05}\n"
+          "    - {phase: Second, wait: 0.05}\n",
+      "test scene");
+}
+
+/** A wire in a tube with its scripted operator. */
+struct World
+{
+  session::Scene scene;
+  vessel::Vessel vessel;
+  contact::Detector wall;
+  session::EntryPose entry;
+  session::Simulation simulation;
+  SessionRun session;
+
+  explicit World(const session::Scene& the_scene)
+    : scene(the_scene),
+      vessel(session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene))),
+      wall(vessel.mesh, session::wallLaw(*scene.vessel)),
+      entry(session::resolveEntry(scene.entry, vessel, scene.file)),
+      simulation(scene, entry, &wall, &vessel.centreline),
+      session(scene, vessel, entry.position)
+  {
+  }
+};
+
+TEST(PhasePictures, AreTakenAtTheEndOfEveryPhase)
+{
+  World world(twoPhases("fluoroscopy: {pixels: 64}\n"));
+  const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
+  PhasePictures pictures(world.scene, folder);
+  for (int k = 0; k < 3000 && !world.session.isOver(); ++k)
+  {
+    world.simulation.stepAll(world.session.commands(world.simulation));
+    pictures.look(world.simulation, *world.session.person(), world.vessel.mesh);
+  }
+  pictures.look(world.simulation, *world.session.person(), world.vessel.mesh);
+  ASSERT_EQ(world.session.person()->progress(), Progress::kDone) << world.session.person()->failure();
+  EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_01.png"), 100U);
+  EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_02.png"), 100U);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/fluoroscopy/phase_03.png"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PhasePictures, ShowTheInstrumentsThatAreInside)
+{
+  World world(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n"));
+  session::XRayRoom room(
+      world.scene, fluoroscopy::AttenuationTable::load(std::string(PROJECT_DIR) + "/config/xray/attenuation.yaml"));
+  room.fluoroscope().setVessel(world.vessel.mesh);
+  const std::vector<std::uint16_t> empty = room.fluoroscope().render({}).raw;
+  const std::vector<fluoroscopy::XRayWire> wires = room.wires(world.simulation);
+  ASSERT_FALSE(wires.empty());
+  const std::vector<std::uint16_t> seen = room.fluoroscope().render(wires).raw;
+  int darker = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k)
+  {
+    EXPECT_LE(seen[k], empty[k]);
+    darker += seen[k] < 0.95 * empty[k];
+  }
+  EXPECT_GT(darker, 10);
+  EXPECT_LT(darker, 1000);
+}
+
+TEST(PhasePictures, AreRefusedForASceneWithoutFluoroscopy)
+{
+  const session::Scene scene = twoPhases("");
+  EXPECT_THROW(PhasePictures(scene, testing::TempDir()), InputError);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::procedure
