@@ -163,39 +163,25 @@ Bvh::Lanes Bvh::squaredGaps(const Node& node, const Box& box)
          gaps(node, box, 2).max(0.0F).square();
 }
 
-template <typename Meets, typename Found>
-void Bvh::walk(const Meets& meets, float limit, const Found& found) const
+void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const
 {
+  const Box box(low, high);
   std::array<int, kMaxDepth> stack;
   int top = 0;
   stack[top++] = 0;
   while (top > 0)
   {
     const Node& node = nodes_[stack[--top]];
-    const Lanes distance = meets(node);
+    const Lanes apart = gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2));
     for (int lane = 0; lane < kWidth; ++lane)
-      if (distance[lane] <= limit)
+      if (apart[lane] <= 0.0F)
       {
         if (node.child[lane] < 0)
-          found(~node.child[lane]);
+          triangles.push_back(~node.child[lane]);
         else
           stack[top++] = node.child[lane];
       }
   }
-}
-
-void Bvh::collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const
-{
-  const Box box(point, point);
-  walk([&box](const Node& node) { return squaredGaps(node, box); }, kLaneRounding * roundedUp(radius * radius),
-       [&triangles](int t) { triangles.push_back(t); });
-}
-
-void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const
-{
-  const Box box(low, high);
-  walk([&box](const Node& node) -> Lanes { return gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2)); },
-       0.0F, [&triangles](int t) { triangles.push_back(t); });
 }
 
 double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const
@@ -217,16 +203,16 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
   int top = 0;
   stack[top++] = {0, 0.0F};
   Nearest best{-1, max_distance};
-  float limit = kNone;
+  const auto squaredBound = [](double distance) { return kLaneRounding * roundedUp(distance * distance); };
+  float limit = squaredBound(max_distance);
   // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
-  const auto offer = [&best, &limit, &point, this](int t)
+  const auto offer = [&](int t)
   {
     const double distance = distanceTo(t, point);
     if (distance < best.distance || (distance == best.distance && (best.triangle < 0 || t < best.triangle)))
       best = {t, distance};
-    limit = kLaneRounding * roundedUp(best.distance * best.distance);
+    limit = squaredBound(best.distance);
   };
-  limit = std::isfinite(max_distance) ? kLaneRounding * roundedUp(max_distance * max_distance) : kNone;
   if (near >= 0)
     offer(near);
   const Box box(point, point);

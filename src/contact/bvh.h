@@ -21,9 +21,6 @@ public:
   /** @param wall must outlive the tree */
   explicit Bvh(const Wall& wall);
 
-  /** Appends every triangle whose box is closer than @p radius to the point: a superset of those in the ball. */
-  void collect(const Eigen::Vector3d& point, double radius, std::vector<int>& triangles) const;
-
   /** Appends every triangle whose box meets the box from @p low to @p high [m]. */
   void collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const;
 
@@ -75,11 +72,6 @@ private:
   void fitTriangle(int triangle);
   static Lanes gaps(const Node& node, const Box& box, int axis);
   static Lanes squaredGaps(const Node& node, const Box& box);
-
-  /** Hands the triangles of all places that @p meets (node → four numbers, of which those up to @p limit count) lets
-   *  through to @p found. */
-  template <typename Meets, typename Found>
-  void walk(const Meets& meets, float limit, const Found& found) const;
 
   std::vector<Node> nodes_;      ///< children stand behind their parents
   std::vector<Place> place_of_;  ///< of each triangle

@@ -221,7 +221,7 @@ const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::
   return near;
 }
 
-void Detector::list(Neighbourhood& near) const
+void Detector::list(Neighbourhood& near)
 {
   const double wide = near.limit + kRoom + kListGuard;
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);

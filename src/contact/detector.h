@@ -101,7 +101,7 @@ private:
 
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
-  void list(Neighbourhood& near) const;
+  void list(Neighbourhood& near);
   void listEdges(int triangle, Neighbourhood& near, double wide) const;
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
@@ -126,8 +126,7 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
-  mutable std::vector<int> collected_;
-  std::vector<int> now_reflex_;
+  std::vector<int> collected_, now_reflex_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
   std::vector<char> edge_is_reflex_;

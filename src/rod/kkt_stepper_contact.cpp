@@ -29,7 +29,7 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
   int changed = first_;  // the first node whose terms are not those of the last pass
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
-    fresh_ = shift > 0.0 || !canRewind(state) ? matrix_.rewind(base_, 0) : matrix_.rewind(base_, row(changed));
+    fresh_ = matrix_.rewind(base_, shift > 0.0 || !canRewind(state) ? 0 : row(changed));
     rhs_ = base_rhs_;
     for (std::size_t c = 0; c < contacts_.count(); ++c)
       if (contacts_.spring(c).active)

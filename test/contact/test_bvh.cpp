@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "contact_fixtures.h"
 
@@ -36,27 +37,30 @@ TEST_F(BvhOfATube, FindsTheNearestTriangleThatBruteForceFinds)
   }
 }
 
-TEST_F(BvhOfATube, CollectsEveryTriangleWithinTheRadius)
+TEST_F(BvhOfATube, CollectsTheTrianglesWhoseBoxesMeetABox)
 {
+  std::uniform_real_distribution<double> size(1e-4, 0.02);
+  std::size_t met = 0;
   for (int trial = 0; trial < 200; ++trial)
   {
     const Eigen::Vector3d p = next();
-    const double radius = 0.012;
+    const Eigen::AlignedBox3d box(p, p + Eigen::Vector3d(size(random_), size(random_), size(random_)));
     std::vector<int> found;
-    bvh_.collect(p, radius, found);
+    bvh_.collectBox(box.min(), box.max(), found);
     std::sort(found.begin(), found.end());
     EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
     for (std::size_t t = 0; t < wall_.triangles.size(); ++t)
     {
-      const Eigen::Vector3i& c = wall_.triangles[t];
-      const Eigen::Vector3d closest =
-          vessel::closestPointOnTriangle(p, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]]).point;
-      if ((closest - p).norm() <= radius)
-      {
-        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), static_cast<int>(t)));
-      }
+      Eigen::AlignedBox3d around;
+      for (int corner = 0; corner < 3; ++corner)
+        around.extend(wall_.vertices[wall_.triangles[t][corner]]);
+      const bool is_found = std::binary_search(found.begin(), found.end(), static_cast<int>(t));
+      EXPECT_TRUE(is_found || !around.intersects(box)) << "none is missed";
+      EXPECT_TRUE(!is_found || around.exteriorDistance(box) < 1e-7) << "none is far off";
+      met += is_found;
     }
   }
+  EXPECT_GT(met, 1000U);
 }
 
 TEST_F(BvhOfATube, SaysThatNothingIsNearWhenNothingIs)

@@ -60,6 +60,44 @@ TYPED_TEST(BandedLdltOfPeriod, SolvesAnIndefiniteSystemLikeADensePivotedSolver)
   }
 }
 
+TYPED_TEST(BandedLdltOfPeriod, GoesOnWhereTheMatrixChangedToTheSameBits)
+{
+  std::mt19937 random(3);
+  Eigen::MatrixXd dense;
+  int negative = 0;
+  const int size = 333;
+  auto base = randomMatrix<TypeParam::value>(size, random, dense, negative);
+  auto fast = base;
+  fast.factorise();
+  int copied_less = 0;
+  int last_changed = 0;
+  for (const int changed : {0, 5, 40, 64, 75, 76, 77, 200, 130, 290, 318, 332, 333})
+  {
+    const auto add = [&](auto& matrix, int from)
+    {
+      for (int col = std::max(from, changed); col < size; ++col)
+        matrix.at(col, col) += 1.0 + 0.01 * changed;
+    };
+    // What was added to the base for the last change lies behind this one, or is taken back with it.
+    auto slow = base;
+    slow.copyFrom(base);
+    add(slow, 0);
+    const int expected = slow.factorise();
+    const int copied = fast.rewind(base, std::min(changed, last_changed));
+    last_changed = changed;
+    copied_less += copied > 0;
+    EXPECT_LE(copied, changed);
+    add(fast, copied);
+    EXPECT_EQ(fast.factorise(), expected);
+    std::vector<double> rhs(size, 1.0);
+    std::vector<double> same(size, 1.0);
+    fast.solve(rhs);
+    slow.solve(same);
+    EXPECT_EQ(rhs, same) << changed;
+  }
+  EXPECT_GT(copied_less, 4) << "some of it was kept";
+}
+
 TYPED_TEST(BandedLdltOfPeriod, CountsNegativePivotsAsTheInertiaSays)
 {
   std::mt19937 random(2);
