@@ -100,16 +100,31 @@ private:
     {
       if (waiting_.front()->version != version_ + 1)
         continue;  // it is in the mesh already
-      const intervention::MovedVertices moved = fromMessage(*waiting_.front());
+      const intervention::MovedVertices moved = fromMessage(*waiting_.front(), detector_->wall().vertices.size());
       detector_->moveVertices(moved.indices, moved.positions, ++version_);
     }
     return version == 0 || version_ == version;
   }
 
+  /** A movement that cannot be used leaves the wall where it was: states that ask for more stay without an answer. */
+  bool isWallAt(std::uint64_t version)
+  {
+    try
+    {
+      return moveWallTo(version);
+    }
+    catch (const InputError& error)
+    {
+      ROS_ERROR("contact: %s; the simulation pauses until there is a new vessel", error.what());
+      waiting_.pop_front();
+      return false;
+    }
+  }
+
   /** Answers with the wall that is asked for; without it when it comes. */
   void answer(const RodStateConstPtr& message)
   {
-    if (!moveWallTo(message->vessel_version))
+    if (!isWallAt(message->vessel_version))
     {
       asked_ = message;
       late_walls_ = late_walls_ + 1;

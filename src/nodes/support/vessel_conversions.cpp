@@ -116,12 +116,22 @@ void toMessage(const intervention::MovedVertices& moved, VesselMoved& message)
     message.position.push_back(toPoint(position));
 }
 
-intervention::MovedVertices fromMessage(const VesselMoved& message)
+intervention::MovedVertices fromMessage(const VesselMoved& message, std::size_t vertices)
 {
+  if (message.index.size() != message.position.size())
+    throw InputError(names::kVesselMoved, "index, position", "must be as long as each other");
+  for (const std::uint32_t index : message.index)
+    if (index >= vertices)
+      throw InputError(names::kVesselMoved, "index",
+                       "vertex " + std::to_string(index) + " does not exist: the mesh has " + std::to_string(vertices));
   intervention::MovedVertices moved;
   moved.indices.assign(message.index.begin(), message.index.end());
   for (const geometry_msgs::Point& position : message.position)
+  {
     moved.positions.push_back(fromMessage(position));
+    if (!moved.positions.back().allFinite())
+      throw InputError(names::kVesselMoved, "position", "must hold numbers only");
+  }
   return moved;
 }
 

@@ -20,6 +20,8 @@ void toMessage(const intervention::Pressing& pressing, VesselPressing& message);
 /** @throws InputError when axes and radii do not fit together */
 intervention::Pressing pressingFromMessage(const VesselPressing& message);
 void toMessage(const intervention::MovedVertices& moved, VesselMoved& message);
-intervention::MovedVertices fromMessage(const VesselMoved& message);
+/** @param vertices of the mesh
+ *  @throws InputError for a vertex that does not exist, a place that is no number, or lists of different lengths */
+intervention::MovedVertices fromMessage(const VesselMoved& message, std::size_t vertices);
 
 }  // namespace endovascular_sim::nodes

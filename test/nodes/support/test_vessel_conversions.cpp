@@ -1,7 +1,10 @@
 #include "nodes/support/vessel_conversions.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
+#include "common/error.h"
 #include "vessel/tube.h"
 
 namespace endovascular_sim::nodes
@@ -37,6 +40,27 @@ TEST(VesselConversions, ACentrelineComesBackBitForBit)
   EXPECT_EQ(back.branches[0].parent, tree.branches[0].parent);
   EXPECT_EQ(back.branches[0].points, tree.branches[0].points);
   EXPECT_EQ(back.branches[0].radii, tree.branches[0].radii);
+}
+
+TEST(VesselConversions, MovedVerticesComeBackBitForBit)
+{
+  const intervention::MovedVertices moved{{0, 7}, {{0.1, 1.0 / 3.0, -2e-3}, {0.0, 1e-9, 3.0}}};
+  VesselMoved message;
+  toMessage(moved, message);
+  const intervention::MovedVertices back = fromMessage(message, 8);
+  EXPECT_EQ(back.indices, moved.indices);
+  EXPECT_EQ(back.positions, moved.positions);
+}
+
+TEST(VesselConversions, RefuseMovementsThatTheMeshCannotMake)
+{
+  VesselMoved message;
+  toMessage(intervention::MovedVertices{{0, 7}, {{0, 0, 0}, {0, 0, 0}}}, message);
+  EXPECT_THROW(fromMessage(message, 7), InputError) << "vertex 7 is the eighth";
+  message.position.back().y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(fromMessage(message, 8), InputError);
+  message.position.pop_back();
+  EXPECT_THROW(fromMessage(message, 8), InputError);
 }
 
 }  // namespace
