@@ -45,18 +45,6 @@ std::vector<std::vector<bool>> waysOf(const session::Scene& scene, const BranchP
   return ways;
 }
 
-Json toJson(const intervention::LesionReport& report)
-{
-  Json json = {{"reference_diameter", report.reference_diameter},
-               {"least_diameter", report.least_diameter},
-               {"stenosis", report.stenosis}};
-  if (report.stented)
-    json.update({{"coverage", report.coverage},
-                 {"apposition", report.apposition},
-                 {"placement_error", report.placement_error}});
-  return json;
-}
-
 /** The instrument that reaches furthest. */
 int foremostOf(const Observation& seen)
 {
@@ -302,10 +290,7 @@ Json SessionMetrics::json() const
   json["wall_forces"] = wall_forces_ ? session::toJson(*wall_forces_, 0) : Json(nullptr);
   if (wall_forces_)
     json["wall_forces"].erase("triangles");
-  json["lesions"] = Json::array();
-  for (const LesionOutcome& lesion : lesions_)
-    json["lesions"].push_back(
-        {{"branch", lesion.branch}, {"before", toJson(lesion.before)}, {"after", toJson(lesion.after)}});
+  json["lesions"] = session::toJson(lesions_);
   json["errors"] = Json::array();
   for (const Mishap& mishap : mishaps_)
   {
@@ -315,16 +300,6 @@ Json SessionMetrics::json() const
     json["errors"].push_back(error);
   }
   return json;
-}
-
-std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& before, const vessel::TriangleMesh& after,
-                                          const intervention::RoundBody* stent)
-{
-  std::vector<LesionOutcome> outcomes;
-  for (const vessel::PlacedLesion& lesion : before.lesions)
-    outcomes.push_back({lesion.lesion.branch, intervention::reportLesion(before.mesh, before.centreline, lesion),
-                        intervention::reportLesion(after, before.centreline, lesion, stent)});
-  return outcomes;
 }
 
 }  // namespace endovascular_sim::procedure

@@ -8,13 +8,13 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "intervention/lesion_report.h"
 #include "procedure/branch_places.h"
 #include "procedure/observation.h"
 #include "procedure/operator.h"
 #include "session/scene.h"
+#include "session/treatment_report.h"
 #include "session/wall_force_map.h"
-#include "vessel/vessel.h"
+#include "vessel/centreline.h"
 
 namespace endovascular_sim::procedure
 {
@@ -37,14 +37,6 @@ struct Mishap
   double time = 0.0;   ///< when it began [s]
   double value = 0.0;  ///< in the unit of the kind
   std::string unit;    ///< of the value; empty: it has none
-};
-
-/** A lesion before and after the procedure. */
-struct LesionOutcome
-{
-  std::string branch;
-  intervention::LesionReport before;
-  intervention::LesionReport after;
 };
 
 /** Contacts this near to the foremost tip are what the tip pushes against [m]. */
@@ -81,7 +73,8 @@ public:
   /** How the procedure went, where a scripted operator did it. */
   void setSteps(std::vector<StepRecord> steps, std::string failure);
   void setWallForces(session::WallForceSummary forces) { wall_forces_ = std::move(forces); }
-  void setLesions(std::vector<LesionOutcome> lesions) { lesions_ = std::move(lesions); }
+  const std::vector<session::LesionOutcome>& lesions() const { return lesions_; }
+  void setLesions(std::vector<session::LesionOutcome> lesions) { lesions_ = std::move(lesions); }
   /** An event of a treatment; kinds other than a placed stent are mishaps. */
   void addEvent(const std::string& kind, int instrument, double time);
 
@@ -112,7 +105,7 @@ private:
   std::vector<StepRecord> steps_;
   std::string failure_;
   std::optional<session::WallForceSummary> wall_forces_;
-  std::vector<LesionOutcome> lesions_;
+  std::vector<session::LesionOutcome> lesions_;
   std::vector<WrongBranch> wrong_;
   std::vector<int> wrong_now_;  ///< per instrument: index of the stay that goes on, −1
   std::vector<Mishap> mishaps_;
@@ -125,10 +118,5 @@ private:
   int withdrawn_ = 0;               ///< instruments that left and were not followed by another one yet
   int exchanges_ = 0;
 };
-
-/** The lesions' state in the vessel as it is now.
- *  @param before of the untreated vessel */
-std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& before, const vessel::TriangleMesh& after,
-                                          const intervention::RoundBody* stent);
 
 }  // namespace endovascular_sim::procedure

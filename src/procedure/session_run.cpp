@@ -56,13 +56,8 @@ void SessionRun::finish(const session::Simulation& simulation, const vessel::Tri
     metrics_.setSteps(operator_->records(), operator_->failure());
   for (const session::TimedEvent& event : simulation.events())
     metrics_.addEvent(session::nameOf(event.event), event.instrument, event.time);
-  const intervention::RoundBody* stent = nullptr;
-  for (int k = 0; k < simulation.instruments(); ++k)
-    if (const intervention::Treatment* treatment = simulation.treatment(k);
-        treatment != nullptr && treatment->stent() &&
-        treatment->stent()->state() == intervention::StentPlacement::State::kPlaced)
-      stent = &treatment->stent()->sleeve();
-  metrics_.setLesions(lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, stent));
+  metrics_.setLesions(
+      session::lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, session::openedStents(simulation)));
 }
 
 void SessionRun::write(const std::string& folder) const

@@ -87,15 +87,25 @@ std::vector<intervention::RoundBody> openedStents(const Simulation& simulation)
 }
 
 std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& vessel, const vessel::TriangleMesh& mesh,
-                                          const Simulation& simulation)
+                                          const std::vector<intervention::RoundBody>& stents)
 {
-  const std::vector<intervention::RoundBody> stents = openedStents(simulation);
   std::vector<LesionOutcome> outcomes;
   for (const vessel::PlacedLesion& lesion : vessel.lesions)
     outcomes.push_back({vessel.centreline.branches[static_cast<std::size_t>(lesion.branch)].name, lesion.middle,
                         intervention::reportLesion(vessel.mesh, vessel.centreline, lesion),
                         best(vessel, mesh, lesion, stents)});
   return outcomes;
+}
+
+Json toJson(const std::vector<LesionOutcome>& lesions)
+{
+  Json places = Json::array();
+  for (const LesionOutcome& lesion : lesions)
+    places.push_back({{"branch", lesion.branch},
+                      {"place", lesion.place},
+                      {"before", toJson(lesion.before)},
+                      {"after", toJson(lesion.after)}});
+  return places;
 }
 
 Json toJson(const Scene& scene, const Simulation& simulation, const std::vector<LesionOutcome>& lesions)
@@ -119,13 +129,7 @@ Json toJson(const Scene& scene, const Simulation& simulation, const std::vector<
     balloon["stent"] = treatment->stent() ? toJson(*treatment->stent()) : Json(nullptr);
     balloons.push_back(std::move(balloon));
   }
-  Json places = Json::array();
-  for (const LesionOutcome& lesion : lesions)
-    places.push_back({{"branch", lesion.branch},
-                      {"place", lesion.place},
-                      {"before", toJson(lesion.before)},
-                      {"after", toJson(lesion.after)}});
-  return {{"events", events}, {"balloons", balloons}, {"lesions", places}};
+  return {{"events", events}, {"balloons", balloons}, {"lesions", toJson(lesions)}};
 }
 
 }  // namespace endovascular_sim::session

@@ -26,9 +26,13 @@ std::vector<intervention::RoundBody> openedStents(const Simulation& simulation);
 
 /** Measures every lesion of a vessel; costs some milliseconds each.
  *  @param vessel as it was at the beginning
- *  @param mesh of it as it is now */
+ *  @param mesh of it as it is now
+ *  @param stents in it: of several the one that covers most of a lesion counts */
 std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& vessel, const vessel::TriangleMesh& mesh,
-                                          const Simulation& simulation);
+                                          const std::vector<intervention::RoundBody>& stents);
+
+/** Of every lesion branch, place, and what was measured before and after; SI units. */
+nlohmann::ordered_json toJson(const std::vector<LesionOutcome>& lesions);
 
 /** `treatment` of result.json (docs/SIMULATE.md): events, balloons, stents, lesions; SI units. */
 nlohmann::ordered_json toJson(const Scene& scene, const Simulation& simulation,

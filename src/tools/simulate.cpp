@@ -205,7 +205,6 @@ struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
-  vessel::Vessel treated;                            ///< at the beginning; empty without a balloon
   std::unique_ptr<session::WallForceMap> wall_forces;
   std::unique_ptr<procedure::SessionRun> session;      ///< null without a vessel
   std::unique_ptr<procedure::PhasePictures> pictures;  ///< null where none are wanted
@@ -234,8 +233,6 @@ Surroundings build(const session::Scene& scene)
   made.mesh_hash = vessel.mesh.hash();
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
   made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
-  if (made.moving_wall)
-    made.treated = vessel;
   made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
   return made;
 }
@@ -369,12 +366,11 @@ void writeWallForces(const std::string& folder, const Surroundings& surroundings
   writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
 }
 
-void writeSession(const std::string& folder, const session::Simulation& simulation, const Surroundings& surroundings)
+void finishSession(const session::Simulation& simulation, const Surroundings& surroundings)
 {
   surroundings.session->metrics().setWallForces(surroundings.wall_forces->summary());
   const session::MovingWall* wall = surroundings.moving_wall.get();
   surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
-  surroundings.session->write(folder);
 }
 
 /** How the scripted operator got on. */
@@ -417,19 +413,19 @@ int simulate(const Options& options)
   const std::uint64_t steps = lastStep(scene, options, simulation);
   session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
-  if (surroundings.moving_wall)
+  if (surroundings.session)
+    finishSession(simulation, surroundings);
+  if (session::hasBalloon(scene))
     result.setTreatment(
         scene, simulation,
-        session::lesionOutcomes(surroundings.treated, surroundings.moving_wall->opening().mesh(), simulation));
-  else if (session::hasBalloon(scene))
-    result.setTreatment(scene, simulation, {});
+        surroundings.session ? surroundings.session->metrics().lesions() : std::vector<session::LesionOutcome>());
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
   if (surroundings.wall_forces)
   {
     writeWallForces(options.out, surroundings);
-    writeSession(options.out, simulation, surroundings);
+    surroundings.session->write(options.out);
   }
   if (options.plots)
     plot(options);

@@ -169,6 +169,25 @@ TEST(SessionMetrics, SamplesThatComeTooEarlyAreLeftOut)
   EXPECT_TRUE(session.metrics.wants(1.0 + 1.0 / SessionMetrics::kRate));
 }
 
+TEST(SessionMetrics, TellsWhatBecameOfALesion)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  session::LesionOutcome lesion;
+  lesion.branch = "goal";
+  lesion.before.stenosis = 0.6;
+  lesion.after.stenosis = 0.1;
+  lesion.after.stented = true;
+  lesion.after.coverage = 0.97;
+  session.metrics.setLesions({lesion});
+  const auto json = session.metrics.json();
+  EXPECT_EQ(json["lesions"][0]["branch"], "goal");
+  EXPECT_EQ(json["lesions"][0]["before"]["stenosis"], 0.6);
+  EXPECT_EQ(json["lesions"][0]["after"]["coverage"], 0.97);
+  EXPECT_FALSE(json["lesions"][0]["before"].contains("coverage")) << "there was no stent";
+  EXPECT_NE(metricsPage(session.metrics).find("97"), std::string::npos);
+}
+
 TEST(MetricsPage, NeedsNoOtherFile)
 {
   Session session;
