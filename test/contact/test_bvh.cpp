@@ -39,12 +39,13 @@ TEST_F(BvhOfATube, FindsTheNearestTriangleThatBruteForceFinds)
 
 TEST_F(BvhOfATube, CollectsTheTrianglesWhoseBoxesMeetABox)
 {
-  std::uniform_real_distribution<double> size(1e-4, 0.02);
+  std::uniform_real_distribution<double> size(1e-4, 0.01);
   std::size_t met = 0;
-  for (int trial = 0; trial < 200; ++trial)
+  for (std::size_t trial = 0; trial < 200; ++trial)
   {
-    const Eigen::Vector3d p = next();
-    const Eigen::AlignedBox3d box(p, p + Eigen::Vector3d(size(random_), size(random_), size(random_)));
+    const Eigen::Vector3d half(size(random_), size(random_), size(random_));
+    const Eigen::Vector3d middle = wall_.vertices[trial * 7 % wall_.vertices.size()] + half.reverse();
+    const Eigen::AlignedBox3d box(middle - half, middle + half);
     std::vector<int> found;
     bvh_.collectBox(box.min(), box.max(), found);
     std::sort(found.begin(), found.end());
