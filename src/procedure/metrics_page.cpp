@@ -81,9 +81,10 @@ std::string summary(const Json& json)
   const Json& forces = json["wall_forces"];
   if (!forces.is_null())
   {
-    table.add({"largest force of one contact", number("%.2f N", forces["peak"]) +
-                                                   number(" at %.1f s", forces["peak_time"]) + " in " +
-                                                   forces.value("peak_region", std::string("the vessel"))});
+    const Json region = forces.value("peak_region", Json(nullptr));  // null: the vessel's branches have no names
+    table.add({"largest force of one contact",
+               number("%.2f N", forces["peak"]) + number(" at %.1f s", forces["peak_time"]) +
+                   (region.is_string() ? " in " + region.get<std::string>() : std::string())});
     table.add({"integral of the wall's forces", number("%.1f N·s", forces["integral"])});
   }
   return html + table.text();

@@ -204,5 +204,19 @@ TEST(MetricsPage, NeedsNoOtherFile)
   EXPECT_NE(page.find("risk of perforation"), std::string::npos);
 }
 
+TEST(MetricsPage, TellsForcesInAVesselWhoseBranchesHaveNoNames)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  session::WallForceSummary forces;
+  forces.whole.peak = 1.25;
+  forces.whole.peak_region = 0;
+  forces.regions = {forces.whole};
+  forces.regions[0].region = 0;
+  session.metrics.setWallForces(forces);
+  const std::string page = metricsPage(session.metrics);
+  EXPECT_NE(page.find("1.25 N at 0.0 s<"), std::string::npos) << page;
+}
+
 }  // namespace
 }  // namespace endovascular_sim::procedure
