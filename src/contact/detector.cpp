@@ -24,6 +24,9 @@ constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie
 constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
 constexpr double kConeTolerance = 1e-12;     // m
 constexpr double kConeSlack = 1e-3;          // of the distance: crossings at the border of the normal cone count
+// The same in ridge's angles. A wire that lies along a facet touches it at the facet's border too: if that contact came
+// and went with the wire's direction, wire and solver would rock.
+constexpr double kConeSlackOfAngle = 0.1;
 constexpr double kOnRidge = 1e-12;           // m
 constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
 constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
@@ -513,9 +516,9 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   const bool inside = at_vertex ? offset.dot(inward) >= 0.0
                                 : offset.dot(wall_.normals[edge.triangles[0]]) >= 0.0 ||
                                       offset.dot(wall_.normals[edge.triangles[1]]) >= 0.0;
+  const double slack = std::max(kConeSlack, kConeSlackOfAngle * edge.reflex_angle) * distance;
   if (at_vertex ? !vertexIsMinimum(vertex, offset)
-                : inside && (offset.dot(edge.into_triangle[0]) > kConeSlack * distance ||
-                             offset.dot(edge.into_triangle[1]) > kConeSlack * distance))
+                : inside && (offset.dot(edge.into_triangle[0]) > slack || offset.dot(edge.into_triangle[1]) > slack))
     return false;
   if (!inside && (distance > kOutsideCrossing || signedDistance(axis, edge.triangles[0]) > 0.0))
     return false;

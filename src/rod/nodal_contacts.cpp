@@ -16,6 +16,7 @@ constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
 constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
 constexpr int kLineSearchHalvings = 10;
+constexpr double kBeyondMargin = 1.0 + 1e-12;  // for rounding
 
 bool isBacking(const contact::Feature& feature)
 {
@@ -274,9 +275,34 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return factor;
   if (contacts_.stale)
     return std::min(factor, staleTruncation(motion));
+  bool far = false;
+  for (int i = state.first_node; i < rod_.nodes() && !far; ++i)
+    far = factor * motion[i].norm() > settings_.contact_margin;
+  if (!far)
+    return factor;
+  factor = listedTruncation(state, motion, factor);
   for (int i = state.first_node; i < rod_.nodes(); ++i)
-    if (factor * motion[i].norm() > settings_.contact_margin)
+    if (factor * motion[i].norm() > kBeyondMargin * settings_.contact_margin)
       return freeDistanceTruncation(state, motion, factor, report);
+  return factor;
+}
+
+/** Where a contact is listed the free distance is the margin, and it need not be asked for: mostly that settles it. */
+double NodalContacts::listedTruncation(const State& state, const Motion& motion, double factor) const
+{
+  for (const contact::Feature& feature : contacts_.features)
+  {
+    const bool at_first = feature.parameter <= 0.0;
+    const bool at_second = feature.parameter >= 1.0;
+    const int from = std::max(state.first_node, feature.edge - (at_first ? 1 : 0));
+    const int to = std::min(rod_.nodes() - 1, feature.edge + (at_second ? 2 : 1));
+    for (int i = from; i <= to; ++i)
+    {
+      const double distance = motion[i].norm();
+      if (factor * distance > settings_.contact_margin)
+        factor = settings_.contact_margin / distance;
+    }
+  }
   return factor;
 }
 
@@ -394,15 +420,15 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   widen();
   held.describeMouth(state, query_);
   double farthest = 0.0;
-  int resting = query_.first_node;
-  for (int i = rod_.nodes() - 1; i >= query_.first_node; --i)
+  int first = rod_.nodes() - 1;
+  for (int i = query_.first_node; i < rod_.nodes(); ++i)
   {
     const double far = factor * motion[i].norm();
     farthest = std::max(farthest, far);
-    if (far > settings_.contact_margin)
-      resting = i - 1;
+    if (far > kBeyondMargin * settings_.contact_margin)
+      first = std::min(first, i - 1);
   }
-  const int skipped = std::max(0, resting - query_.first_node);
+  const int skipped = std::max(0, first - query_.first_node);
   query_.first_node += skipped;
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);

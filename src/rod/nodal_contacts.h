@@ -135,6 +135,7 @@ private:
   double lengthTowards(int index, int edge, double place, int direction) const;
   double shareOfLeastEnergy(const Motion& motion) const;
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
+  double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
   double staleTruncation(const Motion& motion);
   void ask(const State& state, contact::ContactSet& answer, StepReport& report);

@@ -1,6 +1,8 @@
 #include "contact/detector.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -142,34 +144,64 @@ TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
   EXPECT_NEAR(smallestGap(set, 1), 0.2e-3, 1e-9);
 }
 
-TEST(Detector, FindsAWiresEdgeAcrossARidgeBetweenItsNodes)
+/** A coarse bend, whose inner side bulges into the lumen, and a wire's edge above the middle of a ridge there. */
+class WireAcrossARidge : public testing::Test
 {
-  // A coarse bend: its inner side bulges into the lumen. A chord that cuts it must be listed off its nodes.
-  const vessel::TriangleMesh mesh = bentTube();
-  Detector detector(mesh, WallLaw{});
-  int ridge = -1;
-  for (std::size_t e = 0; e < detector.wall().edges.size(); ++e)
-    if (detector.wall().edges[e].reflex_angle > 0.1)
-      ridge = static_cast<int>(e);
-  ASSERT_GE(ridge, 0);
-  const WallEdge& edge = detector.wall().edges[ridge];
-  const Eigen::Vector3d middle =
-      0.5 * (detector.wall().vertices[edge.vertices[0]] + detector.wall().vertices[edge.vertices[1]]);
-  const Eigen::Vector3d along =
-      (detector.wall().vertices[edge.vertices[1]] - detector.wall().vertices[edge.vertices[0]]).normalized();
-  const Eigen::Vector3d across = along.cross(edge.normal);
-  Query query;
-  query.margin = 0.5e-3;
-  const Eigen::Vector3d over = middle + 0.5e-3 * edge.normal;
-  query.nodes = {over - 0.9e-3 * across, over + 0.9e-3 * across};
-  query.radius = {0.4e-3, 0.4e-3};
-  ContactSet set;
-  detector.detect(query, set);
-  const auto crossing = std::find_if(set.features.begin(), set.features.end(),
-                                     [&](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; });
-  ASSERT_NE(crossing, set.features.end());
-  EXPECT_NEAR(crossing->gap, 0.1e-3, 1e-9);
+protected:
+  WireAcrossARidge()
+  {
+    for (std::size_t e = 0; e < detector_.wall().edges.size(); ++e)
+      if (detector_.wall().edges[e].reflex_angle > 0.1)
+        ridge_ = static_cast<int>(e);
+  }
+
+  const WallEdge& ridge() const { return detector_.wall().edges[ridge_]; }
+
+  /** @param tilt of the wire's edge about the ridge [rad]; half the ridge's angle: along a facet
+   *  @return the crossing's gap; infinite where none is listed [m] */
+  double gapOfCrossing(double tilt)
+  {
+    const Eigen::Vector3d& begin = detector_.wall().vertices[ridge().vertices[0]];
+    const Eigen::Vector3d& end = detector_.wall().vertices[ridge().vertices[1]];
+    const Eigen::Vector3d along = (end - begin).normalized();
+    const Eigen::Vector3d normal = ridge().normal.normalized();
+    const Eigen::Vector3d direction =
+        std::cos(tilt) * along.cross(normal) + std::sin(tilt) * (normal - normal.dot(along) * along);
+    const Eigen::Vector3d over = 0.5 * (begin + end) + 0.5e-3 * normal;
+    Query query;
+    query.margin = 0.5e-3;
+    query.nodes = {over - 0.9e-3 * direction, over + 0.9e-3 * direction};
+    query.radius = {0.4e-3, 0.4e-3};
+    detector_.detect(query, set_);
+    for (const Feature& feature : set_.features)
+      if (feature.parameter > 0.0 && feature.parameter < 1.0)
+        return feature.gap;
+    return std::numeric_limits<double>::infinity();
+  }
+
+  Detector detector_{bentTube(), WallLaw{}};
+  ContactSet set_;
+  int ridge_ = 0;
+};
+
+TEST_F(WireAcrossARidge, IsFoundBetweenItsNodes)
+{
+  EXPECT_NEAR(gapOfCrossing(0.0), 0.1e-3, 1e-9);
+  const auto crossing = std::find_if(set_.features.begin(), set_.features.end(),
+                                     [](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; });
   EXPECT_NEAR(crossing->parameter, 0.5, 1e-6);
+}
+
+TEST_F(WireAcrossARidge, IsStillFoundThereWhenItLiesAlongAFacet)
+{
+  const double along_facet = 0.5 * ridge().reflex_angle;
+  for (const double beyond : {-0.05, 0.0, 0.05})
+  {
+    const double tilt = along_facet + beyond * ridge().reflex_angle;
+    EXPECT_NEAR(gapOfCrossing(tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
+    EXPECT_NEAR(gapOfCrossing(-tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
+  }
+  EXPECT_FALSE(std::isfinite(gapOfCrossing(along_facet + 0.3 * ridge().reflex_angle))) << "a node is nearest";
 }
 
 TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
