@@ -322,6 +322,78 @@ int passesOnRandomProblem(unsigned seed)
   return 13;
 }
 
+/** Share of random motions that is left, and how often the wall was asked for free distances. */
+class TruncationOverAFloor : public testing::Test
+{
+protected:
+  /** A wire that rises evenly from the floor. */
+  void place(double lowest, double highest)
+  {
+    for (int i = 0; i < kNodes; ++i)
+      state_.position[i].z() = kRadius + lowest + (highest - lowest) * i / (kNodes - 1);
+    contacts_.beginStep(StepInput(), &floor_, passes_, timer_);
+    contacts_.invalidate();
+    contacts_.refresh(state_, report_);
+    passes_ = 0;
+  }
+
+  double expected(const NodalContacts::Motion& motion) const
+  {
+    double factor = 1.0;
+    for (int i = 0; i + 1 < kNodes; ++i)
+    {
+      const double free =
+          std::max(settings_.contact_margin, std::min(state_.position[i].z(), state_.position[i + 1].z()) - kRadius);
+      factor = std::min(factor, free / std::max(motion[i].norm(), motion[i + 1].norm()));
+    }
+    return factor;
+  }
+
+  NodalContacts::Motion randomMotion(double size)
+  {
+    std::uniform_real_distribution<double> uniform(-size, size);
+    NodalContacts::Motion motion(kNodes);
+    for (Vector3d& of_node : motion)
+      of_node = Vector3d(uniform(random_), uniform(random_), uniform(random_));
+    return motion;
+  }
+
+  static constexpr int kNodes = 21;
+  const Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
+  const Boundary boundary_ = Bench::freeBoundary(0.0);
+  const StepperSettings settings_;
+  NodalContacts contacts_{rod_, boundary_, settings_};
+  PlaneWall floor_{kFriction};
+  State state_ = Bench(0.0).state;
+  PhaseTimer timer_;
+  StepReport report_;
+  std::uint32_t passes_ = 0;
+  std::mt19937 random_{3};
+};
+
+TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrItsFreeDistanceAskedFor)
+{
+  int asked = 0;
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    place(trial % 2 == 0 ? 0.1e-3 : 0.5e-3, 20e-3);
+    const NodalContacts::Motion motion = randomMotion(1e-3 * (1 + trial % 10));
+    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), expected(motion), 1e-9) << trial;
+    asked += static_cast<int>(passes_);
+  }
+  EXPECT_GT(asked, 0);
+}
+
+TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)
+{
+  place(0.0, 0.1e-3);
+  contacts_.truncation(state_, randomMotion(5e-3), 1.0, report_);
+  EXPECT_EQ(passes_, 0U);
+  place(1e-3, 2e-3);
+  contacts_.truncation(state_, randomMotion(5e-3), 1.0, report_);
+  EXPECT_EQ(passes_, 1U);
+}
+
 TEST(NodalContacts, TheActiveSetOfAConvexProblemIsFoundBeforeContactsAreOnlyAdded)
 {
   int most = 0;
