@@ -22,6 +22,9 @@ constexpr double kListGuard = 1e-8;          // m by which lists hold more than 
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
 constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
+constexpr std::size_t kManyCrossings = 8;    // of a wire's edge; more are thinned out
+constexpr double kSamePlace = 0.5;           // of the wire's radius, by which crossings that count as one are apart
+constexpr double kSameDirection = 0.9;       // cosine of the angle between them
 constexpr double kConeTolerance = 1e-12;     // m
 constexpr double kConeSlack = 1e-3;          // of the distance: crossings at the border of the normal cone count
 // The same in ridge's angles. A wire that lies along a facet touches it at the facet's border too: if that contact came
@@ -50,6 +53,17 @@ int placeFromTip(const Query& query, std::size_t index)
 std::int64_t featureId(int index, FeatureKind kind)
 {
   return std::int64_t{3} * index + kind;
+}
+
+/** How far wire and wall may come closer before something at a distance is within a limit, rounded down [m]. */
+float clearance(double distance, double limit)
+{
+  return static_cast<float>(distance - limit - kListGuard);
+}
+
+double clampedShare(double value)
+{
+  return std::max(0.0, std::min(1.0, value));
 }
 
 /** Heights of a point over four planes [m]. */
@@ -92,7 +106,7 @@ Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
-  return {0.5 * (begin + end), (end - begin).normalized(), edge.normal, 0.5 * (end - begin).norm()};
+  return {0.5 * (begin + end), edge.normal, 0.5 * (end - begin).norm()};
 }
 
 void Detector::makePrism(int triangle)
@@ -164,10 +178,14 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
     if (touches(near))
     {
       near.room -= farthest;
-      const auto middle = static_cast<std::ptrdiff_t>(near.edges.size());
-      near.edges.insert(near.edges.end(), now_reflex_.begin(), now_reflex_.end());
-      std::inplace_merge(near.edges.begin(), near.edges.begin() + middle, near.edges.end());
-      near.edges.erase(std::unique(near.edges.begin(), near.edges.end()), near.edges.end());
+      near.wall_moved += farthest;
+      for (int e : now_reflex_)
+      {
+        const auto place = std::lower_bound(near.edges.begin(), near.edges.end(), e,
+                                            [](const Near& other, int edge) { return other.index < edge; });
+        if (place == near.edges.end() || place->index != e)
+          near.edges.insert(place, {e, -std::numeric_limits<float>::infinity()});
+      }
     }
 }
 
@@ -194,10 +212,11 @@ void Detector::makeRoom(const Query& query)
   }
 }
 
-bool Detector::Neighbourhood::holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const
+bool Detector::Neighbourhood::follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
-  return room >= 0.0 && wanted <= limit && wanted >= limit - kLimitSlack && (a - begin).squaredNorm() < room * room &&
-         (b - end).squaredNorm() < room * room;
+  const double wire_moved = std::sqrt(std::max((a - begin).squaredNorm(), (b - end).squaredNorm()));
+  moved = wire_moved + wall_moved;
+  return wire_moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
@@ -206,6 +225,7 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
   end = b;
   limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
   room = kRoom;
+  moved = wall_moved = 0.0;
   triangles.clear();
   edges.clear();
 }
@@ -216,7 +236,7 @@ const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::
   const std::size_t next = std::min(index + 1, query.nodes.size() - 1);
   const double limit = std::max(query.radius[index], query.radius[next]) + query.margin;
   Neighbourhood& near = near_[placeFromTip(query, index)];
-  if (!near.holds(query.nodes[index], query.nodes[next], limit))
+  if (!near.follows(query.nodes[index], query.nodes[next], limit))
   {
     near.start(query.nodes[index], query.nodes[next], limit);
     list(near);
@@ -237,29 +257,31 @@ void Detector::list(Neighbourhood& near)
     if (std::min(above[0], end_height) > wide || std::max(above[0], end_height) < -wide)
       continue;
     const double beyond = std::max(0.0, outsideOf(above));
-    if (above[0] * above[0] + beyond * beyond <= wide * wide)
-      near.triangles.push_back(t);
+    const double distance = std::sqrt(above[0] * above[0] + beyond * beyond);  // or less
+    if (distance <= wide)
+      near.triangles.push_back({t, clearance(distance, near.limit)});
     listEdges(t, near, wide);
   }
   // Sorted, so that results do not depend on how the tree is walked.
-  std::sort(near.triangles.begin(), near.triangles.end());
-  std::sort(near.edges.begin(), near.edges.end());
+  const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
+  std::sort(near.triangles.begin(), near.triangles.end(), by_index);
+  std::sort(near.edges.begin(), near.edges.end(), by_index);
 }
 
 void Detector::listEdges(int triangle, Neighbourhood& near, double wide) const
 {
   const Eigen::Vector3d along = near.end - near.begin;
-  const double reach = 0.5 * along.norm() + kRoom + wide;
   for (int e : prisms_[triangle].own_edges)
   {
-    if (e < 0 || !canMeet(near.begin, near.end, e, reach, wide))
+    if (e < 0 || !canMeet(near.begin, near.end, e, wide, wide))
       continue;
     const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
     const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
     const SegmentPair pair = closestPointsOfSegments(near.begin, near.end, end0, end1);
     const Eigen::Vector3d apart = near.begin + pair.first * along - end0 - pair.second * (end1 - end0);
-    if (apart.squaredNorm() <= wide * wide)
-      near.edges.push_back(e);
+    const double distance = apart.norm();
+    if (distance <= wide)
+      near.edges.push_back({e, clearance(distance, near.limit)});
   }
 }
 
@@ -329,12 +351,11 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
   Feature feature;
-  for (int t : near.triangles)
+  for (const Near& one : near.triangles)
   {
     double distance = 0.0;
     bool outside = false;
-    const bool minimum = faceFeature(point, t, limit, feature, distance, outside);
-    if (!minimum)
+    if (one.clear > near.moved || !faceFeature(point, one.index, limit, feature, distance, outside))
       continue;
     feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
     feature.parameter = last ? 1.0 : 0.0;
@@ -355,8 +376,8 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
 double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  for (int t : near.triangles)
-    nearest = std::min(nearest, bvh_.distanceTo(t, point));
+  for (const Near& one : near.triangles)
+    nearest = std::min(nearest, bvh_.distanceTo(one.index, point));
   return nearest;
 }
 
@@ -446,24 +467,26 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   return true;
 }
 
-/** Cheap rejection: whether a mesh edge can come within @p limit of the wire's edge ab, which lies within @p reach −
- * limit of its own middle. A wire's edge whose ends are both higher than the limit above the mesh edge is higher all
- * along. */
-bool Detector::canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double reach,
-                       double limit) const
+/** Cheap rejection: whether any point of a mesh edge lies within a limit of the wire's edge ab, which goes evenly from
+ *  @p limit_a to @p limit_b. A wire's edge whose ends are both higher than the limit above the mesh edge is higher all
+ *  along. */
+bool Detector::canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit_a,
+                       double limit_b) const
 {
   const EdgeBall& ball = edge_balls_[wall_edge];
   const Eigen::Vector3d from_a = a - ball.middle;
   const Eigen::Vector3d from_b = b - ball.middle;
+  const double limit = std::max(limit_a, limit_b);
   if (from_a.dot(ball.normal) > limit && from_b.dot(ball.normal) > limit)
     return false;
-  const Eigen::Vector3d from_middle = 0.5 * (from_a + from_b);
-  const double squared = from_middle.squaredNorm();
-  const double far = reach + ball.half_length;
-  if (squared > far * far)
-    return false;
-  const double along = from_middle.dot(ball.direction);
-  return squared - along * along <= reach * reach;
+  const Eigen::Vector3d along = b - a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? clampedShare(-from_a.dot(along) / squared) : 0.0;
+  // What of the mesh edge is near is so near to its middle.
+  const double half = squared > 0.0 ? ball.half_length / std::sqrt(squared) : 1.0;
+  const double widest = limit_a < limit_b ? t + half : t - half;
+  const double far = limit_a + clampedShare(widest) * (limit_b - limit_a) + ball.half_length;
+  return (from_a + t * along).squaredNorm() <= far * far;
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
@@ -472,11 +495,13 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const Eigen::Vector3d& b = query.nodes[index + 1];
   const std::size_t begin = features.size();
   const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
-  const double reach = 0.5 * (b - a).norm() + limit;
   Feature feature;
-  for (int e : neighbourhood(query, index).edges)
+  const Neighbourhood& near = near_[placeFromTip(query, index)];  // its first node was looked at already
+  for (const Near& one : near.edges)
   {
-    if (!edge_is_reflex_[e] || !canMeet(a, b, e, reach, limit))
+    const int e = one.index;
+    if (one.clear > near.moved || !edge_is_reflex_[e] ||
+        !canMeet(a, b, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
       continue;
     double distance = 0.0;
     if (!crossing(a, b, e, limit, feature, distance))
@@ -491,6 +516,28 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
     if (std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
   }
+  if (features.size() - begin > kManyCrossings)
+    thinOut(features, begin, kSamePlace * limit / (b - a).norm());
+}
+
+/** Of many crossings of a wire's edge, those that tell something new stay: not one next to a deeper one that faces the
+ *  same way. A wide body in a finely meshed vessel has hundreds.
+ *  @param same_place difference of parameters up to which crossings are next to each other */
+void Detector::thinOut(std::vector<Feature>& features, std::size_t begin, double same_place)
+{
+  const auto first = features.begin() + static_cast<std::ptrdiff_t>(begin);
+  std::sort(first, features.end(),
+            [](const Feature& f, const Feature& g) { return f.gap != g.gap ? f.gap < g.gap : f.id < g.id; });
+  auto kept = first;
+  for (auto feature = first; feature != features.end(); ++feature)
+    if (std::none_of(first, kept,
+                     [&](const Feature& other)
+                     {
+                       return std::abs(other.parameter - feature->parameter) < same_place &&
+                              other.normal.dot(feature->normal) > kSameDirection;
+                     }))
+      *kept++ = *feature;
+  features.erase(kept, features.end());
 }
 
 /** Closest point of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local minimum. */

@@ -66,18 +66,28 @@ public:
   const Wall& wall() const { return wall_; }
 
 private:
+  /** A triangle or mesh edge, and by how much wire and wall have to come closer before it can be met. */
+  struct Near
+  {
+    int index;
+    float clear;  ///< [m]
+  };
+
   /** What a node of the wire and the edge from it to the next node may meet while both stay within `room` of where they
    * were. */
   struct Neighbourhood
   {
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();
     Eigen::Vector3d end = Eigen::Vector3d::Zero();
-    double room = -1.0;          ///< [m]; negative: not listed yet
-    double limit = -1.0;         ///< distance up to which features are wanted [m]
-    std::vector<int> triangles;  ///< that the node may meet, ascending
-    std::vector<int> edges;      ///< reflex ones that the wire's edge may meet, ascending
+    double room = -1.0;           ///< [m]; negative: not listed yet
+    double limit = -1.0;          ///< distance up to which features are wanted [m]
+    double moved = 0.0;           ///< by which wire and wall have come closer since, at most [m]
+    double wall_moved = 0.0;      ///< the wall's share of it [m]
+    std::vector<Near> triangles;  ///< that the node may meet, ascending
+    std::vector<Near> edges;      ///< reflex ones that the wire's edge may meet, ascending
 
-    bool holds(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted) const;
+    /** Notes how far the wire is. @return whether the lists still hold all that it may meet */
+    bool follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
   };
 
@@ -90,13 +100,12 @@ private:
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
   };
 
-  /** A mesh edge as its smallest ball with its direction. */
+  /** A mesh edge's smallest ball. */
   struct EdgeBall
   {
     Eigen::Vector3d middle;
-    Eigen::Vector3d direction;  ///< unit
-    Eigen::Vector3d normal;     ///< towards the lumen, ⟂ direction, unit
-    double half_length;         ///< [m]
+    Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
+    double half_length;      ///< [m]
   };
 
   void makeRoom(const Query& query);
@@ -110,8 +119,9 @@ private:
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
+  static void thinOut(std::vector<Feature>& features, std::size_t begin, double same_place);
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
-  bool canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double reach, double limit) const;
+  bool canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit_a, double limit_b) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;

@@ -269,9 +269,10 @@ bool StackStepper::setEdgeTorque(int k, const State& state, const StepInput& inp
 }
 
 /** Twist of one layer over the shared centreline.
+ *  @param again the centreline is that of the last call
  *  @return whether it acts on the centreline */
 bool StackStepper::relaxLayer(int k, State& state, TwistBoundary boundary, const StepInput& input,
-                              const std::vector<TwistFriction>& friction)
+                              const std::vector<TwistFriction>& friction, bool again)
 {
   setLayerFriction(k, friction);
   boundary.friction = &layer_friction_;
@@ -287,7 +288,7 @@ bool StackStepper::relaxLayer(int k, State& state, TwistBoundary boundary, const
     return false;
   }
   std::swap(state.twist_angle, layer.twist_angle);
-  twist_[k].solve(rod, boundary, state);
+  twist_[k].solve(rod, boundary, state, again && twisted_[k]);
   layer.hand_torque = state.hand_torque;
   std::swap(state.twist_angle, layer.twist_angle);
   const auto last = layer.twist_angle.begin() + (rod.nodes() - 2);
@@ -335,7 +336,7 @@ KktStepper::TwistAction StackStepper::relaxTwist(State& state, const StepInput& 
   for (int iteration = 0; iteration < kFrictionIterations; ++iteration)
   {
     for (int k = 0; k < stack_.count(); ++k)
-      twisted_[k] = relaxLayer(k, state, boundary, input, friction);
+      twisted_[k] = relaxLayer(k, state, boundary, input, friction, iteration > 0);
     if (iteration + 1 == kFrictionIterations || !turnLayers(state, boundary.position))
       break;
   }

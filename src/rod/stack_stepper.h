@@ -80,7 +80,7 @@ private:
   void place(const State& state);
   void relaxFromHere(State& state);
   bool relaxLayer(int k, State& state, TwistBoundary boundary, const StepInput& input,
-                  const std::vector<TwistFriction>& friction);
+                  const std::vector<TwistFriction>& friction, bool again);
   void setLayerFriction(int k, const std::vector<TwistFriction>& friction);
   void combineTwists(const State& state);
   bool setEdgeTorque(int k, const State& state, const StepInput& input);

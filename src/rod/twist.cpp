@@ -51,7 +51,8 @@ bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& b
          boundary.hasFriction() || (boundary.held && boundary.tip_held);
 }
 
-void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state,
+                             bool same_centreline)
 {
   const int n = rod.nodes();
   first_edge_ = state.first_node;
@@ -69,6 +70,8 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   bishop_normal_.resize(n);
   binormal_.resize(n);
   rest_binormal_.resize(n);
+  cosine_.resize(n);
+  sine_.resize(n);
   torque_.assign(n, 0.0);
   gradient_.resize(n);
   diagonal_.resize(n);
@@ -77,7 +80,7 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   pivot_.resize(n);
   step_.resize(n);
   prepareBody(rod, boundary);
-  if (first_curved_ < n || boundary.tip_held)
+  if (!same_centreline && (first_curved_ < n || boundary.tip_held))
     transportBishopFrame(rod, boundary, state);
   if (boundary.tip_held)
     placeTip(rod, boundary, state);
@@ -159,6 +162,7 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   const int first = first_own_ - 1;
   for (int j = first; j + 1 < n; ++j)
     gradient_[j] = diagonal_[j] = upper_[j] = concave_[j] = 0.0;
+  turnFrames(state);
   gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
   for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
     gradient_[j] -= boundary.edgeTorque(j);
@@ -175,7 +179,7 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
     diagonal_[i - 1] += k;
     upper_[i - 1] -= k;
     if (i >= first_curved_)
-      addRestCurvature(rod, state, i);
+      addRestCurvature(rod, i);
   }
   if (boundary.hasFriction())
     addFriction(boundary, state, secants);
@@ -191,15 +195,25 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   return largest;
 }
 
+/** Angles of the curved tip's edges, each of which two nodes ask for. */
+void QuasiStaticTwist::turnFrames(const State& state)
+{
+  for (int j = first_curved_ - 1; j + 1 < static_cast<int>(cosine_.size()); ++j)
+  {
+    cosine_[j] = std::cos(state.twist_angle[j]);
+    sine_[j] = std::sin(state.twist_angle[j]);
+  }
+}
+
 /** Bending of a node of the curved tip. */
-void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, const State& state, int node)
+void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
 {
   const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
   const Eigen::Vector2d& rest = rod.rest_curvature[node];
   for (int j = node - 1; j <= node; ++j)
   {
-    const double c = std::cos(state.twist_angle[j]);
-    const double s = std::sin(state.twist_angle[j]);
+    const double c = cosine_[j];
+    const double s = sine_[j];
     const double along1 = binormal_[node].dot(bishop_[j]);
     const double along2 = binormal_[node].dot(bishop_normal_[j]);
     const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
@@ -348,6 +362,7 @@ void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBounda
 void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
 {
   const int n = rod.nodes();
+  turnFrames(state);
   for (int i = first_own_; i + 1 < n; ++i)
   {
     const double m = state.twist_angle[i] - state.twist_angle[i - 1];
@@ -355,8 +370,21 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
     torque_[i] = k * m;
     energy_ += 0.5 * k * m * m;
     if (i >= first_curved_)
-      rest_binormal_[i] = binormalOf(rod.rest_curvature[i], i, state.twist_angle);
+    {
+      rest_binormal_[i].setZero();
+      for (int j = i - 1; j <= i; ++j)
+        rest_binormal_[i] += binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
+    }
   }
+}
+
+/** A node's binormal as one of its two edges has it, times a half. */
+Eigen::Vector3d QuasiStaticTwist::binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine,
+                                                 double sine) const
+{
+  const Eigen::Vector3d m1 = cosine * bishop_[edge] + sine * bishop_normal_[edge];
+  const Eigen::Vector3d m2 = cosine * bishop_normal_[edge] - sine * bishop_[edge];
+  return 0.5 * (rest_curvature.x() * m2 - rest_curvature.y() * m1);
 }
 
 Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvature, int node,
@@ -364,13 +392,7 @@ Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvatu
 {
   Eigen::Vector3d binormal = Eigen::Vector3d::Zero();
   for (int j = node - 1; j <= node; ++j)
-  {
-    const double c = std::cos(twist_angle[j]);
-    const double s = std::sin(twist_angle[j]);
-    const Eigen::Vector3d m1 = c * bishop_[j] + s * bishop_normal_[j];
-    const Eigen::Vector3d m2 = c * bishop_normal_[j] - s * bishop_[j];
-    binormal += 0.5 * (rest_curvature.x() * m2 - rest_curvature.y() * m1);
-  }
+    binormal += binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
   return binormal;
 }
 

@@ -53,8 +53,9 @@ public:
 
   /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle,
    *  state.hand_torque and state.distal_torque. Edges before the held place turn with the hand. A held tip's angle is
-   *  followed over full turns by state.tip_transport. */
-  void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+   *  followed over full turns by state.tip_transport.
+   *  @param same_centreline as in the last solve, with the same rod and the same hold: its frames are used again */
+  void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state, bool same_centreline = false);
 
   /** First node at which rest curvature acts: beyond the held place and on the curved tip. */
   int firstCurved() const { return first_curved_; }
@@ -83,7 +84,9 @@ private:
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state, bool secants);
-  void addRestCurvature(const Discretisation& rod, const State& state, int node);
+  void turnFrames(const State& state);
+  Eigen::Vector3d binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine, double sine) const;
+  void addRestCurvature(const Discretisation& rod, int node);
   void addFriction(const TwistBoundary& boundary, const State& state, bool secants);
   double balanced(const TwistBoundary& boundary) const;
   double solveForStep(int first, int last, double left_out);
@@ -107,6 +110,7 @@ private:
   std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
   Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both of the last edge
   std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
+  std::vector<double> cosine_, sine_;           ///< of the twist angles of the curved tip's edges
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
   std::vector<double> gradient_, diagonal_, upper_, concave_;
