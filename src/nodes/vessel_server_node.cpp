@@ -132,6 +132,7 @@ private:
     mesh_.source = vessel.source;
     toMessage(vessel.mesh, mesh_);
     toMessage(vessel.centreline, centreline_);
+    toMessage(vessel.lesions, centreline_);
   }
 
   static visualization_msgs::Marker marker(const vessel::TriangleMesh& mesh)

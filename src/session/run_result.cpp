@@ -22,6 +22,7 @@ struct HandPart
   const char* name;
   double rod::HandForceParts::*value;
 };
+constexpr double kSlowStep = 300e-6;  // s: slower ones are counted
 constexpr std::array<HandPart, 6> kHandParts = {{{"bending", &rod::HandForceParts::bending},
                                                  {"friction", &rod::HandForceParts::friction},
                                                  {"inertia", &rod::HandForceParts::inertia},
@@ -126,6 +127,8 @@ std::string RunResult::json(Simulation& simulation, const WallForceMap* wall_for
   const DurationStatistics whole = durationStatistics(step_seconds_);
   const rod::Energy energy = simulation.energy();
   Json timing = toJson(whole);
+  timing["over_300"] =
+      std::count_if(step_seconds_.begin(), step_seconds_.end(), [](double s) { return s > kSlowStep; });
   for (std::size_t phase = 0; phase < kPhaseCount; ++phase)
     timing[kPhaseNames[phase]] = toJson(durationStatistics(phase_seconds_[phase]));
   Json hand_parts;

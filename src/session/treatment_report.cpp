@@ -70,6 +70,12 @@ intervention::LesionReport best(const vessel::Vessel& vessel, const vessel::Tria
 
 }  // namespace
 
+bool isOpened(const intervention::StentPlacement& stent)
+{
+  return stent.state() == intervention::StentPlacement::State::kPlaced ||
+         stent.state() == intervention::StentPlacement::State::kExpanding;
+}
+
 std::vector<intervention::RoundBody> openedStents(const Simulation& simulation)
 {
   std::vector<intervention::RoundBody> stents;
@@ -78,9 +84,7 @@ std::vector<intervention::RoundBody> openedStents(const Simulation& simulation)
     const intervention::Treatment* treatment = simulation.treatment(k);
     if (treatment == nullptr || !treatment->stent())
       continue;
-    const intervention::StentPlacement::State state = treatment->stent()->state();
-    if (state == intervention::StentPlacement::State::kPlaced ||
-        state == intervention::StentPlacement::State::kExpanding)
+    if (isOpened(*treatment->stent()))
       stents.push_back(treatment->stent()->sleeve());
   }
   return stents;

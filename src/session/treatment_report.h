@@ -21,6 +21,9 @@ struct LesionOutcome
   intervention::LesionReport before, after;
 };
 
+/** Whether a balloon has opened a stent, which then holds the wall. */
+bool isOpened(const intervention::StentPlacement& stent);
+
 /** Stents that were opened, whether or not they have left their balloons, measured where they are now. */
 std::vector<intervention::RoundBody> openedStents(const Simulation& simulation);
 

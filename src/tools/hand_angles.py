@@ -28,7 +28,7 @@ SPARE_TIME = 0.07               # s, after the push
 
 COLUMNS = ['vessel', 'speed_mm_s', 'angle_deg', 'inserted_mm', 'jammed', 'penetration_mm', 'nodes_outside', 'max_strain',
            'steps_strained', 'hand_force_max_N', 'refused_steps', 'real_time_factor', 'step_median_us', 'step_p99_us',
-           'step_max_us', 'trajectory_hash', 'verdict']
+           'step_max_us', 'steps', 'steps_over_300_us', 'trajectory_hash', 'verdict']
 
 
 def vessels(mesh):
@@ -88,6 +88,7 @@ def row_of(name, speed, angle, result):
             'refused_steps': result['solver']['refused_steps'],
             'real_time_factor': round(result['real_time_factor'], 1), 'step_median_us': round(time['median'], 1),
             'step_p99_us': round(time['p99'], 1), 'step_max_us': round(time['max'], 1),
+            'steps': result['steps'], 'steps_over_300_us': time['over_300'],
             'trajectory_hash': result['trajectory_hash'],
             'verdict': 'good' if not broken else ' '.join(broken)}
 
@@ -111,8 +112,10 @@ def summary(name, speed, rows):
     factor_goal, step_goal = GOALS.get(speed, (None, None))
     goal = f' (goal {factor_goal:.0f} on one quiet core)' if factor_goal else ''
     limit = f' (goal {step_goal:.0f})' if step_goal else ''
+    over = sum(row['steps_over_300_us'] for row in rows) / sum(row['steps'] for row in rows)
     return (f'{name}, {1e3 * speed:.0f} mm/s: {len(rows)} runs, mean real-time factor {factor:.1f}{goal}, '
             f'p99 of a step median {statistics.median(slow):.0f}, worst {max(slow):.0f} us{limit}, '
+            f'{100 * over:.2f} % of all steps over 300 us, '
             f"deepest {max(row['penetration_mm'] for row in rows):.3f} mm")
 
 

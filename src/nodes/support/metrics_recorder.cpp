@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "nodes/support/procedure_driver.h"
+#include "nodes/support/treatment_conversions.h"
 #include "nodes/support/vessel_conversions.h"
 #include "procedure/session_run.h"
 #include "session/scene_vessel.h"
+#include "session/treatment_report.h"
 
 namespace endovascular_sim::nodes
 {
@@ -71,6 +73,7 @@ void MetricsRecorder::add(const VesselMesh& mesh)
     return;  // the vessel of the beginning tells where the branches are
   vessel_.mesh = fromMessage(mesh);
   vessel_.source = mesh.source;
+  wall_ = vessel_.mesh;
   begin();
 }
 
@@ -79,6 +82,7 @@ void MetricsRecorder::add(const VesselCentreline& centreline)
   if (metrics_)
     return;
   vessel_.centreline = fromMessage(centreline);
+  vessel_.lesions = lesionsFromMessage(centreline);
   begin();
 }
 
@@ -124,6 +128,23 @@ void MetricsRecorder::add(const ProcedureStep& step)
   failure_ = step.failure;
 }
 
+void MetricsRecorder::add(const VesselMoved& moved)
+{
+  if (wall_.vertices.empty())
+    return;
+  const intervention::MovedVertices vertices = fromMessage(moved, wall_.vertices.size());
+  for (std::size_t k = 0; k < vertices.indices.size(); ++k)
+    wall_.vertices[vertices.indices[k]] = vertices.positions[k];
+}
+
+void MetricsRecorder::add(const TreatmentVisual& treatment)
+{
+  stents_.clear();
+  for (const TreatmentBody& stent : treatment.stents)
+    if (stent.opened)
+      stents_.push_back(fromMessage(stent));
+}
+
 void MetricsRecorder::write(const std::string& folder, const session::WallForceSummary* forces)
 {
   if (!metrics_)
@@ -131,6 +152,7 @@ void MetricsRecorder::write(const std::string& folder, const session::WallForceS
   metrics_->setSteps(steps_, failure_);
   if (forces != nullptr)
     metrics_->setWallForces(*forces);
+  metrics_->setLesions(session::lesionOutcomes(vessel_, wall_, stents_));
   procedure::writeMetrics(*metrics_, folder);
 }
 

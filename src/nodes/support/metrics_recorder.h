@@ -8,8 +8,10 @@
 #include "endovascular_sim/ContactForces.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "endovascular_sim/VesselMoved.h"
 #include "procedure/session_metrics.h"
 #include "session/scene.h"
 
@@ -28,10 +30,12 @@ public:
   void add(const RodStateVisual& rod);
   void add(const ContactForces& forces);
   void add(const ProcedureStep& step);
+  void add(const VesselMoved& moved);
+  void add(const TreatmentVisual& treatment);
   /** Pressure commanded at the inflators, per instrument [Pa]. */
   void setPressures(const std::vector<double>& pressures) { pressures_ = pressures; }
 
-  /** Writes metrics.json, metrics.html and instruments.csv; nothing where no vessel came.
+  /** Measures the lesions, then writes metrics.json, metrics.html and instruments.csv; nothing where no vessel came.
    *  @throws InputError when the disk refuses them */
   void write(const std::string& folder, const session::WallForceSummary* forces);
 
@@ -39,7 +43,9 @@ private:
   void begin();
 
   session::Scene scene_;
-  vessel::Vessel vessel_;
+  vessel::Vessel vessel_;                               ///< as it was at the beginning
+  vessel::TriangleMesh wall_;                           ///< as it is now
+  std::vector<intervention::RoundBody> stents_;         ///< opened ones
   std::unique_ptr<procedure::SessionMetrics> metrics_;  ///< null before the vessel
   std::vector<procedure::StepRecord> steps_;
   std::string failure_;

@@ -274,7 +274,8 @@ void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::t
   counters_.late_steps += std::chrono::duration<double>(end - slot_end).count() > kLate;
   counters_.refused_steps += !simulation_->report().solved;
   counters_.last_refused = !simulation_->report().solved || force_share_ < 1.0;
-  counters_.worst_penetration = std::max(counters_.worst_penetration.load(), simulation_->surfacePenetration());
+  if (!simulation_->contactSet().stale)  // an old set only estimates
+    counters_.worst_penetration = std::max(counters_.worst_penetration.load(), simulation_->surfacePenetration());
   counters_.longest_step = std::max(counters_.longest_step.load(), seconds);
   counters_.total_step = counters_.total_step + seconds;
   if (!contacts_)

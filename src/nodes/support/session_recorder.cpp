@@ -153,11 +153,31 @@ void SessionRecorder::record(const std::string& topic, std::uint32_t queue)
                   [this, resolved](const ros::MessageEvent<Message const>& event) { bag_.write(resolved, event); });
 }
 
+/** Recorded, and looked at by the metrics. */
+template <typename Message>
+void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
+{
+  const std::string resolved = node_.resolveName(topic);
+  listen<Message>(topic, queue,
+                  [this, resolved](const ros::MessageEvent<Message const>& event)
+                  {
+                    bag_.write(resolved, event);
+                    try
+                    {
+                      metrics_.add(*event.getMessage());
+                    }
+                    catch (const InputError& error)
+                    {
+                      ROS_WARN_THROTTLE(10.0, "session: left out of the metrics: %s", error.what());
+                    }
+                  });
+}
+
 void SessionRecorder::subscribeToWire()
 {
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
-  record<TreatmentVisual>(names::kTreatmentVisual, kQueue);
+  measure<TreatmentVisual>(names::kTreatmentVisual, kQueue);
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
   {
     const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
@@ -170,20 +190,10 @@ void SessionRecorder::subscribeToWire()
 void SessionRecorder::subscribeToVessel()
 {
   listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
-  listen<VesselCentreline>(names::kVesselCentreline, 1,
-                           [this](const auto& event)
-                           {
-                             metrics_.add(*event.getMessage());
-                             bag_.write(node_.resolveName(names::kVesselCentreline), event);
-                           });
-  record<VesselMoved>(names::kVesselMoved, kStepQueue);
+  measure<VesselCentreline>(names::kVesselCentreline, 1);
+  measure<VesselMoved>(names::kVesselMoved, kStepQueue);
   if (scene_.procedure)
-    listen<ProcedureStep>(names::kProcedureStep, kStepQueue,
-                          [this](const auto& event)
-                          {
-                            metrics_.add(*event.getMessage());
-                            bag_.write(node_.resolveName(names::kProcedureStep), event);
-                          });
+    measure<ProcedureStep>(names::kProcedureStep, kStepQueue);
   listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
   listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
 }

@@ -37,7 +37,10 @@ void toMessage(const session::Simulation& simulation, TreatmentVisual& message)
     if (!balloon.axis.empty())
       message.balloons.push_back(toMessage(balloon, k, 0.0));
     if (treatment->stent() && !treatment->stent()->sleeve().axis.empty())
+    {
       message.stents.push_back(toMessage(treatment->stent()->sleeve(), k, treatment->stent()->strutThickness()));
+      message.stents.back().opened = session::isOpened(*treatment->stent());
+    }
   }
   message.event.clear();
   message.event_time.clear();

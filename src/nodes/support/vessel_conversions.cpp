@@ -50,6 +50,41 @@ void toMessage(const vessel::CentrelineTree& tree, VesselCentreline& message)
   }
 }
 
+void toMessage(const std::vector<vessel::PlacedLesion>& lesions, VesselCentreline& message)
+{
+  message.lesions.clear();
+  for (const vessel::PlacedLesion& lesion : lesions)
+  {
+    VesselLesion to;
+    to.branch = static_cast<std::uint32_t>(lesion.branch);
+    to.begin = lesion.begin;
+    to.middle = lesion.middle;
+    to.end = lesion.end;
+    to.healthy_diameter = lesion.healthy_diameter;
+    to.narrowed_diameter = lesion.narrowed_diameter;
+    message.lesions.push_back(to);
+  }
+}
+
+std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& message)
+{
+  std::vector<vessel::PlacedLesion> lesions;
+  for (const VesselLesion& from : message.lesions)
+  {
+    if (from.branch >= message.branches.size())
+      throw InputError(names::kVesselCentreline, "lesions", "one is on a branch that is not there");
+    vessel::PlacedLesion lesion;
+    lesion.branch = static_cast<int>(from.branch);
+    lesion.begin = from.begin;
+    lesion.middle = from.middle;
+    lesion.end = from.end;
+    lesion.healthy_diameter = from.healthy_diameter;
+    lesion.narrowed_diameter = from.narrowed_diameter;
+    lesions.push_back(lesion);
+  }
+  return lesions;
+}
+
 vessel::CentrelineTree fromMessage(const VesselCentreline& message)
 {
   vessel::CentrelineTree tree;

@@ -15,6 +15,9 @@ namespace endovascular_sim::nodes
 void toMessage(const vessel::TriangleMesh& mesh, VesselMesh& message);
 vessel::TriangleMesh fromMessage(const VesselMesh& message);
 void toMessage(const vessel::CentrelineTree& tree, VesselCentreline& message);
+void toMessage(const std::vector<vessel::PlacedLesion>& lesions, VesselCentreline& message);
+/** @throws InputError when a lesion is on a branch that is not there */
+std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& message);
 vessel::CentrelineTree fromMessage(const VesselCentreline& message);
 void toMessage(const intervention::Pressing& pressing, VesselPressing& message);
 /** @throws InputError when axes and radii do not fit together */

@@ -42,6 +42,30 @@ TEST(VesselConversions, ACentrelineComesBackBitForBit)
   EXPECT_EQ(back.branches[0].radii, tree.branches[0].radii);
 }
 
+TEST(VesselConversions, LesionsComeBackAndAreRefusedOnBranchesThatAreNotThere)
+{
+  VesselCentreline message;
+  toMessage(vessel::tubeCentreline(tube()), message);
+  vessel::PlacedLesion lesion;
+  lesion.branch = 0;
+  lesion.begin = 0.01;
+  lesion.middle = 0.02;
+  lesion.end = 0.03;
+  lesion.healthy_diameter = 6e-3;
+  lesion.narrowed_diameter = 2e-3;
+  toMessage({lesion}, message);
+  const std::vector<vessel::PlacedLesion> back = lesionsFromMessage(message);
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].branch, lesion.branch);
+  EXPECT_EQ(back[0].begin, lesion.begin);
+  EXPECT_EQ(back[0].middle, lesion.middle);
+  EXPECT_EQ(back[0].end, lesion.end);
+  EXPECT_EQ(back[0].healthy_diameter, lesion.healthy_diameter);
+  EXPECT_EQ(back[0].narrowed_diameter, lesion.narrowed_diameter);
+  message.lesions[0].branch = 1;
+  EXPECT_THROW(lesionsFromMessage(message), InputError);
+}
+
 TEST(VesselConversions, MovedVerticesComeBackBitForBit)
 {
   const intervention::MovedVertices moved{{0, 7}, {{0.1, 1.0 / 3.0, -2e-3}, {0.0, 1e-9, 3.0}}};
