@@ -5,6 +5,7 @@
 #include "intervention/stent_placement.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
+#include "session/treatment_report.h"
 
 namespace endovascular_sim::nodes
 {
