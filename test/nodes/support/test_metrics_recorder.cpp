@@ -23,7 +23,7 @@ class RecordedStent : public testing::Test
 protected:
   RecordedStent()
     : scene_(session::loadScene(PROJECT_DIR "/config/scenes/stent.yaml", {})),
-      vessel_(session::buildVessel(scene_.vessel, scene_.entry, "test", session::CentrelineUse::kRequired)),
+      vessel_(session::buildVessel(*scene_.vessel, scene_.entry, "test", session::CentrelineUse::kRequired)),
       recorder_(scene_),
       folder_(testing::TempDir() + "/metrics_recorder")
   {
