@@ -22,14 +22,12 @@ constexpr double kListGuard = 1e-8;          // m by which lists hold more than 
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
 constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
-constexpr std::size_t kManyCrossings = 8;    // of a wire's edge; more are thinned out
-constexpr double kSamePlace = 0.5;           // of the wire's radius, by which crossings that count as one are apart
-constexpr double kSameDirection = 0.9;       // cosine of the angle between them
 constexpr double kConeTolerance = 1e-12;     // m
 constexpr double kConeSlack = 1e-3;          // of the distance: crossings at the border of the normal cone count
 // The same in ridge's angles. A wire that lies along a facet touches it at the facet's border too: if that contact came
 // and went with the wire's direction, wire and solver would rock.
 constexpr double kConeSlackOfAngle = 0.1;
+constexpr double kWidestWire = 0.6e-3;       // m from its axis up to which that holds
 constexpr double kOnRidge = 1e-12;           // m
 constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
 constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
@@ -516,28 +514,6 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
     if (std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
   }
-  if (features.size() - begin > kManyCrossings)
-    thinOut(features, begin, kSamePlace * limit / (b - a).norm());
-}
-
-/** Of many crossings of a wire's edge, those that tell something new stay: not one next to a deeper one that faces the
- *  same way. A wide body in a finely meshed vessel has hundreds.
- *  @param same_place difference of parameters up to which crossings are next to each other */
-void Detector::thinOut(std::vector<Feature>& features, std::size_t begin, double same_place)
-{
-  const auto first = features.begin() + static_cast<std::ptrdiff_t>(begin);
-  std::sort(first, features.end(),
-            [](const Feature& f, const Feature& g) { return f.gap != g.gap ? f.gap < g.gap : f.id < g.id; });
-  auto kept = first;
-  for (auto feature = first; feature != features.end(); ++feature)
-    if (std::none_of(first, kept,
-                     [&](const Feature& other)
-                     {
-                       return std::abs(other.parameter - feature->parameter) < same_place &&
-                              other.normal.dot(feature->normal) > kSameDirection;
-                     }))
-      *kept++ = *feature;
-  features.erase(kept, features.end());
 }
 
 /** Closest point of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local minimum. */
@@ -563,7 +539,8 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   const bool inside = at_vertex ? offset.dot(inward) >= 0.0
                                 : offset.dot(wall_.normals[edge.triangles[0]]) >= 0.0 ||
                                       offset.dot(wall_.normals[edge.triangles[1]]) >= 0.0;
-  const double slack = std::max(kConeSlack, kConeSlackOfAngle * edge.reflex_angle) * distance;
+  const double wide = distance < kWidestWire ? kConeSlackOfAngle * edge.reflex_angle : 0.0;
+  const double slack = std::max(kConeSlack, wide) * distance;
   if (at_vertex ? !vertexIsMinimum(vertex, offset)
                 : inside && (offset.dot(edge.into_triangle[0]) > slack || offset.dot(edge.into_triangle[1]) > slack))
     return false;

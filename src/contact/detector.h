@@ -119,7 +119,6 @@ private:
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
-  static void thinOut(std::vector<Feature>& features, std::size_t begin, double same_place);
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
   bool canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit_a, double limit_b) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,

@@ -16,7 +16,6 @@ constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
 constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
 constexpr int kLineSearchHalvings = 10;
-constexpr double kStillPressed = 20e-6;        // m of gap up to which a contact that pressed is taken to press again
 constexpr double kBeyondMargin = 1.0 + 1e-12;  // for rounding
 
 bool isBacking(const contact::Feature& feature)
@@ -112,7 +111,6 @@ double NodalContacts::deepest() const
 
 void NodalContacts::prepare(const State& state, double dt)
 {
-  listPressed();
   moved_on_ = false;
   springs_.clear();
   listCrossings();
@@ -124,29 +122,9 @@ void NodalContacts::prepare(const State& state, double dt)
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
     spring.gap += spring.weight0 * state.wall_offset[spring.node] + spring.weight1 * state.wall_offset[second];
-    spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0 ||
-                    (spring.gap < kStillPressed && wasPressed(feature));
+    spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     springs_.push_back(spring);
   }
-}
-
-/** Which contacts pressed at the end of the last solve. */
-void NodalContacts::listPressed()
-{
-  pressed_.clear();
-  for (std::size_t c = 0; moved_on_ && c < previous_springs_.size(); ++c)
-    if (previous_springs_[c].active)
-    {
-      const contact::Feature& feature = previous_contacts_.features[c];
-      pressed_.push_back({feature.id, feature.edge + feature.parameter});
-    }
-}
-
-bool NodalContacts::wasPressed(const contact::Feature& feature) const
-{
-  const double place = feature.edge + feature.parameter;
-  return std::any_of(pressed_.begin(), pressed_.end(),
-                     [&](const Pressed& one) { return one.id == feature.id && std::abs(one.place - place) < 1.0; });
 }
 
 /** Contacts between the nodes, along the wire. */

@@ -73,8 +73,7 @@ public:
   /** Detects where the last answer is missing or old. */
   void refresh(const State& state, StepReport& report);
 
-  /** Springs for the present contacts; active are those that the velocity would close within @p dt, and those that
-   *  pressed a moment ago. */
+  /** Springs for the present contacts; active are those that the velocity would close within @p dt. */
   void prepare(const State& state, double dt);
 
   std::size_t count() const { return springs_.size(); }
@@ -123,16 +122,7 @@ private:
     void archive(Archive& archive);
   };
 
-  /** A contact that pressed at the end of a solve. */
-  struct Pressed
-  {
-    std::int64_t id;  ///< of the feature
-    double place;     ///< edge and parameter
-  };
-
   Spring springOf(int index) const;
-  void listPressed();
-  bool wasPressed(const contact::Feature& feature) const;
   void addBacking();
   void carry();
   void settleOffset(int index, std::vector<double>& offset) const;
@@ -160,7 +150,6 @@ private:
   std::vector<Spring> springs_, previous_springs_;
   int first_changed_ = 0;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
-  std::vector<Pressed> pressed_;  ///< scratch of prepare()
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
   std::vector<int> crossings_;    ///< compliant contacts between nodes, along the wire
   bool valid_ = false;

@@ -8,7 +8,6 @@
 
 #include "contact_fixtures.h"
 #include "vessel/mesh_distance.h"
-#include "vessel/polyline.h"
 #include "vessel/subdivision.h"
 
 namespace endovascular_sim::contact
@@ -203,64 +202,6 @@ TEST_F(WireAcrossARidge, IsStillFoundThereWhenItLiesAlongAFacet)
     EXPECT_NEAR(gapOfCrossing(-tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
   }
   EXPECT_FALSE(std::isfinite(gapOfCrossing(along_facet + 0.3 * ridge().reflex_angle))) << "a node is nearest";
-}
-
-/** A finely meshed bend. */
-vessel::TubeShape fineBend()
-{
-  vessel::TubeShape shape;
-  shape.radius = 1.6e-3;
-  shape.facet_length = 0.3e-3;
-  shape.facets_around = 36;
-  shape.pieces = {{0.03, 20.0, 0.0}};
-  return shape;
-}
-
-/** Contacts of a wide body along a chord of 4 mm there. @param edges that the body is cut into */
-ContactSet wideBody(Detector& detector, int edges)
-{
-  const vessel::Polyline axis(vessel::tubeCentreline(fineBend()).branches[0].points);
-  const Eigen::Vector3d middle = axis.at(0.5 * axis.length());
-  const Eigen::Vector3d along = axis.tangentAt(0.5 * axis.length());
-  Query query;
-  query.margin = 0.25e-3;
-  for (int i = 0; i <= edges; ++i)
-  {
-    query.nodes.push_back(middle + (static_cast<double>(i) / edges - 0.5) * 4e-3 * along);
-    query.radius.push_back(1.5e-3);
-  }
-  ContactSet set;
-  detector.detect(query, set);
-  return set;
-}
-
-TEST(Detector, LeavesOutOfAWideBodysCrossingsOnlyThoseNextToADeeperOneThatFacesTheSameWay)
-{
-  vessel::TriangleMesh rough = vessel::tubeMesh(fineBend());
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(-30e-6, 30e-6);
-  for (Eigen::Vector3d& vertex : rough.vertices)
-    vertex += Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
-  Detector detector(rough, WallLaw{});
-  const ContactSet thinned = wideBody(detector, 1);
-  const ContactSet all = wideBody(detector, 40);
-  const auto isCrossing = [](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; };
-  const auto crossings = std::count_if(all.features.begin(), all.features.end(), isCrossing);
-  EXPECT_GT(crossings, 100);
-  EXPECT_LT(3 * std::count_if(thinned.features.begin(), thinned.features.end(), isCrossing), crossings);
-  for (const Feature& feature : all.features)
-  {
-    if (!isCrossing(feature))
-      continue;
-    const double place = (feature.edge + feature.parameter) / 40.0;
-    EXPECT_TRUE(std::any_of(thinned.features.begin(), thinned.features.end(),
-                            [&](const Feature& kept)
-                            {
-                              return std::abs(kept.parameter - place) * 4e-3 < 0.9e-3 &&
-                                     kept.normal.dot(feature.normal) > 0.9 - 1e-9 && kept.gap < feature.gap + 1e-9;
-                            }))
-        << place << " " << feature.gap;
-  }
 }
 
 TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)

@@ -322,41 +322,6 @@ int passesOnRandomProblem(unsigned seed)
   return 13;
 }
 
-/** Whether a contact that pressed is taken to press again when the wall has gone back by a gap [m]. */
-bool pressesAgain(double gap)
-{
-  const Discretisation rod = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), 21);
-  const Boundary boundary = Bench::freeBoundary(0.0);
-  const StepperSettings settings;
-  NodalContacts contacts(rod, boundary, settings);
-  const State state = Bench(0.0).state;
-  Groove wall;
-  wall.angle = 1.0;
-  wall.gaps[0] = -5e-6;
-  wall.gaps[1] = 0.1e-3;
-  PhaseTimer timer;
-  StepReport report;
-  std::uint32_t asked = 0;
-  contacts.beginStep(StepInput(), &wall, asked, timer);
-  contacts.refresh(state, report);
-  contacts.prepare(state, 1e-3);
-  EXPECT_TRUE(contacts.spring(0).active);
-  EXPECT_FALSE(contacts.spring(1).active);
-  wall.gaps[0] = gap;
-  wall.gaps[1] = 5e-6;
-  contacts.detect(state, report);
-  contacts.prepare(state, 1e-3);
-  EXPECT_FALSE(contacts.spring(1).active) << "it did not press before";
-  return contacts.spring(0).active;
-}
-
-TEST(NodalContacts, AContactThatPressedIsTakenToPressAgainWhereTheWallIsStillNear)
-{
-  EXPECT_TRUE(pressesAgain(-5e-6));
-  EXPECT_TRUE(pressesAgain(10e-6));
-  EXPECT_FALSE(pressesAgain(40e-6));
-}
-
 /** Share of random motions that is left, and how often the wall was asked for free distances. */
 class TruncationOverAFloor : public testing::Test
 {
