@@ -14,11 +14,6 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kRoom = 0.25e-3;  // m that a node may move before what is near it is listed anew
-// m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
-constexpr double kLimitSlack = 0.1e-3;
-constexpr std::size_t kUsual = 16;           // entries of a list
-constexpr double kListGuard = 1e-8;          // m by which lists hold more than rounding could miss
 constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
 constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
 constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
@@ -27,7 +22,7 @@ constexpr double kConeSlack = 1e-3;          // of the distance: crossings at th
 // The same in ridge's angles. A wire that lies along a facet touches it at the facet's border too: if that contact came
 // and went with the wire's direction, wire and solver would rock.
 constexpr double kConeSlackOfAngle = 0.1;
-constexpr double kWidestWire = 0.6e-3;       // m from its axis up to which that holds
+constexpr double kWidestWire = 0.6e-3;       // m from a wire's axis up to which that holds
 constexpr double kOnRidge = 1e-12;           // m
 constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
 constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
@@ -41,40 +36,14 @@ enum FeatureKind
   kVertex = 2,
 };
 
-/** Index by which a node or edge is remembered: from the tip, so that nodes that come and go at the wire's other end
- *  change nothing. */
-int placeFromTip(const Query& query, std::size_t index)
-{
-  return static_cast<int>(query.nodes.size() - 1 - index);
-}
-
 std::int64_t featureId(int index, FeatureKind kind)
 {
   return std::int64_t{3} * index + kind;
 }
 
-/** How far wire and wall may come closer before something at a distance is within a limit, rounded down [m]. */
-float clearance(double distance, double limit)
-{
-  return static_cast<float>(distance - limit - kListGuard);
-}
-
 double clampedShare(double value)
 {
   return std::max(0.0, std::min(1.0, value));
-}
-
-/** Heights of a point over four planes [m]. */
-inline Eigen::Array4d heights(const std::array<Eigen::Array4d, 4>& planes, const Eigen::Vector3d& point)
-{
-  return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
-}
-
-/** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
- * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
-inline double outsideOf(const Eigen::Array4d& above)
-{
-  return -std::min({above[1], above[2], above[3]});
 }
 
 }  // namespace
@@ -162,31 +131,6 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   keepUp(moved, farthest);
 }
 
-/** Lists hold more than what can be met. While wire and wall have moved by less than that, they stay; edges that have
- *  become reflex are added, and those that no longer are stand in them to no effect. */
-void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
-{
-  const auto touches = [&moved](const Neighbourhood& near)
-  {
-    const double half = 0.5 * (near.end - near.begin).norm();
-    const double far = half + near.room + near.limit + kRoom + kListGuard;
-    return near.room >= 0.0 && moved.exteriorDistance(0.5 * (near.begin + near.end)) <= far;
-  };
-  for (Neighbourhood& near : near_)
-    if (touches(near))
-    {
-      near.room -= farthest;
-      near.wall_moved += farthest;
-      for (int e : now_reflex_)
-      {
-        const auto place = std::lower_bound(near.edges.begin(), near.edges.end(), e,
-                                            [](const Near& other, int edge) { return other.index < edge; });
-        if (place == near.edges.end() || place->index != e)
-          near.edges.insert(place, {e, -std::numeric_limits<float>::infinity()});
-      }
-    }
-}
-
 double Detector::signedDistance(const Eigen::Vector3d& point, int near) const
 {
   const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
@@ -198,89 +142,6 @@ double Detector::signedDistance(const Eigen::Vector3d& point, int near) const
                                       ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
                                       : wall_.normals[nearest.triangle];
   return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
-}
-
-void Detector::makeRoom(const Query& query)
-{
-  while (near_.size() < query.nodes.size())
-  {
-    near_.emplace_back();
-    near_.back().triangles.reserve(kUsual);
-    near_.back().edges.reserve(kUsual);
-  }
-}
-
-bool Detector::Neighbourhood::follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
-{
-  const double wire_moved = std::sqrt(std::max((a - begin).squaredNorm(), (b - end).squaredNorm()));
-  moved = wire_moved + wall_moved;
-  return wire_moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
-}
-
-void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
-{
-  begin = a;
-  end = b;
-  limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
-  room = kRoom;
-  moved = wall_moved = 0.0;
-  triangles.clear();
-  edges.clear();
-}
-
-/** Of a node and the wire's edge that begins there; the tip has none. */
-const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::size_t index)
-{
-  const std::size_t next = std::min(index + 1, query.nodes.size() - 1);
-  const double limit = std::max(query.radius[index], query.radius[next]) + query.margin;
-  Neighbourhood& near = near_[placeFromTip(query, index)];
-  if (!near.follows(query.nodes[index], query.nodes[next], limit))
-  {
-    near.start(query.nodes[index], query.nodes[next], limit);
-    list(near);
-  }
-  return near;
-}
-
-void Detector::list(Neighbourhood& near)
-{
-  const double wide = near.limit + kRoom + kListGuard;
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
-  collected_.clear();
-  bvh_.collectBox(near.begin.cwiseMin(near.end) - around, near.begin.cwiseMax(near.end) + around, collected_);
-  for (int t : collected_)
-  {
-    const Eigen::Array4d above = heights(prisms_[t].planes, near.begin);
-    const double end_height = heights(prisms_[t].planes, near.end)[0];
-    if (std::min(above[0], end_height) > wide || std::max(above[0], end_height) < -wide)
-      continue;
-    const double beyond = std::max(0.0, outsideOf(above));
-    const double distance = std::sqrt(above[0] * above[0] + beyond * beyond);  // or less
-    if (distance <= wide)
-      near.triangles.push_back({t, clearance(distance, near.limit)});
-    listEdges(t, near, wide);
-  }
-  // Sorted, so that results do not depend on how the tree is walked.
-  const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
-  std::sort(near.triangles.begin(), near.triangles.end(), by_index);
-  std::sort(near.edges.begin(), near.edges.end(), by_index);
-}
-
-void Detector::listEdges(int triangle, Neighbourhood& near, double wide) const
-{
-  const Eigen::Vector3d along = near.end - near.begin;
-  for (int e : prisms_[triangle].own_edges)
-  {
-    if (e < 0 || !canMeet(near.begin, near.end, e, wide, wide))
-      continue;
-    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
-    const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
-    const SegmentPair pair = closestPointsOfSegments(near.begin, near.end, end0, end1);
-    const Eigen::Vector3d apart = near.begin + pair.first * along - end0 - pair.second * (end1 - end0);
-    const double distance = apart.norm();
-    if (distance <= wide)
-      near.edges.push_back({e, clearance(distance, near.limit)});
-  }
 }
 
 void Detector::detect(const Query& query, ContactSet& set)
@@ -371,14 +232,6 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
     features.push_back(outside_feature);
 }
 
-double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const
-{
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Near& one : near.triangles)
-    nearest = std::min(nearest, bvh_.distanceTo(one.index, point));
-  return nearest;
-}
-
 /** @param limit distance up to which features are wanted [m]
  *  @param distance to the triangle, where its closest point is one
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
@@ -386,7 +239,7 @@ double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d&
 bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                            bool& outside) const
 {
-  const Eigen::Array4d above = heights(prisms_[triangle].planes, point);
+  const Eigen::Array4d above = prisms_[triangle].heights(point);
   const double height = above[0];
   const double beyond = outsideOf(above);
   if (height * height > limit * limit ||

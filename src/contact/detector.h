@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -73,14 +74,13 @@ private:
     float clear;  ///< [m]
   };
 
-  /** What a node of the wire and the edge from it to the next node may meet while both stay within `room` of where they
-   * were. */
+  /** What a node of the wire and the edge from it to the next node may meet until wire and wall have come closer by
+   * more than the lists have room for. */
   struct Neighbourhood
   {
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();
     Eigen::Vector3d end = Eigen::Vector3d::Zero();
-    double room = -1.0;           ///< [m]; negative: not listed yet
-    double limit = -1.0;          ///< distance up to which features are wanted [m]
+    double limit = -1.0;          ///< distance up to which features are wanted [m]; negative: not listed yet
     double moved = 0.0;           ///< by which wire and wall have come closer since, at most [m]
     double wall_moved = 0.0;      ///< the wall's share of it [m]
     std::vector<Near> triangles;  ///< that the node may meet, ascending
@@ -98,6 +98,12 @@ private:
     bool bulges = false;                   ///< a closest point on its border can be a local minimum in front of it
     std::array<int, 3> own_edges{-1, -1,
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
+
+    /** Heights of a point over the four planes [m]. */
+    Eigen::Array4d heights(const Eigen::Vector3d& point) const
+    {
+      return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
+    }
   };
 
   /** A mesh edge's smallest ball. */
@@ -108,6 +114,11 @@ private:
     double half_length;      ///< [m]
   };
 
+  /** How far a point's foot in a triangle's plane lies beyond the farthest of the lines along its edges, negative
+   * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
+  static double outsideOf(const Eigen::Array4d& above) { return -std::min({above[1], above[2], above[3]}); }
+  /** Index by which a node or edge is remembered. */
+  static int placeFromTip(const Query& query, std::size_t index);
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
   void list(Neighbourhood& near);

@@ -194,6 +194,7 @@ def draw_sampling(folder):
             curve(axis, [row], 'µs per step', 'RMS distance [mm]', marker='*' if 'adaptive' in row['sampling'] else 'o',
                   linestyle='', markersize=13 if 'adaptive' in row['sampling'] else 7, label=row['sampling'])
         finish(axis, case, 'µs per step', 'RMS distance to uniform 0.125 mm [mm]')
+        axis.set_xscale('linear')  # less than a decade: logarithmic ticks run into each other
         axis.legend(fontsize=7)
     save(figure, folder, 'sampling.png')
 

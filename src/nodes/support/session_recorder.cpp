@@ -153,7 +153,6 @@ void SessionRecorder::record(const std::string& topic, std::uint32_t queue)
                   [this, resolved](const ros::MessageEvent<Message const>& event) { bag_.write(resolved, event); });
 }
 
-/** Recorded, and looked at by the metrics. */
 template <typename Message>
 void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
 {

@@ -74,9 +74,10 @@ private:
               std::function<void(const ros::MessageEvent<Message const>&)> callback);
   /** Records a topic as it comes. */
   template <typename Message>
-  void measure(const std::string& topic, std::uint32_t queue);
-  template <typename Message>
   void record(const std::string& topic, std::uint32_t queue);
+  /** The same, and shows it to the metrics. */
+  template <typename Message>
+  void measure(const std::string& topic, std::uint32_t queue);
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
