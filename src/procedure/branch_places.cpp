@@ -1,6 +1,7 @@
 #include "procedure/branch_places.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace endovascular_sim::procedure
 {
@@ -8,6 +9,27 @@ namespace
 {
 
 constexpr double kOstiumStep = 0.5e-3;  // m along a branch, in search of where it leaves its parent
+constexpr double kWider = 1.25;         // times as wide as a branch is what it leaves by an ostium
+
+/** Whether a place on a branch's centreline lies within the lumen of a wider branch that it comes from. One that it
+ *  continues is not wider. */
+bool isInParents(const vessel::CentrelineTree& tree, const std::vector<vessel::Polyline>& lines, std::size_t branch,
+                 double arc)
+{
+  const Eigen::Vector3d point = lines[branch].at(arc);
+  const double own = lines[branch].interpolate(tree.branches[branch].radii, arc);
+  int parent = tree.branches[branch].parent;
+  for (std::size_t above = 0; parent >= 0 && above < lines.size(); ++above)
+  {
+    const auto p = static_cast<std::size_t>(parent);
+    const vessel::Polyline::Foot foot = lines[p].nearest(point);
+    const double radius = lines[p].interpolate(tree.branches[p].radii, foot.arc);
+    if (foot.distance < radius && radius > kWider * own)
+      return true;
+    parent = tree.branches[p].parent;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -26,10 +48,10 @@ BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector
       names_[static_cast<std::size_t>(branch)] = named.name;
   for (std::size_t b = 0; b < lines_.size(); ++b)
   {
-    double arc = 0.0;
-    while (arc < lines_[b].length() && finder_.nearest(lines_[b].at(arc)) != static_cast<int>(b))
-      arc += kOstiumStep;
-    ostium_.push_back(arc < lines_[b].length() ? arc : 0.0);
+    double arc = std::floor(lines_[b].length() / kOstiumStep) * kOstiumStep;
+    while (arc > 0.0 && !isInParents(tree, lines_, b, arc))
+      arc -= kOstiumStep;
+    ostium_.push_back(std::max(0.0, arc));
   }
 }
 

@@ -52,7 +52,7 @@ public:
 
 private:
   std::vector<vessel::Polyline> lines_;
-  std::vector<double> ostium_;  ///< arc length at which a branch's own lumen begins [m]
+  std::vector<double> ostium_;  ///< arc length at which a branch leaves the wider ones it comes from [m]
   std::vector<int> parent_;
   std::vector<std::string> names_;      ///< shown
   std::vector<std::string> own_names_;  ///< of the vessel

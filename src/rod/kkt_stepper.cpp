@@ -257,12 +257,14 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
       return false;
     const bool last = solve + 1 == settings_.max_solves;
     const double factor = move(state, truncation(state, report), report);
+    if (solve > 0)
+      contacts_.keepPressed(state);
     if (factor == 1.0)
       accept(state, dt);
     if (contacts_.present() && contacts_.set().stale)
       break;  // one solve per step is all that old contacts are good for
     strain_ = maxStrain(rod_, state);
-    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !contacts_.foundUnknown())
+    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !contacts_.foundUnknown(state))
       break;
     capped_ = last;
     report.capped += last;

@@ -23,6 +23,12 @@ bool isBacking(const contact::Feature& feature)
   return feature.id < 0;
 }
 
+/** The same part of the wall, near the same place on the wire. */
+bool isSame(const contact::Feature& a, const contact::Feature& b)
+{
+  return a.id == b.id && std::abs(a.edge + a.parameter - b.edge - b.parameter) < 1.0;
+}
+
 }  // namespace
 
 double softWallTravel(double radius)
@@ -121,7 +127,7 @@ void NodalContacts::prepare(const State& state, double dt)
     const int second = std::min(spring.node + 1, rod_.nodes() - 1);
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
-    spring.gap += spring.weight0 * state.wall_offset[spring.node] + spring.weight1 * state.wall_offset[second];
+    spring.gap += offsetAt(state, feature);
     spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
     springs_.push_back(spring);
   }
@@ -372,6 +378,8 @@ void NodalContacts::detect(const State& state, StepReport& report)
 {
   std::swap(contacts_, previous_contacts_);
   std::swap(springs_, previous_springs_);
+  kept_before_ = kept_;
+  kept_ = 0;
   ask(state, contacts_, report);
   valid_ = moved_on_ = true;
   if (!contacts_.stale)
@@ -384,14 +392,47 @@ void NodalContacts::detect(const State& state, StepReport& report)
   contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
                            contacts_.features.end());
   for (contact::Feature& feature : contacts_.features)
-  {
-    const double t = feature.parameter;
-    const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
-    const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
-    const double radius = (1.0 - t) * radiusOf(feature.edge) + t * radiusOf(next);
-    feature.gap = feature.normal.dot(axis - feature.point) - radius;
-  }
+    feature.gap = gapAt(state, feature);
   addBacking();
+}
+
+/** Of a feature that was found at another state, whose wall is taken as a plane [m]. */
+double NodalContacts::gapAt(const State& state, const contact::Feature& feature) const
+{
+  const double t = feature.parameter;
+  const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
+  const Eigen::Vector3d axis = (1.0 - t) * state.position[feature.edge] + t * state.position[next];
+  const double radius = (1.0 - t) * radiusOf(feature.edge) + t * radiusOf(next);
+  return feature.normal.dot(axis - feature.point) - radius;
+}
+
+/** Shift of a feature's gap that a change of the sampling left [m]. */
+double NodalContacts::offsetAt(const State& state, const contact::Feature& feature) const
+{
+  const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
+  return (1.0 - feature.parameter) * state.wall_offset[feature.edge] + feature.parameter * state.wall_offset[next];
+}
+
+void NodalContacts::keepPressed(const State& state)
+{
+  if (contacts_.stale)
+    return;
+  const std::size_t count = previous_springs_.size();
+  const std::size_t found = contacts_.features.size();
+  for (std::size_t c = 0; c < count; ++c)
+  {
+    const contact::Feature& feature = previous_contacts_.features[c];
+    const bool pressed = feature.gap < 0.0 || previous_springs_[c].active || c + kept_before_ >= count;
+    if (!pressed || isBacking(feature))
+      continue;
+    const auto begin = contacts_.features.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(found);
+    if (std::any_of(begin, end, [&feature](const contact::Feature& other) { return isSame(feature, other); }))
+      continue;
+    contacts_.features.push_back(feature);
+    contacts_.features.back().gap = gapAt(state, feature);
+  }
+  kept_ = contacts_.features.size() - found;
 }
 
 void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepReport& report)
@@ -453,17 +494,15 @@ void NodalContacts::send(contact::ContactSet& answer, StepReport& report)
   ++*pass_;
 }
 
-bool NodalContacts::foundUnknown() const
+bool NodalContacts::foundUnknown(const State& state) const
 {
   for (const contact::Feature& feature : contacts_.features)
   {
-    if (feature.gap >= -settings_.penetration_tolerance)
+    if (feature.gap + offsetAt(state, feature) >= -settings_.penetration_tolerance)
       continue;
     bool known = false;
     for (std::size_t c = 0; c < previous_springs_.size() && !known; ++c)
-      known = previous_springs_[c].active && previous_contacts_.features[c].id == feature.id &&
-              std::abs(previous_contacts_.features[c].edge + previous_contacts_.features[c].parameter - feature.edge -
-                       feature.parameter) < 1.0;
+      known = previous_springs_[c].active && isSame(previous_contacts_.features[c], feature);
     if (!known)
       return true;
   }

@@ -97,7 +97,12 @@ public:
   void updateWallForces(State& state, const Motion& motion);
 
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
-  bool foundUnknown() const;
+  bool foundUnknown(const State& state) const;
+
+  /** Keeps, beside what the last detection found, the contacts that pressed before it in the same step and that it did
+   *  not find again, each as the plane that it was. A wide body rolls from facet to facet as it tilts; with those of
+   *  one tilt alone the solves of a step go to and fro between them. */
+  void keepPressed(const State& state);
 
   /** Takes the contacts to another sampling of the wire, before the rod is changed: where the nodes that were asked
    *  about stay the same ones, so do their contacts; elsewhere they keep their place along the wire, for when the next
@@ -138,6 +143,8 @@ private:
   double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
   double staleTruncation(const Motion& motion);
+  double gapAt(const State& state, const contact::Feature& feature) const;
+  double offsetAt(const State& state, const contact::Feature& feature) const;
   void ask(const State& state, contact::ContactSet& answer, StepReport& report);
   void askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report);
   void send(contact::ContactSet& answer, StepReport& report);
@@ -148,6 +155,8 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
+  std::size_t kept_ = 0;         ///< at the end of contacts_: not found by the last detection
+  std::size_t kept_before_ = 0;  ///< the same of previous_contacts_
   int first_changed_ = 0;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed

@@ -102,6 +102,26 @@ void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
       });
 }
 
+void visitPlace(SceneFields& keys, vessel::Lesion& lesion)
+{
+  if (keys.reading() ? keys.has("at") : lesion.at.has_value())
+  {
+    for (const char* other : {"branch", "from_start", "fraction"})
+      if (keys.has(other))
+        keys.refuse(other, "given besides at; keep one of the two");
+    Eigen::Vector3d at = lesion.at.value_or(Eigen::Vector3d::Zero());
+    keys.vector3("at", at, "m", Need::kRequired);
+    lesion.at = at;
+    return;
+  }
+  keys.text("branch", lesion.branch, Need::kRequired);
+  if (keys.has("from_start") && keys.has("fraction"))
+    keys.refuse("fraction", "given besides from_start; keep one of the two");
+  keys.maybeNumber("from_start", lesion.from_start, "m", Range::nonNegative());
+  if (std::isnan(lesion.from_start))
+    keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
+}
+
 void visitLesions(SceneFields& fields, VesselScene& vessel)
 {
   std::vector<vessel::Lesion>& lesions = vessel.lesions;
@@ -112,12 +132,7 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
       [&lesions](SceneFields& keys, std::size_t k)
       {
         vessel::Lesion& lesion = lesions[k];
-        keys.text("branch", lesion.branch, Need::kRequired);
-        if (keys.has("from_start") && keys.has("fraction"))
-          keys.refuse("fraction", "given besides from_start; keep one of the two");
-        keys.maybeNumber("from_start", lesion.from_start, "m", Range::nonNegative());
-        if (std::isnan(lesion.from_start))
-          keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
+        visitPlace(keys, lesion);
         keys.number("length", lesion.length, "m", Range::positive(), Need::kRequired);
         keys.number("grade", lesion.grade, "share of the diameter", Range::between(0.0, 0.99), Need::kRequired);
         keys.number("eccentricity", lesion.eccentricity, "1", Range::between(0.0, 1.0));

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "vessel/branch_finder.h"
 #include "vessel/lesion_mesh.h"
 #include "vessel/lesion_shape.h"
 #include "vessel/lumen_section.h"
@@ -41,10 +42,32 @@ std::string inMillimetres(double length)
   return text;
 }
 
+/** Branch and place along it of a point in the lumen, instead of the point. */
+Lesion onBranch(Lesion lesion, const CentrelineTree& tree, const std::string& origin, const std::string& key)
+{
+  if (!lesion.at)
+    return lesion;
+  const int nearest = BranchFinder(tree).nearest(*lesion.at);
+  if (nearest < 0)
+    throw InputError(origin, key + ".at", "the vessel has no centreline");
+  const CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(nearest)];
+  const Polyline line(branch.points);
+  const Polyline::Foot foot = line.nearest(*lesion.at);
+  const double radius = line.interpolate(branch.radii, foot.arc);
+  if (foot.distance > radius)
+    throw InputError(origin, key + ".at",
+                     "lies " + inMillimetres(foot.distance - radius) + " outside of the nearest lumen, \"" +
+                         branch.name + "\"; give a point in the vessel, patient frame, in m");
+  lesion.branch = branch.name;
+  lesion.from_start = foot.arc;
+  return lesion;
+}
+
 /** Index of a lesion's branch and the place of its middle, checked. */
-PlacedLesion place(const Lesion& lesion, const CentrelineTree& tree, const std::string& source,
+PlacedLesion place(const Lesion& wanted, const CentrelineTree& tree, const std::string& source,
                    const std::string& origin, const std::string& key)
 {
+  const Lesion lesion = onBranch(wanted, tree, origin, key);
   PlacedLesion placed;
   placed.lesion = lesion;
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
@@ -67,7 +90,10 @@ PlacedLesion place(const Lesion& lesion, const CentrelineTree& tree, const std::
     throw InputError(origin, key + ".length",
                      "is longer than the branch \"" + lesion.branch + "\", " + inMillimetres(length));
   if (!(placed.begin >= 0.0 && placed.end <= length))
-    throw InputError(origin, key + (std::isnan(lesion.from_start) ? ".fraction" : ".from_start"),
+    throw InputError(origin,
+                     key + (lesion.at                       ? ".at"
+                            : std::isnan(lesion.from_start) ? ".fraction"
+                                                            : ".from_start"),
                      "the lesion reaches beyond its branch: its middle must be between " +
                          inMillimetres(0.5 * lesion.length) + " and " + inMillimetres(length - 0.5 * lesion.length) +
                          " from the start of \"" + lesion.branch + "\"");

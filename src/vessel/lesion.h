@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,8 @@ struct Vessel;
 struct Lesion
 {
   std::string branch;  ///< name of a branch of the centreline
+  /** Instead of a branch and a place along it: a point in the lumen near its middle, patient frame [m]. */
+  std::optional<Eigen::Vector3d> at;
   /** Of its middle along the branch's centreline [m]; NaN: `fraction` of the branch's length instead. */
   double from_start = std::numeric_limits<double>::quiet_NaN();
   double fraction = 0.5;
@@ -45,8 +49,9 @@ struct PlacedLesion
  *
  *  @pre the vessel's mesh is clean and its centreline is there
  *  @param origin the scene's file, for errors
- *  @throws InputError for a branch that does not exist (naming those that do), a lesion that reaches beyond its branch,
- *          an impossible grade, a place where the branch has no wall of its own (inside its parent) */
+ *  @throws InputError for a branch that does not exist (naming those that do), a point outside of the lumen, a lesion
+ * that reaches beyond its branch, an impossible grade, a place where the branch has no wall of its own (inside its
+ * parent) */
 void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin);
 
 }  // namespace endovascular_sim::vessel

@@ -14,10 +14,34 @@ TEST(BranchPlaces, DepthCountsFromTheOstium)
   const BranchPlaces places(forkedTree());
   const BranchPlace place = places.at({0.03, 0.001, 0.1});
   EXPECT_EQ(places.name(place.branch), "side");
-  // The lumens are 10 and 3 mm wide: at 10 mm a point is as far beyond the trunk's wall as the side's wall is away, 7
-  // mm from the trunk's axis both lie equally deep; in front of that the trunk has it.
-  EXPECT_NEAR(place.depth, 0.03 - 0.007, 0.0006);
+  // The lumens have radii of 10 and 3 mm: the side's ostium is in the trunk's wall. 7 mm from the trunk's axis both walls
+  // are equally far away; in front of that the trunk has it.
+  EXPECT_NEAR(place.depth, 0.03 - 0.010, 0.0006);
   EXPECT_EQ(places.name(places.at({0.005, 0.0, 0.1}).branch), "trunk");
+}
+
+TEST(BranchPlaces, TheOstiumOfACentrelineThatNarrowsOnItsWayOutIsInTheParentsWallToo)
+{
+  // As centrelines out of a mesh do: the largest sphere that fits shrinks on the way from the trunk's axis.
+  vessel::CentrelineTree tree = forkedTree();
+  vessel::CentrelineBranch& side = tree.branches[1];
+  side.points = {{0.0, 0.0, 0.1}, {0.012, 0.0, 0.1}, {0.05, 0.0, 0.1}};
+  side.radii = {0.010, 0.003, 0.003};
+  const BranchPlaces places(tree);
+  EXPECT_NEAR(places.depthIn(1, {0.03, 0.0, 0.1}), 0.03 - 0.010, 0.0006);
+}
+
+TEST(BranchPlaces, ABranchThatGoesOnAsWideBeginsAtItsStart)
+{
+  vessel::CentrelineTree tree = forkedTree();
+  vessel::CentrelineBranch onwards;
+  onwards.name = "onwards";
+  onwards.parent = 0;
+  const Eigen::Vector3d end = tree.branches[0].points.back();
+  onwards.points = {end, end + Eigen::Vector3d(0.0, 0.0, 0.05)};
+  onwards.radii = {0.0095, 0.009};
+  tree.branches.push_back(onwards);
+  EXPECT_NEAR(BranchPlaces(tree).depthIn(3, end + Eigen::Vector3d(0.0, 0.0, 0.02)), 0.02, 1e-9);
 }
 
 TEST(BranchPlaces, TheWayBetweenTwoBranchesGoesOverTheirFork)

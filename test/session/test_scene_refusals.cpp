@@ -107,6 +107,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_friction_region_without_friction.yaml", "vessel.friction_regions.0.friction (line 14)", "give a number"},
     {"bad_lesion_closed.yaml", "vessel.lesions.0.grade (line 14)", "between 0 and 0.99"},
     {"bad_lesion_placed_twice.yaml", "vessel.lesions.0.fraction (line 14)", "keep one of the two"},
+    {"bad_lesion_at_a_point_and_on_a_branch.yaml", "vessel.lesions.0.branch (line 14)", "besides at"},
     {"bad_load_beyond_the_tip.yaml", "loads.point_loads.0.position (line 14)", "at most the wire's length"},
     {"bad_torque_inside_the_wire.yaml", "loads.point_loads.0.torque (line 14)", "remove position"},
     {"bad_patient_behind_detector.yaml", "fluoroscopy.source_to_patient (line 13)", "less than source_to_detector"},

@@ -62,6 +62,24 @@ struct Bench
   double deepest = 0.0;
 };
 
+TEST(Treatments, ABalloonThatFillsItsLesionIsSolvedForWithinTheSolvesOfAStep)
+{
+  // The wall moves on with every step and the balloon rolls from facet to facet: some steps do not converge, most do.
+  Bench bench;
+  bench.runTo(0.3);
+  int solves = 0;
+  int capped = 0;
+  while (bench.simulation.time() < 0.6)
+  {
+    bench.runTo(bench.simulation.time() + 1e-3);
+    solves += bench.simulation.report().solves;
+    capped += bench.simulation.report().capped;
+  }
+  EXPECT_GT(solves, 300);  // it presses
+  EXPECT_LT(capped, 30);   // of 300 steps; 100 where only the contacts of the moment are known
+  EXPECT_EQ(bench.refused, 0);
+}
+
 TEST(Treatments, InASimulationOpenTheLesionAndLeaveTheStentInIt)
 {
   Bench bench;
