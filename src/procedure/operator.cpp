@@ -325,9 +325,10 @@ void Operator::act(const Observation& seen)
       mode_time_ = seen.time;
     return;
   }
-  if (step().action == StepAction::kAdvance && stalls(view, seen.time))
+  const bool missed = view.hand.insertion > step().retry.deepest;
+  if (step().action == StepAction::kAdvance && (missed || stalls(view, seen.time)))
   {
-    if (tryAgain(Mode::kBack, view, "makes no progress"))
+    if (tryAgain(Mode::kBack, view, missed ? "passed its goal again and again" : "makes no progress"))
       mode_time_ = seen.time;
     return;
   }

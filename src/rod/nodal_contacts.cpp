@@ -23,6 +23,12 @@ bool isBacking(const contact::Feature& feature)
   return feature.id < 0;
 }
 
+/** Between two nodes. */
+bool isCrossing(const contact::Feature& feature)
+{
+  return feature.parameter > 0.0 && feature.parameter < 1.0;
+}
+
 /** The same part of the wall, near the same place on the wire. */
 bool isSame(const contact::Feature& a, const contact::Feature& b)
 {
@@ -139,8 +145,7 @@ void NodalContacts::listCrossings()
   const std::vector<contact::Feature>& features = contacts_.features;
   crossings_.clear();
   for (std::size_t c = 0; c < features.size(); ++c)
-    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && features[c].parameter > 0.0 &&
-        features[c].parameter < 1.0)
+    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && isCrossing(features[c]))
       crossings_.push_back(static_cast<int>(c));
   std::sort(
       crossings_.begin(), crossings_.end(),
@@ -157,7 +162,7 @@ void NodalContacts::listCrossings()
 double NodalContacts::lengthOf(int index) const
 {
   const contact::Feature& feature = contacts_.features[index];
-  const bool crossing = feature.parameter > 0.0 && feature.parameter < 1.0;
+  const bool crossing = isCrossing(feature);
   const int node = feature.edge + (feature.parameter >= 1.0 ? 1 : 0);
   double length = 0.0;
   if (crossing || node > 0)
@@ -174,7 +179,7 @@ double NodalContacts::shareAtNode(int index) const
 {
   const std::vector<contact::Feature>& features = contacts_.features;
   const contact::Feature& own = features[index];
-  if (own.parameter > 0.0 && own.parameter < 1.0)
+  if (isCrossing(own))
     return 1.0;
   double sum = 1.0;
   const auto add = [&features, &own, &sum](int other)
@@ -225,20 +230,22 @@ double NodalContacts::approach(const Spring& spring, const Eigen::Vector3d& norm
 bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_rest)
 {
   bool changed = false;
+  gap_after_.resize(springs_.size());
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
-    const bool active = springs_[c].gap + approach(springs_[c], contacts_.features[c].normal, motion) < 0.0;
+    gap_after_[c] = springs_[c].gap + approach(springs_[c], contacts_.features[c].normal, motion);
+    const bool active = gap_after_[c] < 0.0;
     changed |= active != springs_[c].active && (active || pass < kOnlyAddFromPass);
   }
   if (!changed)
     return false;
   const bool only_add = pass >= kOnlyAddFromPass;
-  const double share = same_rest && !only_add ? shareOfLeastEnergy(motion) : 1.0;
+  const double share = same_rest && !only_add ? shareOfLeastEnergy() : 1.0;
   first_changed_ = std::numeric_limits<int>::max();
   for (std::size_t c = 0; c < springs_.size(); ++c)
   {
     Spring& spring = springs_[c];
-    const double gap = spring.gap + approach(spring, contacts_.features[c].normal, motion);
+    const double gap = gap_after_[c];
     const double resisted = spring.active ? spring.stiffness * gap : 0.0;
     spring.reached += share * (gap - spring.reached);
     spring.resisted += share * (resisted - spring.resisted);
@@ -252,7 +259,7 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_re
 
 /** The slope of the energy along the way is the springs' own, piecewise linear, plus that of the rest, linear: at
  * either end the rest balances the springs of the systems solved. */
-double NodalContacts::shareOfLeastEnergy(const Motion& motion) const
+double NodalContacts::shareOfLeastEnergy() const
 {
   double low = 0.0;
   double high = 1.0;
@@ -263,7 +270,7 @@ double NodalContacts::shareOfLeastEnergy(const Motion& motion) const
     for (std::size_t c = 0; c < springs_.size(); ++c)
     {
       const Spring& spring = springs_[c];
-      const double gap = spring.gap + approach(spring, contacts_.features[c].normal, motion);
+      const double gap = gap_after_[c];
       const double change = gap - spring.reached;
       const double rest = (1.0 - share) * spring.resisted + (spring.active ? share * spring.stiffness * gap : 0.0);
       slope += change * (spring.stiffness * std::min(0.0, spring.reached + share * change) - rest);
@@ -423,7 +430,7 @@ void NodalContacts::keepPressed(const State& state)
   {
     const contact::Feature& feature = previous_contacts_.features[c];
     const bool pressed = feature.gap < 0.0 || previous_springs_[c].active || c + kept_before_ >= count;
-    if (!pressed || isBacking(feature))
+    if (!pressed || isBacking(feature) || !isCrossing(feature))
       continue;
     const auto begin = contacts_.features.begin();
     const auto end = begin + static_cast<std::ptrdiff_t>(found);

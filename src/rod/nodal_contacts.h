@@ -99,9 +99,10 @@ public:
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
   bool foundUnknown(const State& state) const;
 
-  /** Keeps, beside what the last detection found, the contacts that pressed before it in the same step and that it did
-   *  not find again, each as the plane that it was. A wide body rolls from facet to facet as it tilts; with those of
-   *  one tilt alone the solves of a step go to and fro between them. */
+  /** Keeps, beside what the last detection found, the contacts between nodes that pressed before it in the same step
+   *  and that it did not find again, each as the plane that it was. A wide body rolls from ridge to ridge as it tilts;
+   *  with those of one tilt alone the solves of a step go to and fro between them. A node's own contacts are not kept:
+   *  the facet beside takes their place. */
   void keepPressed(const State& state);
 
   /** Takes the contacts to another sampling of the wire, before the rod is changed: where the nodes that were asked
@@ -138,7 +139,7 @@ private:
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
-  double shareOfLeastEnergy(const Motion& motion) const;
+  double shareOfLeastEnergy() const;
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
@@ -155,8 +156,9 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
-  std::size_t kept_ = 0;         ///< at the end of contacts_: not found by the last detection
-  std::size_t kept_before_ = 0;  ///< the same of previous_contacts_
+  std::vector<double> gap_after_;  ///< of every spring after the motion of the last solve [m]
+  std::size_t kept_ = 0;           ///< at the end of contacts_: not found by the last detection
+  std::size_t kept_before_ = 0;    ///< the same of previous_contacts_
   int first_changed_ = 0;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed

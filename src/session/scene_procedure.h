@@ -39,6 +39,8 @@ struct RetryScene
   double back = 0.01;  ///< [m]
   double turn = 1.0;   ///< about the instrument's axis [rad]
   int times = 5;
+  /** Insertion beyond which he has missed the goal and tries again; NaN: none [m]. */
+  double deepest = std::numeric_limits<double>::quiet_NaN();
 };
 
 /** One step of a procedure. */

@@ -45,6 +45,7 @@ void visitRetry(SceneFields& fields, RetryScene& retry)
   fields.number("back", retry.back, "m", Range::nonNegative());
   fields.number("turn", retry.turn, "rad", Range::any());
   fields.integer("times", retry.times, 0, 1000);
+  fields.maybeNumber("deepest", retry.deepest, "m", Range::positive());
 }
 
 /** The key that says what the step does, and with what. */

@@ -14,8 +14,8 @@ TEST(BranchPlaces, DepthCountsFromTheOstium)
   const BranchPlaces places(forkedTree());
   const BranchPlace place = places.at({0.03, 0.001, 0.1});
   EXPECT_EQ(places.name(place.branch), "side");
-  // The lumens have radii of 10 and 3 mm: the side's ostium is in the trunk's wall. 7 mm from the trunk's axis both walls
-  // are equally far away; in front of that the trunk has it.
+  // The lumens have radii of 10 and 3 mm: the side's ostium is in the trunk's wall. 7 mm from the trunk's axis both
+  // walls are equally far away; in front of that the trunk has it.
   EXPECT_NEAR(place.depth, 0.03 - 0.010, 0.0006);
   EXPECT_EQ(places.name(places.at({0.005, 0.0, 0.1}).branch), "trunk");
 }

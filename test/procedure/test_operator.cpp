@@ -122,6 +122,21 @@ TEST(Operator, PullsBackTurnsAndTriesAgainWhereTheTipMakesNoWay)
   EXPECT_GE(world.hand(0).rotation, 1.2);
 }
 
+TEST(Operator, TriesAgainWhereTheTipWentPastItsGoal)
+{
+  // The tip passes the ostium of the goal, 150 mm up, until the wire has been turned.
+  PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: goal, beyond: 0.01}, speed: 0.02,\n"
+                             "       retry: {back: 0.03, turn: 0.8, times: 5, deepest: 0.17}}\n"),
+                   [](double insertion, double rotation) -> Eigen::Vector3d
+                   {
+                     const double beyond = rotation < 1.2 ? 0.0 : std::max(0.0, insertion - 0.15);
+                     return {-beyond, 0.0, insertion - beyond};
+                   });
+  world.run(30.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_EQ(world.person.records().front().retries, 2);
+}
+
 TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
 {
   // Unturned, the wire goes into the side branch; turned, it stays in the trunk and enters the goal.

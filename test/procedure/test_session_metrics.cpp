@@ -75,9 +75,10 @@ TEST(SessionMetrics, CountsVisitsOfBranchesThatDoNotLeadToTheGoal)
   ASSERT_EQ(json["wrong_branches"].size(), 1U);
   EXPECT_EQ(json["wrong_branches"][0]["branch"], "side");
   EXPECT_EQ(json["wrong_branches"][0]["instrument"], "wire");
-  EXPECT_NEAR(json["wrong_branches"][0]["deepest"], 0.033, 0.001);
-  // From 3 mm beyond the ostium at 7 mm to the deepest place at 40 mm and back to the ostium, at 40 mm/s.
-  EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.030 + 0.033) / 0.04, 0.1);
+  EXPECT_NEAR(json["wrong_branches"][0]["deepest"], 0.030, 0.001);
+  // From 3 mm beyond the ostium, which is at 10 mm, to the deepest place at 40 mm and back to 7 mm, where the trunk is
+  // nearer, at 40 mm/s.
+  EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.027 + 0.033) / 0.04, 0.1);
   EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
 }
 
