@@ -197,7 +197,8 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
       if (contacts_.set().stale)
         break;  // one solve per step is all that old contacts are good for
     }
-    if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance && !contacts_.foundUnknown(state))
+    if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance &&
+        !contacts_.foundUnknown(state))
       break;
     const bool last = solve + 1 == settings_.max_solves;
     report.capped += last;
