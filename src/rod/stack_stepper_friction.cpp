@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kLayerSlip = 20e-6;     // m that a layer is dragged in the next one before it slides
-constexpr double kTurnTolerance = 1e-5;  // rad
+constexpr double kTurnTolerance = 1e-4;  // rad that stuck layers may turn on each other: 0.006°
 constexpr double kLeastTorque = 1e-12;   // N·m: a pair with less friction does not stick
 
 }  // namespace

@@ -17,8 +17,9 @@ namespace
 /** A scene with its vessel, whose wall balloons move. */
 struct Bench
 {
-  explicit Bench(const std::vector<std::string>& overrides = {})
-    : scene(loadScene(TEST_DATA_DIR "/scenes/good_inflation.yaml", overrides)),
+  explicit Bench(const std::vector<std::string>& overrides = {},
+                 const std::string& file = TEST_DATA_DIR "/scenes/good_inflation.yaml")
+    : scene(loadScene(file, overrides)),
       vessel(buildVessel(*scene.vessel, scene.entry, scene.file)),
       detector(vessel.mesh, wallLaw(*scene.vessel)),
       wall(vessel, detector),
@@ -122,6 +123,31 @@ TEST(Treatments, AreTheSameFromASavedStateOfAnyPhaseBitForBit)
     resumed.runTo(3.8);
     EXPECT_EQ(resumed.simulation.trajectoryHash(), whole.simulation.trajectoryHash()) << "from " << begin << " s";
     EXPECT_EQ(resumed.simulation.events().size(), whole.simulation.events().size());
+  }
+}
+
+TEST(Treatments, OverAWireAreTheSameFromASavedStateBitForBit)
+{
+  // Two instruments, adaptive: while the system passes the wire's nodes, and while its balloon opens the lesion.
+  const std::string scene = PROJECT_DIR "/config/scenes/stent.yaml";
+  Bench whole({}, scene);
+  std::vector<std::string> states;
+  for (const double moment : {4.0, 6.0})
+  {
+    whole.runTo(moment);
+    std::ostringstream stream;
+    whole.simulation.save(stream, 7);
+    states.push_back(stream.str());
+  }
+  whole.runTo(6.2);
+  for (const std::string& state : states)
+  {
+    Bench resumed({}, scene);
+    std::istringstream stream(state);
+    resumed.simulation.load(stream, 7);
+    const double begin = resumed.simulation.time();
+    resumed.runTo(6.2);
+    EXPECT_EQ(resumed.simulation.trajectoryHash(), whole.simulation.trajectoryHash()) << "from " << begin << " s";
   }
 }
 

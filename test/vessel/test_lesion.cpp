@@ -297,13 +297,13 @@ TEST(Lesion, CanBePlacedByAPointInTheLumen)
   Lesion lesion = lesionOf(0.5);
   lesion.branch.clear();
   lesion.from_start = std::numeric_limits<double>::quiet_NaN();
-  lesion.at = Eigen::Vector3d(0.0005, -0.0004, 0.03);
+  lesion.at = Eigen::Vector3d(0.0005, -0.0004, 0.024);  // the centreline begins 6 mm in front
   Vessel by_point = tube();
   addLesions(by_point, {lesion}, "scene.yaml");
   EXPECT_EQ(by_point.lesions.back().lesion.branch, "tube");
   EXPECT_NEAR(by_point.lesions.back().middle, 0.03, 1e-9);
   EXPECT_NEAR(by_point.lesions.back().narrowed_diameter, by_name.lesions.back().narrowed_diameter, 1e-7);
-  lesion.at = Eigen::Vector3d(0.0, 0.004, 0.03);
+  lesion.at = Eigen::Vector3d(0.0, 0.004, 0.024);
   EXPECT_NE(refusal(lesion).find("vessel.lesions.0.at: lies 2.5 mm outside of the nearest lumen, \"tube\""),
             std::string::npos);
 }
