@@ -25,6 +25,7 @@ struct Range
 
   static Range any() { return {}; }
   static Range positive() { return {0.0, std::numeric_limits<double>::max(), true, false}; }
+  static Range positiveUpTo(double high) { return {0.0, high, true, false}; }
   static Range nonNegative() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
   static Range between(double low, double high) { return {low, high, false, false}; }
 };

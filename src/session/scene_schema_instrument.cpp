@@ -11,6 +11,11 @@ namespace endovascular_sim::session
 namespace
 {
 
+// Beyond these a length was meant in millimetres and an angle in degrees.
+constexpr double kLongest = 10.0;    // m
+constexpr double kThickest = 20e-3;  // m
+constexpr double kFullTurn = 6.284;  // rad
+
 // Numbers of instrument::Material.
 const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer"};
 // Numbers of instrument::Kind.
@@ -63,8 +68,8 @@ void visitRestCurvature(SceneFields& fields, rod::Section& section)
                {
                  double radius = 0.0;
                  double direction = 0.0;
-                 arc.number("radius", radius, "m", Range::positive(), Need::kRequired);
-                 arc.number("direction", direction, "rad", Range::any());
+                 arc.number("radius", radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+                 arc.number("direction", direction, "rad", Range::between(-kFullTurn, kFullTurn));
                  section.rest_curvature = instrument::arcCurvature(radius, direction);
                });
   if (fields.reading() && section.rest_curvature.norm() * section.radius >= 1.0)
@@ -73,8 +78,8 @@ void visitRestCurvature(SceneFields& fields, rod::Section& section)
 
 void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
 {
-  fields.number("length", section.length, "m", Range::positive(), Need::kRequired);
-  fields.number("radius", section.radius, "m", Range::positive(), Need::kRequired);
+  fields.number("length", section.length, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+  fields.number("radius", section.radius, "m", Range::positiveUpTo(kThickest), Need::kRequired);
   if (fields.reading() && section.radius <= inner_radius)
     fields.refuse("radius", "the lumen leaves no wall; must be greater than inner_radius, " +
                                 std::to_string(1e3 * inner_radius) + "e-3 m");
@@ -108,11 +113,11 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
     return;
   instrument::TipShape tip;
   tip.angle = M_PI;
-  fields.number("radius", tip.radius, "m", Range::positive(), Need::kRequired);
+  fields.number("radius", tip.radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
   if (!semicircle)
     fields.number("angle", tip.angle, "rad", {0.0, 2.0 * M_PI, true, false}, Need::kRequired);
   fields.number("straight", tip.straight, "m", Range::nonNegative());
-  fields.number("direction", tip.direction, "rad", Range::any());
+  fields.number("direction", tip.direction, "rad", Range::between(-kFullTurn, kFullTurn));
   if (tip.length() > instrument.wire.length())
     fields.refuse("", "the tip is longer than the wire: radius·angle + straight = " + std::to_string(tip.length()) +
                           " m, wire " + std::to_string(instrument.wire.length()) + " m; shorten the tip");
