@@ -106,7 +106,7 @@ std::string Operator::nameOf(const StepScene& step) const
       text += " until its tip is in " + step.until.tip_in;
     if (!step.until.balloon_in.empty())
       text += " until its balloon is in " + step.until.balloon_in;
-    if (step.until.beyond != 0.0)
+    if (!std::isnan(step.until.beyond))
       text += written(" by %.1f mm", 1e3 * step.until.beyond);
     if (step.until.outside)
       text += " until it is out";
@@ -261,7 +261,7 @@ bool Operator::isReached(const Observation& seen) const
     const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
     if (places_.at(point).branch != goal_branch_)
       return false;
-    if (goal.beyond != 0.0 && forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+    if (!std::isnan(goal.beyond) && forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
       return false;
   }
   if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)

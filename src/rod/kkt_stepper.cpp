@@ -271,6 +271,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     if (last && (!restoreLengths(state, input, dt, report) || maxStrain(rod_, state) > kLargestStrain))
       return false;
   }
+  contacts_.dropKept();
   finish(state, dt);
   if (turned)
     renewTorques(state, input);

@@ -115,9 +115,12 @@ void NodalContacts::addBacking()
 double NodalContacts::deepest() const
 {
   double depth = 0.0;
-  for (const contact::Feature& feature : contacts_.features)
+  for (std::size_t f = 0; f + kept_ < contacts_.features.size(); ++f)
+  {
+    const contact::Feature& feature = contacts_.features[f];
     if (isBacking(feature) || !std::isfinite(feature.stiffness))
       depth = std::max(depth, -feature.gap);
+  }
   return depth;
 }
 
@@ -125,7 +128,7 @@ void NodalContacts::prepare(const State& state, double dt)
 {
   moved_on_ = false;
   springs_.clear();
-  listCrossings();
+  listCrossings(state);
   for (std::size_t c = 0; c < contacts_.features.size(); ++c)
   {
     const contact::Feature& feature = contacts_.features[c];
@@ -139,13 +142,14 @@ void NodalContacts::prepare(const State& state, double dt)
   }
 }
 
-/** Contacts between the nodes, along the wire. */
-void NodalContacts::listCrossings()
+/** Contacts between the nodes, along the wire; of kept ones those that are still pressed. */
+void NodalContacts::listCrossings(const State& state)
 {
   const std::vector<contact::Feature>& features = contacts_.features;
   crossings_.clear();
   for (std::size_t c = 0; c < features.size(); ++c)
-    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && isCrossing(features[c]))
+    if (std::isfinite(features[c].stiffness) && !isBacking(features[c]) && isCrossing(features[c]) &&
+        (c + kept_ < features.size() || features[c].gap + offsetAt(state, features[c]) < 0.0))
       crossings_.push_back(static_cast<int>(c));
   std::sort(
       crossings_.begin(), crossings_.end(),
@@ -396,6 +400,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
     return;
   }
   contacts_.features = previous_contacts_.features;
+  contacts_.features.resize(contacts_.features.size() - kept_before_);
   contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
                            contacts_.features.end());
   for (contact::Feature& feature : contacts_.features)
@@ -429,7 +434,8 @@ void NodalContacts::keepPressed(const State& state)
   for (std::size_t c = 0; c < count; ++c)
   {
     const contact::Feature& feature = previous_contacts_.features[c];
-    const bool pressed = feature.gap < 0.0 || previous_springs_[c].active || c + kept_before_ >= count;
+    const bool pressed =
+        feature.gap + offsetAt(state, feature) < 0.0 || previous_springs_[c].active || c + kept_before_ >= count;
     if (!pressed || isBacking(feature) || !isCrossing(feature))
       continue;
     const auto begin = contacts_.features.begin();
@@ -440,6 +446,12 @@ void NodalContacts::keepPressed(const State& state)
     contacts_.features.back().gap = gapAt(state, feature);
   }
   kept_ = contacts_.features.size() - found;
+}
+
+void NodalContacts::dropKept()
+{
+  contacts_.features.resize(contacts_.features.size() - kept_);
+  kept_ = 0;
 }
 
 void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepReport& report)

@@ -99,11 +99,14 @@ public:
   /** True when the last detection shows a contact deeper than tolerated that the last solve did not resist. */
   bool foundUnknown(const State& state) const;
 
-  /** Keeps, beside what the last detection found, the contacts between nodes that pressed before it in the same step
-   *  and that it did not find again, each as the plane that it was. A wide body rolls from ridge to ridge as it tilts;
+  /** Keeps, beside what the last detection found, the contacts between nodes that pressed before it and that it did not
+   *  find again, each as the plane that it was, until dropKept(). A wide body rolls from ridge to ridge as it tilts;
    *  with those of one tilt alone the solves of a step go to and fro between them. A node's own contacts are not kept:
    *  the facet beside takes their place. */
   void keepPressed(const State& state);
+
+  /** At the end of a step. */
+  void dropKept();
 
   /** Takes the contacts to another sampling of the wire, before the rod is changed: where the nodes that were asked
    *  about stay the same ones, so do their contacts; elsewhere they keep their place along the wire, for when the next
@@ -134,7 +137,7 @@ private:
   void settleOffset(int index, std::vector<double>& offset) const;
   double carriedForce(const contact::Feature& feature) const;
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
-  void listCrossings();
+  void listCrossings(const State& state);
   double radiusOf(int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;

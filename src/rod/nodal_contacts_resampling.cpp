@@ -67,7 +67,7 @@ void NodalContacts::settle(State& state)
       state.wall_offset[i] = 0.0;
     }
   if (changed)
-    listCrossings();
+    listCrossings(state);
   for (int sweep = 0; changed && sweep < kOffsetSweeps; ++sweep)
     for (int c = 0; c < static_cast<int>(contacts_.features.size()); ++c)
       settleOffset(c, state.wall_offset);

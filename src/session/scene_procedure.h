@@ -25,8 +25,8 @@ struct GoalScene
 {
   std::string tip_in;      ///< branch that holds the instrument's tip; empty: not asked
   std::string balloon_in;  ///< branch that holds the middle of its balloon; empty: not asked
-  double beyond = 0.0;     ///< of the branch's ostium, along it [m]
-  bool outside = false;    ///< the instrument has left the introducer
+  double beyond = std::numeric_limits<double>::quiet_NaN();     ///< at least so far from the ostium; NaN: anywhere [m]
+  bool outside = false;                                         ///< the instrument has left the introducer
   double insertion = std::numeric_limits<double>::quiet_NaN();  ///< reached, in the step's direction [m]
   double by = std::numeric_limits<double>::quiet_NaN();         ///< moved at the hand since the step began [m]
   double turned = std::numeric_limits<double>::quiet_NaN();     ///< since the step began, with its sign [rad]

@@ -20,7 +20,7 @@ void visitGoal(SceneFields& fields, GoalScene& goal)
   if (fields.reading() || !goal.balloon_in.empty())
     fields.text("balloon_in", goal.balloon_in);
   if (fields.reading() || !goal.tip_in.empty() || !goal.balloon_in.empty())
-    fields.number("beyond", goal.beyond, "m", Range::any());
+    fields.maybeNumber("beyond", goal.beyond, "m", Range::any());
   fields.boolean("outside", goal.outside);
   fields.maybeNumber("insertion", goal.insertion, "m", Range::any());
   fields.maybeNumber("by", goal.by, "m", Range::positive());
@@ -99,7 +99,15 @@ void visitStep(SceneFields& fields, StepScene& step)
   fields.number("turn_speed", step.turn_speed, "rad/s", Range::any());
   fields.number("time_limit", step.time_limit, "s", Range::positive());
   fields.boolean("any_branch", step.any_branch);
-  fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step.retry); });
+  fields.map("retry",
+             [&step](SceneFields& retry)
+             {
+               visitRetry(retry, step.retry);
+               if (retry.has("deepest") && step.action != StepAction::kAdvance)
+                 retry.refuse("deepest", "only an instrument that advances passes its goal; remove it");
+               if (retry.has("deepest") && step.retry.deepest <= step.until.insertion)
+                 retry.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
+             });
 }
 
 void visitHand(SceneFields& fields, HandScene& hand)

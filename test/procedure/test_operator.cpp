@@ -192,6 +192,13 @@ TEST(Operator, ExchangeDrawsOneOutBeforeTheOtherGoesIn)
   EXPECT_GT(world.hand(1).insertion, 0.03);
 }
 
+TEST(Operator, RefusesADeepestInsertionThatCannotBePassed)
+{
+  EXPECT_THROW(sceneWith("    - {withdraw: wire, until: {outside: true}, retry: {deepest: 0.1}}\n"), InputError);
+  EXPECT_THROW(sceneWith("    - {advance: wire, until: {insertion: 0.2}, retry: {deepest: 0.1}}\n"), InputError);
+  EXPECT_NO_THROW(sceneWith("    - {advance: wire, until: {insertion: 0.2}, retry: {deepest: 0.3}}\n"));
+}
+
 TEST(Operator, RefusesABranchThatTheVesselDoesNotHave)
 {
   try
