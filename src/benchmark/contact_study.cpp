@@ -241,11 +241,8 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
     doublings.push_back(std::log2(t));
   section.text =
       "One call of the detector for 380 nodes over 450 mm that lie on the wall all along (every node in reach of it: "
-      "the "
-      "most there can be). Steady: the wire slides along itself by 35 µm per call, median. Cold: a new detector's "
-      "first "
-      "call. "
-      "The triangles are cut in four without a change of the surface. Through the rows of " +
+      "the most there can be). Steady: the wire slides along itself by 35 µm per call, median. Cold: a new "
+      "detector's first call. The triangles are cut in four without a change of the surface. Through the rows of " +
       base.name + ": steady ∝ N^" + number(exponent(triangles, steady), 2) + ", cold ∝ N^" +
       number(exponent(triangles, cold), 2) + ", the tree's own query ∝ N^" + number(exponent(triangles, nearest), 2) +
       " or " + number(slope(doublings, nearest), 2) +

@@ -40,12 +40,17 @@ bool asksNothing(const GoalScene& goal)
          std::isnan(goal.by) && std::isnan(goal.turned);
 }
 
-void visitRetry(SceneFields& fields, RetryScene& retry)
+void visitRetry(SceneFields& fields, StepScene& step)
 {
+  RetryScene& retry = step.retry;
   fields.number("back", retry.back, "m", Range::nonNegative());
   fields.number("turn", retry.turn, "rad", Range::any());
   fields.integer("times", retry.times, 0, 1000);
   fields.maybeNumber("deepest", retry.deepest, "m", Range::positive());
+  if (fields.has("deepest") && step.action != StepAction::kAdvance)
+    fields.refuse("deepest", "only an instrument that advances passes its goal; remove it");
+  if (fields.has("deepest") && retry.deepest <= step.until.insertion)
+    fields.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
 }
 
 /** The key that says what the step does, and with what. */
@@ -99,15 +104,7 @@ void visitStep(SceneFields& fields, StepScene& step)
   fields.number("turn_speed", step.turn_speed, "rad/s", Range::any());
   fields.number("time_limit", step.time_limit, "s", Range::positive());
   fields.boolean("any_branch", step.any_branch);
-  fields.map("retry",
-             [&step](SceneFields& retry)
-             {
-               visitRetry(retry, step.retry);
-               if (retry.has("deepest") && step.action != StepAction::kAdvance)
-                 retry.refuse("deepest", "only an instrument that advances passes its goal; remove it");
-               if (retry.has("deepest") && step.retry.deepest <= step.until.insertion)
-                 retry.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
-             });
+  fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });
 }
 
 void visitHand(SceneFields& fields, HandScene& hand)

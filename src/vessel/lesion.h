@@ -15,7 +15,7 @@ struct Vessel;
 struct Lesion
 {
   std::string branch;  ///< name of a branch of the centreline
-  /** Instead of a branch and a place along it: a point in the lumen near its middle, patient frame [m]. */
+  /** Instead of a branch and a place along it: a point near the centreline in its middle, patient frame [m]. */
   std::optional<Eigen::Vector3d> at;
   /** Of its middle along the branch's centreline [m]; NaN: `fraction` of the branch's length instead. */
   double from_start = std::numeric_limits<double>::quiet_NaN();
