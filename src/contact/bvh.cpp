@@ -169,19 +169,24 @@ void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, st
   std::array<int, kMaxDepth> stack;
   int top = 0;
   stack[top++] = 0;
+  std::size_t count = triangles.size();
   while (top > 0)
   {
     const Node& node = nodes_[stack[--top]];
     const Lanes apart = gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2));
+    triangles.resize(std::max(triangles.size(), count + kWidth));
+    // Without branches, which no processor could predict here: what is apart is overwritten.
     for (int lane = 0; lane < kWidth; ++lane)
-      if (apart[lane] <= 0.0F)
-      {
-        if (node.child[lane] < 0)
-          triangles.push_back(~node.child[lane]);
-        else
-          stack[top++] = node.child[lane];
-      }
+    {
+      const int child = node.child[lane];
+      const bool near = apart[lane] <= 0.0F;
+      stack[top] = child;
+      triangles[count] = ~child;
+      top += static_cast<int>(near && child >= 0);
+      count += static_cast<std::size_t>(near && child < 0);
+    }
   }
+  triangles.resize(count);
 }
 
 double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const

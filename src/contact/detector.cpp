@@ -25,6 +25,7 @@ constexpr double kConeSlackOfAngle = 0.1;
 constexpr double kWidestWire = 0.6e-3;       // m from a wire's axis up to which that holds
 constexpr double kOnRidge = 1e-12;           // m
 constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
+constexpr double kSharp = 1.2;               // rad between triangles or of a vertex's cone that is not bounded
 constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
 constexpr double kLeastClearance = 0.05e-3;  // m
 constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
@@ -57,10 +58,8 @@ double WallLaw::frictionAt(const Eigen::Vector3d& place) const
 }
 
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version), edge_is_reflex_(wall_.edges.size(), 0)
+  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version)
 {
-  for (std::size_t e = 0; e < wall_.edges.size(); ++e)
-    edge_is_reflex_[e] = wall_.edges[e].reflex_angle > kReflexAngle;
   prisms_.resize(wall_.triangles.size());
   for (std::size_t t = 0; t < prisms_.size(); ++t)
     makePrism(static_cast<int>(t));
@@ -73,13 +72,14 @@ Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
-  return {0.5 * (begin + end), edge.normal, 0.5 * (end - begin).norm()};
+  const Eigen::Vector3d half = 0.5 * (end - begin);
+  return {0.5 * (begin + end), edge.normal, half, half.norm(), edge.reflex_angle > kReflexAngle};
 }
 
 void Detector::makePrism(int triangle)
 {
   Prism& prism = prisms_[triangle];
-  prism.bulges = false;
+  prism.bulge = bulgeOf(triangle);
   const auto set = [&prism](int lane, const Eigen::Vector3d& normal, double offset)
   {
     for (int axis = 0; axis < 3; ++axis)
@@ -95,8 +95,28 @@ void Detector::makePrism(int triangle)
     const int side = edge.triangles[0] == triangle ? 0 : 1;
     set(k + 1, edge.into_triangle[side], edge.into_triangle[side].dot(wall_.vertices[vertex]));
     prism.own_edges[k] = side == 0 && edge.reflex_angle > kReflexAngle ? e : -1;
-    prism.bulges = prism.bulges || edge.reflex_angle > 0.0 || wall_.vertex_reflex[vertex] != 0;
   }
+}
+
+/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. So
+ * it is only beyond the border that this tells of where no corner is obtuse. */
+double Detector::bulgeOf(int triangle) const
+{
+  double widest = 0.0;  // rad
+  for (int k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector3i& corners = wall_.triangles[triangle];
+    const Eigen::Vector3d& corner = wall_.vertices[corners[k]];
+    const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
+    const double cosine = std::min(1.0, wall_.normals[triangle].dot(wall_.vertex_normals[corners[k]]));
+    const double tilt = std::acos(std::max(-1.0, cosine)) + wall_.vertex_cone[corners[k]];
+    const bool obtuse =
+        (wall_.vertices[corners[(k + 1) % 3]] - corner).dot(wall_.vertices[corners[(k + 2) % 3]] - corner) < 0.0;
+    if (std::abs(angle) > kSharp || tilt > kSharp || obtuse)
+      return std::numeric_limits<double>::infinity();
+    widest = std::max({widest, angle, wall_.vertex_reflex[corners[k]] != 0 ? tilt : 0.0});
+  }
+  return std::tan(widest);
 }
 
 void Detector::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
@@ -116,32 +136,40 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   for (int t : changes.triangles)
     for (int corner = 0; corner < 3; ++corner)
       moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
-  now_reflex_.clear();
-  for (int e : changes.edges)
-  {
-    edge_balls_[e] = ballOf(wall_.edges[e]);
-    const bool reflex = wall_.edges[e].reflex_angle > kReflexAngle;
-    if (reflex && !edge_is_reflex_[e])
-      now_reflex_.push_back(e);
-    edge_is_reflex_[e] = reflex ? 1 : 0;
-  }
+  renewEdges(changes.around);
   for (int t : changes.around)
     makePrism(t);
   bvh_.refit(changes.triangles);
   keepUp(moved, farthest);
 }
 
-double Detector::signedDistance(const Eigen::Vector3d& point, int near) const
+/** Of the edges of triangles, and notes those that have become reflex. */
+void Detector::renewEdges(const std::vector<int>& triangles)
 {
-  const Bvh::Nearest nearest = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
-  const Eigen::Vector3i& corners = wall_.triangles[nearest.triangle];
+  now_reflex_.clear();
+  for (int t : triangles)
+    for (int e : wall_.triangle_edges[t])
+    {
+      const bool was_reflex = edge_balls_[e].reflex;
+      edge_balls_[e] = ballOf(wall_.edges[e]);
+      if (edge_balls_[e].reflex && !was_reflex)
+        now_reflex_.push_back(e);
+    }
+}
+
+double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nearest) const
+{
+  const Bvh::Nearest found = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
+  if (nearest != nullptr)
+    *nearest = found.triangle;
+  const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
   const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
-                                      ? wall_.edges[wall_.triangle_edges[nearest.triangle][closest.edge]].normal
-                                      : wall_.normals[nearest.triangle];
-  return (point - closest.point).dot(normal) >= 0.0 ? nearest.distance : -nearest.distance;
+                                      ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
+                                      : wall_.normals[found.triangle];
+  return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
 }
 
 void Detector::detect(const Query& query, ContactSet& set)
@@ -212,9 +240,13 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   Feature feature;
   for (const Near& one : near.triangles)
   {
+    if (one.clear > near.moved)
+      continue;
+    const Prism& prism = prisms_[one.index];
+    const Eigen::Array4d above = prism.heights(point);
     double distance = 0.0;
     bool outside = false;
-    if (one.clear > near.moved || !faceFeature(point, one.index, limit, feature, distance, outside))
+    if (!canTouch(prism, above, limit) || !faceFeature(point, one.index, above, limit, feature, distance, outside))
       continue;
     feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
     feature.parameter = last ? 1.0 : 0.0;
@@ -232,24 +264,32 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
     features.push_back(outside_feature);
 }
 
-/** @param limit distance up to which features are wanted [m]
+/** Cheap rejection: whether the point of a triangle that is closest to a point can be a local minimum within a limit.
+ *  @param above the point's heights over the planes of the triangle's prism [m] */
+inline bool Detector::canTouch(const Prism& prism, const Eigen::Array4d& above, double limit)
+{
+  const double height = above[0];
+  const double beyond = outsideOf(above);
+  if (height * height > limit * limit)
+    return false;
+  return beyond <= kOffTriangle ||
+         ((height < 0.0 || std::isinf(prism.bulge) || beyond <= height * prism.bulge + kOffTriangle) &&
+          height * height + beyond * beyond <= kFar * limit * limit);
+}
+
+/** @param above the point's heights over the planes of the triangle's prism [m]
+ *  @param limit distance up to which features are wanted [m]
  *  @param distance to the triangle, where its closest point is one
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
  *  measured from the point itself */
-bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
-                           bool& outside) const
+bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
+                           Feature& feature, double& distance, bool& outside) const
 {
-  const Eigen::Array4d above = prisms_[triangle].heights(point);
   const double height = above[0];
-  const double beyond = outsideOf(above);
-  if (height * height > limit * limit ||
-      (beyond > kOffTriangle &&
-       ((height >= 0.0 && !prisms_[triangle].bulges) || height * height + beyond * beyond > kFar * limit * limit)))
-    return false;
   const Eigen::Vector3d& normal = wall_.normals[triangle];
   feature.triangle = triangle;
   feature.stiffness = law_.stiffness;
-  if (beyond < -kOffTriangle)
+  if (outsideOf(above) < -kOffTriangle)
   {
     distance = std::abs(height);
     outside = height < 0.0;
@@ -318,26 +358,35 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   return true;
 }
 
-/** Cheap rejection: whether any point of a mesh edge lies within a limit of the wire's edge ab, which goes evenly from
- *  @p limit_a to @p limit_b. A wire's edge whose ends are both higher than the limit above the mesh edge is higher all
- *  along. */
-bool Detector::canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit_a,
-                       double limit_b) const
+Detector::AxisSegment::AxisSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  : begin(from), end(to), along(to - from)
+{
+  const double squared = along.squaredNorm();
+  if (squared <= 0.0)
+    return;
+  inverse_square = 1.0 / squared;
+  inverse_length = std::sqrt(inverse_square);
+}
+
+/** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment, which goes evenly from
+ *  @p limit_begin to @p limit_end. A segment whose ends are both higher than the limit above the mesh edge is higher
+ * all along. */
+bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const
 {
   const EdgeBall& ball = edge_balls_[wall_edge];
-  const Eigen::Vector3d from_a = a - ball.middle;
-  const Eigen::Vector3d from_b = b - ball.middle;
-  const double limit = std::max(limit_a, limit_b);
-  if (from_a.dot(ball.normal) > limit && from_b.dot(ball.normal) > limit)
+  if (!ball.reflex)
     return false;
-  const Eigen::Vector3d along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? clampedShare(-from_a.dot(along) / squared) : 0.0;
+  const Eigen::Vector3d from_begin = segment.begin - ball.middle;
+  const Eigen::Vector3d from_end = segment.end - ball.middle;
+  const double limit = std::max(limit_begin, limit_end);
+  if (from_begin.dot(ball.normal) > limit && from_end.dot(ball.normal) > limit)
+    return false;
+  const double t = clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
   // What of the mesh edge is near is so near to its middle.
-  const double half = squared > 0.0 ? ball.half_length / std::sqrt(squared) : 1.0;
-  const double widest = limit_a < limit_b ? t + half : t - half;
-  const double far = limit_a + clampedShare(widest) * (limit_b - limit_a) + ball.half_length;
-  return (from_a + t * along).squaredNorm() <= far * far;
+  const double half = segment.inverse_length > 0.0 ? ball.half_length * segment.inverse_length : 1.0;
+  const double widest = limit_begin < limit_end ? t + half : t - half;
+  const double far = limit_begin + clampedShare(widest) * (limit_end - limit_begin) + ball.half_length;
+  return (from_begin + t * segment.along).squaredNorm() <= far * far;
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
@@ -348,11 +397,14 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
   Feature feature;
   const Neighbourhood& near = near_[placeFromTip(query, index)];  // its first node was looked at already
+  if (near.edges.empty())
+    return;
+  const AxisSegment segment(a, b);
   for (const Near& one : near.edges)
   {
     const int e = one.index;
-    if (one.clear > near.moved || !edge_is_reflex_[e] ||
-        !canMeet(a, b, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
+    if (one.clear > near.moved ||
+        !canMeet(segment, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
       continue;
     double distance = 0.0;
     if (!crossing(a, b, e, limit, feature, distance))

@@ -61,8 +61,9 @@ public:
                     std::uint64_t vessel_version);
 
   /** Signed distance from a point to the wall, positive inside the lumen [m].
-   *  @param near a triangle that is expected to be near, or −1; the answer does not depend on it */
-  double signedDistance(const Eigen::Vector3d& point, int near = -1) const;
+   *  @param near a triangle that is expected to be near, or −1; the answer does not depend on it
+   *  @param nearest gets the triangle that is nearest, unless it is null */
+  double signedDistance(const Eigen::Vector3d& point, int near = -1, int* nearest = nullptr) const;
 
   const Wall& wall() const { return wall_; }
 
@@ -74,12 +75,16 @@ private:
     float clear;  ///< [m]
   };
 
-  /** What a node of the wire and the edge from it to the next node may meet until wire and wall have come closer by
-   * more than the lists have room for. */
+  /** What a node of the wire and the edge from it to the next node may meet: of all places that they have while the
+   * wire slides along itself a little, and until wire and wall have come closer by more than the lists have room for.
+   */
   struct Neighbourhood
   {
-    Eigen::Vector3d begin = Eigen::Vector3d::Zero();
-    Eigen::Vector3d end = Eigen::Vector3d::Zero();
+    Eigen::Vector3d begin = Eigen::Vector3d::Zero();      ///< of the segment on which the edge may lie
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();      ///< its direction, unit; 0 for a point
+    Eigen::Vector3d listed_at = Eigen::Vector3d::Zero();  ///< where the node was then
+    double length = 0.0;                                  ///< of the segment [m]
+    double reach = 0.0;                                   ///< of it from its begin: where the node may lie [m]
     double limit = -1.0;          ///< distance up to which features are wanted [m]; negative: not listed yet
     double moved = 0.0;           ///< by which wire and wall have come closer since, at most [m]
     double wall_moved = 0.0;      ///< the wall's share of it [m]
@@ -89,13 +94,18 @@ private:
     /** Notes how far the wire is. @return whether the lists still hold all that it may meet */
     bool follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
+    /** From a place of the segment no farther than that from its begin [m]. */
+    double distanceTo(const Eigen::Vector3d& point, double farthest) const;
+    Eigen::Vector3d end() const { return begin + length * along; }
   };
 
   /** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
   struct Prism
   {
     std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
-    bool bulges = false;                   ///< a closest point on its border can be a local minimum in front of it
+    /** A closest point on its border can be a local minimum in front of it only while the foot lies no farther beyond
+     * than so much of the height. */
+    double bulge = 0.0;
     std::array<int, 3> own_edges{-1, -1,
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
 
@@ -106,12 +116,24 @@ private:
     }
   };
 
-  /** A mesh edge's smallest ball. */
+  /** An edge of the wire, or what lists are made for. */
+  struct AxisSegment
+  {
+    AxisSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+    Eigen::Vector3d begin, end, along;  ///< along: end − begin
+    double inverse_square = 0.0;        ///< of its length [1/m²]; 0 for a point
+    double inverse_length = 0.0;        ///< [1/m]
+  };
+
+  /** A mesh edge and its smallest ball. */
   struct EdgeBall
   {
     Eigen::Vector3d middle;
     Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
+    Eigen::Vector3d half;    ///< from the middle to the edge's end
     double half_length;      ///< [m]
+    bool reflex;             ///< whether the wire's edges can meet it
   };
 
   /** How far a point's foot in a triangle's plane lies beyond the farthest of the lines along its edges, negative
@@ -122,16 +144,20 @@ private:
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
   void list(Neighbourhood& near);
-  void listEdges(int triangle, Neighbourhood& near, double wide) const;
+  void listTriangles(const AxisSegment& segment, Neighbourhood& near, double wide);
+  void listEdges(const AxisSegment& segment, Neighbourhood& near, double wide) const;
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
+  double bulgeOf(int triangle) const;
   EdgeBall ballOf(const WallEdge& edge) const;
+  void renewEdges(const std::vector<int>& triangles);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
-  bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
-                   bool& outside) const;
+  static bool canTouch(const Prism& prism, const Eigen::Array4d& above, double limit);
+  bool faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
+                   Feature& feature, double& distance, bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
-  bool canMeet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit_a, double limit_b) const;
+  bool canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
@@ -146,10 +172,9 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, now_reflex_;
+  std::vector<int> collected_, collected_edges_, now_reflex_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
-  std::vector<char> edge_is_reflex_;
 };
 
 }  // namespace endovascular_sim::contact

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/prefetch.h"
 #include "contact/detector.h"
 #include "contact/segment_pair.h"
 
@@ -13,7 +14,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kRoom = 0.25e-3;  // m by which wire and wall may come closer before what is near is listed anew
+constexpr double kRoom = 0.15e-3;    // m by which wire and wall may come closer before what is near is listed anew
+constexpr double kSlide = 0.5e-3;    // m more that a wire may slide along itself before, when it is expected to
+constexpr double kSlides = 0.05e-3;  // m since the last list by which it has slid then
 // m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
 constexpr double kLimitSlack = 0.1e-3;
 constexpr std::size_t kUsual = 16;   // entries of a list
@@ -39,10 +42,10 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
 {
   const auto touches = [&moved](const Neighbourhood& near)
   {
-    const double half = 0.5 * (near.end - near.begin).norm();
+    const double half = 0.5 * near.length;
     const double room = kRoom - near.wall_moved;
     const double far = half + room + near.limit + kRoom + kListGuard;
-    return near.limit >= 0.0 && room >= 0.0 && moved.exteriorDistance(0.5 * (near.begin + near.end)) <= far;
+    return near.limit >= 0.0 && room >= 0.0 && moved.exteriorDistance(near.begin + half * near.along) <= far;
   };
   for (Neighbourhood& near : near_)
     if (touches(near))
@@ -68,17 +71,28 @@ void Detector::makeRoom(const Query& query)
   }
 }
 
+double Detector::Neighbourhood::distanceTo(const Eigen::Vector3d& point, double farthest) const
+{
+  const Eigen::Vector3d from = point - begin;
+  return (from - std::max(0.0, std::min(farthest, from.dot(along))) * along).norm();
+}
+
 bool Detector::Neighbourhood::follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
-  const double wire_moved = std::sqrt(std::max((a - begin).squaredNorm(), (b - end).squaredNorm()));
-  moved = wire_moved + wall_moved;
+  // The distance to a segment is convex: between the edge's ends it is no larger than at them.
+  moved = std::max(distanceTo(a, reach), distanceTo(b, length)) + wall_moved;
   return moved < kRoom && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
-  begin = a;
-  end = b;
+  length = (b - a).norm();
+  along = length > 0.0 ? Eigen::Vector3d((b - a) / length) : Eigen::Vector3d::Zero();
+  const double slid = limit < 0.0 ? 0.0 : (a - listed_at).dot(along);
+  reach = std::abs(slid) > kSlides ? kSlide : 0.0;
+  length += reach;
+  begin = slid < 0.0 ? Eigen::Vector3d(a - reach * along) : a;
+  listed_at = a;
   limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
   moved = wall_moved = 0.0;
   triangles.clear();
@@ -102,38 +116,59 @@ const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::
 void Detector::list(Neighbourhood& near)
 {
   const double wide = near.limit + kRoom + kListGuard;
+  const AxisSegment segment(near.begin, near.end());
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();
-  bvh_.collectBox(near.begin.cwiseMin(near.end) - around, near.begin.cwiseMax(near.end) + around, collected_);
+  bvh_.collectBox(segment.begin.cwiseMin(segment.end) - around, segment.begin.cwiseMax(segment.end) + around,
+                  collected_);
   for (int t : collected_)
-  {
-    const Eigen::Array4d above = prisms_[t].heights(near.begin);
-    const double end_height = prisms_[t].heights(near.end)[0];
-    if (std::min(above[0], end_height) > wide || std::max(above[0], end_height) < -wide)
-      continue;
-    const double beyond = std::max(0.0, outsideOf(above));
-    const double distance = std::sqrt(above[0] * above[0] + beyond * beyond);  // or less
-    if (distance <= wide)
-      near.triangles.push_back({t, clearance(distance, near.limit)});
-    listEdges(t, near, wide);
-  }
+    prefetch(prisms_[t]);
+  listTriangles(segment, near, wide);
+  listEdges(segment, near, wide);
   // Sorted, so that results do not depend on how the tree is walked.
   const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
   std::sort(near.triangles.begin(), near.triangles.end(), by_index);
   std::sort(near.edges.begin(), near.edges.end(), by_index);
 }
 
-void Detector::listEdges(int triangle, Neighbourhood& near, double wide) const
+/** Of the triangles collected those that the node may meet; collects the edges that belong to any. */
+void Detector::listTriangles(const AxisSegment& segment, Neighbourhood& near, double wide)
 {
-  const Eigen::Vector3d along = near.end - near.begin;
-  for (int e : prisms_[triangle].own_edges)
+  const double share = near.reach > 0.0 ? near.reach / near.length : 0.0;
+  collected_edges_.clear();
+  for (int t : collected_)
   {
-    if (e < 0 || !canMeet(near.begin, near.end, e, wide, wide))
+    const Eigen::Array4d above = prisms_[t].heights(segment.begin);
+    const Eigen::Array4d change = prisms_[t].heights(segment.end) - above;
+    if (std::min(above[0], above[0] + change[0]) > wide || std::max(above[0], above[0] + change[0]) < -wide)
       continue;
-    const Eigen::Vector3d& end0 = wall_.vertices[wall_.edges[e].vertices[0]];
-    const Eigen::Vector3d& end1 = wall_.vertices[wall_.edges[e].vertices[1]];
-    const SegmentPair pair = closestPointsOfSegments(near.begin, near.end, end0, end1);
-    const Eigen::Vector3d apart = near.begin + pair.first * along - end0 - pair.second * (end1 - end0);
+    for (int e : prisms_[t].own_edges)
+      if (e >= 0)
+      {
+        collected_edges_.push_back(e);
+        prefetch(edge_balls_[e]);
+      }
+    // Of the places that the node may have, no more than their distance from the triangle.
+    const Eigen::Array4d above_last = above + share * change;
+    const double height = above[0] * above_last[0] <= 0.0 ? 0.0 : std::min(std::abs(above[0]), std::abs(above_last[0]));
+    const double beyond = std::max(0.0, outsideOf(above.max(above_last)));
+    const double distance = std::sqrt(height * height + beyond * beyond);
+    if (distance <= wide)
+      near.triangles.push_back({t, clearance(distance, near.limit)});
+  }
+}
+
+void Detector::listEdges(const AxisSegment& segment, Neighbourhood& near, double wide) const
+{
+  for (int e : collected_edges_)
+  {
+    if (!canMeet(segment, e, wide, wide))
+      continue;
+    const EdgeBall& ball = edge_balls_[e];
+    const SegmentPair pair =
+        closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
+    const Eigen::Vector3d apart =
+        segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
     const double distance = apart.norm();
     if (distance <= wide)
       near.edges.push_back({e, clearance(distance, near.limit)});

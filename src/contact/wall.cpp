@@ -12,7 +12,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kFlat = 1e-3;  // rad: below it an edge counts as flat
+constexpr double kFlat = 1e-3;         // rad: below it an edge counts as flat
+constexpr double kSmooth = 0.5;        // slope up to which what surrounds a vertex counts as one sheet
+constexpr double kWidestCorner = 2.4;  // rad
 
 double clampedAcos(double cosine)
 {
@@ -50,6 +52,7 @@ Wall::Wall(const vessel::TriangleMesh& mesh)
   }
   vertex_normals.resize(vertices.size());
   vertex_reflex.resize(vertices.size());
+  vertex_cone.resize(vertices.size());
   bends_.fill(std::vector<Bend>(vertices.size()));
   const int count = static_cast<int>(vertices.size());
   for (int v = 0; v < count; ++v)
@@ -131,6 +134,45 @@ void Wall::finishVertex(int vertex)
   for (int e : vertex_edges[vertex])
     if (edges[e].reflex_angle > kFlat)
       vertex_reflex[vertex] = 1;
+  vertex_cone[vertex] = coneAt(vertex);
+}
+
+/** Such a direction d has d·e ≤ 0 for every edge e at the vertex, also for the one that runs next to how d is tilted,
+ * at half a corner's angle γ or less: of slope s downwards, it lets d tilt by tan ψ ≤ s/cos(γ/2). */
+double Wall::coneAt(int vertex) const
+{
+  const Eigen::Vector3d& normal = vertex_normals[vertex];
+  double steepest = 0.0;  // downwards
+  for (int e : vertex_edges[vertex])
+  {
+    const Eigen::Vector3d along =
+        vertices[edges[e].vertices[edges[e].vertices[0] == vertex ? 1 : 0]] - vertices[vertex];
+    const double rise = along.dot(normal);
+    const double run = (along - rise * normal).norm();
+    if (std::abs(rise) >= kSmooth * run)
+      return M_PI_2;
+    steepest = std::max(steepest, -rise / run);
+  }
+  double widest = 0.0;  // corner as seen along the normal
+  double around = 0.0;
+  for (int t : vertex_triangles_[vertex])
+  {
+    const Eigen::Vector3i& corners = triangles[t];
+    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    const Eigen::Vector3d to_next = vertices[corners[(k + 1) % 3]] - vertices[vertex];
+    const Eigen::Vector3d to_last = vertices[corners[(k + 2) % 3]] - vertices[vertex];
+    const Eigen::Vector3d a = to_next - normal.dot(to_next) * normal;
+    const Eigen::Vector3d b = to_last - normal.dot(to_last) * normal;
+    const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+    if (normals[t].dot(normal) * normals[t].dot(normal) < 1.0 / (1.0 + kSmooth * kSmooth) ||
+        normals[t].dot(normal) <= 0.0)
+      return M_PI_2;
+    widest = std::max(widest, angle);
+    around += angle;
+  }
+  if (widest > kWidestCorner || std::abs(around - 2.0 * M_PI) > 1e-6)
+    return M_PI_2;
+  return std::atan(steepest / std::cos(0.5 * widest));
 }
 
 /** Cohen-Steiner & Morvan 2003: an edge of length l whose triangles meet at an angle β bends the wall by β l across

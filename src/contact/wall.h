@@ -38,6 +38,9 @@ public:
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
   std::vector<std::vector<int>> vertex_edges;   ///< ascending
   std::vector<char> vertex_reflex;              ///< 1 where some edge at the vertex is reflex
+  /** Bound of the angle between a vertex's pseudo-normal and the directions, in front of some triangle there, in which
+   * points have the vertex as their closest place around it; π/2 where the wall is too rough to say [rad]. */
+  std::vector<double> vertex_cone;
   /** Per triangle the curvature tensor of the smooth wall that the mesh stands for: bᵀKb is the curvature along a
    *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
   std::vector<Eigen::Matrix3d> curvature;
@@ -71,6 +74,7 @@ private:
   void finishTriangle(int triangle);
   void finishEdge(WallEdge& edge);
   void finishVertex(int vertex);
+  double coneAt(int vertex) const;
   void finishBend(int edge);
   Bend bendAt(int vertex) const;
   Bend widened(int vertex, int round) const;

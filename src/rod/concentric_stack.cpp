@@ -40,6 +40,7 @@ void ConcentricStack::setNodes(const std::vector<double>& position)
   for (LayerProfile& profile : profiles_)
     profile.setNodes(position);
   outer_share_.assign(position.size() * profiles_.size(), 0.0);
+  surface_layer_.assign(position.size(), 0);
   end_ = position.back();
   changed_.reserve(position.size() * profiles_.size());
 }
@@ -96,14 +97,10 @@ void ConcentricStack::composeNode(int node, Discretisation& rod)
   rod.friction_share[node] = own;
   rod.friction[node] = own > 0.0 ? friction / own : std::nan("");
   rod.rest_curvature[node].setZero();
-}
-
-int ConcentricStack::surfaceLayer(int node) const
-{
-  int k = count() - 1;
-  while (k > 0 && profiles_[k].cover(node) < 0.5)
-    --k;
-  return k;
+  int surface = count() - 1;
+  while (surface > 0 && profiles_[surface].cover(node) < 0.5)
+    --surface;
+  surface_layer_[node] = surface;
 }
 
 double ConcentricStack::overlap(int k, int m, int node) const

@@ -47,7 +47,7 @@ public:
   double outerShare(int k, int node) const { return outer_share_[static_cast<std::size_t>(node * count() + k)]; }
 
   /** The layer whose surface a node's contacts are with: the outermost that covers half of it. */
-  int surfaceLayer(int node) const;
+  int surfaceLayer(int node) const { return surface_layer_[node]; }
 
   /** Share of a node that two layers cover both, 0 to 1. */
   double overlap(int k, int m, int node) const;
@@ -58,6 +58,7 @@ private:
   std::vector<Layer> layers_;
   std::vector<LayerProfile> profiles_;
   std::vector<double> outer_share_;
+  std::vector<int> surface_layer_;
   std::vector<int> changed_;
   double end_ = 0.0;
 };

@@ -66,6 +66,8 @@ void KktStepper::updateHandParts(State& state, double dt)
     ++held;
   slideAlongItself(state.position, motion_, first_, held, boundary_.direction, slide_);
   const double inverse = 1.0 / dt;
+  const std::vector<MassSlide>* mass_slide = massSlide();
+  const bool heavy = !environment_.gravity.isZero(0.0);
   HandForceParts parts;
   parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
   for (int i = first_; i < n; ++i)
@@ -73,12 +75,13 @@ void KktStepper::updateHandParts(State& state, double dt)
     const double travel = slide_[i].dot(state.position[i] - begin_[i]);
     parts.inertia += rod_.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
     parts.drag += resistance_[i] * inverse * inverse * travel;
-    if (massSlide() != nullptr)
+    if (mass_slide != nullptr)
     {
-      parts.inertia += rod_.mass[i] * inverse * inverse * slide_[i].dot((*massSlide())[i].gained);
+      parts.inertia += rod_.mass[i] * inverse * inverse * slide_[i].dot((*mass_slide)[i].gained);
       parts.drag += inverse * inverse * slide_[i].dot(resisted_[i]);
     }
-    parts.load -= heavyMass(i) * slide_[i].dot(environment_.gravity);
+    if (heavy)
+      parts.load -= heavyMass(i) * slide_[i].dot(environment_.gravity);
   }
   for (const NodalForce& force : last_input_.forces)
     if (force.node >= first_)

@@ -104,7 +104,9 @@ private:
   void dragLayers(State& state, const StepInput& input) const;
   void setHandForces(State& state, double dt);
   void setLoads(State& state);
-  double bodyShare(int node, const State& state) const;
+  void addMoments(int k, const State& state);
+  void setLoad(std::vector<double>& load, int end, const State& state) const;
+  void setBodyShares(const State& state);
   double load(int k, int outer, int node, const State& state) const;
   bool sticks(int k, const State& state) const;
   void setTorqueLimits(const State& state);
@@ -123,11 +125,12 @@ private:
   std::vector<std::vector<double>> begin_twist_;   ///< of every layer at the beginning of the step [rad]
   std::vector<TwistFriction> layer_friction_;      ///< of the wall on one layer
   std::vector<double> edge_torque_, behind_, force_before_;
-  std::vector<Eigen::Vector3d> surface_slide_, moment_;
+  std::vector<Eigen::Vector3d> surface_slide_, binormal_, moment_;
   std::vector<MassSlide> mass_slide_;
-  std::vector<double> moved_;   ///< insertion of every layer in the step [m]
-  std::vector<double> gained_;  ///< the same less what it would be at the speed of the last step [m]
-  State relaxed_;               ///< for torques only
+  std::vector<double> body_share_;  ///< of every node's cell that is in the body
+  std::vector<double> moved_;       ///< insertion of every layer in the step [m]
+  std::vector<double> gained_;      ///< the same less what it would be at the speed of the last step [m]
+  State relaxed_;                   ///< for torques only
   bool slides_ = false;
   StepInput input_;
 };

@@ -202,6 +202,8 @@ double StackStepper::wallDrag(int k, const State& state) const
 /** What inertia, damping and the fluid hold against a layer's motion along itself [N]. */
 double StackStepper::motionDrag(int k, const State& state, double dt) const
 {
+  if (moved_[k] == 0.0 && gained_[k] == 0.0)
+    return 0.0;
   const double speed = moved_[k] / dt;
   double force = 0.0;
   for (int i = state.first_node; i < stack_rod().nodes(); ++i)
@@ -255,6 +257,7 @@ void StackStepper::complete(State& state, double dt)
   for (LayerState& layer : state.layers)
     layer.force_offset = std::abs(layer.force_offset) < kNoOffset ? 0.0 : left * layer.force_offset;
   setLoads(state);
+  setBodyShares(state);
   settleTurns(state);
   setHandForces(state, dt);
 }

@@ -44,48 +44,70 @@ void StackStepper::dragLayers(State& state, const StepInput& input) const
 /** Loads between neighbours: what bends a layer, with those inside it, otherwise than it would bend on its own. */
 void StackStepper::setLoads(State& state)
 {
+  int last = -1;  // layer that any friction is asked for
   for (int k = 0; k < stack_.count(); ++k)
+    if (nextOuter(k, state) >= 0 && stack_.layer(k).friction > 0.0)
+      last = k;
+  if (last < 0)
+    return;
+  binormal_.resize(state.position.size());
+  for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
+    binormal_[i] =
+        CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
+                          stack_rod().rest_length[i - 1] * stack_rod().rest_length[i])
+            .value;
+  moment_.assign(state.position.size(), Eigen::Vector3d::Zero());
+  for (int k = 0; k <= last; ++k)
   {
+    addMoments(k, state);
     const int outer = nextOuter(k, state);
-    if (outer < 0 || stack_.layer(k).friction <= 0.0)
-      continue;
-    const int end = std::min(stack_rod().nodes() - 1, stack_.profile(outer).rod().nodes());
-    moment_.assign(state.position.size(), Eigen::Vector3d::Zero());
-    for (int i = state.first_node + 1; i < end; ++i)
-    {
-      const CurvatureBinormal kb(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                                 stack_rod().rest_length[i - 1] * stack_rod().rest_length[i]);
-      for (int m = 0; m <= k; ++m)
-      {
-        const Discretisation& layer = stack_.profile(m).rod();
-        const bool curved = twisted_[m] && i >= twist_[m].firstCurved() && i + 1 < layer.nodes();
-        Eigen::Vector3d strain = kb.value;
-        if (curved)
-          strain -= twist_[m].restCurvatureBinormal(i);
-        moment_[i] += (layer.bending_stiffness[i] / layer.cell_length[i]) * strain;
-      }
-    }
-    std::vector<double>& load = state.layers[k].load;
-    std::fill(load.begin(), load.end(), 0.0);
-    for (int i = state.first_node + 1; i < end; ++i)
-    {
-      const Eigen::Vector3d force = (moment_[i + 1] - moment_[i]) / stack_rod().rest_length[i] -
-                                    (moment_[i] - moment_[i - 1]) / stack_rod().rest_length[i - 1];
-      load[i] = force.norm() / stack_rod().cell_length[i];
-    }
+    if (outer >= 0 && stack_.layer(k).friction > 0.0)
+      setLoad(state.layers[k].load, std::min(stack_rod().nodes() - 1, stack_.profile(outer).rod().nodes()), state);
   }
 }
 
-/** Share of a node's cell that is in the body. */
-double StackStepper::bodyShare(int node, const State& state) const
+/** Adds the moments that bend a layer to those of the layers inside it. */
+void StackStepper::addMoments(int k, const State& state)
 {
-  return boundary().introducer ? stack_rod().shareBeyond(node, stack_rod().length() - state.inserted_length) : 1.0;
+  const Discretisation& layer = stack_.profile(k).rod();
+  for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
+  {
+    Eigen::Vector3d strain = binormal_[i];
+    if (twisted_[k] && i >= twist_[k].firstCurved() && i + 1 < layer.nodes())
+      strain -= twist_[k].restCurvatureBinormal(i);
+    moment_[i] += (layer.bending_stiffness[i] / layer.cell_length[i]) * strain;
+  }
+}
+
+/** @param end node before which the outer layer ends */
+void StackStepper::setLoad(std::vector<double>& load, int end, const State& state) const
+{
+  std::fill(load.begin(), load.end(), 0.0);
+  for (int i = state.first_node + 1; i < end; ++i)
+  {
+    const Eigen::Vector3d after = i + 1 < end ? moment_[i + 1] : Eigen::Vector3d::Zero();
+    const Eigen::Vector3d force = (after - moment_[i]) / stack_rod().rest_length[i] -
+                                  (moment_[i] - moment_[i - 1]) / stack_rod().rest_length[i - 1];
+    load[i] = force.norm() / stack_rod().cell_length[i];
+  }
+}
+
+void StackStepper::setBodyShares(const State& state)
+{
+  body_share_.assign(state.position.size(), 1.0);
+  const double introducer = stack_rod().length() - state.inserted_length;
+  for (int i = state.first_node + 1; boundary().introducer && i + 1 < stack_rod().nodes(); ++i)
+  {
+    body_share_[i] = stack_rod().shareBeyond(i, introducer);
+    if (body_share_[i] >= 1.0)
+      break;
+  }
 }
 
 /** Normal force between two neighbours at a node [N]. */
 double StackStepper::load(int k, int outer, int node, const State& state) const
 {
-  return bodyShare(node, state) * stack_.overlap(k, outer, node) * stack_rod().cell_length[node] *
+  return body_share_[node] * stack_.overlap(k, outer, node) * stack_rod().cell_length[node] *
          (state.layers[k].load[node] + stack_.layer(k).fit_load);
 }
 
@@ -109,6 +131,7 @@ bool StackStepper::sticks(int k, const State& state) const
 /** Largest friction torques between neighbours, at the inner one's surface; a node's goes to its edges by halves. */
 void StackStepper::setTorqueLimits(const State& state)
 {
+  setBodyShares(state);
   for (int k = 0; k < stack_.count(); ++k)
   {
     const int outer = nextOuter(k, state);

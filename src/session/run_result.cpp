@@ -109,8 +109,9 @@ int firstInsertedNode(const Simulation& simulation)
 void RunResult::checkOutside(const Simulation& simulation, const contact::Detector& wall)
 {
   int outside = 0;
+  nearest_.resize(simulation.state().position.size(), -1);
   for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
-    outside += wall.signedDistance(simulation.state().position[i]) < 0.0;
+    outside += wall.signedDistance(simulation.state().position[i], nearest_[i], &nearest_[i]) < 0.0;
   nodes_outside_ = std::max(nodes_outside_, outside);
 }
 

@@ -59,6 +59,7 @@ private:
   double worst_penetration_ = 0.0;
   double worst_penetration_time_ = 0.0;
   int nodes_outside_ = 0;
+  std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   double max_strain_ = 0.0;
   std::uint64_t strained_steps_ = 0;
   RunningValue hand_force_;

@@ -8,6 +8,9 @@ namespace endovascular_sim::vessel
 namespace
 {
 
+constexpr std::size_t kSegments = 12;  // of a piece
+constexpr double kRounding = 1e-9;     // m
+
 /** Distance from a point to the lumen along one segment of a branch, negative inside [m]. */
 double distanceToLumen(const Eigen::Vector3d& point, const CentrelineBranch& branch, std::size_t k)
 {
@@ -22,34 +25,57 @@ double distanceToLumen(const Eigen::Vector3d& point, const CentrelineBranch& bra
 
 }  // namespace
 
-BranchFinder::BranchFinder(const CentrelineTree& tree) : branches_(tree.branches), bounds_(tree.branches.size())
+BranchFinder::BranchFinder(const CentrelineTree& tree) : branches_(tree.branches)
 {
   for (std::size_t b = 0; b < branches_.size(); ++b)
   {
-    for (const Eigen::Vector3d& point : branches_[b].points)
-      bounds_[b].box.extend(point);
-    for (const double radius : branches_[b].radii)
-      bounds_[b].widest = std::max(bounds_[b].widest, radius);
+    const CentrelineBranch& branch = branches_[b];
+    for (std::size_t first = 0; first < branch.points.size(); first += kSegments)
+    {
+      if (first > 0 && first + 1 == branch.points.size())
+        break;  // the last point ends the piece before
+      Piece piece;
+      piece.branch = static_cast<int>(b);
+      piece.first = first;
+      piece.last = std::min(first + kSegments, branch.points.size() - 1);
+      for (std::size_t k = piece.first; k <= piece.last; ++k)
+      {
+        piece.box.extend(branch.points[k]);
+        piece.widest = std::max(piece.widest, branch.radii[k]);
+      }
+      pieces_.push_back(piece);
+    }
   }
+}
+
+double BranchFinder::distanceTo(const Piece& piece, const Eigen::Vector3d& point) const
+{
+  const CentrelineBranch& branch = branches_[static_cast<std::size_t>(piece.branch)];
+  double least = distanceToLumen(point, branch, piece.first);
+  for (std::size_t k = piece.first + 1; k < piece.last; ++k)
+    least = std::min(least, distanceToLumen(point, branch, k));
+  return least;
 }
 
 int BranchFinder::nearest(const Eigen::Vector3d& point) const
 {
+  const auto likely =
+      std::min_element(pieces_.begin(), pieces_.end(),
+                       [&point](const Piece& a, const Piece& b) { return a.bound(point) < b.bound(point); });
+  if (likely == pieces_.end())
+    return -1;
+  const double enough = distanceTo(*likely, point);
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < branches_.size(); ++b)
+  for (const Piece& piece : pieces_)
   {
-    const CentrelineBranch& branch = branches_[b];
-    if (branch.points.empty() || bounds_[b].box.exteriorDistance(point) - bounds_[b].widest >= least)
+    if (piece.bound(point) > enough + kRounding)
       continue;
-    for (std::size_t k = 0; k + 1 < std::max<std::size_t>(branch.points.size(), 2); ++k)
-    {
-      const double distance = distanceToLumen(point, branch, k);
-      if (distance >= least)
-        continue;
-      least = distance;
-      nearest = static_cast<int>(b);
-    }
+    const double distance = distanceTo(piece, point);
+    if (distance >= least)
+      continue;
+    least = distance;
+    nearest = piece.branch;
   }
   return nearest;
 }

@@ -24,15 +24,24 @@ public:
   int nearest(const Eigen::Vector3d& point) const;
 
 private:
-  /** What is needed to pass over a branch that is too far away. */
-  struct Bounds
+  /** Some segments of a branch, one after the other, and what is needed to pass over them when they are too far away.
+   */
+  struct Piece
   {
+    int branch = 0;
+    std::size_t first = 0;  ///< point at which its first segment begins
+    std::size_t last = 0;   ///< where its last one ends
     Eigen::AlignedBox3d box;
     double widest = 0.0;  ///< largest radius [m]
+
+    /** No more than the distance from a point to the lumen [m]. */
+    double bound(const Eigen::Vector3d& point) const { return box.exteriorDistance(point) - widest; }
   };
 
+  double distanceTo(const Piece& piece, const Eigen::Vector3d& point) const;
+
   std::vector<CentrelineBranch> branches_;
-  std::vector<Bounds> bounds_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace endovascular_sim::vessel

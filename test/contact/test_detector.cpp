@@ -99,6 +99,38 @@ TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
   }
 }
 
+TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
+{
+  const vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
+  Detector warm(mesh, WallLaw{});
+  std::mt19937 random(12);
+  const Query wire = randomWire(Eigen::Vector3d(0.0, 0.0, 0.012), random, 40);
+  std::size_t found = 0;
+  for (int step = 0; step < 120; ++step)
+  {
+    const double along = 0.02 * (step < 70 ? step : 140 - step);  // in edges
+    Query query = wire;
+    query.nodes.resize(35);
+    query.radius.resize(35);
+    for (std::size_t i = 0; i < query.nodes.size(); ++i)
+    {
+      const auto k = i + static_cast<std::size_t>(along);
+      const double share = along - std::floor(along);
+      query.nodes[i] = (1.0 - share) * wire.nodes[k] + share * wire.nodes[k + 1];
+    }
+    ContactSet from_warm;
+    warm.detect(query, from_warm);
+    Detector fresh(mesh, WallLaw{});
+    ContactSet from_fresh;
+    fresh.detect(query, from_fresh);
+    ASSERT_EQ(from_warm.features.size(), from_fresh.features.size());
+    for (std::size_t f = 0; f < from_warm.features.size(); ++f)
+      ASSERT_TRUE(same(from_warm.features[f], from_fresh.features[f]));
+    found += from_warm.features.size();
+  }
+  EXPECT_GT(found, 100U);
+}
+
 TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
 {
   const vessel::TriangleMesh mesh = bentTube();

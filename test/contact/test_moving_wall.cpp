@@ -75,6 +75,7 @@ void expectSameWalls(const Wall& a, const Wall& b)
   EXPECT_EQ(a.plane_offsets, b.plane_offsets);
   EXPECT_EQ(a.vertex_normals, b.vertex_normals);
   EXPECT_EQ(a.vertex_reflex, b.vertex_reflex);
+  EXPECT_EQ(a.vertex_cone, b.vertex_cone);
   EXPECT_EQ(a.curvature, b.curvature);
   for (std::size_t e = 0; e < a.edges.size(); ++e)
   {

@@ -1,0 +1,88 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "contact/wall.h"
+#include "contact_fixtures.h"
+#include "vessel/subdivision.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+/** A tube whose facets are bumpy by a share of their size. */
+Wall bumpyTube(double bump)
+{
+  vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
+  const Wall smooth(mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> height(-1.0, 1.0);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+  {
+    const WallEdge& edge = smooth.edges[static_cast<std::size_t>(smooth.vertex_edges[v].front())];
+    const double length = (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+    mesh.vertices[v] += bump * height(random) * length * smooth.vertex_normals[v];
+  }
+  return Wall(mesh);
+}
+
+/** Whether a vertex is the closest place around it to a point in a direction from it. */
+bool isClosest(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
+{
+  for (int e : wall.vertex_edges[vertex])
+  {
+    const std::array<int, 2>& ends = wall.edges[e].vertices;
+    const Eigen::Vector3d along = wall.vertices[ends[0] == vertex ? ends[1] : ends[0]] - wall.vertices[vertex];
+    if (direction.dot(along) > 0.0)
+      return false;
+  }
+  return true;
+}
+
+/** Whether a direction leads in front of a triangle at a vertex. */
+bool isInFront(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
+{
+  for (int e : wall.vertex_edges[vertex])
+    for (int t : wall.edges[e].triangles)
+      if (direction.dot(wall.normals[t]) >= 0.0)
+        return true;
+  return false;
+}
+
+class VertexCone : public testing::TestWithParam<double>
+{
+};
+
+TEST_P(VertexCone, HoldsEveryDirectionInWhichTheVertexIsTheClosestPlace)
+{
+  const Wall wall = bumpyTube(GetParam());
+  std::mt19937 random(5);
+  std::normal_distribution<double> any;
+  int closest = 0;
+  int bounded = 0;
+  double fullest = 0.0;
+  for (int v = 0; v < static_cast<int>(wall.vertices.size()); ++v)
+  {
+    bounded += wall.vertex_cone[v] < M_PI_2;
+    for (int trial = 0; trial < 300; ++trial)
+    {
+      const Eigen::Vector3d off(any(random), any(random), any(random));
+      const Eigen::Vector3d direction = (wall.vertex_normals[v] + 2.0 * GetParam() * off).normalized();
+      if (wall.vertex_cone[v] >= M_PI_2 || !isClosest(wall, v, direction) || !isInFront(wall, v, direction))
+        continue;
+      ++closest;
+      const double angle = std::acos(std::min(1.0, direction.dot(wall.vertex_normals[v])));
+      EXPECT_LE(angle, wall.vertex_cone[v] + 1e-9);
+      fullest = std::max(fullest, angle / wall.vertex_cone[v]);
+    }
+  }
+  EXPECT_GT(closest, 100);
+  EXPECT_GT(bounded, 100);
+  EXPECT_GT(fullest, 0.5);  // the bound is of use
+}
+
+INSTANTIATE_TEST_SUITE_P(Bumps, VertexCone, testing::Values(0.02, 0.1, 0.3));
+
+}  // namespace
+}  // namespace endovascular_sim::contact
