@@ -73,7 +73,21 @@ Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
   const Eigen::Vector3d half = 0.5 * (end - begin);
-  return {0.5 * (begin + end), edge.normal, half, half.norm(), edge.reflex_angle > kReflexAngle};
+  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), edge.reflex_angle > kReflexAngle};
+}
+
+/** A local minimum's offset lies between the normals of the edge's triangles, or at an end in the vertex's cone. */
+double Detector::leanOf(const WallEdge& edge) const
+{
+  const double slack = std::max(kConeSlack, kConeSlackOfAngle * std::abs(edge.reflex_angle));
+  double widest = 0.5 * edge.reflex_angle + 1.1 * slack;  // rad
+  for (int vertex : edge.vertices)
+  {
+    const double cosine = std::max(-1.0, std::min(1.0, edge.normal.dot(wall_.vertex_normals[vertex])));
+    widest = std::max(widest, wall_.vertex_cone[vertex] + std::acos(cosine));
+  }
+  return std::abs(edge.reflex_angle) > kSharp || widest > kSharp ? std::numeric_limits<double>::infinity()
+                                                                 : std::tan(widest);
 }
 
 void Detector::makePrism(int triangle)
@@ -389,6 +403,30 @@ bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit_b
   return (from_begin + t * segment.along).squaredNorm() <= far * far;
 }
 
+/** Cheap rejection: whether a reflex mesh edge can be a local minimum of the distance to a point of a segment within a
+ *  limit, as canMeet has it. Inside the lumen such a point lies above the mesh edge as seen along the edge's normal, or
+ *  nearly so. */
+bool Detector::canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const
+{
+  const EdgeBall& ball = edge_balls_[wall_edge];
+  const Eigen::Vector3d from_begin = segment.begin - ball.middle;
+  const Eigen::Vector3d from_end = segment.end - ball.middle;
+  const double low = std::min(from_begin.dot(ball.normal), from_end.dot(ball.normal));
+  const double high = std::max(from_begin.dot(ball.normal), from_end.dot(ball.normal));
+  if (low < 0.0 || std::isinf(ball.lean))
+    return canMeet(segment, wall_edge, limit_begin, limit_end);
+  const double limit = std::max(limit_begin, limit_end);
+  const double beside = ball.lean * std::min(limit, high) + kOffTriangle;
+  const auto apart = [&from_begin, &from_end](const Eigen::Vector3d& axis, double farthest)
+  {
+    const double begin = from_begin.dot(axis);
+    const double end = from_end.dot(axis);
+    return std::min(begin, end) > farthest || std::max(begin, end) < -farthest;
+  };
+  return ball.reflex && low <= limit && !apart(ball.normal.cross(ball.half), beside * ball.half_length) &&
+         !apart(ball.half, (beside + ball.half_length) * ball.half_length);
+}
+
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features)
 {
   const Eigen::Vector3d& a = query.nodes[index];
@@ -404,7 +442,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   {
     const int e = one.index;
     if (one.clear > near.moved ||
-        !canMeet(segment, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
+        !canCross(segment, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
       continue;
     double distance = 0.0;
     if (!crossing(a, b, e, limit, feature, distance))

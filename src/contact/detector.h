@@ -133,6 +133,7 @@ private:
     Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
     Eigen::Vector3d half;    ///< from the middle to the edge's end
     double half_length;      ///< [m]
+    double lean;             ///< no local minimum's offset from the edge is tilted more off its normal, as a tangent
     bool reflex;             ///< whether the wire's edges can meet it
   };
 
@@ -150,6 +151,7 @@ private:
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
   EdgeBall ballOf(const WallEdge& edge) const;
+  double leanOf(const WallEdge& edge) const;
   void renewEdges(const std::vector<int>& triangles);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
@@ -158,6 +160,7 @@ private:
                    Feature& feature, double& distance, bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
+  bool canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
                 double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;

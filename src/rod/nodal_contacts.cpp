@@ -263,15 +263,19 @@ bool NodalContacts::updateActiveSet(const Motion& motion, int pass, bool same_re
 
 /** The slope of the energy along the way is the springs' own, piecewise linear, plus that of the rest, linear: at
  * either end the rest balances the springs of the systems solved. */
-double NodalContacts::shareOfLeastEnergy() const
+double NodalContacts::shareOfLeastEnergy()
 {
+  resisting_.clear();  // all others are open from one end of the way to the other
+  for (std::size_t c = 0; c < springs_.size(); ++c)
+    if (springs_[c].active || springs_[c].resisted != 0.0 || springs_[c].reached < 0.0 || gap_after_[c] < 0.0)
+      resisting_.push_back(c);
   double low = 0.0;
   double high = 1.0;
   for (int k = 0; k <= kLineSearchHalvings; ++k)
   {
     const double share = k == 0 ? 1.0 : 0.5 * (low + high);
     double slope = 0.0;
-    for (std::size_t c = 0; c < springs_.size(); ++c)
+    for (const std::size_t c : resisting_)
     {
       const Spring& spring = springs_[c];
       const double gap = gap_after_[c];

@@ -142,7 +142,7 @@ private:
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
-  double shareOfLeastEnergy() const;
+  double shareOfLeastEnergy();
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
@@ -159,9 +159,10 @@ private:
   const StepperSettings& settings_;
   contact::ContactSet contacts_, previous_contacts_, free_distances_;
   std::vector<Spring> springs_, previous_springs_;
-  std::vector<double> gap_after_;  ///< of every spring after the motion of the last solve [m]
-  std::size_t kept_ = 0;           ///< at the end of contacts_: not found by the last detection
-  std::size_t kept_before_ = 0;    ///< the same of previous_contacts_
+  std::vector<double> gap_after_;       ///< of every spring after the motion of the last solve [m]
+  std::vector<std::size_t> resisting_;  ///< springs that a line search regards
+  std::size_t kept_ = 0;                ///< at the end of contacts_: not found by the last detection
+  std::size_t kept_before_ = 0;         ///< the same of previous_contacts_
   int first_changed_ = 0;
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
