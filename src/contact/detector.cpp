@@ -116,10 +116,16 @@ void Detector::makePrism(int triangle)
  * it is only beyond the border that this tells of where no corner is obtuse. */
 double Detector::bulgeOf(int triangle) const
 {
+  const Eigen::Vector3i& corners = wall_.triangles[triangle];
+  bool any = false;
+  for (int k = 0; k < 3; ++k)
+    any = any || wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle > 0.0 ||
+          wall_.vertex_reflex[corners[k]] != 0;
+  if (!any)
+    return 0.0;
   double widest = 0.0;  // rad
   for (int k = 0; k < 3; ++k)
   {
-    const Eigen::Vector3i& corners = wall_.triangles[triangle];
     const Eigen::Vector3d& corner = wall_.vertices[corners[k]];
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
     const double cosine = std::min(1.0, wall_.normals[triangle].dot(wall_.vertex_normals[corners[k]]));

@@ -41,8 +41,8 @@ struct WallLaw
  *  Per node: closest points on the triangles around it that are true local minima (normal-cone test on reflex edges
  *  and vertices), all distinct normals. Per edge: crossing reflex edges and vertices of the mesh. A point is outside
  *  only where its globally nearest feature says so. Each node and edge keeps the few triangles and ridges that it can
- *  meet while it stays about where it is; what is found does not depend on that, so a detector that was restarted gives
- *  the same bits. */
+ *  meet while it stays about where it is or slides along itself; what is found does not depend on that, so a detector
+ * that was restarted gives the same bits. */
 class Detector : public ContactSource
 {
 public:
@@ -104,7 +104,7 @@ private:
   {
     std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
     /** A closest point on its border can be a local minimum in front of it only while the foot lies no farther beyond
-     * than so much of the height. */
+     * than so much of the height; infinite: not bounded. */
     double bulge = 0.0;
     std::array<int, 3> own_edges{-1, -1,
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
@@ -133,7 +133,7 @@ private:
     Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
     Eigen::Vector3d half;    ///< from the middle to the edge's end
     double half_length;      ///< [m]
-    double lean;             ///< no local minimum's offset from the edge is tilted more off its normal, as a tangent
+    double lean;             ///< no local minimum's offset is tilted more off the normal, as a tangent; infinite: any
     bool reflex;             ///< whether the wire's edges can meet it
   };
 

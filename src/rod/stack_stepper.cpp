@@ -209,11 +209,10 @@ void StackStepper::setSlides(const State& state)
     double mass_gained = 0.0;
     for (int k = 0; k < stack_.count(); ++k)
     {
-      mass += stack_.profile(k).rod().mass[i] * (moved_[k] - travel);
-      mass_gained += stack_.profile(k).rod().mass[i] * (gained_[k] - gained);
+      const double share = stack_.profile(k).rod().mass[i] / stack_rod().mass[i];
+      mass += share * (moved_[k] - travel);
+      mass_gained += share * (gained_[k] - gained);
     }
-    mass /= stack_rod().mass[i];
-    mass_gained /= stack_rod().mass[i];
     const Eigen::Vector3d along = tangent(state, i);
     surface_slide_[i] = surface * along;
     mass_slide_[i] = {mass * along, mass_gained * along};

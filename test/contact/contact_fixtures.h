@@ -7,6 +7,7 @@
 #include "contact/detector.h"
 #include "vessel/mesh_reader.h"
 #include "vessel/mesh_repair.h"
+#include "vessel/subdivision.h"
 #include "vessel/triangle_point.h"
 #include "vessel/tube.h"
 
@@ -22,6 +23,22 @@ inline vessel::TriangleMesh bentTube()
   shape.facets_around = 12;
   shape.pieces = {{0.03, 0.0, 0.0}, {0.04, 50.0, 0.3}, {0.02, 0.0, 0.0}};
   return vessel::tubeMesh(shape);
+}
+
+/** The same with finer facets whose corners are moved in and out by a share of their size. */
+inline vessel::TriangleMesh bumpyTube(double bump)
+{
+  vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
+  const Wall smooth(mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> height(-1.0, 1.0);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+  {
+    const WallEdge& edge = smooth.edges[static_cast<std::size_t>(smooth.vertex_edges[v].front())];
+    const double length = (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+    mesh.vertices[v] += bump * height(random) * length * smooth.vertex_normals[v];
+  }
+  return mesh;
 }
 
 /** Path of a mesh of ENDOVASCULAR_DATA_DIR, empty when it is not there. */

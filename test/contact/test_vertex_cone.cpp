@@ -4,28 +4,11 @@
 
 #include "contact/wall.h"
 #include "contact_fixtures.h"
-#include "vessel/subdivision.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
-
-/** A tube whose facets are bumpy by a share of their size. */
-Wall bumpyTube(double bump)
-{
-  vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
-  const Wall smooth(mesh);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> height(-1.0, 1.0);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-  {
-    const WallEdge& edge = smooth.edges[static_cast<std::size_t>(smooth.vertex_edges[v].front())];
-    const double length = (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
-    mesh.vertices[v] += bump * height(random) * length * smooth.vertex_normals[v];
-  }
-  return Wall(mesh);
-}
 
 /** Whether a vertex is the closest place around it to a point in a direction from it. */
 bool isClosest(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
@@ -56,7 +39,7 @@ class VertexCone : public testing::TestWithParam<double>
 
 TEST_P(VertexCone, HoldsEveryDirectionInWhichTheVertexIsTheClosestPlace)
 {
-  const Wall wall = bumpyTube(GetParam());
+  const Wall wall(bumpyTube(GetParam()));
   std::mt19937 random(5);
   std::normal_distribution<double> any;
   int closest = 0;

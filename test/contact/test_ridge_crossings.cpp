@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "contact/detector.h"
+#include "contact/segment_pair.h"
+#include "contact_fixtures.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+/** Whether a ridge's interior is the closest place around it to the inside of a wire's edge, well off its ends, and
+ *  within a limit. */
+bool crosses(const Wall& wall, const WallEdge& ridge, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit)
+{
+  const Eigen::Vector3d& begin = wall.vertices[ridge.vertices[0]];
+  const Eigen::Vector3d& end = wall.vertices[ridge.vertices[1]];
+  const SegmentPair pair = closestPointsOfSegments(a, b, begin, end);
+  if (pair.first < 0.01 || pair.first > 0.99 || pair.second < 1e-6 || pair.second > 1.0 - 1e-6)
+    return false;
+  const Eigen::Vector3d offset = a + pair.first * (b - a) - begin - pair.second * (end - begin);
+  const double slack = 0.9e-3 * offset.norm();
+  return offset.norm() < limit && offset.dot(wall.normals[ridge.triangles[0]]) > 0.0 &&
+         offset.dot(wall.normals[ridge.triangles[1]]) > 0.0 && offset.dot(ridge.into_triangle[0]) < slack &&
+         offset.dot(ridge.into_triangle[1]) < slack;
+}
+
+class RidgeCrossings : public testing::TestWithParam<double>
+{
+};
+
+TEST_P(RidgeCrossings, AreAllListedThatALookAtEveryRidgeFinds)
+{
+  const vessel::TriangleMesh mesh = bumpyTube(GetParam());
+  Detector detector(mesh, WallLaw{});
+  const Wall& wall = detector.wall();
+  std::mt19937 random(17);
+  std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
+  int crossings = 0;
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    const std::size_t t = any_triangle(random);
+    const Query query =
+        randomWire(mesh.vertices[mesh.triangles[t][0]] + 0.7e-3 * detector.wall().normals[t], random, 20);
+    ContactSet set;
+    detector.detect(query, set);
+    const double limit = query.radius.front() + query.margin - 1e-9;
+    for (int i = 0; i + 1 < static_cast<int>(query.nodes.size()); ++i)
+      for (std::size_t e = 0; e < wall.edges.size(); ++e)
+      {
+        if (wall.edges[e].reflex_angle < 2e-4 ||
+            !crosses(wall, wall.edges[e], query.nodes[i], query.nodes[i + 1], limit))
+          continue;
+        ++crossings;
+        const auto is = [&](const Feature& f)
+        { return f.edge == query.first_node + i && f.id == 3 * static_cast<std::int64_t>(e) + 1; };
+        EXPECT_TRUE(std::any_of(set.features.begin(), set.features.end(), is));
+      }
+  }
+  EXPECT_GT(crossings, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bumps, RidgeCrossings, testing::Values(0.02, 0.1, 0.3));
+
+}  // namespace
+}  // namespace endovascular_sim::contact
