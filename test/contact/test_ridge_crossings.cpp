@@ -37,27 +37,33 @@ TEST_P(RidgeCrossings, AreAllListedThatALookAtEveryRidgeFinds)
   Detector detector(mesh, WallLaw{});
   const Wall& wall = detector.wall();
   std::mt19937 random(17);
-  std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<std::size_t> any_edge(0, wall.edges.size() - 1);
   int crossings = 0;
-  for (int trial = 0; trial < 60; ++trial)
+  for (int trial = 0; trial < 600; ++trial)
   {
-    const std::size_t t = any_triangle(random);
-    const Query query =
-        randomWire(mesh.vertices[mesh.triangles[t][0]] + 0.7e-3 * detector.wall().normals[t], random, 20);
+    const WallEdge& ridge = wall.edges[any_edge(random)];
+    const Eigen::Vector3d middle = 0.5 * (wall.vertices[ridge.vertices[0]] + wall.vertices[ridge.vertices[1]]);
+    const Eigen::Vector3d along = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Vector3d level = (along - 0.9 * ridge.normal.dot(along) * ridge.normal).normalized();
+    Query query;
+    query.margin = 0.5e-3;
+    query.first_node = 3;
+    query.radius.assign(2, 0.4e-3);
+    for (double share : {-0.7, 1.1})
+      query.nodes.emplace_back(middle + 0.4e-3 * ridge.normal + share * 1e-3 * level);
     ContactSet set;
     detector.detect(query, set);
-    const double limit = query.radius.front() + query.margin - 1e-9;
-    for (int i = 0; i + 1 < static_cast<int>(query.nodes.size()); ++i)
-      for (std::size_t e = 0; e < wall.edges.size(); ++e)
-      {
-        if (wall.edges[e].reflex_angle < 2e-4 ||
-            !crosses(wall, wall.edges[e], query.nodes[i], query.nodes[i + 1], limit))
-          continue;
-        ++crossings;
-        const auto is = [&](const Feature& f)
-        { return f.edge == query.first_node + i && f.id == 3 * static_cast<std::int64_t>(e) + 1; };
-        EXPECT_TRUE(std::any_of(set.features.begin(), set.features.end(), is));
-      }
+    for (std::size_t e = 0; e < wall.edges.size(); ++e)
+    {
+      if (wall.edges[e].reflex_angle < 2e-4 ||
+          !crosses(wall, wall.edges[e], query.nodes[0], query.nodes[1], query.radius.front() + query.margin - 1e-9))
+        continue;
+      ++crossings;
+      const auto is = [&](const Feature& f)
+      { return f.edge == query.first_node && f.id == 3 * static_cast<std::int64_t>(e) + 1; };
+      EXPECT_TRUE(std::any_of(set.features.begin(), set.features.end(), is));
+    }
   }
   EXPECT_GT(crossings, 50);
 }
