@@ -70,6 +70,39 @@ TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInATube)
   checkAgainstBruteForce(bentTube(), 40);
 }
 
+TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
+{
+  std::mt19937 random(23);
+  std::normal_distribution<double> normal;
+  for (double bump : {0.05, 0.2})
+  {
+    const vessel::TriangleMesh mesh = bumpyTube(bump);
+    Detector detector(mesh, WallLaw{});
+    std::uniform_int_distribution<std::size_t> any_vertex(0, mesh.vertices.size() - 1);
+    int contacts = 0;
+    for (int trial = 0; trial < 400; ++trial)
+    {
+      const std::size_t v = any_vertex(random);
+      const Eigen::Vector3d off(normal(random), normal(random), normal(random));
+      const Eigen::Vector3d up = (detector.wall().vertex_normals[v] + bump * off).normalized();
+      Query query;
+      query.margin = 0.5e-3;
+      query.first_node = 3;
+      query.radius.assign(2, 0.4e-3);
+      query.nodes = {mesh.vertices[v] + 0.6e-3 * up, mesh.vertices[v] + 2e-3 * up};
+      ContactSet set;
+      detector.detect(query, set);
+      int triangle = -1;
+      const double gap = bruteDistance(detector.wall(), query.nodes[0], triangle) - query.radius[0];
+      if (vessel::windingNumber(mesh, query.nodes[0]) < 0.5)
+        continue;
+      EXPECT_NEAR(smallestGap(set, query.first_node), gap, 1e-12);
+      ++contacts;
+    }
+    EXPECT_GT(contacts, 300);
+  }
+}
+
 TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInARealAorta)
 {
   const std::string file = dataFile("aortic_arch_tree.obj");
