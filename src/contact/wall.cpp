@@ -137,8 +137,8 @@ void Wall::finishVertex(int vertex)
   vertex_cone[vertex] = coneAt(vertex);
 }
 
-/** Such a direction d has d·e ≤ 0 for every edge e at the vertex, also for the one that runs next to how d is tilted, at
- * half a corner's angle γ or less: of slope s downwards, it lets d tilt by tan ψ ≤ s/cos(γ/2). */
+/** Such a direction d has d·e ≤ 0 for every edge e at the vertex, also for the one that runs next to how d is tilted:
+ *  at half a corner's angle γ from that, or less. Of slope s downwards, it lets d tilt by tan ψ ≤ s/cos(γ/2). */
 double Wall::coneAt(int vertex) const
 {
   const Eigen::Vector3d& normal = vertex_normals[vertex];
