@@ -21,6 +21,20 @@ bool same(const Feature& a, const Feature& b)
          a.gap == b.gap && a.triangle == b.triangle && a.id == b.id;
 }
 
+/** Expects of a detector that has seen other queries what a new one answers. @return number of features */
+std::size_t expectSameAsFresh(Detector& warm, const vessel::TriangleMesh& mesh, const Query& query)
+{
+  ContactSet from_warm;
+  warm.detect(query, from_warm);
+  Detector fresh(mesh, WallLaw{});
+  ContactSet from_fresh;
+  fresh.detect(query, from_fresh);
+  EXPECT_EQ(from_warm.features.size(), from_fresh.features.size());
+  for (std::size_t f = 0; f < std::min(from_warm.features.size(), from_fresh.features.size()); ++f)
+    EXPECT_TRUE(same(from_warm.features[f], from_fresh.features[f]));
+  return from_warm.features.size();
+}
+
 /** Smallest gap over the listed features of one node (by whole-wire index), or infinity. */
 double smallestGap(const ContactSet& set, int node)
 {
@@ -121,14 +135,7 @@ TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
   {
     for (Eigen::Vector3d& node : query.nodes)
       node += Eigen::Vector3d(1.5e-4, 0.7e-4, 1e-4);
-    ContactSet from_warm;
-    warm.detect(query, from_warm);
-    Detector fresh(mesh, WallLaw{});
-    ContactSet from_fresh;
-    fresh.detect(query, from_fresh);
-    ASSERT_EQ(from_warm.features.size(), from_fresh.features.size());
-    for (std::size_t f = 0; f < from_warm.features.size(); ++f)
-      ASSERT_TRUE(same(from_warm.features[f], from_fresh.features[f]));
+    expectSameAsFresh(warm, mesh, query);
   }
 }
 
@@ -151,15 +158,7 @@ TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
       const double share = along - std::floor(along);
       query.nodes[i] = (1.0 - share) * wire.nodes[k] + share * wire.nodes[k + 1];
     }
-    ContactSet from_warm;
-    warm.detect(query, from_warm);
-    Detector fresh(mesh, WallLaw{});
-    ContactSet from_fresh;
-    fresh.detect(query, from_fresh);
-    ASSERT_EQ(from_warm.features.size(), from_fresh.features.size());
-    for (std::size_t f = 0; f < from_warm.features.size(); ++f)
-      ASSERT_TRUE(same(from_warm.features[f], from_fresh.features[f]));
-    found += from_warm.features.size();
+    found += expectSameAsFresh(warm, mesh, query);
   }
   EXPECT_GT(found, 100U);
 }
