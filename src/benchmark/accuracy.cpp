@@ -56,11 +56,9 @@ std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& 
                   "accuracy.png"};
   section.text =
       "Distance of the tip from the exact one in lengths of the wire, and the observed order in the edge length "
-      "between a row and "
-      "the one above it. The clamp of `kkt` and `paper` acts in the middle of an edge, so the free length is N − 3/2 "
-      "edges; "
-      "that of `mixed` at its node, N − 1 edges. Time per step is that of the run to rest (long steps, several solves "
-      "each).";
+      "between a row and the one above it. The clamp of `kkt` and `paper` acts in the middle of an edge, so the free "
+      "length is N − 3/2 edges; that of `mixed` at its node, N − 1 edges. Time per step is that of the run to rest "
+      "(long steps, several solves each).";
   const std::vector<StaticCase> problems = staticCases();
   double done = 0.0;
   for (const StaticCase& problem : problems)

@@ -62,17 +62,14 @@ Section contactRows(const StudyOptions& /*options*/, const Progress& progress)
 {
   Section section{"accuracy_contact", "Contact", "", referenceTable(), ""};
   section.text =
-      "Walls in closed form that nodes meet, so that no facets are in the way. Insertion: a straight wire of "
-      "EI = 300 N·mm² at 50 mm/s into 90° of 30 mm radius, clearance a hundredth of it, means over 10 mm of travel; "
-      "the "
-      "wire may lie anywhere in the clearance, which is ± 2 % of the force. Capstan: mean over two edges' travel; "
-      "friction in the linear step of `paper` takes at most its momentum "
-      "from a node, m v/Δt, before projection gives it back, so its share is 1/(1 + Δt μ f_n/(m v)). Tubes: held ends, "
-      "shortened by what a small sway takes up; the force "
+      "Walls in closed form that nodes meet, so that no facets are in the way. Insertion: a straight wire of EI = 300 "
+      "N·mm² at 50 mm/s into 90° of 30 mm radius, clearance a hundredth of it, means over 10 mm of travel; the wire "
+      "may lie anywhere in the clearance, which is ± 2 % of the force. Capstan: mean over two edges' travel; friction "
+      "in the linear step of `paper` takes at most its momentum from a node, m v/Δt, before projection gives it back, "
+      "so its share is 1/(1 + Δt μ f_n/(m v)). Tubes: held ends, shortened by what a small sway takes up; the force "
       "grows with the sway and, between clamps in the bent tube, by 2.5 % with the finite length, both part of the "
-      "error. The wall of `paper` yields by F Δt²/m; its steps are 1.3 µs in the channel, 1 µs "
-      "on the peg, 3 µs in the bent tube, 20 µs in the insertion, 0.1 ms in the straight tube; those of the others 0.1 "
-      "to 5 ms.";
+      "error. The wall of `paper` yields by F Δt²/m; its steps are 1.3 µs in the channel, 1 µs on the peg, 3 µs in the "
+      "bent tube, 20 µs in the insertion, 0.1 ms in the straight tube; those of the others 0.1 to 5 ms.";
   double done = 0.0;
   for (const std::string& scheme : schemes())
   {

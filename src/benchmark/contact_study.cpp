@@ -147,9 +147,8 @@ Section volumes(const StudyMesh& base, const StudyMesh& big, bool quick, const P
                   "contact_volumes.png"};
   section.text =
       "FCL's hierarchies over the same triangles, all walked from the root by the same code with each volume's own "
-      "bound "
-      "of the distance to a point. Collect: all triangles that may be within 2 mm of a node of the wire, what a cold "
-      "detector asks. Nearest: the nearest triangle, what signs and free distances ask. Fastest of several runs.";
+      "bound of the distance to a point. Collect: all triangles that may be within 2 mm of a node of the wire, what a "
+      "cold detector asks. Nearest: the nearest triangle, what signs and free distances ask. Fastest of several runs.";
   std::vector<StudyMesh> meshes;
   StudyMesh fine = base;
   fine.mesh = vessel::flatSubdivision(base.mesh, 2);

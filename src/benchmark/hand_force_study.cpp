@@ -302,11 +302,10 @@ Section smoothness(bool quick, const Progress& progress)
       "hand_force_noise", "Noise of the force",
       "The same wire with 480 nodes, every step of 1 ms. Noise: RMS of what is faster than 5 Hz (7 mm of travel at 35 "
       "mm/s), over the mean; the first and the last half second are left out. It holds whatever is in that band, so "
-      "also what tip and wall really do to each other. The rest falls with "
-      "the facets' size and with the contacts' stiffness. Departure: largest distance between the smoothed surface and "
-      "the original one, corners of both. Wall: rigid, every contact with `solver.contact_stiffness` (by default 100 "
-      "N/mm; 30 give way by about 2 µm here), or a tissue's `vessel.stiffness` per length of wire. Asked: 3 % on a "
-      "smoothed wall.",
+      "also what tip and wall really do to each other. The rest falls with the facets' size and with the contacts' "
+      "stiffness. Departure: largest distance between the smoothed surface and the original one, corners of both. "
+      "Wall: rigid, every contact with `solver.contact_stiffness` (by default 100 N/mm; 30 give way by about 2 µm "
+      "here), or a tissue's `vessel.stiffness` per length of wire. Asked: 3 % on a smoothed wall.",
       Table({"vessel", "smoothing", "wall", "triangles", "departure [mm]", "mean force [mN]", "noise [%]", "holds"}),
       ""};
   const WallCase walls[] = {{false, 0, 1e5},          {false, 1, 1e5}, {false, 2, 1e5}, {true, 0, 1e5},

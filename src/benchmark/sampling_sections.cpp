@@ -15,10 +15,8 @@ std::vector<Section> samplingSections(const StudyOptions& options, const Progres
       "sampling.png"};
   runs.text =
       "Every case is a wire that is pushed, drawn back and turned, compared over the whole motion with the same motion "
-      "at uniform "
-      "0.125 mm. Force error: RMS difference of 20 ms means over the reference's peak. For scale, the paper's Fig. 8 "
-      "has 142 nodes at "
-      "0.5 mm, 88 at 0.8 mm and about 75 with adaptive sampling.";
+      "at uniform 0.125 mm. Force error: RMS difference of 20 ms means over the reference's peak. For scale, the "
+      "paper's Fig. 8 has 142 nodes at 0.5 mm, 88 at 0.8 mm and about 75 with adaptive sampling.";
   Section verdicts{"sampling_measures", "Acceptance measures of adaptive sampling", "",
                    Table({"case", "measure", "adaptive", "limit", "uniform 0.5 mm", "holds"}), ""};
   const std::vector<SamplingCase> cases = samplingCases(options.vessel_mesh, options.quick);

@@ -116,14 +116,10 @@ Section paperTable(const StudyOptions& options, const Progress& progress)
                   ""};
   section.text =
       "All in µs, medians, one core; the wire lies in a channel with two bends, pushed and turned, all nodes in the "
-      "solver. "
-      "The paper's phases were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not add up to its totals, "
-      "so they "
-      "are "
-      "compared phase "
-      "by phase; inextensibility is part of `kkt`'s solve, and of `paper`'s it is the projection. The whole frame is "
-      "one step, the "
-      "wire's surface as a mesh and one 512² fluoroscopy frame; the paper reaches 75 frames per second at 380 nodes.";
+      "solver. The paper's phases were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not add up to its "
+      "totals, so they are compared phase by phase; inextensibility is part of `kkt`'s solve, and of `paper`'s it is "
+      "the projection. The whole frame is one step, the wire's surface as a mesh and one 512² fluoroscopy frame; the "
+      "paper reaches 75 frames per second at 380 nodes.";
   const std::vector<std::pair<int, int>> paper = {
       {100, 680 + 260 + 1020}, {200, 920 + 520 + 2130}, {300, 1160 + 790 + 3140}, {380, 1270 + 990 + 3980}};
   const std::vector<std::string> compared = {"kkt", "paper"};
@@ -155,8 +151,7 @@ Section growth(const StudyOptions& options, const Progress& progress, const std:
                   "speed.png"};
   section.text =
       "The clamped wire that falls under gravity (no contact), Δt = 1 ms, medians. The exponent is that between a row "
-      "and the "
-      "one above it; 1 is linear. Cycles are those of the processor's time stamp counter, means.";
+      "and the one above it; 1 is linear. Cycles are those of the processor's time stamp counter, means.";
   const std::vector<int> counts =
       options.quick ? std::vector<int>{100, 380, 1000} : std::vector<int>{100, 200, 380, 1000, 2000, 5000};
   const StaticCase problem = heavyCantilever();

@@ -211,12 +211,9 @@ std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress&
   auto counts = run(oneAtATime(options.quick), single.table, max_steps, progress, 0.0, 0.4);
   single.text =
       "A J wire (EI 300 N·mm², 150 nodes) pushed 60 mm at 35 mm/s through a 90° bend of 30 mm radius, Δt 1 ms, half a "
-      "turn; then one "
-      "thing changed. Good: no NaN, strain ≤ 1e-3, the wire's surface at most 0.1 mm beyond the wall, no node outside, "
-      "no more "
-      "energy than the work put in. Refused: a step without a solution, in which the wire is held, or a scene that is "
-      "turned away. "
-      "Self-contact of the wire is out of scope. " +
+      "turn; then one thing changed. Good: no NaN, strain ≤ 1e-3, the wire's surface at most 0.1 mm beyond the wall, "
+      "no node outside, no more energy than the work put in. Refused: a step without a solution, in which the wire is "
+      "held, or a scene that is turned away. Self-contact of the wire is out of scope. " +
       counted(counts);
   Section cube{"stability_samples", "Hard cases, Latin hypercube", "", Table(kColumns), ""};
   std::vector<HardCase> samples = latinHypercube(options.quick ? 20 : 200);

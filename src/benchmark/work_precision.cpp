@@ -68,8 +68,8 @@ Section statics(const StudyOptions& options, const Progress& progress)
                   "work_precision_static.png"};
   section.text =
       "Time is that of a step of 1 ms while the wire moves, the error that of its rest shape. `measured` are the "
-      "points that other "
-      "systems reached on the same wire (another run of a like machine, so read factors, not percents).";
+      "points that other systems reached on the same wire (another run of a like machine, so read factors, not "
+      "percents).";
   addPeers(section.table);
   double done = 0.0;
   for (const std::string& scheme : schemes())
@@ -110,8 +110,7 @@ Section dynamics(const StudyOptions& options, const Progress& progress)
                   "work_precision_dynamic.png"};
   section.text =
       "The heavy cantilever 0.2 s after it was let go. The reference is `kkt` with 200 nodes and Δt extrapolated to "
-      "zero from "
-      "20 and 10 µs. Backward Euler is first order in Δt, which is what limits every scheme from 1 ms on.";
+      "zero from 20 and 10 µs. Backward Euler is first order in Δt, which is what limits every scheme from 1 ms on.";
   progress(0.3, "reference of the motion");
   const double fine = options.quick ? 1e-4 : 2e-5;
   const Fall coarse = fall("kkt", 200, fine, kDuration);
