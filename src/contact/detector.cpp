@@ -83,8 +83,7 @@ double Detector::leanOf(const WallEdge& edge) const
   double widest = 0.5 * edge.reflex_angle + 1.1 * slack;  // rad
   for (int vertex : edge.vertices)
   {
-    const double cosine = std::max(-1.0, std::min(1.0, edge.normal.dot(wall_.vertex_normals[vertex])));
-    widest = std::max(widest, wall_.vertex_cone[vertex] + std::acos(cosine));
+    widest = std::max(widest, wall_.vertex_cone[vertex] + angleBetween(edge.normal, wall_.vertex_normals[vertex]));
   }
   return std::abs(edge.reflex_angle) > kSharp || widest > kSharp ? std::numeric_limits<double>::infinity()
                                                                  : std::tan(widest);
@@ -128,8 +127,8 @@ double Detector::bulgeOf(int triangle) const
   {
     const Eigen::Vector3d& corner = wall_.vertices[corners[k]];
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
-    const double cosine = std::min(1.0, wall_.normals[triangle].dot(wall_.vertex_normals[corners[k]]));
-    const double tilt = std::acos(std::max(-1.0, cosine)) + wall_.vertex_cone[corners[k]];
+    const double tilt =
+        angleBetween(wall_.normals[triangle], wall_.vertex_normals[corners[k]]) + wall_.vertex_cone[corners[k]];
     const bool obtuse =
         (wall_.vertices[corners[(k + 1) % 3]] - corner).dot(wall_.vertices[corners[(k + 2) % 3]] - corner) < 0.0;
     if (std::abs(angle) > kSharp || tilt > kSharp || obtuse)
@@ -370,8 +369,7 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   for (int e : wall_.vertex_edges[vertex])
   {
     const WallEdge& edge = wall_.edges[e];
-    const int other = edge.vertices[0] == vertex ? edge.vertices[1] : edge.vertices[0];
-    const Eigen::Vector3d along = wall_.vertices[other] - wall_.vertices[vertex];
+    const Eigen::Vector3d along = wall_.vertices[edge.otherEnd(vertex)] - wall_.vertices[vertex];
     if (offset.dot(along) > kConeTolerance * along.norm())
       return false;
   }

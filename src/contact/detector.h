@@ -145,8 +145,8 @@ private:
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
   void list(Neighbourhood& near);
-  void listTriangles(const AxisSegment& segment, Neighbourhood& near, double wide);
-  void listEdges(const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  void listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  void listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const;
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
@@ -175,7 +175,7 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, collected_edges_, now_reflex_;
+  std::vector<int> collected_, now_reflex_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
 };

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 
-#include "common/prefetch.h"
 #include "contact/detector.h"
 #include "contact/segment_pair.h"
 
@@ -122,57 +121,46 @@ void Detector::list(Neighbourhood& near)
   bvh_.collectBox(segment.begin.cwiseMin(segment.end) - around, segment.begin.cwiseMax(segment.end) + around,
                   collected_);
   for (int t : collected_)
-    prefetch(prisms_[t]);
-  listTriangles(segment, near, wide);
-  listEdges(segment, near, wide);
+    listTriangle(t, segment, near, wide);
   // Sorted, so that results do not depend on how the tree is walked.
   const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
   std::sort(near.triangles.begin(), near.triangles.end(), by_index);
   std::sort(near.edges.begin(), near.edges.end(), by_index);
 }
 
-/** Of the triangles collected those that the node may meet; collects the edges that belong to any. */
-void Detector::listTriangles(const AxisSegment& segment, Neighbourhood& near, double wide)
+/** A triangle that the node may meet, and those of its own edges that the wire's edge may. */
+void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const
 {
+  const Prism& prism = prisms_[triangle];
+  const Eigen::Array4d above = prism.heights(segment.begin);
+  const Eigen::Array4d change = prism.heights(segment.end) - above;
+  if (std::min(above[0], above[0] + change[0]) > wide || std::max(above[0], above[0] + change[0]) < -wide)
+    return;
+  for (int e : prism.own_edges)
+    if (e >= 0)
+      listEdge(e, segment, near, wide);
+  // Of the places that the node may have, no more than their distance from the triangle.
   const double share = near.reach > 0.0 ? near.reach / near.length : 0.0;
-  collected_edges_.clear();
-  for (int t : collected_)
-  {
-    const Eigen::Array4d above = prisms_[t].heights(segment.begin);
-    const Eigen::Array4d change = prisms_[t].heights(segment.end) - above;
-    if (std::min(above[0], above[0] + change[0]) > wide || std::max(above[0], above[0] + change[0]) < -wide)
-      continue;
-    for (int e : prisms_[t].own_edges)
-      if (e >= 0)
-      {
-        collected_edges_.push_back(e);
-        prefetch(edge_balls_[e]);
-      }
-    // Of the places that the node may have, no more than their distance from the triangle.
-    const Eigen::Array4d above_last = above + share * change;
-    const double height = above[0] * above_last[0] <= 0.0 ? 0.0 : std::min(std::abs(above[0]), std::abs(above_last[0]));
-    const double beyond = std::max(0.0, outsideOf(above.max(above_last)));
-    const double distance = std::sqrt(height * height + beyond * beyond);
-    if (distance <= wide)
-      near.triangles.push_back({t, clearance(distance, near.limit)});
-  }
+  const Eigen::Array4d above_last = above + share * change;
+  const double height = above[0] * above_last[0] <= 0.0 ? 0.0 : std::min(std::abs(above[0]), std::abs(above_last[0]));
+  const double beyond = std::max(0.0, outsideOf(above.max(above_last)));
+  const double distance = std::sqrt(height * height + beyond * beyond);
+  if (distance <= wide)
+    near.triangles.push_back({triangle, clearance(distance, near.limit)});
 }
 
-void Detector::listEdges(const AxisSegment& segment, Neighbourhood& near, double wide) const
+void Detector::listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const
 {
-  for (int e : collected_edges_)
-  {
-    if (!canMeet(segment, e, wide, wide))
-      continue;
-    const EdgeBall& ball = edge_balls_[e];
-    const SegmentPair pair =
-        closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
-    const Eigen::Vector3d apart =
-        segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
-    const double distance = apart.norm();
-    if (distance <= wide)
-      near.edges.push_back({e, clearance(distance, near.limit)});
-  }
+  if (!canMeet(segment, wall_edge, wide, wide))
+    return;
+  const EdgeBall& ball = edge_balls_[wall_edge];
+  const SegmentPair pair =
+      closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
+  const Eigen::Vector3d apart =
+      segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
+  const double distance = apart.norm();
+  if (distance <= wide)
+    near.edges.push_back({wall_edge, clearance(distance, near.limit)});
 }
 
 double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const

@@ -16,17 +16,17 @@ constexpr double kFlat = 1e-3;         // rad: below it an edge counts as flat
 constexpr double kSmooth = 0.5;        // slope up to which what surrounds a vertex counts as one sheet
 constexpr double kWidestCorner = 2.4;  // rad
 
-double clampedAcos(double cosine)
-{
-  return std::acos(std::max(-1.0, std::min(1.0, cosine)));
-}
-
 int oppositeCorner(const Eigen::Vector3i& triangle, const WallEdge& edge)
 {
   for (int corner = 0; corner < 3; ++corner)
     if (triangle[corner] != edge.vertices[0] && triangle[corner] != edge.vertices[1])
       return triangle[corner];
   return triangle[0];
+}
+
+int cornerAt(const Eigen::Vector3i& triangle, int vertex)
+{
+  return triangle[0] == vertex ? 0 : triangle[1] == vertex ? 1 : 2;
 }
 
 }  // namespace
@@ -117,18 +117,14 @@ void Wall::finishTriangle(int triangle)
   for (int k = 0; k < 3; ++k)
     along[k] = (vertices[corners[(k + 1) % 3]] - vertices[corners[k]]).normalized();
   for (int k = 0; k < 3; ++k)
-    angles_[triangle][k] = clampedAcos(-along[k].dot(along[(k + 2) % 3]));
+    angles_[triangle][k] = angleBetween(-along[k], along[(k + 2) % 3]);
 }
 
 void Wall::finishVertex(int vertex)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int t : vertex_triangles_[vertex])
-  {
-    const Eigen::Vector3i& corners = triangles[t];
-    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
-    sum += angles_[t][k] * normals[t];
-  }
+    sum += angles_[t][cornerAt(triangles[t], vertex)] * normals[t];
   vertex_normals[vertex] = sum.normalized();
   vertex_reflex[vertex] = 0;
   for (int e : vertex_edges[vertex])
@@ -145,8 +141,7 @@ double Wall::coneAt(int vertex) const
   double steepest = 0.0;  // downwards
   for (int e : vertex_edges[vertex])
   {
-    const Eigen::Vector3d along =
-        vertices[edges[e].vertices[edges[e].vertices[0] == vertex ? 1 : 0]] - vertices[vertex];
+    const Eigen::Vector3d along = vertices[edges[e].otherEnd(vertex)] - vertices[vertex];
     const double rise = along.dot(normal);
     const double run = (along - rise * normal).norm();
     if (std::abs(rise) >= kSmooth * run)
@@ -158,7 +153,7 @@ double Wall::coneAt(int vertex) const
   for (int t : vertex_triangles_[vertex])
   {
     const Eigen::Vector3i& corners = triangles[t];
-    const int k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    const int k = cornerAt(corners, vertex);
     const Eigen::Vector3d to_next = vertices[corners[(k + 1) % 3]] - vertices[vertex];
     const Eigen::Vector3d to_last = vertices[corners[(k + 2) % 3]] - vertices[vertex];
     const Eigen::Vector3d a = to_next - normal.dot(to_next) * normal;
@@ -204,7 +199,7 @@ Wall::Bend Wall::widened(int vertex, int round) const
   Bend sum = before[vertex];
   for (int e : vertex_edges[vertex])
   {
-    const Bend& other = before[edges[e].vertices[edges[e].vertices[0] == vertex ? 1 : 0]];
+    const Bend& other = before[edges[e].otherEnd(vertex)];
     sum.bend += other.bend;
     sum.area += other.area;
   }
@@ -236,7 +231,7 @@ void Wall::widenToNeighbours(std::vector<int>& around)
 const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
 {
   changes_.triangles.clear();
-  changes_.edges.clear();
+  moved_edges_.clear();
   ring_.clear();
   for (std::size_t k = 0; k < indices.size(); ++k)
   {
@@ -257,13 +252,13 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
       const int e = triangle_edges[t][k];
       const int v = triangles[t][k];
       if (!edge_marked_[e])
-        edge_marked_[e] = 1, changes_.edges.push_back(e);
+        edge_marked_[e] = 1, moved_edges_.push_back(e);
       if (!vertex_marked_[v])
         vertex_marked_[v] = 1, ring_.push_back(v);
     }
   }
-  std::sort(changes_.edges.begin(), changes_.edges.end());
-  for (int e : changes_.edges)
+  std::sort(moved_edges_.begin(), moved_edges_.end());
+  for (int e : moved_edges_)
   {
     finishEdge(edges[e]);
     finishBend(e);
@@ -289,7 +284,7 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
   }
   for (int t : changes_.around)
     triangle_marked_[t] = 0;
-  for (int e : changes_.edges)
+  for (int e : moved_edges_)
     edge_marked_[e] = 0;
   for (int v : ring_)
   {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,7 +21,15 @@ struct WallEdge
   double reflex_angle = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< pseudo-normal towards the lumen, unit
   std::array<Eigen::Vector3d, 2> into_triangle;      ///< in each triangle's plane, ⟂ edge, pointing into it, unit
+
+  int otherEnd(int vertex) const { return vertices[0] == vertex ? vertices[1] : vertices[0]; }
 };
+
+/** Angle between two unit vectors [rad]. */
+inline double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  return std::acos(std::max(-1.0, std::min(1.0, a.dot(b))));
+}
 
 /** The vessel's wall with what closest-feature tests need: normals towards the lumen, edges, adjacency.
  *  Angle-weighted pseudo-normals (Bærentzen & Aanæs 2005) give the sign of the distance at edges and vertices. */
@@ -49,7 +59,6 @@ public:
   struct Changes
   {
     std::vector<int> triangles;  ///< with a vertex that moved
-    std::vector<int> edges;      ///< of these triangles
     std::vector<int> around;     ///< triangles that share a vertex with one of them, themselves too; in any order
   };
 
@@ -94,6 +103,7 @@ private:
   std::vector<std::vector<int>> vertex_triangles_;             ///< ascending
   std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
   Changes changes_;
+  std::vector<int> moved_edges_;  ///< of the triangles changed; ascending
   std::vector<int> ring_;
   std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/archive.h"
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 
 namespace endovascular_sim::rod
 {
@@ -63,11 +63,7 @@ void AdaptiveSampling::measureCurvature(const State& state)
   const int n = rod_.nodes();
   curvature_.assign(static_cast<std::size_t>(n), 0.0);
   for (int i = state.first_node + 1; i + 1 < n; ++i)
-    curvature_[i] =
-        CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                          rod_.rest_length[i - 1] * rod_.rest_length[i])
-            .value.norm() /
-        rod_.cell_length[i];
+    curvature_[i] = binormalAt(rod_, state, i).value.norm() / rod_.cell_length[i];
   if (!ahead_)
     return;
   const double beyond = curvatureBeyondTip(state.position[n - 2], state.position[n - 1]);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 #include "rod/stretching.h"
 
 namespace endovascular_sim::rod
@@ -141,11 +141,10 @@ Energy elasticEnergy(const Discretisation& rod, const State& state, const QuasiS
   energy.twist = twist ? twist->energy() : 0.0;
   for (int i = state.first_node + 1; i + 1 < rod.nodes(); ++i)
   {
-    const CurvatureBinormal kb(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                               rod.rest_length[i - 1] * rod.rest_length[i]);
-    double strain = kb.value.squaredNorm();
+    const Eigen::Vector3d kb = binormalAt(rod, state, i).value;
+    double strain = kb.squaredNorm();
     if (twist && i >= twist->firstCurved())
-      strain += rod.rest_curvature[i].squaredNorm() - 2.0 * kb.value.dot(twist->restCurvatureBinormal(i));
+      strain += rod.rest_curvature[i].squaredNorm() - 2.0 * kb.dot(twist->restCurvatureBinormal(i));
     energy.bending += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;
   }
   for (int j = state.first_node; j + 1 < rod.nodes(); ++j)

@@ -5,6 +5,7 @@
 
 #include "rod/bending.h"
 #include "rod/end_forces.h"
+#include "rod/node_binormal.h"
 #include "rod/stretching.h"
 
 namespace endovascular_sim::rod
@@ -178,9 +179,7 @@ void PaperStepper::addBlock(int row_node, int col_node, const Eigen::Matrix3d& b
 
 void PaperStepper::addBending(int node, const State& state, double dt)
 {
-  const Eigen::Vector3d e = state.position[node] - state.position[node - 1];
-  const Eigen::Vector3d g = state.position[node + 1] - state.position[node];
-  const CurvatureBinormal kb(e, g, rod_.rest_length[node - 1] * rod_.rest_length[node]);
+  const CurvatureBinormal kb = binormalAt(rod_, state, node);
   const double weight = dt * dt * rod_.bending_stiffness[node] / rod_.cell_length[node];
   Eigen::Vector3d strain = kb.value;
   if (twist_active_ && node >= twist_.firstCurved())

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 
 namespace endovascular_sim::rod
 {
@@ -207,9 +207,7 @@ void Resampling::carryMoments(const Discretisation& from, const Discretisation& 
   {
     if (node <= of.first_node || node + 1 >= rod.nodes())
       return Eigen::Vector3d::Zero();
-    return CurvatureBinormal(of.position[node] - of.position[node - 1], of.position[node + 1] - of.position[node],
-                             rod.rest_length[node - 1] * rod.rest_length[node])
-        .value;
+    return binormalAt(rod, of, node).value;
   };
   const auto curvature = [&](int node) -> Eigen::Vector3d
   { return (binormal(from, state, node) - state.curvature_offset[node]) / from.cell_length[node]; };

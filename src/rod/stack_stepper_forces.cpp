@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod/bending.h"
 #include "rod/held_wire.h"
+#include "rod/node_binormal.h"
 #include "rod/stack_stepper.h"
 
 // Energy of a stack, and what each hand feels: the energy's change with its layer's insertion, the wall's friction,
@@ -16,12 +16,6 @@ namespace
 constexpr double kOffsetTime = 0.1;  // s in which an offset of a hand's force fades to 1/e
 constexpr double kNoOffset = 1e-9;   // N
 constexpr double kBlur = 3e-3;       // m to both sides of a place over which the layers' ends are not sharp
-
-CurvatureBinormal binormalAt(const Discretisation& rod, const State& state, int node)
-{
-  return {state.position[node] - state.position[node - 1], state.position[node + 1] - state.position[node],
-          rod.rest_length[node - 1] * rod.rest_length[node]};
-}
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 #include "rod/stack_stepper.h"
 
 // Friction between the layers of a stack, along the wire and about its axis. Inextensible layers on one centreline
@@ -52,10 +52,7 @@ void StackStepper::setLoads(State& state)
     return;
   binormal_.resize(state.position.size());
   for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
-    binormal_[i] =
-        CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                          stack_rod().rest_length[i - 1] * stack_rod().rest_length[i])
-            .value;
+    binormal_[i] = binormalAt(stack_rod(), state, i).value;
   moment_.assign(state.position.size(), Eigen::Vector3d::Zero());
   for (int k = 0; k <= last; ++k)
   {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 
 namespace endovascular_sim::rod
 {
@@ -147,10 +147,7 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
   tip_bishop_ = director;
   tip_normal_ = tangent.cross(director);
   for (int i = first_curved_; i + 1 < rod.nodes(); ++i)
-    binormal_[i] =
-        CurvatureBinormal(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                          rod.rest_length[i - 1] * rod.rest_length[i])
-            .value;
+    binormal_[i] = binormalAt(rod, state, i).value;
 }
 
 /** Gradient and Hessian by the twist angles of the edges first_own_−1 … n−2, and apart what of the Hessian's diagonal

@@ -59,10 +59,15 @@ double BranchFinder::distanceTo(const Piece& piece, const Eigen::Vector3d& point
 
 int BranchFinder::nearest(const Eigen::Vector3d& point) const
 {
-  const auto likely =
-      std::min_element(pieces_.begin(), pieces_.end(),
-                       [&point](const Piece& a, const Piece& b) { return a.bound(point) < b.bound(point); });
-  if (likely == pieces_.end())
+  const Piece* likely = nullptr;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_)
+    if (const double bound = piece.bound(point); bound < lowest)
+    {
+      likely = &piece;
+      lowest = bound;
+    }
+  if (likely == nullptr)
     return -1;
   const double enough = distanceTo(*likely, point);
   int nearest = -1;

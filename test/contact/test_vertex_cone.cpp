@@ -15,8 +15,7 @@ bool isClosest(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
 {
   for (int e : wall.vertex_edges[vertex])
   {
-    const std::array<int, 2>& ends = wall.edges[e].vertices;
-    const Eigen::Vector3d along = wall.vertices[ends[0] == vertex ? ends[1] : ends[0]] - wall.vertices[vertex];
+    const Eigen::Vector3d along = wall.vertices[wall.edges[e].otherEnd(vertex)] - wall.vertices[vertex];
     if (direction.dot(along) > 0.0)
       return false;
   }
@@ -55,9 +54,10 @@ TEST_P(VertexCone, HoldsEveryDirectionInWhichTheVertexIsTheClosestPlace)
       if (wall.vertex_cone[v] >= M_PI_2 || !isClosest(wall, v, direction) || !isInFront(wall, v, direction))
         continue;
       ++closest;
-      const double angle = std::acos(std::min(1.0, direction.dot(wall.vertex_normals[v])));
+      const double angle = angleBetween(direction, wall.vertex_normals[v]);
       EXPECT_LE(angle, wall.vertex_cone[v] + 1e-9);
-      fullest = std::max(fullest, angle / wall.vertex_cone[v]);
+      if (wall.vertex_cone[v] > 0.01)
+        fullest = std::max(fullest, angle / wall.vertex_cone[v]);
     }
   }
   EXPECT_GT(closest, 100);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rod/bending.h"
+#include "rod/node_binormal.h"
 #include "rod_fixtures.h"
 
 namespace endovascular_sim::rod
@@ -96,9 +96,7 @@ double bendingEnergy(const Discretisation& rod, const State& state)
   double sum = 0.0;
   for (int i = 1; i + 1 < rod.nodes(); ++i)
   {
-    const CurvatureBinormal kb(state.position[i] - state.position[i - 1], state.position[i + 1] - state.position[i],
-                               rod.rest_length[i - 1] * rod.rest_length[i]);
-    sum += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * kb.value.squaredNorm();
+    sum += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * binormalAt(rod, state, i).value.squaredNorm();
   }
   return sum;
 }
@@ -182,10 +180,7 @@ TEST(Resampling, ConservesMassMomentumAndTheWallsForceBothWays)
 
 Eigen::Vector3d bentCurvature(const Discretisation& rod, const State& state, int node)
 {
-  const CurvatureBinormal kb(state.position[node] - state.position[node - 1],
-                             state.position[node + 1] - state.position[node],
-                             rod.rest_length[node - 1] * rod.rest_length[node]);
-  return (kb.value - state.curvature_offset[node]) / rod.cell_length[node];
+  return (binormalAt(rod, state, node).value - state.curvature_offset[node]) / rod.cell_length[node];
 }
 
 TEST(Resampling, LeavesEveryNodeTheMomentThatItHadAndGivesANewOneItsNeighboursMean)
