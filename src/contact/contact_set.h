@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -25,6 +26,15 @@ struct Feature
   std::int64_t id = 0;  ///< 3·index + kind (0 face, 1 edge, 2 vertex of the mesh)
 };
 
+/** Share of the listing margin that a body of some radius gets: all of it up to a thin catheter, less then. A filled
+ *  balloon has more than a thousand facets, the whole wall round it, within a wire's margin, and moves little. */
+inline double marginShare(double radius)
+{
+  constexpr double kWide = 0.75e-3;  // m
+  const double share = std::min(1.0, kWide / radius);
+  return share * share * share;
+}
+
 /** What the rod asks of the detector: its centreline, and how far to look. */
 struct Query
 {
@@ -34,10 +44,13 @@ struct Query
   /** Above 0, free distances up to this are asked for instead of features [m]; larger ones need not be told apart. */
   double wanted_free_distance = 0.0;
   std::uint64_t vessel_version = 0;    ///< of the wall that is to be searched; 0: whichever there is
-  double margin = 0.0;                 ///< features closer than this to the wire's surface are listed [m]
+  double margin = 0.0;                 ///< features closer than this to the wire's surface are listed, see marginAt [m]
   int first_node = 0;                  ///< index of nodes[0] in the whole wire
   std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]
   std::vector<double> radius;          ///< at each node [m]
+
+  /** What counts as near at one of the nodes, evenly between two of them [m]. */
+  double marginAt(std::size_t node) const { return margin * marginShare(radius[node]); }
 };
 
 /** All wall features near the rod for one state of it (the contract between rod and contact). */

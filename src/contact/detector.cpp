@@ -155,25 +155,24 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   for (int t : changes.triangles)
     for (int corner = 0; corner < 3; ++corner)
       moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
-  renewEdges(changes.around);
+  renewEdges(changes.edges);
   for (int t : changes.around)
     makePrism(t);
   bvh_.refit(changes.triangles);
   keepUp(moved, farthest);
 }
 
-/** Of the edges of triangles, and notes those that have become reflex. */
-void Detector::renewEdges(const std::vector<int>& triangles)
+/** Notes those that have become reflex. */
+void Detector::renewEdges(const std::vector<int>& changed)
 {
   now_reflex_.clear();
-  for (int t : triangles)
-    for (int e : wall_.triangle_edges[t])
-    {
-      const bool was_reflex = edge_balls_[e].reflex;
-      edge_balls_[e] = ballOf(wall_.edges[e]);
-      if (edge_balls_[e].reflex && !was_reflex)
-        now_reflex_.push_back(e);
-    }
+  for (int e : changed)
+  {
+    const bool was_reflex = edge_balls_[e].reflex;
+    edge_balls_[e] = ballOf(wall_.edges[e]);
+    if (edge_balls_[e].reflex && !was_reflex)
+      now_reflex_.push_back(e);
+  }
 }
 
 double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nearest) const
@@ -205,7 +204,9 @@ void Detector::detect(const Query& query, ContactSet& set)
     return;
   }
   const std::size_t n = query.nodes.size();
-  set.free_distance.assign(n > 0 ? n - 1 : 0, query.margin);
+  set.free_distance.resize(n > 0 ? n - 1 : 0);
+  for (std::size_t i = 0; i < set.free_distance.size(); ++i)
+    set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
   makeRoom(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
@@ -248,7 +249,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
 {
   const Eigen::Vector3d& point = query.nodes[index];
   const double radius = query.radius[index];
-  const double limit = radius + query.margin;
+  const double limit = radius + query.marginAt(index);
   const Neighbourhood& near = neighbourhood(query, index);
   if (near.triangles.empty())
     return;
@@ -436,7 +437,8 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const Eigen::Vector3d& a = query.nodes[index];
   const Eigen::Vector3d& b = query.nodes[index + 1];
   const std::size_t begin = features.size();
-  const double limit = std::max(query.radius[index], query.radius[index + 1]) + query.margin;
+  const double limit_begin = query.radius[index] + query.marginAt(index);
+  const double limit_end = query.radius[index + 1] + query.marginAt(index + 1);
   Feature feature;
   const Neighbourhood& near = near_[placeFromTip(query, index)];  // its first node was looked at already
   if (near.edges.empty())
@@ -445,17 +447,15 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   for (const Near& one : near.edges)
   {
     const int e = one.index;
-    if (one.clear > near.moved ||
-        !canCross(segment, e, query.radius[index] + query.margin, query.radius[index + 1] + query.margin))
+    if (one.clear > near.moved || !canCross(segment, e, limit_begin, limit_end))
       continue;
     double distance = 0.0;
-    if (!crossing(a, b, e, limit, feature, distance))
+    if (!crossing(a, b, e, std::max(limit_begin, limit_end), feature, distance))
       continue;
     const double t = feature.parameter;
-    const double radius = (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
-    feature.gap -= radius;
-    if (feature.gap > query.margin)
+    if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
       continue;
+    feature.gap -= (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
     feature.edge = query.first_node + static_cast<int>(index);
     const auto same = [&feature](const Feature& other) { return other.id == feature.id; };
     if (std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
@@ -507,7 +507,7 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
 double Detector::wallDistance(const Query& query, std::size_t index, double farthest)
 {
   const Eigen::Vector3d& point = query.nodes[index];
-  const double limit = query.radius[index] + query.margin;
+  const double limit = query.radius[index] + query.marginAt(index);
   const double nearest = nearestListed(neighbourhood(query, index), point);
   if (nearest <= limit)
     return nearest;
@@ -540,7 +540,8 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();
       const double radius = std::max(query.radius[i - 1], query.radius[i]);
-      set.free_distance[i - 1] = std::max(query.margin, 0.5 * (previous + distance - length) - radius);
+      const double margin = std::min(query.marginAt(i - 1), query.marginAt(i));
+      set.free_distance[i - 1] = std::max(margin, 0.5 * (previous + distance - length) - radius);
     }
     previous = distance;
   }

@@ -152,7 +152,7 @@ private:
   double bulgeOf(int triangle) const;
   EdgeBall ballOf(const WallEdge& edge) const;
   double leanOf(const WallEdge& edge) const;
-  void renewEdges(const std::vector<int>& triangles);
+  void renewEdges(const std::vector<int>& changed);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
   static bool canTouch(const Prism& prism, const Eigen::Array4d& above, double limit);

@@ -102,7 +102,7 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
 const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::size_t index)
 {
   const std::size_t next = std::min(index + 1, query.nodes.size() - 1);
-  const double limit = std::max(query.radius[index], query.radius[next]) + query.margin;
+  const double limit = std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
   Neighbourhood& near = near_[placeFromTip(query, index)];
   if (!near.follows(query.nodes[index], query.nodes[next], limit))
   {

@@ -282,9 +282,15 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
     for (int v : ring_)
       bends_[round][v] = widened(v, round);
   }
+  changes_.edges = moved_edges_;
   for (int t : changes_.around)
+  {
     triangle_marked_[t] = 0;
-  for (int e : moved_edges_)
+    for (int e : triangle_edges[t])
+      if (!edge_marked_[e])
+        edge_marked_[e] = 1, changes_.edges.push_back(e);
+  }
+  for (int e : changes_.edges)
     edge_marked_[e] = 0;
   for (int v : ring_)
   {

@@ -60,6 +60,7 @@ public:
   {
     std::vector<int> triangles;  ///< with a vertex that moved
     std::vector<int> around;     ///< triangles that share a vertex with one of them, themselves too; in any order
+    std::vector<int> edges;      ///< of the triangles around; in any order
   };
 
   /** Moves vertices; everything is afterwards, bit for bit, as if the wall had been made from the moved mesh. Time
@@ -103,7 +104,7 @@ private:
   std::vector<std::vector<int>> vertex_triangles_;             ///< ascending
   std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
   Changes changes_;
-  std::vector<int> moved_edges_;  ///< of the triangles changed; ascending
+  std::vector<int> moved_edges_;  ///< of the triangles with a vertex that moved; ascending
   std::vector<int> ring_;
   std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };

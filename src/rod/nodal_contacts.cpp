@@ -60,6 +60,14 @@ double NodalContacts::radiusOf(int node) const
   return radii_.empty() ? rod_.radius[node] : std::max(rod_.radius[node], radii_[node]);
 }
 
+/** How far a node may move and none of its edges' points meets what the detector did not list [m]. */
+double NodalContacts::marginOf(int node) const
+{
+  const double widest =
+      std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))});
+  return settings_.contact_margin * contact::marginShare(widest);
+}
+
 /** What is asked about is as wide as what the wire carries. */
 void NodalContacts::widen()
 {
@@ -298,12 +306,12 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return std::min(factor, staleTruncation(motion));
   bool far = false;
   for (int i = state.first_node; i < rod_.nodes() && !far; ++i)
-    far = factor * motion[i].norm() > settings_.contact_margin;
+    far = factor * motion[i].norm() > marginOf(i);
   if (!far)
     return factor;
   factor = listedTruncation(state, motion, factor);
   for (int i = state.first_node; i < rod_.nodes(); ++i)
-    if (factor * motion[i].norm() > kBeyondMargin * settings_.contact_margin)
+    if (factor * motion[i].norm() > kBeyondMargin * marginOf(i))
       return freeDistanceTruncation(state, motion, factor, report);
   return factor;
 }
@@ -320,8 +328,9 @@ double NodalContacts::listedTruncation(const State& state, const Motion& motion,
     for (int i = from; i <= to; ++i)
     {
       const double distance = motion[i].norm();
-      if (factor * distance > settings_.contact_margin)
-        factor = settings_.contact_margin / distance;
+      const double margin = marginOf(i);
+      if (factor * distance > margin)
+        factor = margin / distance;
     }
   }
   return factor;
@@ -335,10 +344,14 @@ double NodalContacts::freeDistanceTruncation(const State& state, const Motion& m
   {
     const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
     const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
-    const double allowed = std::max(settings_.contact_margin, known ? free_distances_.free_distance[e] : 0.0);
-    const double farthest = std::max(motion[j].norm(), motion[j + 1].norm());
-    if (factor * farthest > allowed)
-      factor = allowed / farthest;
+    const double free = known ? free_distances_.free_distance[e] : 0.0;
+    const double first = motion[j].norm();
+    const double second = motion[j + 1].norm();
+    if (factor * first <= marginOf(j) && factor * second <= marginOf(j + 1))
+      continue;
+    // Either both nodes stay within their margins or both within what is free.
+    const double margins = std::min(marginOf(j) / first, marginOf(j + 1) / second);
+    factor = std::min(factor, std::max(margins, free / std::max(first, second)));
   }
   return factor;
 }
@@ -346,11 +359,11 @@ double NodalContacts::freeDistanceTruncation(const State& state, const Motion& m
 /** Old features cover only the margin around the state they were found at: all motion since then is spent from it. */
 double NodalContacts::staleTruncation(const Motion& motion)
 {
-  double farthest = 0.0;
+  double most = 0.0;
   for (int i = query_.first_node; i < rod_.nodes(); ++i)
-    farthest = std::max(farthest, motion[i].norm());
-  const double factor = farthest > stale_budget_ ? stale_budget_ / farthest : 1.0;
-  stale_budget_ -= factor * farthest;
+    most = std::max(most, motion[i].norm() / marginOf(i));
+  const double factor = most > stale_budget_ ? stale_budget_ / most : 1.0;
+  stale_budget_ -= factor * most;
   return factor;
 }
 
@@ -399,7 +412,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
   valid_ = moved_on_ = true;
   if (!contacts_.stale)
   {
-    stale_budget_ = settings_.contact_margin;
+    stale_budget_ = 1.0;
     addBacking();
     return;
   }
@@ -489,7 +502,7 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   {
     const double far = factor * motion[i].norm();
     farthest = std::max(farthest, far);
-    if (far > kBeyondMargin * settings_.contact_margin)
+    if (far > kBeyondMargin * marginOf(i))
       first = std::min(first, i - 1);
   }
   const int skipped = std::max(0, first - query_.first_node);

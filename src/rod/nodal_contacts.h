@@ -139,6 +139,7 @@ private:
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings(const State& state);
   double radiusOf(int node) const;
+  double marginOf(int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
@@ -170,7 +171,7 @@ private:
   bool valid_ = false;
   bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
-  double stale_budget_ = 0.0;  ///< motion that the last fresh contact set still covers [m]
+  double stale_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;
   contact::ContactSource* source_ = nullptr;
   PhaseTimer* timer_ = nullptr;

@@ -221,7 +221,8 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
   fields.number("initial_insertion", drive.initial_insertion, "m", initial_insertion);
   fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
   if (fields.reading() && by_speed && fields.has("insertion"))
-    fields.refuse("insertion", "given besides speed; keep one of the two");
+    fields.refuse("insertion",
+                  "given besides speed; keep one of the two (null removes a key: --set drive.insertion=null)");
   if (!by_speed)
     fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
   fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });

@@ -61,7 +61,8 @@ void visitInstruments(SceneFields& fields, Scene& scene)
   }
   for (const char* key : {"instrument", "drive"})
     if (fields.has(key))
-      fields.refuse(key, "given besides instruments; name all of them there");
+      fields.refuse(key,
+                    "given besides instruments; name all of them there (instruments.N.instrument, counted from 0)");
   fields.list(
       "instruments", scene.instruments.size(), [&scene](std::size_t size) { scene.instruments.resize(size); },
       [&scene](SceneFields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });

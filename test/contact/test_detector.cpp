@@ -50,12 +50,16 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(21);
   std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
+  constexpr double kWide = 1.1e-3;  // m, a body that gets half of the margin
   int contacts = 0;
+  int wide_contacts = 0;
   for (int trial = 0; trial < wires; ++trial)
   {
     const std::size_t t = any_triangle(random);
     const Eigen::Vector3d start = mesh.vertices[mesh.triangles[t][0]] + 1e-3 * detector.wall().normals[t];
-    const Query query = randomWire(start, random, 25);
+    Query query = randomWire(start, random, 25);
+    for (std::size_t i = 10; i < 15; ++i)
+      query.radius[i] = kWide;
     ContactSet set;
     detector.detect(query, set);
     for (std::size_t i = 0; i < query.nodes.size(); ++i)
@@ -65,10 +69,14 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
       const double sign = vessel::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
       EXPECT_NEAR(detector.signedDistance(query.nodes[i]), sign * distance, 1e-12);
       const double gap = sign * distance - query.radius[i];
-      if (sign > 0.0 && gap < query.margin - 1e-9)
+      if (sign > 0.0 && gap < query.marginAt(i) - 1e-9)
       {
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
-        ++contacts;
+        (query.radius[i] == kWide ? wide_contacts : contacts) += 1;
+      }
+      else if (sign > 0.0 && gap > query.marginAt(i) + 1e-9)
+      {
+        EXPECT_EQ(smallestGap(set, query.first_node + static_cast<int>(i)), std::numeric_limits<double>::infinity());
       }
       else if (sign < 0.0 && distance < 0.85e-3)
       {
@@ -77,6 +85,7 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
     }
   }
   EXPECT_GT(contacts, wires);
+  EXPECT_GT(wide_contacts, 0);
 }
 
 TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInATube)

@@ -384,6 +384,28 @@ TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrI
   EXPECT_GT(asked, 0);
 }
 
+TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesBeside)
+{
+  constexpr int kMiddle = 10;
+  constexpr double kWide = 1.5e-3;
+  const double wide_margin = settings_.contact_margin * contact::marginShare(kWide);
+  ASSERT_LT(wide_margin, 0.5 * settings_.contact_margin);
+  std::vector<double> radii(kNodes, 0.0);
+  radii[kMiddle] = kWide;
+  contacts_.setRadii(radii);
+  for (int moved = 0; moved < kNodes; ++moved)
+  {
+    place(0.1e-3, 0.1e-3);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[moved] = Vector3d(0.9 * settings_.contact_margin, 0.0, 0.0);
+    const double margin = std::abs(moved - kMiddle) <= 1 ? wide_margin : settings_.contact_margin;
+    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), std::min(1.0, margin / motion[moved].norm()), 1e-12)
+        << moved;
+  }
+  place(20e-3, 20e-3);
+  EXPECT_EQ(contacts_.truncation(state_, NodalContacts::Motion(kNodes, Vector3d(1e-3, 0.0, 0.0)), 1.0, report_), 1.0);
+}
+
 TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)
 {
   place(0.0, 0.1e-3);
