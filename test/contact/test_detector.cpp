@@ -50,16 +50,16 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(21);
   std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
-  constexpr double kWide = 1.1e-3;  // m, a body that gets half of the margin
+  constexpr double kWide = 1.1e-3;  // m, a body that gets a third of the margin
   int contacts = 0;
   int wide_contacts = 0;
-  for (int trial = 0; trial < wires; ++trial)
+  for (int trial = 0; trial < 2 * wires; ++trial)
   {
     const std::size_t t = any_triangle(random);
     const Eigen::Vector3d start = mesh.vertices[mesh.triangles[t][0]] + 1e-3 * detector.wall().normals[t];
     Query query = randomWire(start, random, 25);
-    for (std::size_t i = 10; i < 15; ++i)
-      query.radius[i] = kWide;
+    if (trial % 2 == 1)
+      query.radius.assign(query.nodes.size(), kWide);
     ContactSet set;
     detector.detect(query, set);
     for (std::size_t i = 0; i < query.nodes.size(); ++i)
@@ -85,7 +85,7 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
     }
   }
   EXPECT_GT(contacts, wires);
-  EXPECT_GT(wide_contacts, 0);
+  EXPECT_GT(wide_contacts, wires / 2);
 }
 
 TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInATube)
