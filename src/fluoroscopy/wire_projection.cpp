@@ -14,23 +14,25 @@ namespace
 
 constexpr int kSamples = 89;  // Fibonacci numbers F(11), and F(10) for the lattice
 constexpr int kLatticeStep = 55;
+constexpr std::size_t kPadded = 92;     // a multiple of the values in a vector register
 constexpr double kNearest = 0.02;       // closest approach to the source, as a part of SID
 constexpr double kFoldedCosine = 0.05;  // mitres are for bends below 90°
-constexpr double kReach = 1.6;  // of a mitred cylinder from its axis, in radii: √2 at a 90° bend, and obliquity
 constexpr double kHalfDiagonal = 0.7072;
 
-using Offsets = std::array<Eigen::Vector2d, kSamples>;
-
-/** Samples of a pixel from its centre, as differences (x, y) of rays with z = 1. */
-Offsets sampleOffsets(double focal_length)
+/** Samples of a pixel from its centre, as differences of rays with z = 1; what fills up the last vector is not used. */
+struct Offsets
 {
-  Offsets offsets;
-  for (int i = 0; i < kSamples; ++i)
-    offsets[static_cast<std::size_t>(i)] =
-        Eigen::Vector2d((i + 0.5) / kSamples - 0.5, 0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) /
-        focal_length;
-  return offsets;
-}
+  explicit Offsets(double focal_length)
+  {
+    for (int i = 0; i < kSamples; ++i)
+    {
+      x[static_cast<std::size_t>(i)] = ((i + 0.5) / kSamples - 0.5) / focal_length;
+      y[static_cast<std::size_t>(i)] = (0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) / focal_length;
+    }
+  }
+
+  std::array<double, kPadded> x{}, y{};
+};
 
 void check(const XRayWire& wire)
 {
@@ -42,15 +44,6 @@ void check(const XRayWire& wire)
   for (std::size_t i = 0; i < wire.nodes.size(); ++i)
     if (!wire.nodes[i].allFinite() || !std::isfinite(wire.radius[i]) || wire.radius[i] < 0.0)
       throw InputError("wire", "node " + std::to_string(i), "must be finite with a radius of at least 0");
-}
-
-/** Distance of a point from a segment in the image [pixel]. */
-double distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  const Eigen::Vector2d ab = b - a;
-  const double square = ab.squaredNorm();
-  const double along = square > 0.0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0.0;
-  return (p - a - along * ab).norm();
 }
 
 /** Normal of the plane between edges with directions a and b; both when the wire folds back. */
@@ -70,36 +63,82 @@ struct WireProjection::Edge
   double radius;                             // [m]
   double attenuation;                        // [1/m]
 
-  /** Length of the ray t·d inside [m]. */
-  double chord(const Eigen::Vector3d& d, const Eigen::Vector3d& moment, const Eigen::Vector3d& across) const
+  /** How far a plane that cuts the cylinder reaches beyond its axis's end, along the axis [m]. */
+  double mitreDepth(const Eigen::Vector3d& normal) const
   {
-    const double square = d.squaredNorm();
-    const double along = d.dot(axis);
-    const double a = square - along * along;
-    const double h = d.dot(moment);
-    const double discriminant = a * radius * radius - h * h;
-    if (discriminant <= 0.0 || a <= 1e-12 * square)
-      return 0.0;
-    const double half = std::sqrt(discriminant) / a;
-    const double middle = d.dot(across) / a;
-    double t0 = middle - half, t1 = middle + half;
-    cut(begin_normal.dot(d), begin_normal.dot(begin), t0, t1);
-    cut(-end_normal.dot(d), -end_normal.dot(end), t0, t1);
-    return t1 > t0 ? (t1 - t0) * std::sqrt(square) : 0.0;
+    const double cosine = normal.dot(axis);
+    return radius * std::sqrt(std::max(0.0, 1.0 / (cosine * cosine) - 1.0));
+  }
+};
+
+/** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loop
+ *  becomes vector code. */
+class WireProjection::Chords
+{
+public:
+  Chords(const Edge& edge, const Offsets& offsets)
+    : offsets_(offsets),
+      axis_(edge.axis),
+      moment_(edge.axis.cross(edge.begin)),
+      across_(edge.begin - edge.begin.dot(edge.axis) * edge.axis),
+      begin_{edge.begin_normal, edge.begin_normal.dot(edge.begin)},
+      end_{-edge.end_normal, -edge.end_normal.dot(edge.end)},
+      square_radius_(edge.radius * edge.radius),
+      attenuation_(edge.attenuation)
+  {
+  }
+
+  /** Adds to every sample's optical depth. @param ray through the pixel's centre, z = 1 */
+  void add(const Eigen::Vector3d& ray, float* depth) const
+  {
+    const Linear axis(axis_), moment(moment_), across(across_), begin(begin_.normal), end(end_.normal);
+    const double begin_offset = begin_.offset, end_offset = end_.offset;
+    const double square_radius = square_radius_, attenuation = attenuation_;
+    const double ray_x = ray.x(), ray_y = ray.y();
+    const double* offset_x = offsets_.x.data();
+    const double* offset_y = offsets_.y.data();
+    for (std::size_t i = 0; i < kPadded; ++i)
+    {
+      const double x = ray_x + offset_x[i], y = ray_y + offset_y[i];
+      const double square = x * x + y * y + 1.0;
+      const double along = axis.at(x, y);
+      const double least = 1e-12 * square, free = square - along * along;
+      const double a = free > least ? free : least;
+      const double h = moment.at(x, y);
+      const double discriminant = a * square_radius - h * h;
+      const double half = std::sqrt(discriminant > 0.0 ? discriminant : 0.0) / a;
+      const double middle = across.at(x, y) / a;
+      const double slope0 = begin.at(x, y), slope1 = end.at(x, y);
+      // What is kept has slope·t ≥ offset.
+      const double cut0 = begin_offset / slope0, cut1 = end_offset / slope1;
+      double from = middle - half, to = middle + half;
+      from = slope0 >= 0.0 && cut0 > from ? cut0 : from;
+      to = slope0 < 0.0 && cut0 < to ? cut0 : to;
+      from = slope1 >= 0.0 && cut1 > from ? cut1 : from;
+      to = slope1 < 0.0 && cut1 < to ? cut1 : to;
+      const double chord = to > from ? to - from : 0.0;
+      depth[i] += static_cast<float>(attenuation * (chord * std::sqrt(square)));
+    }
   }
 
 private:
-  /** Keeps the part of [t0, t1] with slope·t ≥ offset. */
-  static void cut(double slope, double offset, double& t0, double& t1)
+  /** A vector's product with a ray (x, y, 1). */
+  struct Linear
   {
-    const bool out0 = slope * t0 < offset, out1 = slope * t1 < offset;
-    if (out0 && out1)
-      t1 = t0;
-    else if (out0)
-      t0 = offset / slope;
-    else if (out1)
-      t1 = offset / slope;
-  }
+    explicit Linear(const Eigen::Vector3d& v) : x(v.x()), y(v.y()), z(v.z()) {}
+    double at(double ray_x, double ray_y) const { return ray_x * x + ray_y * y + z; }
+    double x, y, z;
+  };
+  struct Plane
+  {
+    Eigen::Vector3d normal;
+    double offset;  ///< [m]
+  };
+
+  const Offsets& offsets_;
+  Eigen::Vector3d axis_, moment_, across_;
+  Plane begin_, end_;
+  double square_radius_, attenuation_;
 };
 
 float* WireProjection::samplesOf(std::uint32_t pixel)
@@ -109,39 +148,79 @@ float* WireProjection::samplesOf(std::uint32_t pixel)
   {
     slot = static_cast<std::int32_t>(pixels_.size());
     pixels_.push_back(pixel);
-    optical_depth_.resize(optical_depth_.size() + kSamples, 0.0F);
+    optical_depth_.resize(optical_depth_.size() + kPadded, 0.0F);
   }
-  return optical_depth_.data() + static_cast<std::size_t>(slot) * kSamples;
+  return optical_depth_.data() + static_cast<std::size_t>(slot) * kPadded;
 }
+
+/** Pixels that an edge may touch: a rectangle along its axis's image.
+ *
+ *  A point of the edge is x + ρw: x on the axis, as far beyond its ends as the mitres reach, ρ ≤ r, w a unit vector
+ *  across the axis. In the image it lies f ρ J w/(x_z + ρ w_z) beside x, with J = (I | −x_xy/x_z) in units of z, so
+ * along an image direction e by at most f r |Jᵀe − (Jᵀe·a) a|/(z − r), a convex function of x_xy/x_z: largest at an
+ * end. */
+class WireProjection::Footprint
+{
+public:
+  Footprint(const XRayGeometry& geometry, const Edge& edge)
+  {
+    const double f = geometry.focalLength();
+    const Eigen::Vector3d first = edge.begin - edge.mitreDepth(edge.begin_normal) * edge.axis;
+    const Eigen::Vector3d second = edge.end + edge.mitreDepth(edge.end_normal) * edge.axis;
+    const double nearest = std::min(first.z(), second.z()) - edge.radius;
+    // Before the image's rows turn round: right and up.
+    const Eigen::Vector2d a = first.head<2>() / first.z(), b = second.head<2>() / second.z();
+    const Eigen::Vector2d ab = f * (b - a);
+    const double length = ab.norm();
+    along_ = length > 0.0 ? Eigen::Vector2d(ab / length) : Eigen::Vector2d::UnitX();
+    across_ = Eigen::Vector2d(-along_.y(), along_.x());
+    const auto reach = [&](const Eigen::Vector2d& e)
+    {
+      const auto at = [&](const Eigen::Vector2d& place)
+      {
+        const Eigen::Vector3d seen(e.x(), e.y(), -place.dot(e));
+        return (seen - seen.dot(edge.axis) * edge.axis).norm();
+      };
+      return f * edge.radius / nearest * std::max(at(a), at(b)) + kHalfDiagonal;
+    };
+    const double centre = geometry.centre();
+    half_length_ = 0.5 * length + reach(along_);
+    half_width_ = reach(across_);
+    middle_ = 0.5 * f * (a + b);
+    const Eigen::Vector2d half = half_length_ * along_.cwiseAbs() + half_width_ * across_.cwiseAbs();
+    const double last = geometry.pixels() - 1;
+    const auto from = [last](double place) { return static_cast<int>(std::ceil(std::clamp(place, 0.0, last + 1.0))); };
+    const auto to = [last](double place) { return static_cast<int>(std::floor(std::clamp(place, -1.0, last))); };
+    first_column = from(centre + middle_.x() - half.x());
+    last_column = to(centre + middle_.x() + half.x());
+    first_row = from(centre - middle_.y() - half.y());
+    last_row = to(centre - middle_.y() + half.y());
+    middle_ = Eigen::Vector2d(centre + middle_.x(), centre - middle_.y());
+  }
+
+  bool holds(int column, int row) const
+  {
+    const Eigen::Vector2d from_middle(column - middle_.x(), middle_.y() - row);
+    return std::abs(from_middle.dot(along_)) <= half_length_ && std::abs(from_middle.dot(across_)) <= half_width_;
+  }
+
+  int first_row, last_row, first_column, last_column;
+
+private:
+  Eigen::Vector2d along_, across_;   ///< unit, right and up
+  Eigen::Vector2d middle_;           ///< column and row [pixel]
+  double half_length_, half_width_;  ///< [pixel]
+};
 
 void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
 {
-  const double f = geometry.focalLength(), centre = geometry.centre();
-  const Offsets offsets = sampleOffsets(f);
-  const auto image = [&](const Eigen::Vector3d& p)
-  { return Eigen::Vector2d(centre + f * p.x() / p.z(), centre - f * p.y() / p.z()); };
-  const Eigen::Vector2d p0 = image(edge.begin), p1 = image(edge.end);
-  const double half_width = geometry.pixels() / (2.0 * f);
-  const double obliquity = std::sqrt(1.0 + 2.0 * half_width * half_width);
-  const double reach = kReach * obliquity * edge.radius * f / std::min(edge.begin.z(), edge.end.z()) + kHalfDiagonal;
-  const double last = geometry.pixels() - 1;
-  const auto first_row = static_cast<int>(std::ceil(std::clamp(std::min(p0.y(), p1.y()) - reach, 0.0, last + 1.0)));
-  const auto last_row = static_cast<int>(std::floor(std::clamp(std::max(p0.y(), p1.y()) + reach, -1.0, last)));
-  const auto first_column = static_cast<int>(std::ceil(std::clamp(std::min(p0.x(), p1.x()) - reach, 0.0, last + 1.0)));
-  const auto last_column = static_cast<int>(std::floor(std::clamp(std::max(p0.x(), p1.x()) + reach, -1.0, last)));
-  const Eigen::Vector3d moment = edge.axis.cross(edge.begin);
-  const Eigen::Vector3d across = edge.begin - edge.begin.dot(edge.axis) * edge.axis;
-  for (int row = first_row; row <= last_row; ++row)
-    for (int column = first_column; column <= last_column; ++column)
-    {
-      if (distance({column, row}, p0, p1) > reach)
-        continue;
-      float* samples = samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column));
-      const Eigen::Vector3d ray = geometry.ray(column, row);
-      for (std::size_t i = 0; i < kSamples; ++i)
-        samples[i] += static_cast<float>(
-            edge.attenuation * edge.chord({ray.x() + offsets[i].x(), ray.y() + offsets[i].y(), 1.0}, moment, across));
-    }
+  const Offsets offsets(geometry.focalLength());
+  const Footprint footprint(geometry, edge);
+  const Chords chords(edge, offsets);
+  for (int row = footprint.first_row; row <= footprint.last_row; ++row)
+    for (int column = footprint.first_column; column <= footprint.last_column; ++column)
+      if (footprint.holds(column, row))
+        chords.add(geometry.ray(column, row), samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column)));
 }
 
 void WireProjection::addWire(const XRayGeometry& geometry, const XRayWire& wire)
@@ -171,7 +250,8 @@ void WireProjection::addWire(const XRayGeometry& geometry, const XRayWire& wire)
   const double nearest = kNearest * geometry.pose().source_to_detector;
   const double farthest = geometry.pose().source_to_detector;
   for (const Edge& edge : edges)
-    if (std::min(edge.begin.z(), edge.end.z()) >= nearest && std::max(edge.begin.z(), edge.end.z()) <= farthest)
+    if (std::min(edge.begin.z(), edge.end.z()) >= nearest + 2.0 * edge.radius &&  // mitres reach less than r beyond
+        std::max(edge.begin.z(), edge.end.z()) <= farthest)
       addEdge(geometry, edge);
 }
 
@@ -193,7 +273,10 @@ void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRa
   {
     double sum = 0.0;
     for (std::size_t i = 0; i < kSamples; ++i)
-      sum += std::exp(-static_cast<double>(optical_depth_[k * kSamples + i]));
+    {
+      const float depth = optical_depth_[k * kPadded + i];
+      sum += depth == 0.0F ? 1.0 : std::exp(-static_cast<double>(depth));  // most rays at a wire's border pass it
+    }
     shadow.transmission[k] = sum / kSamples;
     slot_[pixels_[k]] = -1;
   }

@@ -44,6 +44,8 @@ public:
 
 private:
   struct Edge;
+  class Footprint;
+  class Chords;
 
   void addWire(const XRayGeometry& geometry, const XRayWire& wire);
 
@@ -52,7 +54,7 @@ private:
 
   std::vector<std::int32_t> slot_;     // per pixel: index among the touched pixels, −1 when untouched
   std::vector<std::uint32_t> pixels_;  // touched pixels
-  std::vector<float> optical_depth_;   // kSamples per touched pixel [1]
+  std::vector<float> optical_depth_;   // per touched pixel and sample [1]
 };
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <random>
+#include <set>
 
 #include "common/error.h"
 #include "fluoroscopy/vessel_projection.h"
@@ -108,6 +111,81 @@ TEST(WireProjection, DoesNotCountTheJointsOfABentWireTwiceNorMissThem)
   const double exact = exactLoss(geometry, M_PI * 0.02, kRadius, 1.0);
   EXPECT_NEAR(totalLoss(geometry, arc(200)), exact, 0.005 * exact);
   EXPECT_NEAR(totalLoss(geometry, arc(40)), exact, 0.005 * exact);
+}
+
+/** A bent wire from the isocentre. */
+XRayWire randomWire(std::mt19937& random, double radius, double step, double bend)
+{
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.8, 1.2);
+  XRayWire wire;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+  for (int i = 0; i < 20; ++i)
+  {
+    wire.nodes.push_back(place);
+    wire.radius.push_back(radius * uniform(random));
+    place += step * uniform(random) * direction;
+    direction = (direction + bend * Eigen::Vector3d(normal(random), normal(random), normal(random))).normalized();
+  }
+  wire.attenuation.assign(wire.nodes.size() - 1, 700.0);
+  return wire;
+}
+
+/** A point of the body round one edge, between the planes that bisect the angles to its neighbours; or none. */
+std::optional<Eigen::Vector3d> randomPoint(const XRayWire& wire, std::size_t edge, std::mt19937& random)
+{
+  const auto axis = [&wire](std::size_t j)
+  { return Eigen::Vector3d((wire.nodes[j + 1] - wire.nodes[j]).normalized()); };
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  const double radius = 0.5 * (wire.radius[edge] + wire.radius[edge + 1]);
+  const double length = (wire.nodes[edge + 1] - wire.nodes[edge]).norm();
+  const Eigen::Vector3d any(normal(random), normal(random), normal(random));
+  const Eigen::Vector3d across = (any - any.dot(axis(edge)) * axis(edge)).normalized();
+  const Eigen::Vector3d point = wire.nodes[edge] + ((length + 2.0 * radius) * uniform(random) - radius) * axis(edge) +
+                                radius * std::sqrt(uniform(random)) * across;
+  const Eigen::Vector3d before = axis(edge) + (edge > 0 ? axis(edge - 1) : axis(edge));
+  const Eigen::Vector3d after = axis(edge) + (edge + 2 < wire.nodes.size() ? axis(edge + 1) : axis(edge));
+  if ((point - wire.nodes[edge]).dot(before) < 0.0 || (point - wire.nodes[edge + 1]).dot(after) > 0.0)
+    return std::nullopt;
+  return point;
+}
+
+TEST(WireProjection, TouchesEveryPixelInWhichAPointOfTheWireAppears)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> angle(-1.0, 1.0);
+  int seen = 0;
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    CArmPose pose;
+    pose.primary_angle = angle(random);
+    pose.secondary_angle = 0.5 * angle(random);
+    pose.source_to_patient = trial % 2 == 0 ? 0.75 : 0.15;  // a wide cone
+    const XRayGeometry geometry(pose);
+    const XRayWire wire = randomWire(random, trial % 3 == 0 ? 0.2e-3 : 3e-3, trial % 4 < 2 ? 1e-3 : 4e-3, 0.3);
+    WireProjection projection;
+    WireShadow shadow;
+    projection.project(geometry, {wire}, shadow);
+    const std::set<std::uint32_t> touched(shadow.pixels.begin(), shadow.pixels.end());
+    for (int k = 0; k < 4000; ++k)
+    {
+      const auto edge = static_cast<std::size_t>(k) % (wire.nodes.size() - 1);
+      const std::optional<Eigen::Vector3d> point = randomPoint(wire, edge, random);
+      if (!point)
+        continue;
+      const Eigen::Vector2d place = geometry.project(*point);
+      if (!(place.minCoeff() >= 0.0 && place.maxCoeff() <= geometry.pixels() - 1))
+        continue;
+      ++seen;
+      const auto column = static_cast<std::uint32_t>(std::lround(place.x()));
+      const auto row = static_cast<std::uint32_t>(std::lround(place.y()));
+      EXPECT_EQ(touched.count(row * static_cast<std::uint32_t>(geometry.pixels()) + column), 1U)
+          << trial << " " << edge;
+    }
+  }
+  EXPECT_GT(seen, 50000);
 }
 
 TEST(WireProjection, SeesTheWholeLengthOfAWireAlongTheRay)
