@@ -41,8 +41,6 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
   Setup setup;
   setup.length = random.between(0.1, 0.3);
   setup.radius = random.between(0.17e-3, 0.45e-3);
-  if (vessel.name == "channel")  // in trees, wires meet branches that are too narrow for them
-    setup.radius = std::min(setup.radius, 0.4 * vessel.narrowest);
   setup.tip_length = random.between(4e-3, 20e-3);
   setup.tip_radius = random.chance(0.3) ? 0.0 : std::max(random.logBetween(3e-3, 20e-3), setup.tip_length / 4.0);
   setup.bending = random.logBetween(1.6e-6, 5e-3);
@@ -64,6 +62,10 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
              << ", max_edge: " << random.between(0.4, 1.0) * longest + 0.6e-3
              << ", turn_per_edge: " << random.between(0.03, 0.1) << "}";
   setup.sampling = sampling.str();
+  if (random.chance(0.2))
+    setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
+  if (vessel.name == "channel")                      // in trees, wires meet branches that are too narrow for them
+    setup.radius = std::min(setup.radius, 0.4 * vessel.narrowest);
   return setup;
 }
 

@@ -50,7 +50,7 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(21);
   std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
-  constexpr double kWide = 1.1e-3;  // m, a body that gets a third of the margin
+  constexpr double kWide = 1.1e-3;  // m, a body that gets half of the margin
   int contacts = 0;
   int wide_contacts = 0;
   for (int trial = 0; trial < 2 * wires; ++trial)
