@@ -10,6 +10,7 @@
 #include "rod/kkt_stepper.h"
 #include "session/run_result.h"
 #include "session/simulation.h"
+#include "vessel/centreline.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -64,8 +65,11 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
   setup.sampling = sampling.str();
   if (random.chance(0.2))
     setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
-  if (vessel.name == "channel")                      // in trees, wires meet branches that are too narrow for them
-    setup.radius = std::min(setup.radius, 0.4 * vessel.narrowest);
+  double widest_end = 0.0;
+  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel.centreline))
+    widest_end = std::max(widest_end, end.radius);
+  // In trees, wires meet branches that are too narrow for them.
+  setup.radius = std::min(setup.radius, vessel.name == "channel" ? 0.4 * vessel.narrowest : 0.5 * widest_end);
   return setup;
 }
 

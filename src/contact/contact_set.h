@@ -30,9 +30,10 @@ struct Feature
  *  balloon has more than a thousand facets, the whole wall round it, within a wire's margin, and moves little. */
 inline double marginShare(double radius)
 {
+  constexpr double kLeast = 0.25;   // more than a hand moves in a sub-step or a balloon grows
   constexpr double kWide = 0.9e-3;  // m
   const double share = std::min(1.0, kWide / radius);
-  return share * share * share * share;
+  return std::max(kLeast, share * share * share * share);
 }
 
 /** What the rod asks of the detector: its centreline, and how far to look. */

@@ -82,9 +82,7 @@ double Detector::leanOf(const WallEdge& edge) const
   const double slack = std::max(kConeSlack, kConeSlackOfAngle * std::abs(edge.reflex_angle));
   double widest = 0.5 * edge.reflex_angle + 1.1 * slack;  // rad
   for (int vertex : edge.vertices)
-  {
     widest = std::max(widest, wall_.vertex_cone[vertex] + angleBetween(edge.normal, wall_.vertex_normals[vertex]));
-  }
   return std::abs(edge.reflex_angle) > kSharp || widest > kSharp ? std::numeric_limits<double>::infinity()
                                                                  : std::tan(widest);
 }

@@ -108,7 +108,7 @@ public:
       const double discriminant = a * square_radius - h * h;
       const double half = std::sqrt(discriminant > 0.0 ? discriminant : 0.0) / a;
       const double middle = across.at(x, y) / a;
-      const double slope0 = begin.at(x, y), slope1 = end.at(x, y);
+      const double slope0 = begin.at(x, y) + 0.0, slope1 = end.at(x, y) + 0.0;  // no −0
       // What is kept has slope·t ≥ offset.
       const double cut0 = begin_offset / slope0, cut1 = end_offset / slope1;
       double from = middle - half, to = middle + half;
@@ -116,7 +116,7 @@ public:
       to = slope0 < 0.0 && cut0 < to ? cut0 : to;
       from = slope1 >= 0.0 && cut1 > from ? cut1 : from;
       to = slope1 < 0.0 && cut1 < to ? cut1 : to;
-      const double chord = to > from ? to - from : 0.0;
+      const double chord = to > from && free > least ? to - from : 0.0;
       depth[i] += static_cast<float>(attenuation * (chord * std::sqrt(square)));
     }
   }
@@ -157,8 +157,8 @@ float* WireProjection::samplesOf(std::uint32_t pixel)
  *
  *  A point of the edge is x + ρw: x on the axis, as far beyond its ends as the mitres reach, ρ ≤ r, w a unit vector
  *  across the axis. In the image it lies f ρ J w/(x_z + ρ w_z) beside x, with J = (I | −x_xy/x_z) in units of z, so
- * along an image direction e by at most f r |Jᵀe − (Jᵀe·a) a|/(z − r), a convex function of x_xy/x_z: largest at an
- * end. */
+ *  along an image direction e by at most f r |Jᵀe − (Jᵀe·a) a|/(z − r), a convex function of x_xy/x_z: largest at
+ *  an end. */
 class WireProjection::Footprint
 {
 public:

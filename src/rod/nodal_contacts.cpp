@@ -304,16 +304,29 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return factor;
   if (contacts_.stale)
     return std::min(factor, staleTruncation(motion));
-  bool far = false;
-  for (int i = state.first_node; i < rod_.nodes() && !far; ++i)
-    far = factor * motion[i].norm() > marginOf(i);
-  if (!far)
+  factor = freshTruncation(state, motion, factor, report);
+  // Should the next set fail to come, this motion counts as well.
+  stale_budget_ = std::max(0.0, 1.0 - factor * marginsIn(motion, state.first_node));
+  return factor;
+}
+
+double NodalContacts::freshTruncation(const State& state, const Motion& motion, double factor, StepReport& report)
+{
+  if (factor * marginsIn(motion, state.first_node) <= 1.0)
     return factor;
   factor = listedTruncation(state, motion, factor);
-  for (int i = state.first_node; i < rod_.nodes(); ++i)
-    if (factor * motion[i].norm() > kBeyondMargin * marginOf(i))
-      return freeDistanceTruncation(state, motion, factor, report);
-  return factor;
+  if (factor * marginsIn(motion, state.first_node) <= kBeyondMargin)
+    return factor;
+  return freeDistanceTruncation(state, motion, factor, report);
+}
+
+/** How many margins the node moves by that moves by the most of its own. */
+double NodalContacts::marginsIn(const Motion& motion, int first) const
+{
+  double most = 0.0;
+  for (int i = first; i < rod_.nodes(); ++i)
+    most = std::max(most, motion[i].norm() / marginOf(i));
+  return most;
 }
 
 /** Where a contact is listed the free distance is the margin, and it need not be asked for: mostly that settles it. */
@@ -359,9 +372,7 @@ double NodalContacts::freeDistanceTruncation(const State& state, const Motion& m
 /** Old features cover only the margin around the state they were found at: all motion since then is spent from it. */
 double NodalContacts::staleTruncation(const Motion& motion)
 {
-  double most = 0.0;
-  for (int i = query_.first_node; i < rod_.nodes(); ++i)
-    most = std::max(most, motion[i].norm() / marginOf(i));
+  const double most = marginsIn(motion, query_.first_node);
   const double factor = most > stale_budget_ ? stale_budget_ / most : 1.0;
   stale_budget_ -= factor * most;
   return factor;

@@ -41,6 +41,19 @@ rod::State initialStack(const Scene& scene, const rod::StackStepper& stack)
   return stack.initialState(layers);
 }
 
+/** Motion of one hand that an old contact set covers: its share of the least margin of the shafts, less what may have
+ *  been moved on that set before [m]. */
+double blindCover(const Scene& scene)
+{
+  double widest = 0.0;
+  for (const DrivenInstrument& driven : scene.instruments)
+    for (const rod::Section& section : driven.instrument.wire.sections)
+      widest = std::max(widest, section.radius);
+  const double margin = scene.solver.contact_margin * contact::marginShare(widest);
+  const double left = std::max(0.5 * margin, margin - scene.solver.max_travel_per_substep);
+  return left / static_cast<double>(scene.instruments.size());
+}
+
 }  // namespace
 
 std::vector<HandCommand> commandsAt(const Scene& scene, double time)
@@ -59,9 +72,7 @@ Simulation::Simulation(const Scene& scene, const EntryPose& entry, contact::Cont
     sampling_(makeSampling(scene, entry, centreline)),
     sampling_every_(samplingInterval(scene)),
     stepper_(makeStepper(scene, entry, sampling_.get())),
-    channels_(scene.instruments.size(),
-              Channel{BlindHand(scene.solver.contact_margin / static_cast<double>(scene.instruments.size()),
-                                scene.solver.time_step)}),
+    channels_(scene.instruments.size(), Channel{BlindHand(blindCover(scene), scene.solver.time_step)}),
     wanted_(channels_.size()),
     parts_(channels_.size()),
     stack_(dynamic_cast<const rod::StackStepper*>(stepper_.get())),

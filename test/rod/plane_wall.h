@@ -30,7 +30,7 @@ public:
       if (i + 1 < n)
         set.free_distance.push_back(
             std::max(0.0, std::min(gap, normal_.dot(query.nodes[i + 1]) - query.radius[i + 1])));
-      if (gap > query.margin)
+      if (gap > query.marginAt(static_cast<std::size_t>(i)))
         continue;
       contact::Feature feature;
       feature.edge = query.first_node + std::min(i, n - 2);
@@ -43,10 +43,11 @@ public:
       feature.id = 3 * i;
       set.features.push_back(feature);
     }
-    set.stale = false;
+    set.stale = stale;
   }
 
   double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m²]
+  bool stale = false;                                          ///< what is said of the answers
 
 private:
   double friction_;

@@ -337,15 +337,31 @@ protected:
     passes_ = 0;
   }
 
+  double radius(int node) const { return std::max(kRadius, radii_[node]); }
+  double gap(int node) const { return state_.position[node].z() - radius(node); }
+
+  /** The least margin of a node and of those beside it. */
+  double margin(int node) const
+  {
+    const double widest =
+        std::max({radius(std::max(0, node - 1)), radius(node), radius(std::min(node + 1, kNodes - 1))});
+    return settings_.contact_margin * contact::marginShare(widest);
+  }
+
   double expected(const NodalContacts::Motion& motion) const
   {
     double factor = 1.0;
     for (int i = 0; i + 1 < kNodes; ++i)
     {
+      const double margins = std::min(margin(i) / motion[i].norm(), margin(i + 1) / motion[i + 1].norm());
       const double free =
-          std::max(settings_.contact_margin, std::min(state_.position[i].z(), state_.position[i + 1].z()) - kRadius);
-      factor = std::min(factor, free / std::max(motion[i].norm(), motion[i + 1].norm()));
+          std::max(0.0, std::min(gap(i), gap(i + 1))) / std::max(motion[i].norm(), motion[i + 1].norm());
+      factor = std::min(factor, std::max(margins, free));
     }
+    for (int i = 0; i < kNodes; ++i)  // nodes of edges with a listed contact keep to their margins
+      for (int k = std::max(0, i - 1); k <= std::min(i + 1, kNodes - 1); ++k)
+        if (gap(i) <= settings_.contact_margin * contact::marginShare(radius(i)))
+          factor = std::min(factor, margin(k) / motion[k].norm());
     return factor;
   }
 
@@ -369,6 +385,7 @@ protected:
   StepReport report_;
   std::uint32_t passes_ = 0;
   std::mt19937 random_{3};
+  std::vector<double> radii_ = std::vector<double>(kNodes, 0.0);  // least ones of what the wire carries
 };
 
 TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrItsFreeDistanceAskedFor)
@@ -380,6 +397,13 @@ TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrI
     const NodalContacts::Motion motion = randomMotion(1e-3 * (1 + trial % 10));
     EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), expected(motion), 1e-9) << trial;
     asked += static_cast<int>(passes_);
+    if (trial % 20 == 19)  // something wide elsewhere
+    {
+      radii_.assign(kNodes, 0.0);
+      for (int i = trial / 20; i < trial / 20 + 5; ++i)
+        radii_[i] = 1.3e-3;
+      contacts_.setRadii(radii_);
+    }
   }
   EXPECT_GT(asked, 0);
 }
@@ -390,9 +414,8 @@ TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesB
   constexpr double kWide = 1.5e-3;
   const double wide_margin = settings_.contact_margin * contact::marginShare(kWide);
   ASSERT_LT(wide_margin, 0.5 * settings_.contact_margin);
-  std::vector<double> radii(kNodes, 0.0);
-  radii[kMiddle] = kWide;
-  contacts_.setRadii(radii);
+  radii_[kMiddle] = kWide;
+  contacts_.setRadii(radii_);
   for (int moved = 0; moved < kNodes; ++moved)
   {
     place(0.1e-3, 0.1e-3);
@@ -404,6 +427,28 @@ TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesB
   }
   place(20e-3, 20e-3);
   EXPECT_EQ(contacts_.truncation(state_, NodalContacts::Motion(kNodes, Vector3d(1e-3, 0.0, 0.0)), 1.0, report_), 1.0);
+}
+
+TEST_F(TruncationOverAFloor, CountsTheMotionThatWasMadeOnTheLastSetBeforeTheNextOneFailsToCome)
+{
+  radii_[5] = 1.2e-3;
+  contacts_.setRadii(radii_);
+  const double narrow = settings_.contact_margin * contact::marginShare(1.2e-3);
+  ASSERT_LT(narrow, settings_.contact_margin);
+  for (const double before : {0.0, 0.3, 1.0})
+  {
+    floor_.stale = false;
+    place(0.1e-3, 0.1e-3);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[5] = Vector3d(before * narrow, 0.0, 0.0);
+    EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
+    floor_.stale = true;
+    contacts_.detect(state_, report_);
+    motion[5] = Vector3d(2.0 * narrow, 0.0, 0.0);
+    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.5 * (1.0 - before), 1e-12) << before;
+    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.0, 1e-12);  // all is spent
+    contacts_.beginStep(StepInput(), &floor_, passes_, timer_);                   // the next step may ask again
+  }
 }
 
 TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)

@@ -95,9 +95,7 @@ double bendingEnergy(const Discretisation& rod, const State& state)
 {
   double sum = 0.0;
   for (int i = 1; i + 1 < rod.nodes(); ++i)
-  {
     sum += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * binormalAt(rod, state, i).value.squaredNorm();
-  }
   return sum;
 }
 
