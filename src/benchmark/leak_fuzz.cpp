@@ -37,6 +37,17 @@ struct Setup
   std::string sampling;
 };
 
+/** Of a wire that is to enter [m]. In trees, it meets branches that are too narrow for it. */
+double largestRadius(const FuzzVessel& vessel)
+{
+  if (vessel.name == "channel")
+    return 0.4 * vessel.narrowest;
+  double widest_end = 0.0;
+  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel.centreline))
+    widest_end = std::max(widest_end, end.radius);
+  return 0.5 * widest_end;
+}
+
 Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
 {
   Setup setup;
@@ -65,11 +76,7 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
   setup.sampling = sampling.str();
   if (random.chance(0.2))
     setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
-  double widest_end = 0.0;
-  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel.centreline))
-    widest_end = std::max(widest_end, end.radius);
-  // In trees, wires meet branches that are too narrow for them.
-  setup.radius = std::min(setup.radius, vessel.name == "channel" ? 0.4 * vessel.narrowest : 0.5 * widest_end);
+  setup.radius = std::min(setup.radius, largestRadius(vessel));
   return setup;
 }
 

@@ -27,12 +27,14 @@ struct Feature
 };
 
 /** Share of the listing margin that a body of some radius gets: all of it up to a thin catheter, less then. A filled
- *  balloon has more than a thousand facets, the whole wall round it, within a wire's margin, and moves little. */
+ *  balloon has the whole wall round it within a wire's margin, and moves little. */
 inline double marginShare(double radius)
 {
   constexpr double kLeast = 0.25;   // more than a hand moves in a sub-step or a balloon grows
   constexpr double kWide = 0.9e-3;  // m
-  const double share = std::min(1.0, kWide / radius);
+  if (radius <= kWide)
+    return 1.0;
+  const double share = kWide / radius;
   return std::max(kLeast, share * share * share * share);
 }
 

@@ -41,8 +41,8 @@ struct WallLaw
  *  Per node: closest points on the triangles around it that are true local minima (normal-cone test on reflex edges
  *  and vertices), all distinct normals. Per edge: crossing reflex edges and vertices of the mesh. A point is outside
  *  only where its globally nearest feature says so. Each node and edge keeps the few triangles and ridges that it can
- *  meet while it stays about where it is or slides along itself; what is found does not depend on that, so a detector
- * that was restarted gives the same bits. */
+ *  meet while it stays about where it is or slides along itself; what is found does not depend on that, so a restarted
+ *  detector gives the same bits. */
 class Detector : public ContactSource
 {
 public:

@@ -19,21 +19,6 @@ constexpr double kNearest = 0.02;       // closest approach to the source, as a 
 constexpr double kFoldedCosine = 0.05;  // mitres are for bends below 90°
 constexpr double kHalfDiagonal = 0.7072;
 
-/** Samples of a pixel from its centre, as differences of rays with z = 1; what fills up the last vector is not used. */
-struct Offsets
-{
-  explicit Offsets(double focal_length)
-  {
-    for (int i = 0; i < kSamples; ++i)
-    {
-      x[static_cast<std::size_t>(i)] = ((i + 0.5) / kSamples - 0.5) / focal_length;
-      y[static_cast<std::size_t>(i)] = (0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) / focal_length;
-    }
-  }
-
-  std::array<double, kPadded> x{}, y{};
-};
-
 void check(const XRayWire& wire)
 {
   const std::size_t edges = wire.nodes.empty() ? 0 : wire.nodes.size() - 1;
@@ -53,6 +38,21 @@ Eigen::Vector3d mitre(const Eigen::Vector3d& own, const Eigen::Vector3d& other)
 }
 
 }  // namespace
+
+/** Samples of a pixel from its centre, as differences of rays with z = 1; what fills up the last vector is not used. */
+struct WireProjection::Offsets
+{
+  explicit Offsets(double focal_length)
+  {
+    for (int i = 0; i < kSamples; ++i)
+    {
+      x[static_cast<std::size_t>(i)] = ((i + 0.5) / kSamples - 0.5) / focal_length;
+      y[static_cast<std::size_t>(i)] = (0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) / focal_length;
+    }
+  }
+
+  std::array<double, kPadded> x{}, y{};
+};
 
 /** One mitred cylinder in the optical frame. */
 struct WireProjection::Edge
@@ -212,9 +212,8 @@ private:
   double half_length_, half_width_;  ///< [pixel]
 };
 
-void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
+void WireProjection::addEdge(const XRayGeometry& geometry, const Offsets& offsets, const Edge& edge)
 {
-  const Offsets offsets(geometry.focalLength());
   const Footprint footprint(geometry, edge);
   const Chords chords(edge, offsets);
   for (int row = footprint.first_row; row <= footprint.last_row; ++row)
@@ -223,7 +222,7 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Edge& edge)
         chords.add(geometry.ray(column, row), samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column)));
 }
 
-void WireProjection::addWire(const XRayGeometry& geometry, const XRayWire& wire)
+void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire)
 {
   std::vector<Edge> edges;
   for (std::size_t j = 0; j + 1 < wire.nodes.size(); ++j)
@@ -252,7 +251,7 @@ void WireProjection::addWire(const XRayGeometry& geometry, const XRayWire& wire)
   for (const Edge& edge : edges)
     if (std::min(edge.begin.z(), edge.end.z()) >= nearest + 2.0 * edge.radius &&  // mitres reach less than r beyond
         std::max(edge.begin.z(), edge.end.z()) <= farthest)
-      addEdge(geometry, edge);
+      addEdge(geometry, offsets, edge);
 }
 
 void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, WireShadow& shadow)
@@ -264,8 +263,9 @@ void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRa
     slot_.assign(size, -1);
   pixels_.clear();
   optical_depth_.clear();
+  const Offsets offsets(geometry.focalLength());
   for (const XRayWire& wire : wires)
-    addWire(geometry, wire);
+    addWire(geometry, offsets, wire);
 
   shadow.pixels = pixels_;
   shadow.transmission.resize(pixels_.size());

@@ -43,13 +43,13 @@ public:
   void project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, WireShadow& shadow);
 
 private:
+  struct Offsets;
   struct Edge;
   class Footprint;
   class Chords;
 
-  void addWire(const XRayGeometry& geometry, const XRayWire& wire);
-
-  void addEdge(const XRayGeometry& geometry, const Edge& edge);
+  void addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire);
+  void addEdge(const XRayGeometry& geometry, const Offsets& offsets, const Edge& edge);
   float* samplesOf(std::uint32_t pixel);
 
   std::vector<std::int32_t> slot_;     // per pixel: index among the touched pixels, −1 when untouched

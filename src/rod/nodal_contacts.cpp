@@ -304,18 +304,21 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return factor;
   if (contacts_.stale)
     return std::min(factor, staleTruncation(motion));
-  factor = freshTruncation(state, motion, factor, report);
+  const double margins = marginsIn(motion, state.first_node);
+  factor = freshTruncation(state, motion, factor, margins, report);
   // Should the next set fail to come, this motion counts as well.
-  stale_budget_ = std::max(0.0, 1.0 - factor * marginsIn(motion, state.first_node));
+  stale_budget_ = std::max(0.0, 1.0 - factor * margins);
   return factor;
 }
 
-double NodalContacts::freshTruncation(const State& state, const Motion& motion, double factor, StepReport& report)
+/** @param margins that the whole motion goes by at most */
+double NodalContacts::freshTruncation(const State& state, const Motion& motion, double factor, double margins,
+                                      StepReport& report)
 {
-  if (factor * marginsIn(motion, state.first_node) <= 1.0)
+  if (factor * margins <= 1.0)
     return factor;
   factor = listedTruncation(state, motion, factor);
-  if (factor * marginsIn(motion, state.first_node) <= kBeyondMargin)
+  if (factor * margins <= kBeyondMargin)
     return factor;
   return freeDistanceTruncation(state, motion, factor, report);
 }

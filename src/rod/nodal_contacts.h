@@ -146,7 +146,7 @@ private:
   double shareOfLeastEnergy();
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double marginsIn(const Motion& motion, int first) const;
-  double freshTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
+  double freshTruncation(const State& state, const Motion& motion, double factor, double margins, StepReport& report);
   double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
   double staleTruncation(const Motion& motion);

@@ -41,14 +41,13 @@ rod::State initialStack(const Scene& scene, const rod::StackStepper& stack)
   return stack.initialState(layers);
 }
 
-/** Motion of one hand that an old contact set covers: its share of the least margin of the shafts, less what may have
- *  been moved on that set before [m]. */
+/** Motion of one hand that an old contact set covers: its share of the least margin, balloons folded, less what may
+ * have been moved on that set before [m]. */
 double blindCover(const Scene& scene)
 {
   double widest = 0.0;
   for (const DrivenInstrument& driven : scene.instruments)
-    for (const rod::Section& section : driven.instrument.wire.sections)
-      widest = std::max(widest, section.radius);
+    widest = std::max(widest, instrument::crossingRadius(driven.instrument));
   const double margin = scene.solver.contact_margin * contact::marginShare(widest);
   const double left = std::max(0.5 * margin, margin - scene.solver.max_travel_per_substep);
   return left / static_cast<double>(scene.instruments.size());
