@@ -17,6 +17,7 @@ namespace
 {
 
 constexpr int kMaxDepth = 384;             // of places that wait to be looked at
+constexpr std::size_t kHandful = 128;      // triangles that are collected at once
 constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
@@ -152,7 +153,7 @@ void Bvh::refit(const std::vector<int>& triangles)
 }
 
 /** How far four boxes are from another one along an axis; negative where they overlap [m]. */
-Bvh::Lanes Bvh::gaps(const Node& node, const Box& box, int axis)
+inline Bvh::Lanes Bvh::gaps(const Node& node, const Box& box, int axis)
 {
   return (node.low[axis] - box.high[axis]).max(box.low[axis] - node.high[axis]);
 }
@@ -169,24 +170,31 @@ void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, st
   std::array<int, kMaxDepth> stack;
   int top = 0;
   stack[top++] = 0;
-  std::size_t count = triangles.size();
+  std::array<int, kHandful> found;
+  std::size_t count = 0;
+  const auto handOver = [&found, &count, &triangles]
+  {
+    triangles.insert(triangles.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
+    count = 0;
+  };
   while (top > 0)
   {
     const Node& node = nodes_[stack[--top]];
     const Lanes apart = gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2));
-    triangles.resize(std::max(triangles.size(), count + kWidth));
+    if (count + kWidth > kHandful)
+      handOver();
     // Without branches, which no processor could predict here: what is apart is overwritten.
     for (int lane = 0; lane < kWidth; ++lane)
     {
       const int child = node.child[lane];
       const bool near = apart[lane] <= 0.0F;
       stack[top] = child;
-      triangles[count] = ~child;
+      found[count] = ~child;
       top += static_cast<int>(near && child >= 0);
       count += static_cast<std::size_t>(near && child < 0);
     }
   }
-  triangles.resize(count);
+  handOver();
 }
 
 double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const

@@ -24,9 +24,7 @@ constexpr double kConeSlack = 1e-3;          // of the distance: crossings at th
 constexpr double kConeSlackOfAngle = 0.1;
 constexpr double kWidestWire = 0.6e-3;       // m from a wire's axis up to which that holds
 constexpr double kOnRidge = 1e-12;           // m
-constexpr double kOffTriangle = 1e-9;        // m beyond an edge: more is no rounding
 constexpr double kSharp = 1.2;               // rad between triangles or of a vertex's cone that is not bounded
-constexpr double kFar = 1.0 + 1e-9;          // of a squared distance, for rounding
 constexpr double kLeastClearance = 0.05e-3;  // m
 constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
 
@@ -65,15 +63,16 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
     makePrism(static_cast<int>(t));
   edge_balls_.reserve(wall_.edges.size());
   for (const WallEdge& edge : wall_.edges)
-    edge_balls_.push_back(ballOf(edge));
+    edge_balls_.push_back(ballOf(edge, false));
 }
 
-Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
+Detector::EdgeBall Detector::ballOf(const WallEdge& edge, bool has_moved) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
   const Eigen::Vector3d half = 0.5 * (end - begin);
-  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), edge.reflex_angle > kReflexAngle};
+  const bool reflex = edge.reflex_angle > kReflexAngle;
+  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), reflex, has_moved};
 }
 
 /** A local minimum's offset lies between the normals of the edge's triangles, or at an end in the vertex's cone. */
@@ -150,14 +149,26 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
     farthest = std::max(farthest, (positions[k] - wall_.vertices[indices[k]]).norm());
   }
   const Wall::Changes& changes = wall_.moveVertices(indices, positions);
-  for (int t : changes.triangles)
+  const bool anew = renewPrisms(changes.around);
+  for (int t : anew ? changes.around : changes.triangles)
     for (int corner = 0; corner < 3; ++corner)
       moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
   renewEdges(changes.edges);
-  for (int t : changes.around)
-    makePrism(t);
   bvh_.refit(changes.triangles);
-  keepUp(moved, farthest);
+  keepUp(moved, farthest, anew);
+}
+
+/** @return whether one of them has never moved before */
+bool Detector::renewPrisms(const std::vector<int>& changed)
+{
+  bool anew = false;
+  for (int t : changed)
+  {
+    makePrism(t);
+    anew = anew || !prisms_[t].has_moved;
+    prisms_[t].has_moved = true;
+  }
+  return anew;
 }
 
 /** Notes those that have become reflex. */
@@ -167,7 +178,7 @@ void Detector::renewEdges(const std::vector<int>& changed)
   for (int e : changed)
   {
     const bool was_reflex = edge_balls_[e].reflex;
-    edge_balls_[e] = ballOf(wall_.edges[e]);
+    edge_balls_[e] = ballOf(wall_.edges[e], true);
     if (edge_balls_[e].reflex && !was_reflex)
       now_reflex_.push_back(e);
   }
@@ -264,7 +275,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
     const Eigen::Array4d above = prism.heights(point);
     double distance = 0.0;
     bool outside = false;
-    if (!canTouch(prism, above, limit) || !faceFeature(point, one.index, above, limit, feature, distance, outside))
+    if (!prism.canTouch(above, limit) || !faceFeature(point, one.index, above, limit, feature, distance, outside))
       continue;
     feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
     feature.parameter = last ? 1.0 : 0.0;
@@ -277,22 +288,9 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
       outside_feature = feature;
     }
   }
-  if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point) + 1e-12 &&
+  if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point, limit) + 1e-12 &&
       signedDistance(point, outside_feature.triangle) < 0.0)
     features.push_back(outside_feature);
-}
-
-/** Cheap rejection: whether the point of a triangle that is closest to a point can be a local minimum within a limit.
- *  @param above the point's heights over the planes of the triangle's prism [m] */
-inline bool Detector::canTouch(const Prism& prism, const Eigen::Array4d& above, double limit)
-{
-  const double height = above[0];
-  const double beyond = outsideOf(above);
-  if (height * height > limit * limit)
-    return false;
-  return beyond <= kOffTriangle ||
-         ((height < 0.0 || std::isinf(prism.bulge) || beyond <= height * prism.bulge + kOffTriangle) &&
-          height * height + beyond * beyond <= kFar * limit * limit);
 }
 
 /** @param above the point's heights over the planes of the triangle's prism [m]
@@ -506,7 +504,7 @@ double Detector::wallDistance(const Query& query, std::size_t index, double fart
 {
   const Eigen::Vector3d& point = query.nodes[index];
   const double limit = query.radius[index] + query.marginAt(index);
-  const double nearest = nearestListed(neighbourhood(query, index), point);
+  const double nearest = nearestListed(neighbourhood(query, index), point, limit);
   if (nearest <= limit)
     return nearest;
   int& near = nearest_[static_cast<std::size_t>(query.first_node) + index];

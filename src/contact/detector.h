@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -99,6 +100,12 @@ private:
     Eigen::Vector3d end() const { return begin + length * along; }
   };
 
+  static constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge: more is no rounding
+
+  /** How far a point's foot in a triangle's plane lies beyond the farthest of the lines along its edges, negative
+   * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
+  static double outsideOf(const Eigen::Array4d& above) { return -std::min({above[1], above[2], above[3]}); }
+
   /** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
   struct Prism
   {
@@ -108,11 +115,27 @@ private:
     double bulge = 0.0;
     std::array<int, 3> own_edges{-1, -1,
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
+    bool has_moved = false;            ///< it or what is around it, ever
 
     /** Heights of a point over the four planes [m]. */
     Eigen::Array4d heights(const Eigen::Vector3d& point) const
     {
       return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
+    }
+
+    /** Cheap rejection: whether the point of the triangle that is closest to a point can be a local minimum within a
+     *  limit.
+     *  @param above the point's heights over the planes [m] */
+    bool canTouch(const Eigen::Array4d& above, double limit) const
+    {
+      constexpr double kFar = 1.0 + 1e-9;  // of a squared distance, for rounding
+      const double height = above[0];
+      const double beyond = outsideOf(above);
+      if (height * height > limit * limit)
+        return false;
+      return beyond <= kOffTriangle ||
+             ((height < 0.0 || std::isinf(bulge) || beyond <= height * bulge + kOffTriangle) &&
+              height * height + beyond * beyond <= kFar * limit * limit);
     }
   };
 
@@ -135,27 +158,27 @@ private:
     double half_length;      ///< [m]
     double lean;             ///< no local minimum's offset is tilted more off the normal, as a tangent; infinite: any
     bool reflex;             ///< whether the wire's edges can meet it
+    bool has_moved;          ///< it or what is around it, ever
   };
 
-  /** How far a point's foot in a triangle's plane lies beyond the farthest of the lines along its edges, negative
-   * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
-  static double outsideOf(const Eigen::Array4d& above) { return -std::min({above[1], above[2], above[3]}); }
   /** Index by which a node or edge is remembered. */
   static int placeFromTip(const Query& query, std::size_t index);
+  static double coneClearance(double low, double high, double beside, double slope, double limit);
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
   void list(Neighbourhood& near);
   void listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const;
   void listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
-  EdgeBall ballOf(const WallEdge& edge) const;
+  EdgeBall ballOf(const WallEdge& edge, bool has_moved) const;
   double leanOf(const WallEdge& edge) const;
   void renewEdges(const std::vector<int>& changed);
-  void keepUp(const Eigen::AlignedBox3d& moved, double farthest);
-  double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const;
-  static bool canTouch(const Prism& prism, const Eigen::Array4d& above, double limit);
+  bool renewPrisms(const std::vector<int>& changed);
+  void keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew);
+  double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
                    Feature& feature, double& distance, bool& outside) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);

@@ -21,10 +21,10 @@ constexpr double kLimitSlack = 0.1e-3;
 constexpr std::size_t kUsual = 16;   // entries of a list
 constexpr double kListGuard = 1e-8;  // m by which lists hold more than rounding could miss
 
-/** How far wire and wall may come closer before something at a distance is within a limit, rounded down [m]. */
-float clearance(double distance, double limit)
+/** Rounded down. */
+float lower(double clearance)
 {
-  return static_cast<float>(distance - limit - kListGuard);
+  return static_cast<float>(clearance - kListGuard);
 }
 
 }  // namespace
@@ -36,8 +36,9 @@ int Detector::placeFromTip(const Query& query, std::size_t index)
 }
 
 /** Lists hold more than what can be met. While wire and wall have moved by less than that, they stay; edges that have
- *  become reflex are added, and those that no longer are stand in them to no effect. */
-void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
+ *  become reflex are added, and those that no longer are stand in them to no effect.
+ *  @param anew something moves for the first time, which lists may have left out because of how it was turned */
+void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew)
 {
   const auto touches = [&moved](const Neighbourhood& near)
   {
@@ -49,7 +50,7 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest)
   for (Neighbourhood& near : near_)
     if (touches(near))
     {
-      near.wall_moved += farthest;
+      near.wall_moved = anew ? kRoom : near.wall_moved + farthest;
       for (int e : now_reflex_)
       {
         const auto place = std::lower_bound(near.edges.begin(), near.edges.end(), e,
@@ -142,11 +143,15 @@ void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourh
   // Of the places that the node may have, no more than their distance from the triangle.
   const double share = near.reach > 0.0 ? near.reach / near.length : 0.0;
   const Eigen::Array4d above_last = above + share * change;
-  const double height = above[0] * above_last[0] <= 0.0 ? 0.0 : std::min(std::abs(above[0]), std::abs(above_last[0]));
-  const double beyond = std::max(0.0, outsideOf(above.max(above_last)));
-  const double distance = std::sqrt(height * height + beyond * beyond);
-  if (distance <= wide)
-    near.triangles.push_back({triangle, clearance(distance, near.limit)});
+  const double low = std::min(above[0], above_last[0]);
+  const double high = std::max(above[0], above_last[0]);
+  const double beside = std::max(0.0, outsideOf(above.max(above_last)));
+  const double height = std::max({0.0, low, -high});
+  double clear = std::sqrt(height * height + beside * beside) - near.limit;
+  if (!prism.has_moved)
+    clear = std::max(clear, coneClearance(low, high, beside, prism.bulge, near.limit));
+  if (clear < kRoom + kListGuard)
+    near.triangles.push_back({triangle, lower(clear)});
 }
 
 void Detector::listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const
@@ -154,20 +159,55 @@ void Detector::listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood
   if (!canMeet(segment, wall_edge, wide, wide))
     return;
   const EdgeBall& ball = edge_balls_[wall_edge];
+  double clear = ball.has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
+  if (clear >= kRoom + kListGuard)
+    return;
   const SegmentPair pair =
       closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
   const Eigen::Vector3d apart =
       segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
-  const double distance = apart.norm();
-  if (distance <= wide)
-    near.edges.push_back({wall_edge, clearance(distance, near.limit)});
+  clear = std::max(clear, apart.norm() - near.limit);
+  if (clear < kRoom + kListGuard)
+    near.edges.push_back({wall_edge, lower(clear)});
 }
 
-double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point) const
+/** By how much places and a wall that does not turn have to come closer before one of them is within a limit and
+ *  either in the cone above something or behind it [m]; both are where nothing else counts as a local minimum.
+ *  @param low, high of the places' heights [m]
+ *  @param beside by how much they lie beside it at least [m]
+ *  @param slope of the cone, as a tangent to the normal; infinite: any */
+double Detector::coneClearance(double low, double high, double beside, double slope, double limit)
+{
+  if (std::isinf(slope))
+    return 0.0;
+  // Who comes closer by m is higher by m at most, or than the limit, and less far beside it by m.
+  const double sideways = std::max(beside - limit * slope, (beside - high * slope) / (1.0 + slope)) - kOffTriangle;
+  return std::min(low, sideways);
+}
+
+/** The same of a segment and a mesh edge's lean. */
+double Detector::ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit)
+{
+  const Eigen::Vector3d from_begin = segment.begin - ball.middle;
+  const Eigen::Vector3d from_end = segment.end - ball.middle;
+  const auto range = [&from_begin, &from_end](const Eigen::Vector3d& axis) {
+    return std::minmax({from_begin.dot(axis), from_end.dot(axis)});
+  };
+  const auto apart = [&ball](const std::pair<double, double>& places)
+  { return std::max(places.first, -places.second) / ball.half_length; };
+  const auto heights = range(ball.normal);
+  const double across = apart(range(ball.normal.cross(ball.half)));
+  const double along = apart(range(ball.half)) - ball.half_length;
+  return coneClearance(heights.first, heights.second, std::max({0.0, across, along}), ball.lean, limit);
+}
+
+/** Distance to what a point may touch, infinite where that is nothing [m]. */
+double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const
 {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Near& one : near.triangles)
-    nearest = std::min(nearest, bvh_.distanceTo(one.index, point));
+    if (prisms_[one.index].canTouch(prisms_[one.index].heights(point), limit))
+      nearest = std::min(nearest, bvh_.distanceTo(one.index, point));
   return nearest;
 }
 
