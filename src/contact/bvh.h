@@ -44,7 +44,7 @@ private:
   using Lanes = Eigen::Array<float, kWidth, 1>;
 
   /** Four boxes [m] with what is in them: a node's index, or ~triangle; the boxes of empty places are inside out. */
-  struct alignas(64) Node  // begins with a line of the cache
+  struct alignas(64) Node  // starts on a cache line
   {
     std::array<Lanes, 3> low, high;
     std::array<int, kWidth> child;

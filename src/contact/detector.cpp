@@ -141,7 +141,7 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   vessel_version_ = vessel_version;
   if (indices.empty())
     return;
-  Eigen::AlignedBox3d moved;  // holds the triangles before and after
+  Eigen::AlignedBox3d moved;  // holds the triangles before and after; at first those around them too
   double farthest = 0.0;
   for (std::size_t k = 0; k < indices.size(); ++k)
   {
@@ -499,7 +499,8 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int 
   return true;
 }
 
-/** Distance from a node to the wall, or @p farthest where that is less [m]. What a node touches is listed already. */
+/** Distance from a node to the wall, or @p farthest where that is less; within radius + margin that to what it may
+ * touch, which is listed already [m]. */
 double Detector::wallDistance(const Query& query, std::size_t index, double farthest)
 {
   const Eigen::Vector3d& point = query.nodes[index];

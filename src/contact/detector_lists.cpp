@@ -21,7 +21,7 @@ constexpr double kLimitSlack = 0.1e-3;
 constexpr std::size_t kUsual = 16;   // entries of a list
 constexpr double kListGuard = 1e-8;  // m by which lists hold more than rounding could miss
 
-/** Rounded down. */
+/** Less by more than rounding could add. */
 float lower(double clearance)
 {
   return static_cast<float>(clearance - kListGuard);
@@ -172,7 +172,7 @@ void Detector::listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood
 }
 
 /** By how much places and a wall that does not turn have to come closer before one of them is within a limit and
- *  either in the cone above something or behind it [m]; both are where nothing else counts as a local minimum.
+ *  either in the cone above something or behind it [m]; nowhere else does it count as a local minimum.
  *  @param low, high of the places' heights [m]
  *  @param beside by how much they lie beside it at least [m]
  *  @param slope of the cone, as a tangent to the normal; infinite: any */
@@ -180,12 +180,12 @@ double Detector::coneClearance(double low, double high, double beside, double sl
 {
   if (std::isinf(slope))
     return 0.0;
-  // Who comes closer by m is higher by m at most, or than the limit, and less far beside it by m.
+  // A place that comes closer by m is at most m higher, never higher than the limit, and at most m less far beside.
   const double sideways = std::max(beside - limit * slope, (beside - high * slope) / (1.0 + slope)) - kOffTriangle;
   return std::min(low, sideways);
 }
 
-/** The same of a segment and a mesh edge's lean. */
+/** coneClearance of a segment's places and a mesh edge. */
 double Detector::ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit)
 {
   const Eigen::Vector3d from_begin = segment.begin - ball.middle;

@@ -150,6 +150,20 @@ TEST(MovingWall, GivesTheAnswersOfADetectorThatIsMadeAnew)
   EXPECT_GT(changed, 20U) << "movements that no wire feels test nothing";
 }
 
+/** Moves a wall and expects the answer of a detector that is made anew. @return it */
+ContactSet answerAfter(const Movement& movement, std::uint64_t version, const Query& wire, vessel::TriangleMesh& mesh,
+                       Detector& moving)
+{
+  ContactSet after, fresh;
+  apply(movement, mesh);
+  moving.moveVertices(movement.indices, movement.positions, version);
+  moving.detect(wire, after);
+  Detector anew(mesh, WallLaw{}, version);
+  anew.detect(wire, fresh);
+  expectSameSets(after, fresh);
+  return after;
+}
+
 TEST(MovingWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
 {
   vessel::TriangleMesh mesh = fineTube();
@@ -161,20 +175,12 @@ TEST(MovingWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
     wire.nodes.emplace_back(3.5e-3, 0.0, 0.001 * k);
     wire.radius.push_back(0.4e-3);
   }
-  ContactSet after, fresh;
+  ContactSet after;
   moving.detect(wire, after);
   const std::size_t touching = after.features.size();
   ASSERT_GT(touching, 10U);
   for (std::uint64_t step = 2; step < 40; ++step)
-  {
-    const Movement movement = pushOut(mesh, {0.0, 0.0, 0.01}, 12e-3, 0.02);
-    apply(movement, mesh);
-    moving.moveVertices(movement.indices, movement.positions, step);
-    moving.detect(wire, after);
-    Detector anew(mesh, WallLaw{}, step);
-    anew.detect(wire, fresh);
-    expectSameSets(after, fresh);
-  }
+    after = answerAfter(pushOut(mesh, {0.0, 0.0, 0.01}, 12e-3, 0.02), step, wire, mesh, moving);
   EXPECT_LT(after.features.size(), touching);
 }
 
@@ -196,7 +202,7 @@ TEST(MovingWall, GivesTheAnswersOfAWallWhoseFacetsTiltWhileTheyHardlyMove)
                               Eigen::Vector3d(3.4e-3, 0.0, 0.1e-3 * k));
       wire.radius.push_back(0.4e-3);
     }
-    ContactSet before, after, fresh;
+    ContactSet before;
     for (std::uint64_t step = 2; step < 4; ++step)
     {
       // Facets tilt that have never moved, or that have, but hardly.
@@ -208,12 +214,7 @@ TEST(MovingWall, GivesTheAnswersOfAWallWhoseFacetsTiltWhileTheyHardlyMove)
         movement.indices.push_back(static_cast<int>(v));
         movement.positions.push_back(mesh.vertices[v] + scale * off(random) * start.vertex_normals[v]);
       }
-      apply(movement, mesh);
-      moving.moveVertices(movement.indices, movement.positions, step);
-      moving.detect(wire, after);
-      Detector anew(mesh, WallLaw{}, step);
-      anew.detect(wire, fresh);
-      expectSameSets(after, fresh);
+      const ContactSet after = answerAfter(movement, step, wire, mesh, moving);
       changed += before.features.size() != after.features.size();
     }
   }
