@@ -63,16 +63,15 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
     makePrism(static_cast<int>(t));
   edge_balls_.reserve(wall_.edges.size());
   for (const WallEdge& edge : wall_.edges)
-    edge_balls_.push_back(ballOf(edge, false));
+    edge_balls_.push_back(ballOf(edge));
 }
 
-Detector::EdgeBall Detector::ballOf(const WallEdge& edge, bool has_moved) const
+Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
   const Eigen::Vector3d half = 0.5 * (end - begin);
-  const bool reflex = edge.reflex_angle > kReflexAngle;
-  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), reflex, has_moved};
+  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), edge.reflex_angle > kReflexAngle};
 }
 
 /** A local minimum's offset lies between the normals of the edge's triangles, or at an end in the vertex's cone. */
@@ -178,7 +177,7 @@ void Detector::renewEdges(const std::vector<int>& changed)
   for (int e : changed)
   {
     const bool was_reflex = edge_balls_[e].reflex;
-    edge_balls_[e] = ballOf(wall_.edges[e], true);
+    edge_balls_[e] = ballOf(wall_.edges[e]);
     if (edge_balls_[e].reflex && !was_reflex)
       now_reflex_.push_back(e);
   }

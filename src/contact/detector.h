@@ -115,7 +115,7 @@ private:
     double bulge = 0.0;
     std::array<int, 3> own_edges{-1, -1,
                                  -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
-    bool has_moved = false;            ///< it or what is around it, ever
+    bool has_moved = false;            ///< it, its edges or what is around them, ever
 
     /** Heights of a point over the four planes [m]. */
     Eigen::Array4d heights(const Eigen::Vector3d& point) const
@@ -158,22 +158,21 @@ private:
     double half_length;      ///< [m]
     double lean;             ///< no local minimum's offset is tilted more off the normal, as a tangent; infinite: any
     bool reflex;             ///< whether the wire's edges can meet it
-    bool has_moved;          ///< it or what is around it, ever
   };
 
   /** Index by which a node or edge is remembered. */
   static int placeFromTip(const Query& query, std::size_t index);
-  static double coneClearance(double low, double high, double beside, double slope, double limit);
   void makeRoom(const Query& query);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
   void list(Neighbourhood& near);
   void listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const;
-  void listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
-  EdgeBall ballOf(const WallEdge& edge, bool has_moved) const;
+  EdgeBall ballOf(const WallEdge& edge) const;
   double leanOf(const WallEdge& edge) const;
   void renewEdges(const std::vector<int>& changed);
   bool renewPrisms(const std::vector<int>& changed);

@@ -139,7 +139,7 @@ void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourh
     return;
   for (int e : prism.own_edges)
     if (e >= 0)
-      listEdge(e, segment, near, wide);
+      listEdge(e, prism.has_moved, segment, near, wide);
   // Of the places that the node may have, no more than their distance from the triangle.
   const double share = near.reach > 0.0 ? near.reach / near.length : 0.0;
   const Eigen::Array4d above_last = above + share * change;
@@ -154,12 +154,14 @@ void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourh
     near.triangles.push_back({triangle, lower(clear)});
 }
 
-void Detector::listEdge(int wall_edge, const AxisSegment& segment, Neighbourhood& near, double wide) const
+/** @param has_moved of the triangle that the edge belongs to; whatever turns the edge's normal cone counts for that */
+void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near,
+                        double wide) const
 {
   if (!canMeet(segment, wall_edge, wide, wide))
     return;
   const EdgeBall& ball = edge_balls_[wall_edge];
-  double clear = ball.has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
+  double clear = has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
   if (clear >= kRoom + kListGuard)
     return;
   const SegmentPair pair =
