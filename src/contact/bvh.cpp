@@ -21,10 +21,11 @@ constexpr std::size_t kHandful = 128;      // triangles that are collected at on
 constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
+/** By one or two steps of single precision, at most. */
 float roundedDown(double x)
 {
   const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) > x ? std::nextafter(nearest, -kNone) : nearest;
+  return nearest - std::numeric_limits<float>::epsilon() * std::abs(nearest) - std::numeric_limits<float>::min();
 }
 
 float roundedUp(double x)

@@ -215,7 +215,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
-  makeRoom(query);
+  renewLists(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -435,7 +435,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double limit_begin = query.radius[index] + query.marginAt(index);
   const double limit_end = query.radius[index + 1] + query.marginAt(index + 1);
   Feature feature;
-  const Neighbourhood& near = near_[placeFromTip(query, index)];  // its first node was looked at already
+  const Neighbourhood& near = neighbourhood(query, index);
   if (near.edges.empty())
     return;
   const AxisSegment segment(a, b);
@@ -515,7 +515,7 @@ double Detector::wallDistance(const Query& query, std::size_t index, double fart
 
 void Detector::freeDistances(const Query& query, ContactSet& set)
 {
-  makeRoom(query);
+  renewLists(query);
   const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
   if (nearest_.size() < whole)
     nearest_.resize(whole, -1);

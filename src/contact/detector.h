@@ -87,6 +87,7 @@ private:
     double length = 0.0;                                  ///< of the segment [m]
     double reach = 0.0;                                   ///< of it from its begin: where the node may lie [m]
     double limit = -1.0;          ///< distance up to which features are wanted [m]; negative: not listed yet
+    double room = 0.0;            ///< by which wire and wall may come closer and the lists still hold [m]
     double moved = 0.0;           ///< by which wire and wall have come closer since, at most [m]
     double wall_moved = 0.0;      ///< the wall's share of it [m]
     std::vector<Near> triangles;  ///< that the node may meet, ascending
@@ -162,8 +163,11 @@ private:
 
   /** Index by which a node or edge is remembered. */
   static int placeFromTip(const Query& query, std::size_t index);
-  void makeRoom(const Query& query);
-  const Neighbourhood& neighbourhood(const Query& query, std::size_t index);
+  const Neighbourhood& neighbourhood(const Query& query, std::size_t index) const
+  {
+    return near_[placeFromTip(query, index)];
+  }
+  void renewLists(const Query& query);
   void list(Neighbourhood& near);
   void listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const;
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near, double wide) const;

@@ -13,9 +13,10 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kRoom = 0.15e-3;    // m by which wire and wall may come closer before what is near is listed anew
-constexpr double kSlide = 0.5e-3;    // m more that a wire may slide along itself before, when it is expected to
-constexpr double kSlides = 0.05e-3;  // m since the last list by which it has slid then
+constexpr double kRoom = 0.15e-3;       // m by which wire and wall may come closer before what is near is listed anew
+constexpr double kFirstRoom = 0.05e-3;  // m the first time, when lists of the whole wire are made at once
+constexpr double kSlide = 0.5e-3;       // m more that a wire may slide along itself before, when it is expected to
+constexpr double kSlides = 0.05e-3;     // m since the last list by which it has slid then
 // m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
 constexpr double kLimitSlack = 0.1e-3;
 constexpr std::size_t kUsual = 16;   // entries of a list
@@ -43,14 +44,14 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
   const auto touches = [&moved](const Neighbourhood& near)
   {
     const double half = 0.5 * near.length;
-    const double room = kRoom - near.wall_moved;
-    const double far = half + room + near.limit + kRoom + kListGuard;
+    const double room = near.room - near.wall_moved;
+    const double far = half + room + near.limit + near.room + kListGuard;
     return near.limit >= 0.0 && room >= 0.0 && moved.exteriorDistance(near.begin + half * near.along) <= far;
   };
   for (Neighbourhood& near : near_)
     if (touches(near))
     {
-      near.wall_moved = anew ? kRoom : near.wall_moved + farthest;
+      near.wall_moved = anew ? near.room : near.wall_moved + farthest;
       for (int e : now_reflex_)
       {
         const auto place = std::lower_bound(near.edges.begin(), near.edges.end(), e,
@@ -59,16 +60,6 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
           near.edges.insert(place, {e, -std::numeric_limits<float>::infinity()});
       }
     }
-}
-
-void Detector::makeRoom(const Query& query)
-{
-  while (near_.size() < query.nodes.size())
-  {
-    near_.emplace_back();
-    near_.back().triangles.reserve(kUsual);
-    near_.back().edges.reserve(kUsual);
-  }
 }
 
 double Detector::Neighbourhood::distanceTo(const Eigen::Vector3d& point, double farthest) const
@@ -81,7 +72,7 @@ bool Detector::Neighbourhood::follows(const Eigen::Vector3d& a, const Eigen::Vec
 {
   // The distance to a segment is convex: between the edge's ends it is no larger than at them.
   moved = std::max(distanceTo(a, reach), distanceTo(b, length)) + wall_moved;
-  return moved < kRoom && wanted <= limit && wanted >= limit - kLimitSlack;
+  return moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
@@ -93,29 +84,40 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
   length += reach;
   begin = slid < 0.0 ? Eigen::Vector3d(a - reach * along) : a;
   listed_at = a;
+  room = limit < 0.0 ? kFirstRoom : kRoom;
   limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;
   moved = wall_moved = 0.0;
   triangles.clear();
   edges.clear();
 }
 
-/** Of a node and the wire's edge that begins there; the tip has none. */
-const Detector::Neighbourhood& Detector::neighbourhood(const Query& query, std::size_t index)
+/** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
+void Detector::renewLists(const Query& query)
 {
-  const std::size_t next = std::min(index + 1, query.nodes.size() - 1);
-  const double limit = std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
-  Neighbourhood& near = near_[placeFromTip(query, index)];
-  if (!near.follows(query.nodes[index], query.nodes[next], limit))
+  const std::size_t count = query.nodes.size();
+  near_.reserve(count);
+  while (near_.size() < count)
   {
+    near_.emplace_back();
+    near_.back().triangles.reserve(kUsual);
+    near_.back().edges.reserve(kUsual);
+  }
+  for (std::size_t index = 0; index < count; ++index)
+  {
+    const std::size_t next = std::min(index + 1, count - 1);  // the tip has no edge
+    const double limit =
+        std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
+    Neighbourhood& near = near_[placeFromTip(query, index)];
+    if (near.follows(query.nodes[index], query.nodes[next], limit))
+      continue;
     near.start(query.nodes[index], query.nodes[next], limit);
     list(near);
   }
-  return near;
 }
 
 void Detector::list(Neighbourhood& near)
 {
-  const double wide = near.limit + kRoom + kListGuard;
+  const double wide = near.limit + near.room + kListGuard;
   const AxisSegment segment(near.begin, near.end());
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();
@@ -150,7 +152,7 @@ void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourh
   double clear = std::sqrt(height * height + beside * beside) - near.limit;
   if (!prism.has_moved)
     clear = std::max(clear, coneClearance(low, high, beside, prism.bulge, near.limit));
-  if (clear < kRoom + kListGuard)
+  if (clear < near.room + kListGuard)
     near.triangles.push_back({triangle, lower(clear)});
 }
 
@@ -162,14 +164,14 @@ void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segmen
     return;
   const EdgeBall& ball = edge_balls_[wall_edge];
   double clear = has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
-  if (clear >= kRoom + kListGuard)
+  if (clear >= near.room + kListGuard)
     return;
   const SegmentPair pair =
       closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
   const Eigen::Vector3d apart =
       segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
   clear = std::max(clear, apart.norm() - near.limit);
-  if (clear < kRoom + kListGuard)
+  if (clear < near.room + kListGuard)
     near.edges.push_back({wall_edge, lower(clear)});
 }
 

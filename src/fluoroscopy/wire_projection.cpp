@@ -46,12 +46,14 @@ struct WireProjection::Offsets
   {
     for (int i = 0; i < kSamples; ++i)
     {
-      x[static_cast<std::size_t>(i)] = ((i + 0.5) / kSamples - 0.5) / focal_length;
-      y[static_cast<std::size_t>(i)] = (0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) / focal_length;
+      const double right = ((i + 0.5) / kSamples - 0.5) / focal_length;
+      const double up = (0.5 - ((i * kLatticeStep) % kSamples + 0.5) / kSamples) / focal_length;
+      x[static_cast<std::size_t>(i)] = static_cast<float>(right);
+      y[static_cast<std::size_t>(i)] = static_cast<float>(up);
     }
   }
 
-  std::array<double, kPadded> x{}, y{};
+  std::array<float, kPadded> x{}, y{};
 };
 
 /** One mitred cylinder in the optical frame. */
@@ -72,7 +74,8 @@ struct WireProjection::Edge
 };
 
 /** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loop
- *  becomes vector code. */
+ *  becomes vector code. By what a ray differs from the pixel's centre ray, and how far beyond the edge's middle
+ *  something lies along it, single precision is enough for. */
 class WireProjection::Chords
 {
 public:
@@ -83,7 +86,8 @@ public:
       across_(edge.begin - edge.begin.dot(edge.axis) * edge.axis),
       begin_{edge.begin_normal, edge.begin_normal.dot(edge.begin)},
       end_{-edge.end_normal, -edge.end_normal.dot(edge.end)},
-      square_radius_(edge.radius * edge.radius),
+      depth_(0.5 * (edge.begin.z() + edge.end.z())),
+      square_radius_(static_cast<float>(edge.radius * edge.radius)),
       attenuation_(edge.attenuation)
   {
   }
@@ -91,43 +95,58 @@ public:
   /** Adds to every sample's optical depth. @param ray through the pixel's centre, z = 1 */
   void add(const Eigen::Vector3d& ray, float* depth) const
   {
-    const Linear axis(axis_), moment(moment_), across(across_), begin(begin_.normal), end(end_.normal);
-    const double begin_offset = begin_.offset, end_offset = end_.offset;
-    const double square_radius = square_radius_, attenuation = attenuation_;
-    const double ray_x = ray.x(), ray_y = ray.y();
-    const double* offset_x = offsets_.x.data();
-    const double* offset_y = offsets_.y.data();
+    const double along = axis_.dot(ray), square = ray.squaredNorm(), free = square - along * along;
+    const double length = std::sqrt(square);
+    const double slope_begin = begin_.normal.dot(ray), slope_end = end_.normal.dot(ray);
+    const Eigen::Vector3d turn = ray - along * axis_;  // half of A's gradient
+    const Linear a(2.0 * turn, free), h(moment_, moment_.dot(ray));
+    // Beyond the edge's middle: of the closest place to the axis, times A; of the planes, times their slopes.
+    const Linear closest(across_ - 2.0 * depth_ * turn, across_.dot(ray) - depth_ * free);
+    const Linear slope0(begin_.normal, slope_begin), slope1(end_.normal, slope_end);
+    const Linear rest0(-depth_ * begin_.normal, begin_.offset - depth_ * slope_begin);
+    const Linear rest1(-depth_ * end_.normal, end_.offset - depth_ * slope_end);
+    const Linear per_chord(attenuation_ / length * ray, attenuation_ * length);
+    const auto axis_x = static_cast<float>(axis_.x()), axis_y = static_cast<float>(axis_.y());
+    const auto middle_depth = static_cast<float>(depth_), least = static_cast<float>(kParallel * square);
+    const float square_radius = square_radius_;
+    const float* offset_x = offsets_.x.data();
+    const float* offset_y = offsets_.y.data();
     for (std::size_t i = 0; i < kPadded; ++i)
     {
-      const double x = ray_x + offset_x[i], y = ray_y + offset_y[i];
-      const double square = x * x + y * y + 1.0;
-      const double along = axis.at(x, y);
-      const double least = 1e-12 * square, free = square - along * along;
-      const double a = free > least ? free : least;
-      const double h = moment.at(x, y);
-      const double discriminant = a * square_radius - h * h;
-      const double half = std::sqrt(discriminant > 0.0 ? discriminant : 0.0) / a;
-      const double middle = across.at(x, y) / a;
-      const double slope0 = begin.at(x, y) + 0.0, slope1 = end.at(x, y) + 0.0;  // no −0
+      const float x = offset_x[i], y = offset_y[i];
+      const float turned = axis_x * x + axis_y * y;
+      const float second_order = x * x + y * y - turned * turned;  // of A
+      const float free_here = a.at(x, y) + second_order;
+      const float inverse = 1.0F / (free_here > least ? free_here : least);
+      const float off = h.at(x, y);
+      const float discriminant = free_here * square_radius - off * off;
+      const float half = std::sqrt(discriminant > 0.0F ? discriminant : 0.0F) * inverse;
+      const float middle = (closest.at(x, y) - middle_depth * second_order) * inverse;
+      const float s0 = slope0.at(x, y) + 0.0F, s1 = slope1.at(x, y) + 0.0F;  // no −0
       // What is kept has slope·t ≥ offset.
-      const double cut0 = begin_offset / slope0, cut1 = end_offset / slope1;
-      double from = middle - half, to = middle + half;
-      from = slope0 >= 0.0 && cut0 > from ? cut0 : from;
-      to = slope0 < 0.0 && cut0 < to ? cut0 : to;
-      from = slope1 >= 0.0 && cut1 > from ? cut1 : from;
-      to = slope1 < 0.0 && cut1 < to ? cut1 : to;
-      const double chord = to > from && free > least ? to - from : 0.0;
-      depth[i] += static_cast<float>(attenuation * (chord * std::sqrt(square)));
+      const float cut0 = rest0.at(x, y) / s0, cut1 = rest1.at(x, y) / s1;
+      float from = middle - half, to = middle + half;
+      from = s0 >= 0.0F && cut0 > from ? cut0 : from;
+      to = s0 < 0.0F && cut0 < to ? cut0 : to;
+      from = s1 >= 0.0F && cut1 > from ? cut1 : from;
+      to = s1 < 0.0F && cut1 < to ? cut1 : to;
+      const float chord = to > from && free_here > least ? to - from : 0.0F;
+      depth[i] += chord * per_chord.at(x, y);
     }
   }
 
 private:
-  /** A vector's product with a ray (x, y, 1). */
+  static constexpr double kParallel = 1e-12;  // of |d|²: with less across the axis a ray meets no cylinder
+
+  /** Something that changes evenly over the pixel. */
   struct Linear
   {
-    explicit Linear(const Eigen::Vector3d& v) : x(v.x()), y(v.y()), z(v.z()) {}
-    double at(double ray_x, double ray_y) const { return ray_x * x + ray_y * y + z; }
-    double x, y, z;
+    Linear(const Eigen::Vector3d& gradient, double centre)
+      : x(static_cast<float>(gradient.x())), y(static_cast<float>(gradient.y())), z(static_cast<float>(centre))
+    {
+    }
+    float at(float right, float up) const { return right * x + up * y + z; }
+    float x, y, z;
   };
   struct Plane
   {
@@ -138,7 +157,9 @@ private:
   const Offsets& offsets_;
   Eigen::Vector3d axis_, moment_, across_;
   Plane begin_, end_;
-  double square_radius_, attenuation_;
+  double depth_;  ///< of the edge's middle: t there on rays with z = 1 [m]
+  float square_radius_;
+  double attenuation_;
 };
 
 float* WireProjection::samplesOf(std::uint32_t pixel)
