@@ -17,9 +17,8 @@ namespace
 {
 
 constexpr int kMaxDepth = 384;             // of places that wait to be looked at
-constexpr std::size_t kHandful = 128;      // triangles that are collected at once
 constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
-constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr float kNone = 1e18F;             // m: where the boxes of empty places end
 
 /** By one or two steps of single precision, at most. */
 float roundedDown(double x)
@@ -56,6 +55,15 @@ Bvh::Box::Box(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   }
 }
 
+Bvh::Box::Box(const Node& node)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = node.low[axis].minCoeff();
+    high[axis] = node.high[axis].maxCoeff();
+  }
+}
+
 Bvh::Bvh(const Wall& wall) : wall_(&wall)
 {
   std::vector<fcl::Triangle> triangles;
@@ -70,6 +78,7 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   place_of_.resize(wall.triangles.size());
   copy(binary, 0, {});
   marked_.assign(nodes_.size(), 0);
+  setCones(std::vector<Cone>(wall.triangles.size()));
 }
 
 /** Copies what is below a node of the binary tree, opening the largest boxes until there are four.
@@ -144,58 +153,15 @@ void Bvh::refit(const std::vector<int>& triangles)
   for (int n : ancestors_)
   {
     marked_[n] = 0;
-    const Place above = above_[n];
-    for (int axis = 0; axis < 3 && above.node >= 0; ++axis)
-    {
-      nodes_[above.node].low[axis][above.lane] = nodes_[n].low[axis].minCoeff();
-      nodes_[above.node].high[axis][above.lane] = nodes_[n].high[axis].maxCoeff();
-    }
+    if (above_[n].node >= 0)
+      setBox(above_[n], Box(nodes_[n]));
   }
-}
-
-/** How far four boxes are from another one along an axis; negative where they overlap [m]. */
-inline Bvh::Lanes Bvh::gaps(const Node& node, const Box& box, int axis)
-{
-  return (node.low[axis] - box.high[axis]).max(box.low[axis] - node.high[axis]);
 }
 
 Bvh::Lanes Bvh::squaredGaps(const Node& node, const Box& box)
 {
   return gaps(node, box, 0).max(0.0F).square() + gaps(node, box, 1).max(0.0F).square() +
          gaps(node, box, 2).max(0.0F).square();
-}
-
-void Bvh::collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const
-{
-  const Box box(low, high);
-  std::array<int, kMaxDepth> stack;
-  int top = 0;
-  stack[top++] = 0;
-  std::array<int, kHandful> found;
-  std::size_t count = 0;
-  const auto handOver = [&found, &count, &triangles]
-  {
-    triangles.insert(triangles.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
-    count = 0;
-  };
-  while (top > 0)
-  {
-    const Node& node = nodes_[stack[--top]];
-    const Lanes apart = gaps(node, box, 0).max(gaps(node, box, 1)).max(gaps(node, box, 2));
-    if (count + kWidth > kHandful)
-      handOver();
-    // Without branches, which no processor could predict here: what is apart is overwritten.
-    for (int lane = 0; lane < kWidth; ++lane)
-    {
-      const int child = node.child[lane];
-      const bool near = apart[lane] <= 0.0F;
-      stack[top] = child;
-      found[count] = ~child;
-      top += static_cast<int>(near && child >= 0);
-      count += static_cast<std::size_t>(near && child < 0);
-    }
-  }
-  handOver();
 }
 
 double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,15 +15,38 @@ namespace endovascular_sim::contact
  *
  *  FCL builds a binary tree; it is copied into nodes of four boxes each, which are looked at together (Wald et al.
  * 2008). The walk is ours: FCL's own sphere query copies and refits the whole model on every call and reports no depth
- * for it (docs/CONTACT.md). Boxes are of single precision, rounded outwards, so that nothing is missed. */
+ * for it (docs/CONTACT.md). Boxes are of single precision, rounded outwards, so that nothing is missed. Cones round the
+ * normals of what is in a box tell from where it can be closest at all (spatialised normal cones: Johnson & Cohen
+ * 2001). */
 class Bvh
 {
 public:
   /** @param wall must outlive the tree */
   explicit Bvh(const Wall& wall);
 
-  /** Appends every triangle whose box meets the box from @p low to @p high [m]. */
-  void collectBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, std::vector<int>& triangles) const;
+  /** How far off a triangle's normal a point in front of it can lie, seen from the place that is the closest one of the
+   * wall around it: tangents, infinite for anywhere. */
+  struct Cone
+  {
+    double facet = std::numeric_limits<double>::infinity();  ///< from the triangle, its border included
+    double ridge = std::numeric_limits<double>::infinity();  ///< from one of its ridges; negative: it has none
+  };
+  /** Without them, and after openCones, anything may be closest from anywhere. @param cones per triangle */
+  void setCones(const std::vector<Cone>& cones);
+  void openCones(const std::vector<int>& triangles);
+
+  /** Places along a segment from which it is looked for what is closest. */
+  struct View
+  {
+    Eigen::Vector3d begin;
+    Eigen::Vector3d along;  ///< to the end [m]
+    double farthest = 0.0;  ///< from the places, how far what is wanted may lie [m]
+    double room = 0.0;      ///< by which the places may still move, contained in the former [m]
+  };
+  /** Appends every triangle that may be closest to a place of @p facets, and every one of which a ridge may be to one
+   * of
+   * @p ridges; in any order, none twice, some that cannot are among them. */
+  void collect(const View& facets, const View& ridges, std::vector<int>& triangles, std::vector<int>& ridged) const;
 
   /** The triangle nearest to a point. */
   struct Nearest
@@ -50,6 +74,14 @@ private:
     std::array<int, kWidth> child;
   };
 
+  /** Cones round the normals of what is in a node's boxes. */
+  struct alignas(64) Cones
+  {
+    std::array<Lanes, 3> axis;  ///< unit
+    Lanes radius;               ///< of the balls round the boxes [m]
+    Lanes facet, ridge;         ///< as of a Cone, about the axis; kOpen: anywhere
+  };
+
   /** A place in a node. */
   struct Place
   {
@@ -62,7 +94,11 @@ private:
   {
     std::array<float, 3> low, high;
     Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+    explicit Box(const Node& node);  ///< round all of a node's boxes
   };
+
+  /** A view in lanes' precision. */
+  struct Sight;
 
   /** What of the binary tree the copy needs. */
   struct Binary;
@@ -70,10 +106,18 @@ private:
   int copy(const Binary& binary, int root, Place above);
   void setBox(Place place, const Box& box);
   void fitTriangle(int triangle);
-  static Lanes gaps(const Node& node, const Box& box, int axis);
+  void setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone);
+  void widenCone(int node);
+  /** How far four boxes are from another one along an axis; negative where they overlap [m]. */
+  static Lanes gaps(const Node& node, const Box& box, int axis)
+  {
+    return (node.low[axis] - box.high[axis]).max(box.low[axis] - node.high[axis]);
+  }
   static Lanes squaredGaps(const Node& node, const Box& box);
 
   std::vector<Node> nodes_;      ///< children stand behind their parents
+  std::vector<Cones> cones_;     ///< of each node
+  std::vector<char> pointed_;    ///< per node: whether its cones can hide anything
   std::vector<Place> place_of_;  ///< of each triangle
   std::vector<Place> above_;     ///< of each node; the root has none
   std::vector<char> marked_;     ///< per node

@@ -64,6 +64,11 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   edge_balls_.reserve(wall_.edges.size());
   for (const WallEdge& edge : wall_.edges)
     edge_balls_.push_back(ballOf(edge));
+  std::vector<Bvh::Cone> cones;
+  cones.reserve(prisms_.size());
+  for (std::size_t t = 0; t < prisms_.size(); ++t)
+    cones.push_back(coneOf(static_cast<int>(t)));
+  bvh_.setCones(cones);
 }
 
 Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
@@ -107,8 +112,7 @@ void Detector::makePrism(int triangle)
   }
 }
 
-/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. So
- * it is only beyond the border that this tells of where no corner is obtuse. */
+/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. */
 double Detector::bulgeOf(int triangle) const
 {
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
@@ -121,17 +125,28 @@ double Detector::bulgeOf(int triangle) const
   double widest = 0.0;  // rad
   for (int k = 0; k < 3; ++k)
   {
-    const Eigen::Vector3d& corner = wall_.vertices[corners[k]];
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
     const double tilt =
         angleBetween(wall_.normals[triangle], wall_.vertex_normals[corners[k]]) + wall_.vertex_cone[corners[k]];
-    const bool obtuse =
-        (wall_.vertices[corners[(k + 1) % 3]] - corner).dot(wall_.vertices[corners[(k + 2) % 3]] - corner) < 0.0;
-    if (std::abs(angle) > kSharp || tilt > kSharp || obtuse)
+    if (std::abs(angle) > kSharp || tilt > kSharp)
       return std::numeric_limits<double>::infinity();
     widest = std::max({widest, angle, wall_.vertex_reflex[corners[k]] != 0 ? tilt : 0.0});
   }
   return std::tan(widest);
+}
+
+Bvh::Cone Detector::coneOf(int triangle) const
+{
+  const Prism& prism = prisms_[triangle];
+  Bvh::Cone cone{prism.bulge, -1.0};
+  for (int e : prism.own_edges)
+    if (e >= 0)
+    {
+      const double tilt = angleBetween(wall_.normals[triangle], wall_.edges[e].normal);
+      const double widest = tilt + std::atan(edge_balls_[e].lean);
+      cone.ridge = std::max(cone.ridge, widest > kSharp ? std::numeric_limits<double>::infinity() : std::tan(widest));
+    }
+  return cone;
 }
 
 void Detector::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
@@ -148,26 +163,28 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
     farthest = std::max(farthest, (positions[k] - wall_.vertices[indices[k]]).norm());
   }
   const Wall::Changes& changes = wall_.moveVertices(indices, positions);
-  const bool anew = renewPrisms(changes.around);
+  renewPrisms(changes.around);
+  const bool anew = !now_moving_.empty();
   for (int t : anew ? changes.around : changes.triangles)
     for (int corner = 0; corner < 3; ++corner)
       moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
   renewEdges(changes.edges);
   bvh_.refit(changes.triangles);
+  bvh_.openCones(now_moving_);
   keepUp(moved, farthest, anew);
 }
 
-/** @return whether one of them has never moved before */
-bool Detector::renewPrisms(const std::vector<int>& changed)
+/** Notes those that have never moved before. */
+void Detector::renewPrisms(const std::vector<int>& changed)
 {
-  bool anew = false;
+  now_moving_.clear();
   for (int t : changed)
   {
     makePrism(t);
-    anew = anew || !prisms_[t].has_moved;
+    if (!prisms_[t].has_moved)
+      now_moving_.push_back(t);
     prisms_[t].has_moved = true;
   }
-  return anew;
 }
 
 /** Notes those that have become reflex. */

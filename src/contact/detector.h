@@ -169,17 +169,18 @@ private:
   }
   void renewLists(const Query& query);
   void list(Neighbourhood& near);
-  void listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const;
-  void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near, double wide) const;
+  void listTriangle(int triangle, Neighbourhood& near) const;
+  void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
+  Bvh::Cone coneOf(int triangle) const;
   EdgeBall ballOf(const WallEdge& edge) const;
   double leanOf(const WallEdge& edge) const;
   void renewEdges(const std::vector<int>& changed);
-  bool renewPrisms(const std::vector<int>& changed);
+  void renewPrisms(const std::vector<int>& changed);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew);
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
@@ -201,7 +202,8 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, now_reflex_;
+  std::vector<int> collected_, collected_ridged_;
+  std::vector<int> now_reflex_, now_moving_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;
 };

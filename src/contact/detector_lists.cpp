@@ -119,35 +119,32 @@ void Detector::list(Neighbourhood& near)
 {
   const double wide = near.limit + near.room + kListGuard;
   const AxisSegment segment(near.begin, near.end());
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(wide);
   collected_.clear();
-  bvh_.collectBox(segment.begin.cwiseMin(segment.end) - around, segment.begin.cwiseMax(segment.end) + around,
-                  collected_);
+  collected_ridged_.clear();
+  bvh_.collect({near.begin, near.reach * near.along, wide, near.room}, {near.begin, segment.along, wide, near.room},
+               collected_, collected_ridged_);
   for (int t : collected_)
-    listTriangle(t, segment, near, wide);
+    listTriangle(t, near);
+  for (int t : collected_ridged_)
+    for (int e : prisms_[t].own_edges)
+      if (e >= 0)
+        listEdge(e, prisms_[t].has_moved, segment, near);
   // Sorted, so that results do not depend on how the tree is walked.
   const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
   std::sort(near.triangles.begin(), near.triangles.end(), by_index);
   std::sort(near.edges.begin(), near.edges.end(), by_index);
 }
 
-/** A triangle that the node may meet, and those of its own edges that the wire's edge may. */
-void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourhood& near, double wide) const
+/** A triangle that the node may meet. */
+void Detector::listTriangle(int triangle, Neighbourhood& near) const
 {
   const Prism& prism = prisms_[triangle];
-  const Eigen::Array4d above = prism.heights(segment.begin);
-  const Eigen::Array4d change = prism.heights(segment.end) - above;
-  if (std::min(above[0], above[0] + change[0]) > wide || std::max(above[0], above[0] + change[0]) < -wide)
-    return;
-  for (int e : prism.own_edges)
-    if (e >= 0)
-      listEdge(e, prism.has_moved, segment, near, wide);
+  const Eigen::Array4d first = prism.heights(near.begin);
+  const Eigen::Array4d last = near.reach > 0.0 ? prism.heights(near.begin + near.reach * near.along) : first;
+  const double low = std::min(first[0], last[0]);
+  const double high = std::max(first[0], last[0]);
   // Of the places that the node may have, no more than their distance from the triangle.
-  const double share = near.reach > 0.0 ? near.reach / near.length : 0.0;
-  const Eigen::Array4d above_last = above + share * change;
-  const double low = std::min(above[0], above_last[0]);
-  const double high = std::max(above[0], above_last[0]);
-  const double beside = std::max(0.0, outsideOf(above.max(above_last)));
+  const double beside = std::max(0.0, outsideOf(first.max(last)));
   const double height = std::max({0.0, low, -high});
   double clear = std::sqrt(height * height + beside * beside) - near.limit;
   if (!prism.has_moved)
@@ -156,10 +153,11 @@ void Detector::listTriangle(int triangle, const AxisSegment& segment, Neighbourh
     near.triangles.push_back({triangle, lower(clear)});
 }
 
-/** @param has_moved of the triangle that the edge belongs to; whatever turns the edge's normal cone counts for that */
-void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near,
-                        double wide) const
+/** A ridge that the wire's edge may meet. @param has_moved of the triangle that it belongs to; whatever turns the
+ *  ridge's normal cone counts for that */
+void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const
 {
+  const double wide = near.limit + near.room + kListGuard;
   if (!canMeet(segment, wall_edge, wide, wide))
     return;
   const EdgeBall& ball = edge_balls_[wall_edge];

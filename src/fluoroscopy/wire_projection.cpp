@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 
@@ -59,11 +60,31 @@ struct WireProjection::Offsets
 /** One mitred cylinder in the optical frame. */
 struct WireProjection::Edge
 {
+  /** Cut straight. @pre its ends differ */
+  Edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double edge_radius, double coefficient)
+    : begin(from),
+      end(to),
+      axis((to - from).normalized()),
+      begin_normal(axis),
+      end_normal(axis),
+      moment(axis.cross(begin)),
+      across(begin - begin.dot(axis) * axis),
+      depth(0.5 * (begin.z() + end.z())),
+      radius(edge_radius),
+      attenuation(coefficient)
+  {
+  }
+
   Eigen::Vector3d begin, end;                // ends of the axis [m]
   Eigen::Vector3d axis;                      // unit
   Eigen::Vector3d begin_normal, end_normal;  // of the planes that cut it, both along the axis
+  Eigen::Vector3d moment, across;            // a × p and p⊥ of the formula [m]
+  double depth;                              // of the middle: t there [m]
   double radius;                             // [m]
   double attenuation;                        // [1/m]
+
+  /** A ray's part across the axis. */
+  Eigen::Vector3d turned(const Eigen::Vector3d& ray) const { return ray - axis.dot(ray) * axis; }
 
   /** How far a plane that cuts the cylinder reaches beyond its axis's end, along the axis [m]. */
   double mitreDepth(const Eigen::Vector3d& normal) const
@@ -73,93 +94,138 @@ struct WireProjection::Edge
   }
 };
 
-/** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loop
- *  becomes vector code. By what a ray differs from the pixel's centre ray, and how far beyond the edge's middle
+/** Something that changes evenly over a pixel. */
+struct WireProjection::Linear
+{
+  Linear(const Eigen::Vector3d& gradient, double centre)
+    : x(static_cast<float>(gradient.x())), y(static_cast<float>(gradient.y())), z(static_cast<float>(centre))
+  {
+  }
+  float at(float right, float up) const { return right * x + up * y + z; }
+  /** How far it may differ from the centre's. @param reach of the pixel to every side */
+  float spread(float reach) const { return reach * (std::abs(x) + std::abs(y)); }
+  float x, y, z;
+};
+
+/** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loops
+ *  become vector code. By what a ray differs from the pixel's centre ray, and how far beyond the edge's middle
  *  something lies along it, single precision is enough for. */
 class WireProjection::Chords
 {
 public:
-  Chords(const Edge& edge, const Offsets& offsets)
-    : offsets_(offsets),
-      axis_(edge.axis),
-      moment_(edge.axis.cross(edge.begin)),
-      across_(edge.begin - edge.begin.dot(edge.axis) * edge.axis),
-      begin_{edge.begin_normal, edge.begin_normal.dot(edge.begin)},
-      end_{-edge.end_normal, -edge.end_normal.dot(edge.end)},
-      depth_(0.5 * (edge.begin.z() + edge.end.z())),
-      square_radius_(static_cast<float>(edge.radius * edge.radius)),
-      attenuation_(edge.attenuation)
+  /** @param ray through the pixel's centre, z = 1 */
+  Chords(const Edge& edge, const Eigen::Vector3d& ray)
+    : a_(2.0 * edge.turned(ray), edge.turned(ray).dot(ray)),
+      off_(edge.moment, edge.moment.dot(ray)),
+      closest_(edge.across - 2.0 * edge.depth * edge.turned(ray),
+               edge.across.dot(ray) - edge.depth * edge.turned(ray).dot(ray)),
+      begin_(edge.begin_normal, edge.begin_normal.dot(edge.begin), edge.depth, ray),
+      end_(-edge.end_normal, -edge.end_normal.dot(edge.end), edge.depth, ray),
+      per_chord_(edge.attenuation / ray.norm() * ray, edge.attenuation * ray.norm()),
+      axis_x_(static_cast<float>(edge.axis.x())),
+      axis_y_(static_cast<float>(edge.axis.y())),
+      depth_(static_cast<float>(edge.depth)),
+      least_(static_cast<float>(kParallel * ray.squaredNorm())),
+      radius_(static_cast<float>(edge.radius))
   {
   }
 
-  /** Adds to every sample's optical depth. @param ray through the pixel's centre, z = 1 */
-  void add(const Eigen::Vector3d& ray, float* depth) const
+  enum class Kept
   {
-    const double along = axis_.dot(ray), square = ray.squaredNorm(), free = square - along * along;
-    const double length = std::sqrt(square);
-    const double slope_begin = begin_.normal.dot(ray), slope_end = end_.normal.dot(ray);
-    const Eigen::Vector3d turn = ray - along * axis_;  // half of A's gradient
-    const Linear a(2.0 * turn, free), h(moment_, moment_.dot(ray));
-    // Beyond the edge's middle: of the closest place to the axis, times A; of the planes, times their slopes.
-    const Linear closest(across_ - 2.0 * depth_ * turn, across_.dot(ray) - depth_ * free);
-    const Linear slope0(begin_.normal, slope_begin), slope1(end_.normal, slope_end);
-    const Linear rest0(-depth_ * begin_.normal, begin_.offset - depth_ * slope_begin);
-    const Linear rest1(-depth_ * end_.normal, end_.offset - depth_ * slope_end);
-    const Linear per_chord(attenuation_ / length * ray, attenuation_ * length);
-    const auto axis_x = static_cast<float>(axis_.x()), axis_y = static_cast<float>(axis_.y());
-    const auto middle_depth = static_cast<float>(depth_), least = static_cast<float>(kParallel * square);
-    const float square_radius = square_radius_;
-    const float* offset_x = offsets_.x.data();
-    const float* offset_y = offsets_.y.data();
+    kNothing,  ///< by the planes that cut the edge, of all chords of the pixel
+    kSome,
+    kAll,
+  };
+  /** @param reach of the pixel to every side, of rays with z = 1 */
+  Kept kept(float reach) const
+  {
+    const float second_order = 2.0F * reach * reach;
+    const float a = a_.z - a_.spread(reach) - second_order;
+    if (a <= least_)
+      return Kept::kSome;
+    const float middle = closest_.z / a_.z;
+    const float wide = (closest_.spread(reach) + depth_ * second_order + std::abs(middle) * (a_.z - a)) / a;
+    const float half = kRounding * (wide + radius_ / std::sqrt(a));  // of the t of all chords
+    const auto [begin_low, begin_high] = begin_.range(middle, half, reach);
+    const auto [end_low, end_high] = end_.range(middle, half, reach);
+    if (begin_high < 0.0F || end_high < 0.0F)
+      return Kept::kNothing;
+    return begin_low > 0.0F && end_low > 0.0F ? Kept::kAll : Kept::kSome;
+  }
+
+  /** Adds to every sample's optical depth. */
+  void addWhole(const Offsets& offsets, float* depth) const
+  {
+    const Chords c = *this;  // nothing that is written to can be part of it
+    const float* offset_x = offsets.x.data();
+    const float* offset_y = offsets.y.data();
     for (std::size_t i = 0; i < kPadded; ++i)
     {
       const float x = offset_x[i], y = offset_y[i];
-      const float turned = axis_x * x + axis_y * y;
+      const float turned = c.axis_x_ * x + c.axis_y_ * y;
+      const float a = c.a_.at(x, y) + (x * x + y * y - turned * turned);
+      const float off = c.off_.at(x, y);
+      const float discriminant = a * c.radius_ * c.radius_ - off * off;
+      const float chord = 2.0F * std::sqrt(discriminant > 0.0F ? discriminant : 0.0F) / a;
+      depth[i] += chord * c.per_chord_.at(x, y);
+    }
+  }
+
+  void addCut(const Offsets& offsets, float* depth) const
+  {
+    const Chords c = *this;
+    const float* offset_x = offsets.x.data();
+    const float* offset_y = offsets.y.data();
+    for (std::size_t i = 0; i < kPadded; ++i)
+    {
+      const float x = offset_x[i], y = offset_y[i];
+      const float turned = c.axis_x_ * x + c.axis_y_ * y;
       const float second_order = x * x + y * y - turned * turned;  // of A
-      const float free_here = a.at(x, y) + second_order;
-      const float inverse = 1.0F / (free_here > least ? free_here : least);
-      const float off = h.at(x, y);
-      const float discriminant = free_here * square_radius - off * off;
+      const float a = c.a_.at(x, y) + second_order;
+      const float inverse = 1.0F / (a > c.least_ ? a : c.least_);
+      const float off = c.off_.at(x, y);
+      const float discriminant = a * c.radius_ * c.radius_ - off * off;
       const float half = std::sqrt(discriminant > 0.0F ? discriminant : 0.0F) * inverse;
-      const float middle = (closest.at(x, y) - middle_depth * second_order) * inverse;
-      const float s0 = slope0.at(x, y) + 0.0F, s1 = slope1.at(x, y) + 0.0F;  // no −0
+      const float middle = (c.closest_.at(x, y) - c.depth_ * second_order) * inverse;
+      const float slope0 = c.begin_.slope.at(x, y) + 0.0F, slope1 = c.end_.slope.at(x, y) + 0.0F;  // no −0
       // What is kept has slope·t ≥ offset.
-      const float cut0 = rest0.at(x, y) / s0, cut1 = rest1.at(x, y) / s1;
+      const float cut0 = c.begin_.offset.at(x, y) / slope0, cut1 = c.end_.offset.at(x, y) / slope1;
       float from = middle - half, to = middle + half;
-      from = s0 >= 0.0F && cut0 > from ? cut0 : from;
-      to = s0 < 0.0F && cut0 < to ? cut0 : to;
-      from = s1 >= 0.0F && cut1 > from ? cut1 : from;
-      to = s1 < 0.0F && cut1 < to ? cut1 : to;
-      const float chord = to > from && free_here > least ? to - from : 0.0F;
-      depth[i] += chord * per_chord.at(x, y);
+      from = slope0 >= 0.0F && cut0 > from ? cut0 : from;
+      to = slope0 < 0.0F && cut0 < to ? cut0 : to;
+      from = slope1 >= 0.0F && cut1 > from ? cut1 : from;
+      to = slope1 < 0.0F && cut1 < to ? cut1 : to;
+      const float chord = to > from && a > c.least_ ? to - from : 0.0F;
+      depth[i] += chord * c.per_chord_.at(x, y);
     }
   }
 
 private:
   static constexpr double kParallel = 1e-12;  // of |d|²: with less across the axis a ray meets no cylinder
+  static constexpr float kRounding = 1.001F;
 
-  /** Something that changes evenly over the pixel. */
-  struct Linear
-  {
-    Linear(const Eigen::Vector3d& gradient, double centre)
-      : x(static_cast<float>(gradient.x())), y(static_cast<float>(gradient.y())), z(static_cast<float>(centre))
-    {
-    }
-    float at(float right, float up) const { return right * x + up * y + z; }
-    float x, y, z;
-  };
+  /** A plane that cuts the edge, as rays have it: slope·t ≥ offset is kept, t counted from the edge's middle. */
   struct Plane
   {
-    Eigen::Vector3d normal;
-    double offset;  ///< [m]
+    Plane(const Eigen::Vector3d& normal, double place, double middle_depth, const Eigen::Vector3d& ray)
+      : slope(normal, normal.dot(ray)), offset(-middle_depth * normal, place - middle_depth * normal.dot(ray))
+    {
+    }
+    /** Least and largest slope·t − offset of a pixel's rays within t = @p middle ± @p half. */
+    std::pair<float, float> range(float middle, float half, float reach) const
+    {
+      const float centre = slope.z * middle - offset.z;
+      const float spread =
+          std::abs(slope.z) * half + slope.spread(reach) * (std::abs(middle) + half) + offset.spread(reach) + 1e-7F;
+      return {centre - kRounding * spread, centre + kRounding * spread};
+    }
+    Linear slope, offset;
   };
 
-  const Offsets& offsets_;
-  Eigen::Vector3d axis_, moment_, across_;
+  Linear a_, off_, closest_;  ///< A; d·(a×p); d·p⊥ − A·depth
   Plane begin_, end_;
-  double depth_;  ///< of the edge's middle: t there on rays with z = 1 [m]
-  float square_radius_;
-  double attenuation_;
+  Linear per_chord_;  ///< optical depth
+  float axis_x_, axis_y_, depth_, least_, radius_;
 };
 
 float* WireProjection::samplesOf(std::uint32_t pixel)
@@ -236,11 +302,22 @@ private:
 void WireProjection::addEdge(const XRayGeometry& geometry, const Offsets& offsets, const Edge& edge)
 {
   const Footprint footprint(geometry, edge);
-  const Chords chords(edge, offsets);
+  const auto reach = static_cast<float>(0.5 / geometry.focalLength());
   for (int row = footprint.first_row; row <= footprint.last_row; ++row)
     for (int column = footprint.first_column; column <= footprint.last_column; ++column)
-      if (footprint.holds(column, row))
-        chords.add(geometry.ray(column, row), samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column)));
+    {
+      if (!footprint.holds(column, row))
+        continue;
+      const Chords chords(edge, geometry.ray(column, row));
+      const Chords::Kept kept = chords.kept(reach);
+      if (kept == Chords::Kept::kNothing)
+        continue;
+      float* depth = samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column));
+      if (kept == Chords::Kept::kAll)
+        chords.addWhole(offsets, depth);
+      else
+        chords.addCut(offsets, depth);
+    }
 }
 
 void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire)
@@ -248,18 +325,11 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
   std::vector<Edge> edges;
   for (std::size_t j = 0; j + 1 < wire.nodes.size(); ++j)
   {
-    Edge edge{geometry.toOptical(wire.nodes[j]),
-              geometry.toOptical(wire.nodes[j + 1]),
-              {},
-              {},
-              {},
-              0.5 * (wire.radius[j] + wire.radius[j + 1]),
-              wire.attenuation[j]};
-    const double length = (edge.end - edge.begin).norm();
-    if (length <= 0.0)
+    const Eigen::Vector3d begin = geometry.toOptical(wire.nodes[j]);
+    const Eigen::Vector3d end = geometry.toOptical(wire.nodes[j + 1]);
+    if (begin == end)
       continue;
-    edge.axis = (edge.end - edge.begin) / length;
-    edge.begin_normal = edge.end_normal = edge.axis;
+    Edge edge(begin, end, 0.5 * (wire.radius[j] + wire.radius[j + 1]), wire.attenuation[j]);
     if (!edges.empty())
     {
       edge.begin_normal = mitre(edge.axis, edges.back().axis);
@@ -292,13 +362,8 @@ void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRa
   shadow.transmission.resize(pixels_.size());
   for (std::size_t k = 0; k < pixels_.size(); ++k)
   {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kSamples; ++i)
-    {
-      const float depth = optical_depth_[k * kPadded + i];
-      sum += depth == 0.0F ? 1.0 : std::exp(-static_cast<double>(depth));  // most rays at a wire's border pass it
-    }
-    shadow.transmission[k] = sum / kSamples;
+    const Eigen::Map<const Eigen::Array<float, kSamples, 1>> depth(optical_depth_.data() + k * kPadded);
+    shadow.transmission[k] = static_cast<double>((-depth).exp().sum()) / kSamples;
     slot_[pixels_[k]] = -1;
   }
 }

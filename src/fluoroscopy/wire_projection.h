@@ -45,6 +45,7 @@ public:
 private:
   struct Offsets;
   struct Edge;
+  struct Linear;
   class Footprint;
   class Chords;
 

@@ -25,10 +25,9 @@ inline vessel::TriangleMesh bentTube()
   return vessel::tubeMesh(shape);
 }
 
-/** The same with finer facets whose corners are moved in and out by a share of their size. */
-inline vessel::TriangleMesh bumpyTube(double bump)
+/** A wall whose facets' corners are moved in and out by a share of their size. */
+inline vessel::TriangleMesh bumpy(vessel::TriangleMesh mesh, double bump)
 {
-  vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
   const Wall smooth(mesh);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> height(-1.0, 1.0);
@@ -39,6 +38,11 @@ inline vessel::TriangleMesh bumpyTube(double bump)
     mesh.vertices[v] += bump * height(random) * length * smooth.vertex_normals[v];
   }
   return mesh;
+}
+
+inline vessel::TriangleMesh bumpyTube(double bump)
+{
+  return bumpy(vessel::flatSubdivision(bentTube(), 2), bump);
 }
 
 /** Path of a mesh of ENDOVASCULAR_DATA_DIR, empty when it is not there. */
