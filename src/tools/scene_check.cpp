@@ -5,16 +5,19 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "procedure/session_run.h"
 #include "session/scene.h"
+#include "session/scene_vessel.h"
 
 namespace
 {
 
 constexpr auto kUsage = R"(Checks a scene and prints it complete, with every default and included file.
 
-usage: scene_check SCENE.yaml [--set key.path=value ...] [--nodes | --hash]
+usage: scene_check SCENE.yaml [--set key.path=value ...] [--vessel] [--nodes | --hash]
 
   --set key.path=value  replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003
+  --vessel              makes the vessel too, and checks what needs it: the mesh, the entry, branches by their names
   --nodes               prints the nodes that the scene needs instead, one a line
   --hash                prints the scene's hash instead
   --help                prints this
@@ -28,6 +31,19 @@ enum class Output
   kNodes,
   kHash,
 };
+
+void checkVessel(const endovascular_sim::session::Scene& scene)
+{
+  using namespace endovascular_sim;  // NOLINT: inside of one function
+  if (!scene.vessel)
+    return;
+  const vessel::Vessel vessel =
+      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
+  for (const std::string& note : vessel.notes)
+    std::cerr << vessel.source << ": " << note << "\n";
+  const session::EntryPose entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  const procedure::SessionRun goals(scene, vessel, entry.position);
+}
 
 int wrongUse(const std::string& reason)
 {
@@ -59,6 +75,7 @@ int main(int argc, char** argv)
   std::string file;
   std::vector<std::string> overrides;
   Output output = Output::kScene;
+  bool with_vessel = false;
   for (int i = 1; i < argc; ++i)
   {
     const std::string argument = argv[i];
@@ -67,7 +84,9 @@ int main(int argc, char** argv)
       std::cout << kUsage;
       return 0;
     }
-    if (argument == "--nodes")
+    if (argument == "--vessel")
+      with_vessel = true;
+    else if (argument == "--nodes")
       output = Output::kNodes;
     else if (argument == "--hash")
       output = Output::kHash;
@@ -86,7 +105,10 @@ int main(int argc, char** argv)
     return wrongUse("needs a scene file");
   try
   {
-    print(endovascular_sim::session::loadScene(file, overrides), output);
+    const endovascular_sim::session::Scene scene = endovascular_sim::session::loadScene(file, overrides);
+    if (with_vessel)
+      checkVessel(scene);
+    print(scene, output);
   }
   catch (const endovascular_sim::InputError& error)
   {
