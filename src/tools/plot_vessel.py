@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""Draws what `vessel_prepare` made of a mesh: the input and, with its centreline and opened ends, the result as seen from
+the front, and both cut by planes. The tool's OUT_report.json lies beside OUT.obj."""
+
+import argparse
+import json
+import os
+import sys
+
+AXES = "xyz"
+BEFORE, AFTER, CENTRELINE = "#d9604f", "#e8a79d", "#1f6fb0"
+LIGHT = (0.3, 0.4, 0.87)  # towards it, in the picture: right, up, to the viewer
+
+
+def fail(message):
+    """Ends the program with a message for the user."""
+    sys.exit("plot_vessel.py: " + message)
+
+
+def read_obj(path):
+    """Vertices and triangles of an OBJ file; faces with more corners are cut into fans."""
+    vertices, triangles = [], []
+    with open(path) as stream:
+        for line in stream:
+            if line.startswith("v "):
+                vertices.append([float(word) for word in line.split()[1:4]])
+            elif line.startswith("f "):
+                corners = [int(word.split("/")[0]) for word in line.split()[1:]]
+                corners = [c - 1 if c > 0 else len(vertices) + c for c in corners]
+                triangles += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
+    return vertices, triangles
+
+
+def read_stl(path, np):
+    """Corners of a binary STL file's triangles."""
+    with open(path, "rb") as stream:
+        data = stream.read()
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) != 84 + 50 * count:
+        fail(path + ": no binary STL file; convert it to OBJ")
+    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    return np.frombuffer(data, record, count, 84)["corners"].astype(float)
+
+
+def read_corners(path, unit, np):
+    """Corners of a mesh's triangles [m], triangles by corners by axes."""
+    if not os.path.isfile(path):
+        fail(path + ": there is no such file")
+    if path.lower().endswith(".stl"):
+        return unit * read_stl(path, np)
+    vertices, triangles = read_obj(path)
+    if not triangles:
+        fail(path + ": no triangles; OBJ and binary STL are read")
+    return unit * np.array(vertices)[np.array(triangles)]
+
+
+def draw_surface(axis, corners, view, colour, alpha, np):
+    """Triangles from the farthest to the nearest, in the light. view: the axes that point right and up."""
+    from matplotlib.collections import PolyCollection
+    from matplotlib.colors import to_rgb
+    right, up = np.eye(3)[list(view)]
+    seen = 1e3 * corners @ np.stack([right, up, np.cross(right, up)], axis=1)
+    normal = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
+    shade = 0.35 + 0.65 * np.abs(normal @ np.array(LIGHT))
+    order = np.argsort(seen[:, :, 2].mean(axis=1))
+    face = np.clip(shade[order, None] * np.array(to_rgb(colour)), 0.0, 1.0)
+    axis.add_collection(PolyCollection(seen[order][:, :, :2], facecolors=face, edgecolors="none", alpha=alpha,
+                                       antialiased=False, rasterized=True))
+    axis.set_aspect("equal")
+    axis.autoscale_view()
+    axis.set_axis_off()
+
+
+def cut_lines(corners, normal, place, np):
+    """Lines in which a plane across an axis cuts the triangles, lines by ends by axes [m]."""
+    height = corners[:, :, normal] - place
+    crossed = corners[(height.min(axis=1) < 0.0) & (height.max(axis=1) >= 0.0)]
+    lines = []
+    for triangle in crossed:
+        ends = []
+        for k in range(3):
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            if (a[normal] < place) != (b[normal] < place):
+                ends.append(a + (place - a[normal]) / (b[normal] - a[normal]) * (b - a))
+        lines.append(ends)
+    return np.array(lines).reshape(-1, 2, 3)
+
+
+def draw_cut(axis, meshes, cut, np):
+    """Both meshes cut by a plane, given as y=0.495."""
+    from matplotlib.collections import LineCollection
+    name, place = cut
+    normal = AXES.index(name)
+    others = [k for k in range(3) if k != normal]
+    for corners, colour, width in zip(meshes, ("0.55", "#a03b30"), (2.4, 1.2)):
+        lines = 1e3 * cut_lines(corners, normal, place, np)[:, :, others]
+        if len(lines) == 0:
+            print("plot_vessel.py: the plane %s = %g m does not meet every mesh" % cut, file=sys.stderr)
+        axis.add_collection(LineCollection(lines, colors=colour, linewidths=width))
+    axis.autoscale_view()
+    axis.set_aspect("equal")
+    axis.set_title("cut at %s = %g mm (grey: before, red: after)" % (name, 1e3 * place), fontsize=9)
+    axis.set_xlabel(AXES[others[0]] + " [mm]")
+    axis.set_ylabel(AXES[others[1]] + " [mm]")
+
+
+def draw_centreline(axis, report, view, np):
+    """Branches, and rings at the ends that were opened."""
+    for branch in report["centreline"]:
+        points = 1e3 * np.array(branch["points"])
+        axis.plot(points[:, view[0]], points[:, view[1]], color=CENTRELINE, linewidth=1.2)
+    for opening in report["openings"]:
+        place = 1e3 * np.array(opening["place"])
+        axis.plot(place[view[0]], place[view[1]], "o", color="black", fillstyle="none", markersize=9)
+
+
+def cut_of(text):
+    """A plane: y=0.495 is (y, 0.495)."""
+    name, equals, place = text.partition("=")
+    try:
+        if name not in AXES or len(name) != 1 or not equals:
+            raise ValueError
+        return name, float(place)
+    except ValueError:
+        raise argparse.ArgumentTypeError("wants an axis and a place in metres like y=0.495, got " + text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("before", help="the input of vessel_prepare, OBJ or binary STL")
+    parser.add_argument("after", help="its output, OUT.obj")
+    parser.add_argument("--unit", type=float, default=1.0, help="of the input [m] (default: 1)")
+    parser.add_argument("--up", choices=AXES, default="y", help="axis to the head (default: y)")
+    parser.add_argument("--cut", type=cut_of, action="append", default=[], metavar="AXIS=PLACE",
+                        help="also draws both cut by a plane, e.g. y=0.495 [m]; may be repeated")
+    parser.add_argument("--out", required=True, metavar="FILE.png", help="picture to write")
+    options = parser.parse_args()
+    beside = os.path.splitext(options.after)[0] + "_report.json"
+    if not os.path.isfile(beside):
+        fail(beside + ": missing; vessel_prepare writes it beside " + options.after)
+    with open(beside) as stream:
+        report = json.load(stream)
+    import numpy as np
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    meshes = [read_corners(options.before, options.unit, np), read_corners(options.after, 1.0, np)]
+    view = ("x" if options.up != "x" else "y", options.up)
+    view = tuple(AXES.index(name) for name in view)
+    rows = max(1, len(options.cut))
+    figure = pyplot.figure(figsize=(8 + (4 if options.cut else 0), 7))
+    grid = figure.add_gridspec(rows, 3 if options.cut else 2)
+    before, after = figure.add_subplot(grid[:, 0]), figure.add_subplot(grid[:, 1])
+    draw_surface(before, meshes[0], view, BEFORE, 1.0, np)
+    draw_surface(after, meshes[1], view, AFTER, 0.6, np)
+    draw_centreline(after, report, view, np)
+    for axis, title, key in ((before, "before", "before"), (after, "after, ends opened (o)", "after")):
+        counts = report[key]
+        axis.set_title("%s\n%d triangles, components: %d, boundary edges: %d" %
+                       (title, counts["triangles"], counts["components"], counts["boundary_edges"]), fontsize=9)
+    limits = [axis.get_ylim() for axis in (before, after)]
+    for axis in (before, after):
+        axis.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
+    for row, cut in enumerate(options.cut):
+        draw_cut(figure.add_subplot(grid[row, 2]), meshes, cut, np)
+    figure.tight_layout()
+    figure.savefig(options.out, dpi=110)
+
+
+if __name__ == "__main__":
+    main()
