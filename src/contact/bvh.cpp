@@ -16,7 +16,6 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr int kMaxDepth = 384;             // of places that wait to be looked at
 constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
 constexpr float kNone = 1e18F;             // m: where the boxes of empty places end
 

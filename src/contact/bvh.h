@@ -43,9 +43,8 @@ public:
     double farthest = 0.0;  ///< from the places, how far what is wanted may lie [m]
     double room = 0.0;      ///< by which the places may still move, contained in the former [m]
   };
-  /** Appends every triangle that may be closest to a place of @p facets, and every one of which a ridge may be to one
-   * of
-   * @p ridges; in any order, none twice, some that cannot are among them. */
+  /** Appends every triangle that may be closest to a place of @p facets, and every one with a ridge that may be to a
+   * place of @p ridges; in any order, none twice, some that cannot are among them. */
   void collect(const View& facets, const View& ridges, std::vector<int>& triangles, std::vector<int>& ridged) const;
 
   /** The triangle nearest to a point. */
@@ -65,6 +64,7 @@ public:
 
 private:
   static constexpr int kWidth = 4;
+  static constexpr int kMaxDepth = 384;  ///< of places that wait to be looked at
   using Lanes = Eigen::Array<float, kWidth, 1>;
 
   /** Four boxes [m] with what is in them: a node's index, or ~triangle; the boxes of empty places are inside out. */
@@ -78,7 +78,7 @@ private:
   struct alignas(64) Cones
   {
     std::array<Lanes, 3> axis;  ///< unit
-    Lanes radius;               ///< of the balls round the boxes [m]
+    Lanes radius;               ///< of the balls round the boxes, as made [m]: boxes that move have open cones
     Lanes facet, ridge;         ///< as of a Cone, about the axis; kOpen: anywhere
   };
 
@@ -117,7 +117,7 @@ private:
 
   std::vector<Node> nodes_;      ///< children stand behind their parents
   std::vector<Cones> cones_;     ///< of each node
-  std::vector<char> pointed_;    ///< per node: whether its cones can hide anything
+  std::vector<char> pointed_;    ///< per node: whether its cones are worth a look
   std::vector<Place> place_of_;  ///< of each triangle
   std::vector<Place> above_;     ///< of each node; the root has none
   std::vector<char> marked_;     ///< per node

@@ -12,7 +12,6 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr int kMaxDepth = 384;             // of places that wait to be looked at
 constexpr std::size_t kHandful = 128;      // triangles that are handed over at once
 constexpr float kOpen = 1e6F;              // tangent of a cone that holds any direction
 constexpr double kWidestCone = 1.2;        // rad: wider ones are open
@@ -125,7 +124,7 @@ struct Bvh::Sight
   }
 
   /** Positive where nothing in a node's boxes can be closest: where all places, wherever in their room they are, lie in
-   * front of whatever is turned like something in the box, and beside all cones of that width that begin in it. */
+   * front of it (no normal there is tilted off the axis by more than the cone is wide) and beside all such cones. */
   EIGEN_STRONG_INLINE Lanes hidden(const Node& node, const Cones& cones, const Lanes& tangents) const
   {
     Lanes height = Lanes::Zero();  // of the segment's begin over the boxes' middles, along the axis

@@ -112,7 +112,8 @@ void Detector::makePrism(int triangle)
   }
 }
 
-/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. */
+/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. The
+ *  foot lies no farther beyond a line along an edge than beyond the triangle, so corners of any angle will do. */
 double Detector::bulgeOf(int triangle) const
 {
   const Eigen::Vector3i& corners = wall_.triangles[triangle];

@@ -37,6 +37,9 @@ void check(const XRayWire& wire)
   for (std::size_t i = 0; i < wire.nodes.size(); ++i)
     if (!wire.nodes[i].allFinite() || !std::isfinite(wire.radius[i]) || wire.radius[i] < 0.0)
       throw InputError("wire", "node " + std::to_string(i), "must be finite with a radius of at least 0");
+  for (std::size_t j = 0; j < edges; ++j)
+    if (!std::isfinite(wire.attenuation[j]))
+      throw InputError("wire", "attenuation " + std::to_string(j), "must be finite");
 }
 
 /** Normal of the plane between edges with directions a and b; both when the wire folds back. */
@@ -208,7 +211,7 @@ public:
   }
 
 private:
-  static constexpr double kParallel = 1e-12;  // of |d|²: with less across the axis a ray meets no cylinder
+  static constexpr double kParallel = 1e-12;  // of |d|²: rays with less across the axis are left out
   static constexpr float kRounding = 1.001F;
 
   /** A plane that cuts the edge, as rays have it: slope·t ≥ offset is kept, t counted from the edge's middle. */

@@ -17,6 +17,8 @@ const char* materialName(Material material)
       return "platinum";
     case Material::kPolymer:
       return "polymer";
+    case Material::kFilledPolymer:
+      return "filled_polymer";
   }
   return "";
 }

@@ -26,6 +26,7 @@ enum class Material
   kSteel,
   kPlatinum,
   kPolymer,
+  kFilledPolymer,  ///< with barium sulfate
 };
 
 /** As files write it. */

@@ -17,7 +17,7 @@ constexpr double kThickest = 20e-3;  // m
 constexpr double kFullTurn = 6.284;  // rad
 
 // Numbers of instrument::Material.
-const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer"};
+const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer", "filled_polymer"};
 // Numbers of instrument::Kind.
 const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
 

@@ -7,7 +7,8 @@ import csv
 import os
 import sys
 
-COLOURS = {"steel": "#4c6a92", "nitinol": "#b07d2b", "platinum": "#111111", "polymer": "#8a8f98"}
+COLOURS = {"steel": "#4c6a92", "nitinol": "#b07d2b", "platinum": "#111111", "polymer": "#8a8f98",
+           "filled_polymer": "#5f6670"}
 SHOWN_STRAIGHT = 0.020   # of the shaft behind the first curve [m]
 SHOWN_LEAST = 0.060      # of an instrument [m]
 ATMOSPHERE = 101325.0    # [Pa]

@@ -148,7 +148,9 @@ def main():
             below = axes[k // COLUMNS * layers + 1][k % COLUMNS]
             below.set_visible(True)
             below.axis("off")
-            below.imshow(plt.imread(pictures[k]), cmap="gray")
+            picture = plt.imread(pictures[k])
+            # Not darkest to brightest: a wire of platinum would leave no grey for the rest.
+            below.imshow(picture, cmap="gray", vmin=0.6 * picture.max(), vmax=picture.max())
     figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
     figure.savefig(options.out or options.results / "phases.png", dpi=130)

@@ -42,6 +42,8 @@ TEST(AttenuationTable, JumpsAtTheAbsorptionEdges)
   const AttenuationTable table = AttenuationTable::load(kTable);
   EXPECT_LT(table.mass("iodine", 33.1), 0.7);
   EXPECT_GT(table.mass("iodine", 33.2), 3.5);
+  EXPECT_LT(table.mass("filled_polymer", 37.4), 0.14);
+  EXPECT_GT(table.mass("filled_polymer", 37.5), 0.6);
   EXPECT_LT(table.mass("platinum", 78.3), 0.23);
   EXPECT_GT(table.mass("platinum", 78.4), 0.9);
 }
@@ -49,7 +51,8 @@ TEST(AttenuationTable, JumpsAtTheAbsorptionEdges)
 TEST(AttenuationTable, HasEveryMaterialThatInstrumentsAreMadeOf)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
-  for (const char* material : {"nitinol", "steel", "platinum", "polymer", "soft_tissue", "cortical_bone"})
+  for (const char* material :
+       {"nitinol", "steel", "platinum", "polymer", "filled_polymer", "soft_tissue", "cortical_bone"})
     EXPECT_GT(table.linear(material, 60.0), 10.0) << material;
 }
 

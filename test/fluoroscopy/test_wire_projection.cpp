@@ -252,6 +252,8 @@ TEST(WireProjection, RefusesArraysThatDoNotFitTogether)
   XRayWire wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);
   wire.attenuation.pop_back();
   EXPECT_THROW(totalLoss(geometry, wire), InputError);
+  wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THROW(totalLoss(geometry, wire), InputError);
   wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);
   wire.nodes[1].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(totalLoss(geometry, wire), InputError);

@@ -59,7 +59,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_unknown_tip_shape.yaml", "instrument.tip.shape (line 13)", "one of straight, angled, semicircle, j"},
     {"bad_rest_curvature_too_tight.yaml", "instrument.sections.0.rest_curvature (line 12)", "less than 1/radius"},
     {"bad_unknown_material.yaml", "instrument.sections.0.material (line 8)",
-     "one of nitinol, steel, platinum, polymer"},
+     "one of nitinol, steel, platinum, polymer, filled_polymer"},
     {"bad_name_with_a_slash.yaml", "instrument.name (line 4)", "letters, digits and _"},
     {"bad_profile_times_do_not_increase.yaml", "drive.insertion.points (line 15)", "increasing"},
     {"bad_profile_row_of_three.yaml", "drive.insertion.points.0 (line 15)", "a list of 2 numbers"},
