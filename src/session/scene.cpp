@@ -64,7 +64,14 @@ void resolveVesselPaths(Scene& scene, const SceneNode& root)
     scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
 }
 
-Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides)
+enum class VesselFiles
+{
+  kSought,
+  kNotNeeded,
+};
+
+Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides,
+                 VesselFiles files = VesselFiles::kSought)
 {
   normalise(root, file);
   for (const std::string& override_text : overrides)
@@ -81,7 +88,8 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   SceneWriter writer;
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();
-  resolveVesselPaths(scene, root);
+  if (files == VesselFiles::kSought)
+    resolveVesselPaths(scene, root);
   return scene;
 }
 
@@ -142,6 +150,11 @@ Scene loadScene(const std::string& file, const std::vector<std::string>& overrid
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides)
 {
   return buildScene(parseSceneTree(yaml, origin), origin, overrides);
+}
+
+Scene parseRecordedScene(const std::string& yaml, const std::string& origin)
+{
+  return buildScene(parseSceneTree(yaml, origin), origin, {}, VesselFiles::kNotNeeded);
 }
 
 std::vector<std::string> requiredNodes(const Scene& scene)

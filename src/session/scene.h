@@ -269,9 +269,11 @@ struct Scene
  *  @throws InputError naming file, key and remedy for an unknown key, a missing or impossible value, a missing file */
 Scene loadScene(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/** The same from the resolved text of a recording; @p origin names it in errors, and relative paths are sought beside
- * it. */
+/** The same from a text; @p origin names it in errors, and relative paths are sought beside it. */
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides = {});
+
+/** From the resolved text of a recording that holds the vessel itself: the vessel's files need not be there. */
+Scene parseRecordedScene(const std::string& yaml, const std::string& origin);
 
 /** The nodes that a scene needs, by executable name, in the order in which they are started. */
 std::vector<std::string> requiredNodes(const Scene& scene);

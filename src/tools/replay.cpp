@@ -82,7 +82,7 @@ Recording read(const std::string& file)
 int replay(const std::string& file, bool keep_going)
 {
   const Recording recording = read(file);
-  const session::Scene scene = session::parseScene(recording.info->scene_yaml, file);
+  const session::Scene scene = session::parseRecordedScene(recording.info->scene_yaml, file);
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<session::ReplayContactSource> contacts;
   std::unique_ptr<session::MovingWall> wall;

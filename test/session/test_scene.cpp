@@ -175,6 +175,15 @@ TEST(Scene, KeepsEveryBitOfANumberInItsResolvedText)
   expectSameScene(scene, again);
 }
 
+TEST(Scene, OfARecordingNeedsNoFilesOfTheVesselThatTheRecordingHolds)
+{
+  const std::string mesh = someMesh();
+  const Scene scene = loadScene(kScenes + "mesh.yaml", {"vessel.mesh=" + mesh});
+  std::filesystem::remove(mesh);
+  EXPECT_THROW(parseScene(scene.resolved_yaml, "session.bag"), InputError);
+  EXPECT_EQ(parseRecordedScene(scene.resolved_yaml, "session.bag").hash(), scene.hash());
+}
+
 TEST(Scene, KeepsUnusualCharactersOfAName)
 {
   const Scene scene = loadScene(kBench, {"name='a \"quoted\" \\ name: #1'"});
