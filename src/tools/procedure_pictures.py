@@ -13,6 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
 COLOURS = ["#d62728", "#ff9900", "#111111", "#1f77b4", "#2ca02c", "#9467bd"]
 WIDTHS = [1.2, 2.2, 1.6, 4.0]   # points, from the inside out
@@ -149,8 +150,9 @@ def main():
             below.set_visible(True)
             below.axis("off")
             picture = plt.imread(pictures[k])
-            # Not darkest to brightest: a wire of platinum would leave no grey for the rest.
-            below.imshow(picture, cmap="gray", vmin=0.6 * picture.max(), vmax=picture.max())
+            # Not from the darkest: a wire of platinum would leave no grey for the vessel.
+            dark = 0.7 * np.percentile(picture, 2)
+            below.imshow(picture, cmap="gray", vmin=dark, vmax=picture.max())
     figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
     figure.savefig(options.out or options.results / "phases.png", dpi=130)
