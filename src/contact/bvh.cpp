@@ -77,7 +77,7 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   place_of_.resize(wall.triangles.size());
   copy(binary, 0, {});
   marked_.assign(nodes_.size(), 0);
-  setCones(std::vector<Cone>(wall.triangles.size()));
+  openAllCones();
 }
 
 /** Copies what is below a node of the binary tree, opening the largest boxes until there are four.

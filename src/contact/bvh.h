@@ -106,6 +106,7 @@ private:
   int copy(const Binary& binary, int root, Place above);
   void setBox(Place place, const Box& box);
   void fitTriangle(int triangle);
+  void openAllCones();
   void setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone);
   void widenCone(int node);
   /** How far four boxes are from another one along an axis; negative where they overlap [m]. */

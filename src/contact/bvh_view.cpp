@@ -35,6 +35,18 @@ float laneTangent(double tangent)
 
 }  // namespace
 
+void Bvh::openAllCones()
+{
+  Cones open;
+  for (Lanes& axis : open.axis)
+    axis.setZero();
+  open.radius.setZero();
+  open.facet.setConstant(kOpen);
+  open.ridge.setConstant(kOpen);
+  cones_.assign(nodes_.size(), open);
+  pointed_.assign(nodes_.size(), 0);
+}
+
 void Bvh::setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone)
 {
   const Node& node = nodes_[place.node];
@@ -56,14 +68,7 @@ void Bvh::setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone)
 
 void Bvh::setCones(const std::vector<Cone>& cones)
 {
-  Cones open;
-  for (Lanes& axis : open.axis)
-    axis.setZero();
-  open.radius.setZero();
-  open.facet.setConstant(kOpen);
-  open.ridge.setConstant(kOpen);
-  cones_.assign(nodes_.size(), open);
-  pointed_.assign(nodes_.size(), 0);
+  openAllCones();
   for (std::size_t t = 0; t < cones.size(); ++t)
     setCone(place_of_[t], wall_->normals[t], cones[t]);
   for (int n = static_cast<int>(nodes_.size()) - 1; n > 0; --n)

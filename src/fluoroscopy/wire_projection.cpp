@@ -48,6 +48,19 @@ Eigen::Vector3d mitre(const Eigen::Vector3d& own, const Eigen::Vector3d& other)
   return own.dot(other) > kFoldedCosine ? (own + other).normalized() : own;
 }
 
+/** Something that changes evenly over a pixel. */
+struct Linear
+{
+  Linear(const Eigen::Vector3d& gradient, double centre)
+    : x(static_cast<float>(gradient.x())), y(static_cast<float>(gradient.y())), z(static_cast<float>(centre))
+  {
+  }
+  float at(float right, float up) const { return right * x + up * y + z; }
+  /** How far it may differ from the centre's. @param reach of the pixel to every side */
+  float spread(float reach) const { return reach * (std::abs(x) + std::abs(y)); }
+  float x, y, z;
+};
+
 }  // namespace
 
 /** Samples of a pixel from its centre, as differences of rays with z = 1; what fills up the last vector is not used. */
@@ -93,28 +106,12 @@ struct WireProjection::Edge
   double radius;                             // [m]
   double attenuation;                        // [1/m]
 
-  /** A ray's part across the axis. */
-  Eigen::Vector3d turned(const Eigen::Vector3d& ray) const { return ray - axis.dot(ray) * axis; }
-
   /** How far a plane that cuts the cylinder reaches beyond its axis's end, along the axis [m]. */
   double mitreDepth(const Eigen::Vector3d& normal) const
   {
     const double cosine = normal.dot(axis);
     return radius * std::sqrt(std::max(0.0, 1.0 / (cosine * cosine) - 1.0));
   }
-};
-
-/** Something that changes evenly over a pixel. */
-struct WireProjection::Linear
-{
-  Linear(const Eigen::Vector3d& gradient, double centre)
-    : x(static_cast<float>(gradient.x())), y(static_cast<float>(gradient.y())), z(static_cast<float>(centre))
-  {
-  }
-  float at(float right, float up) const { return right * x + up * y + z; }
-  /** How far it may differ from the centre's. @param reach of the pixel to every side */
-  float spread(float reach) const { return reach * (std::abs(x) + std::abs(y)); }
-  float x, y, z;
 };
 
 /** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loops
@@ -124,21 +121,7 @@ class WireProjection::Chords
 {
 public:
   /** @param ray through the pixel's centre, z = 1 */
-  Chords(const Edge& edge, const Eigen::Vector3d& ray)
-    : a_(2.0 * edge.turned(ray), edge.turned(ray).dot(ray)),
-      off_(edge.moment, edge.moment.dot(ray)),
-      closest_(edge.across - 2.0 * edge.depth * edge.turned(ray),
-               edge.across.dot(ray) - edge.depth * edge.turned(ray).dot(ray)),
-      begin_(edge.begin_normal, edge.begin_normal.dot(edge.begin), edge.depth, ray),
-      end_(-edge.end_normal, -edge.end_normal.dot(edge.end), edge.depth, ray),
-      per_chord_(edge.attenuation / ray.norm() * ray, edge.attenuation * ray.norm()),
-      axis_x_(static_cast<float>(edge.axis.x())),
-      axis_y_(static_cast<float>(edge.axis.y())),
-      depth_(static_cast<float>(edge.depth)),
-      least_(static_cast<float>(kParallel * ray.squaredNorm())),
-      radius_(static_cast<float>(edge.radius))
-  {
-  }
+  Chords(const Edge& edge, const Eigen::Vector3d& ray) : Chords(edge, ray, ray - edge.axis.dot(ray) * edge.axis) {}
 
   enum class Kept
   {
@@ -211,6 +194,22 @@ public:
   }
 
 private:
+  /** @param turned the ray's part across the edge's axis */
+  Chords(const Edge& edge, const Eigen::Vector3d& ray, const Eigen::Vector3d& turned)
+    : a_(2.0 * turned, turned.dot(ray)),
+      off_(edge.moment, edge.moment.dot(ray)),
+      closest_(edge.across - 2.0 * edge.depth * turned, edge.across.dot(ray) - edge.depth * turned.dot(ray)),
+      begin_(edge.begin_normal, edge.begin_normal.dot(edge.begin), edge.depth, ray),
+      end_(-edge.end_normal, -edge.end_normal.dot(edge.end), edge.depth, ray),
+      per_chord_(edge.attenuation / ray.norm() * ray, edge.attenuation * ray.norm()),
+      axis_x_(static_cast<float>(edge.axis.x())),
+      axis_y_(static_cast<float>(edge.axis.y())),
+      depth_(static_cast<float>(edge.depth)),
+      least_(static_cast<float>(kParallel * ray.squaredNorm())),
+      radius_(static_cast<float>(edge.radius))
+  {
+  }
+
   static constexpr double kParallel = 1e-12;  // of |d|²: rays with less across the axis are left out
   static constexpr float kRounding = 1.001F;
 

@@ -45,7 +45,6 @@ public:
 private:
   struct Offsets;
   struct Edge;
-  struct Linear;
   class Footprint;
   class Chords;
 

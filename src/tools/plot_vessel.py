@@ -7,6 +7,14 @@ import json
 import os
 import sys
 
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
+
 AXES = "xyz"
 BEFORE, AFTER, CENTRELINE = "#d9604f", "#e8a79d", "#1f6fb0"
 LIGHT = (0.3, 0.4, 0.87)  # towards it, in the picture: right, up, to the viewer
@@ -31,7 +39,7 @@ def read_obj(path):
     return vertices, triangles
 
 
-def read_stl(path, np):
+def read_stl(path):
     """Corners of a binary STL file's triangles."""
     with open(path, "rb") as stream:
         data = stream.read()
@@ -42,22 +50,20 @@ def read_stl(path, np):
     return np.frombuffer(data, record, count, 84)["corners"].astype(float)
 
 
-def read_corners(path, unit, np):
+def read_corners(path, unit):
     """Corners of a mesh's triangles [m], triangles by corners by axes."""
     if not os.path.isfile(path):
         fail(path + ": there is no such file")
     if path.lower().endswith(".stl"):
-        return unit * read_stl(path, np)
+        return unit * read_stl(path)
     vertices, triangles = read_obj(path)
     if not triangles:
         fail(path + ": no triangles; OBJ and binary STL are read")
     return unit * np.array(vertices)[np.array(triangles)]
 
 
-def draw_surface(axis, corners, view, colour, alpha, np):
+def draw_surface(axis, corners, view, colour, alpha):
     """Triangles from the farthest to the nearest, in the light. view: the axes that point right and up."""
-    from matplotlib.collections import PolyCollection
-    from matplotlib.colors import to_rgb
     right, up = np.eye(3)[list(view)]
     seen = 1e3 * corners @ np.stack([right, up, np.cross(right, up)], axis=1)
     normal = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
@@ -72,7 +78,7 @@ def draw_surface(axis, corners, view, colour, alpha, np):
     axis.set_axis_off()
 
 
-def cut_lines(corners, normal, place, np):
+def cut_lines(corners, normal, place):
     """Lines in which a plane across an axis cuts the triangles, lines by ends by axes [m]."""
     height = corners[:, :, normal] - place
     crossed = corners[(height.min(axis=1) < 0.0) & (height.max(axis=1) >= 0.0)]
@@ -87,14 +93,13 @@ def cut_lines(corners, normal, place, np):
     return np.array(lines).reshape(-1, 2, 3)
 
 
-def draw_cut(axis, meshes, cut, np):
+def draw_cut(axis, meshes, cut):
     """Both meshes cut by a plane, given as y=0.495."""
-    from matplotlib.collections import LineCollection
     name, place = cut
     normal = AXES.index(name)
     others = [k for k in range(3) if k != normal]
     for corners, colour, width in zip(meshes, ("0.55", "#a03b30"), (2.4, 1.2)):
-        lines = 1e3 * cut_lines(corners, normal, place, np)[:, :, others]
+        lines = 1e3 * cut_lines(corners, normal, place)[:, :, others]
         if len(lines) == 0:
             print("plot_vessel.py: the plane %s = %g m does not meet every mesh" % cut, file=sys.stderr)
         axis.add_collection(LineCollection(lines, colors=colour, linewidths=width))
@@ -105,7 +110,7 @@ def draw_cut(axis, meshes, cut, np):
     axis.set_ylabel(AXES[others[1]] + " [mm]")
 
 
-def draw_centreline(axis, report, view, np):
+def draw_centreline(axis, report, view):
     """Branches, and rings at the ends that were opened."""
     for branch in report["centreline"]:
         points = 1e3 * np.array(branch["points"])
@@ -141,21 +146,15 @@ def main():
         fail(beside + ": missing; vessel_prepare writes it beside " + options.after)
     with open(beside) as stream:
         report = json.load(stream)
-    import numpy as np
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    meshes = [read_corners(options.before, options.unit, np), read_corners(options.after, 1.0, np)]
-    view = ("x" if options.up != "x" else "y", options.up)
-    view = tuple(AXES.index(name) for name in view)
+    meshes = [read_corners(options.before, options.unit), read_corners(options.after, 1.0)]
+    view = (0 if options.up != "x" else 1, AXES.index(options.up))
     rows = max(1, len(options.cut))
-    figure = pyplot.figure(figsize=(8 + (4 if options.cut else 0), 7))
+    figure = plt.figure(figsize=(8 + (4 if options.cut else 0), 7))
     grid = figure.add_gridspec(rows, 3 if options.cut else 2)
     before, after = figure.add_subplot(grid[:, 0]), figure.add_subplot(grid[:, 1])
-    draw_surface(before, meshes[0], view, BEFORE, 1.0, np)
-    draw_surface(after, meshes[1], view, AFTER, 0.6, np)
-    draw_centreline(after, report, view, np)
+    draw_surface(before, meshes[0], view, BEFORE, 1.0)
+    draw_surface(after, meshes[1], view, AFTER, 0.6)
+    draw_centreline(after, report, view)
     for axis, title, key in ((before, "before", "before"), (after, "after, ends opened (o)", "after")):
         counts = report[key]
         axis.set_title("%s\n%d triangles, components: %d, boundary edges: %d" %
@@ -164,7 +163,7 @@ def main():
     for axis in (before, after):
         axis.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
     for row, cut in enumerate(options.cut):
-        draw_cut(figure.add_subplot(grid[row, 2]), meshes, cut, np)
+        draw_cut(figure.add_subplot(grid[row, 2]), meshes, cut)
     figure.tight_layout()
     figure.savefig(options.out, dpi=110)
 
