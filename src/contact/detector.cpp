@@ -471,7 +471,9 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
     feature.gap -= (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
     feature.edge = query.first_node + static_cast<int>(index);
     const auto same = [&feature](const Feature& other) { return other.id == feature.id; };
-    if (std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
+    // Mesh edges share their corners; an edge itself comes once.
+    if (feature.id % 3 == kEdge ||
+        std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
   }
 }

@@ -26,6 +26,8 @@ constexpr std::size_t kPadded = 96;     // a multiple of the values in a vector 
 constexpr double kNearest = 0.02;       // closest approach to the source, as a part of SID
 constexpr double kFoldedCosine = 0.05;  // mitres are for bends below 90°
 constexpr double kHalfDiagonal = 0.7072;
+constexpr double kStraight = 1e-6;  // m that nodes may be off a line, and radii off each other, to be seen as one edge
+constexpr std::size_t kLongestRun = 64;  // of edges seen as one: looking for its end costs the square of it
 
 void check(const XRayWire& wire)
 {
@@ -329,16 +331,46 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Offsets& offset
     }
 }
 
+/** The node up to which a wire is one straight even cylinder: cuts between edges cost more than edges. */
+std::size_t WireProjection::endOfStraight(const XRayWire& wire, std::size_t first)
+{
+  std::size_t end = first + 1;
+  const auto straightTo = [&wire, first](std::size_t last)
+  {
+    const Eigen::Vector3d& from = wire.nodes[first];
+    const Eigen::Vector3d chord = wire.nodes[last] - from;
+    const double length = chord.norm();
+    double reached = 0.0;
+    for (std::size_t k = first + 1; k < last; ++k)
+    {
+      const Eigen::Vector3d way = wire.nodes[k] - from;
+      const double along = way.dot(chord);
+      if (!(along >= reached) || !(way.norm() <= length) || way.cross(chord).norm() > kStraight * length)
+        return false;
+      reached = along;
+    }
+    return std::abs(wire.radius[last] - wire.radius[first]) <= kStraight &&
+           wire.attenuation[last - 1] == wire.attenuation[first];
+  };
+  if (std::abs(wire.radius[end] - wire.radius[first]) > kStraight)
+    return end;
+  while (end + 1 < wire.nodes.size() && end - first < kLongestRun && straightTo(end + 1))
+    ++end;
+  return end;
+}
+
 void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire)
 {
   std::vector<Edge> edges;
-  for (std::size_t j = 0; j + 1 < wire.nodes.size(); ++j)
+  std::size_t next = 0;
+  for (std::size_t j = 0; j + 1 < wire.nodes.size(); j = next)
   {
+    next = endOfStraight(wire, j);
     const Eigen::Vector3d begin = geometry.toOptical(wire.nodes[j]);
-    const Eigen::Vector3d end = geometry.toOptical(wire.nodes[j + 1]);
+    const Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
     if (begin == end)
       continue;
-    Edge edge(begin, end, 0.5 * (wire.radius[j] + wire.radius[j + 1]), wire.attenuation[j]);
+    Edge edge(begin, end, 0.5 * (wire.radius[j] + wire.radius[next]), wire.attenuation[j]);
     if (!edges.empty())
     {
       edge.begin_normal = mitre(edge.axis, edges.back().axis);

@@ -152,6 +152,45 @@ std::optional<Eigen::Vector3d> randomPoint(const XRayWire& wire, std::size_t edg
   return point;
 }
 
+TEST(WireProjection, SeesAStraightEvenWireAsOneEdgeHoweverManyItHas)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  const Eigen::Vector3d a(-0.01, 0.002, 0.003), b(0.012, -0.001, 0.007);
+  WireProjection projection;
+  WireShadow one, many;
+  projection.project(geometry, {straightWire(a, b, 1, 1.5e-3, 400.0)}, one);
+  projection.project(geometry, {straightWire(a, b, 40, 1.5e-3, 400.0)}, many);
+  EXPECT_EQ(one.pixels, many.pixels);
+  EXPECT_EQ(one.transmission, many.transmission);
+}
+
+TEST(WireProjection, LeavesNothingOutOfAWireThatTurnsThickensOrChangesItsMaterial)
+{
+  const XRayGeometry geometry{CArmPose{}};
+  const Eigen::Vector3d a(-0.01, 0.0, 0.0), b(0.01, 0.0, 0.0), aside(0.0, 0.0, 5e-6);
+  const XRayWire straight = straightWire(a, b, 4, 0.2e-3, 1.0);
+  const double whole = totalLoss(geometry, straight);
+  XRayWire back = straight;  // thin enough that losses add up
+  for (std::size_t k = 4; k-- > 0;)
+    back.nodes.push_back(straight.nodes[k]);
+  back.radius.resize(back.nodes.size(), 0.2e-3);
+  back.attenuation.resize(back.nodes.size() - 1, 1.0);
+  EXPECT_NEAR(totalLoss(geometry, back), 2.0 * whole, 2e-3 * whole);
+  XRayWire thicker = straight;
+  thicker.radius[2] = 0.4e-3;  // two of four edges are half as wide again: 2.25 times the metal
+  EXPECT_NEAR(totalLoss(geometry, thicker), (0.5 + 0.5 * 2.25) * whole, 5e-3 * whole);
+  XRayWire mixed = straight;
+  mixed.attenuation[1] = 2.0;
+  EXPECT_NEAR(totalLoss(geometry, mixed), 1.25 * whole, 2e-3 * whole);
+  XRayWire bent = straight;
+  bent.nodes[2] += aside;
+  WireProjection projection;
+  WireShadow seen, seen_straight;
+  projection.project(geometry, {bent}, seen);
+  projection.project(geometry, {straight}, seen_straight);
+  EXPECT_NE(seen.transmission, seen_straight.transmission);
+}
+
 TEST(WireProjection, TouchesEveryPixelInWhichAPointOfTheWireAppears)
 {
   std::mt19937 random(11);
