@@ -49,7 +49,7 @@ struct TimedEvent
 class Treatments
 {
 public:
-  static constexpr std::uint64_t kPressEvery = 4;  ///< steps
+  static constexpr std::uint64_t kPressEvery = 8;  ///< steps
 
   /** @param wall null: no wall moves; must outlive this */
   Treatments(const Scene& scene, intervention::WallMover* wall);

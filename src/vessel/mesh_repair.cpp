@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "vessel/cap_flipping.h"
 #include "vessel/hole_closing.h"
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_topology.h"
@@ -292,6 +293,8 @@ RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source)
       result.notes.push_back(counted(count, singular, plural));
   };
   note(weld(mesh), "vertex joined to an equal one", "vertices joined to equal ones");
+  note(flipCaps(mesh, kWeldDistance), "edge turned beside a face without height",
+       "edges turned beside faces without height");
   note(dropDegenerate(mesh), "face without area dropped", "faces without area dropped");
   note(dropDuplicates(mesh), "duplicate face dropped", "duplicate faces dropped");
   note(dropCrumbs(mesh), "stray face that encloses nothing dropped", "stray faces that enclose nothing dropped");

@@ -18,10 +18,10 @@ struct RepairedMesh
 /** Vertices closer than this are one [m]. */
 constexpr double kWeldDistance = 1e-7;
 
-/** Repairs what is safe: joins vertices closer than kWeldDistance, drops faces without area, duplicate faces and unused
- *  vertices, parts sheets that touch in a vertex, turns faces so that all point out of the lumen, drops crumbs that
- *  enclose less than a millionth of the vessel, closes ends that are cut across flat by lids. Shapes are never
- * invented: other holes, non-manifold edges and several lumens are refused.
+/** Repairs what is safe: joins vertices closer than kWeldDistance, turns edges of faces lower than that, drops faces
+ * without area, duplicate faces and unused vertices, parts sheets that touch in a vertex, turns faces so that all point
+ * out of the lumen, drops crumbs that enclose less than a millionth of the vessel, closes ends that are cut across flat
+ * by lids. Shapes are never invented: other holes, non-manifold edges and several lumens are refused.
  *  @param source names the mesh in errors
  *  @throws InputError with the count and place of every defect that stays */
 RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <Eigen/Geometry>
+
 #include "common/error.h"
 #include "vessel/mesh_check.h"
 #include "vessel/mesh_reader.h"
@@ -106,6 +108,58 @@ TEST(MeshRepair, JoinsVerticesThatAreATenthOfAMicrometreApart)
   const RepairedMesh repaired = repairMesh(mesh, "x");
   EXPECT_EQ(repaired.mesh.vertices.size(), 8U);
   EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+}
+
+/** Splits the first face beside its first side at @p count places of that side, and fills what is left with caps.
+ *  @param off by which the places are off the side, towards the face's third corner [m] */
+TriangleMesh withCaps(TriangleMesh mesh, int count, double off)
+{
+  const Eigen::Vector3i face = mesh.triangles.front();
+  const auto at = [&mesh](int v) { return Eigen::Vector3d(mesh.vertices[static_cast<std::size_t>(v)]); };
+  const Eigen::Vector3d a = at(face[0]), b = at(face[1]), c = at(face[2]);
+  const Eigen::Vector3d inward = ((c - a) - (c - a).dot(b - a) / (b - a).squaredNorm() * (b - a)).normalized();
+  mesh.triangles.erase(mesh.triangles.begin());
+  int before = face[0];
+  for (int k = 1; k <= count; ++k)
+  {
+    const int place = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(a + (b - a) * k / (count + 1) + off * inward);
+    mesh.triangles.emplace_back(before, place, face[2]);
+    mesh.triangles.emplace_back(before, face[1], place);
+    before = place;
+  }
+  mesh.triangles.emplace_back(before, face[1], face[2]);
+  return mesh;
+}
+
+TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
+{
+  const TriangleMesh box = load("box_mm.obj");
+  for (const int count : {1, 2, 7})
+    for (const double off : {0.0, 1e-12, 5e-8})
+    {
+      const TriangleMesh mesh = withCaps(box, count, off);
+      const RepairedMesh repaired = repairMesh(mesh, "x");
+      EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+      EXPECT_EQ(repaired.mesh.triangles.size(), mesh.triangles.size());
+      EXPECT_NEAR(repaired.mesh.signedVolume(), box.signedVolume(), 1e-11);
+      ASSERT_EQ(repaired.notes.size(), 1U);
+      EXPECT_NE(repaired.notes[0].find("beside"), std::string::npos) << repaired.notes[0];
+      for (const Eigen::Vector3i& t : repaired.mesh.triangles)
+      {
+        const auto at = [&](int k) { return repaired.mesh.vertices[static_cast<std::size_t>(t[k])]; };
+        const double longest = std::max({(at(1) - at(0)).norm(), (at(2) - at(1)).norm(), (at(0) - at(2)).norm()});
+        EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).norm() / longest, kWeldDistance) << count << " " << off;
+      }
+    }
+}
+
+TEST(MeshRepair, LeavesFacesThatAreFlatButHigherThanVerticesAreApart)
+{
+  const TriangleMesh mesh = withCaps(load("box_mm.obj"), 3, 2e-7 * 4.0);
+  const RepairedMesh repaired = repairMesh(mesh, "x");
+  EXPECT_TRUE(repaired.notes.empty());
+  EXPECT_EQ(repaired.mesh.hash(), mesh.hash());
 }
 
 TEST(MeshRepair, DropsUnusedVertices)

@@ -4,8 +4,8 @@
 #include <geometry_msgs/Vector3.h>
 
 #include "contact/contact_set.h"
-#include "endovascular_sim/ContactSet.h"
 #include "endovascular_sim/RodState.h"
+#include "nodes/support/contact_message.h"
 
 namespace endovascular_sim::nodes
 {

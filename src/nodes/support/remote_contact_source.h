@@ -9,8 +9,8 @@
 #include <ros/ros.h>
 
 #include "contact/contact_set.h"
-#include "endovascular_sim/ContactSet.h"
 #include "endovascular_sim/RodState.h"
+#include "nodes/support/contact_message.h"
 #include "nodes/support/direct_callback_queue.h"
 
 namespace endovascular_sim::nodes

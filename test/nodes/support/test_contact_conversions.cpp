@@ -74,5 +74,44 @@ TEST(ContactConversions, AContactSetComesBackBitForBit)
   EXPECT_EQ(back.features[0].id, feature.id);
 }
 
+TEST(ContactConversions, FeaturesGoOntoTheWireAsFieldByFieldAlthoughTheyAreCopiedAsABlock)
+{
+  ContactSet message;
+  message.features.resize(2);
+  message.features[0].edge = 8;
+  message.features[0].point.y = 0.2;
+  message.features[1].triangle = 12345;
+  message.features[1].normal.z = -0.7;
+  message.features[1].friction = 0.1;
+  message.features[1].feature = 3LL * 4000000000LL + 2;
+  std::vector<std::uint8_t> whole(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(whole.data(), static_cast<std::uint32_t>(whole.size()));
+  ros::serialization::serialize(stream, message);
+  std::vector<std::uint8_t> fields(2 * sizeof(ContactFeature));
+  ros::serialization::OStream by_fields(fields.data(), static_cast<std::uint32_t>(fields.size()));
+  for (const ContactFeature& feature : message.features)
+  {
+    by_fields.next(feature.edge);
+    by_fields.next(feature.triangle);
+    by_fields.next(feature.parameter);
+    by_fields.next(feature.point);
+    by_fields.next(feature.normal);
+    by_fields.next(feature.gap);
+    by_fields.next(feature.clearance_radius);
+    by_fields.next(feature.stiffness);
+    by_fields.next(feature.friction);
+    by_fields.next(feature.feature);
+  }
+  ASSERT_EQ(by_fields.getLength(), 0U);
+  ASSERT_GE(whole.size(), fields.size());
+  EXPECT_TRUE(std::equal(fields.begin(), fields.end(), whole.end() - static_cast<std::ptrdiff_t>(fields.size())));
+  ros::serialization::IStream input(whole.data(), static_cast<std::uint32_t>(whole.size()));
+  ContactSet back;
+  ros::serialization::deserialize(input, back);
+  ASSERT_EQ(back.features.size(), 2U);
+  EXPECT_EQ(back.features[1].feature, message.features[1].feature);
+  EXPECT_EQ(back.features[0].point.y, message.features[0].point.y);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::nodes
