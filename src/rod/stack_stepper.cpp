@@ -32,6 +32,8 @@ StackStepper::StackStepper(const std::vector<Layer>& layers, const std::vector<d
     stack_(layers, position),
     twist_(layers.size()),
     twisted_(layers.size(), 0),
+    turn_before_(layers.size(), 0.0),
+    share_before_(layers.size(), 0.0),
     torque_limit_(layers.size()),
     begin_twist_(layers.size()),
     behind_(layers.size(), 0.0),
@@ -337,7 +339,7 @@ KktStepper::TwistAction StackStepper::relaxTwist(State& state, const StepInput& 
   {
     for (int k = 0; k < stack_.count(); ++k)
       twisted_[k] = relaxLayer(k, state, boundary, input, friction, iteration > 0);
-    if (iteration + 1 == kFrictionIterations || !turnLayers(state, boundary.position))
+    if (iteration + 1 == kFrictionIterations || !turnLayers(state, boundary.position, iteration == 0))
       break;
   }
   double torque = 0.0;

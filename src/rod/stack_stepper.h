@@ -112,7 +112,8 @@ private:
   void setTorqueLimits(const State& state);
   double meanTurn(int k, int outer, const State& state) const;
   double turnCompliance(int k, int outer, double held) const;
-  bool turnLayers(State& state, double held);
+  double turnPerShare(int k, double turn, double share, double compliance, bool first) const;
+  bool turnLayers(State& state, double held, bool first);
   void settleTurns(State& state) const;
 
   ConcentricStack stack_;
@@ -121,9 +122,10 @@ private:
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
   int first_curved_ = 0;
-  std::vector<std::vector<double>> torque_limit_;  ///< of friction with the next outer layer, per edge [N·m]
-  std::vector<std::vector<double>> begin_twist_;   ///< of every layer at the beginning of the step [rad]
-  std::vector<TwistFriction> layer_friction_;      ///< of the wall on one layer
+  std::vector<double> turn_before_, share_before_;  ///< per pair, before the friction torque was last changed
+  std::vector<std::vector<double>> torque_limit_;   ///< of friction with the next outer layer, per edge [N·m]
+  std::vector<std::vector<double>> begin_twist_;    ///< of every layer at the beginning of the step [rad]
+  std::vector<TwistFriction> layer_friction_;       ///< of the wall on one layer
   std::vector<double> edge_torque_, behind_, force_before_;
   std::vector<Eigen::Vector3d> surface_slide_, binormal_, moment_;
   std::vector<MassSlide> mass_slide_;

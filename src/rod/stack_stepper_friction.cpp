@@ -15,7 +15,10 @@ namespace
 
 constexpr double kLayerSlip = 20e-6;     // m that a layer is dragged in the next one before it slides
 constexpr double kTurnTolerance = 1e-4;  // rad that stuck layers may turn on each other: 0.006°
-constexpr double kLeastTorque = 1e-12;   // N·m: a pair with less friction does not stick
+// Bounds of how far a share of the friction turns a pair, against straight layers that nothing else holds.
+constexpr double kLeastResponse = 0.02;
+constexpr double kMostResponse = 3.0;
+constexpr double kLeastTorque = 1e-12;  // N·m: a pair with less friction does not stick
 
 }  // namespace
 
@@ -182,9 +185,19 @@ double StackStepper::turnCompliance(int k, int outer, double held) const
   return turned / (beyond + limit[0]);
 }
 
+/** Change of a pair's mean turn per share of its friction torque: as the last change of the share in this solve has
+ * shown, at first as of straight layers. Curved layers, and those that the wall holds, give way less. */
+double StackStepper::turnPerShare(int k, double turn, double share, double compliance, bool first) const
+{
+  const double given = share - share_before_[k];
+  const double slope = first || given == 0.0 ? compliance : (turn_before_[k] - turn) / given;
+  return slope > 0.0 ? std::clamp(slope, kLeastResponse * compliance, kMostResponse * compliance) : compliance;
+}
+
 /** Changes the friction torques towards those with which every pair sticks where it did, as far as friction allows.
+ *  @param first whether in this solve they have not been changed yet
  *  @return whether the twists must be relaxed again */
-bool StackStepper::turnLayers(State& state, double held)
+bool StackStepper::turnLayers(State& state, double held, bool first)
 {
   bool changed = false;
   for (int k = 0; k < stack_.count(); ++k)
@@ -195,9 +208,12 @@ bool StackStepper::turnLayers(State& state, double held)
     const int outer = nextOuter(k, state);
     const double turn = meanTurn(k, outer, state) - layer.friction_turn;
     const double compliance = turnCompliance(k, outer, held);
+    const double slope = turnPerShare(k, turn, layer.friction_share, compliance, first);
+    turn_before_[k] = turn;
+    share_before_[k] = layer.friction_share;
     if (std::abs(turn) <= kTurnTolerance || compliance <= 0.0)
       continue;
-    const double share = std::max(-1.0, std::min(1.0, layer.friction_share + turn / compliance));
+    const double share = std::max(-1.0, std::min(1.0, layer.friction_share + turn / slope));
     changed = changed || share != layer.friction_share;
     layer.friction_share = share;
   }

@@ -7,6 +7,31 @@
 
 namespace endovascular_sim::session
 {
+namespace
+{
+
+/** @param k where it is sought first; then where it stands, or would: features come in their order along the wire
+ *  @return the contact at a node; null without one */
+WallContact* contactAt(std::vector<WallContact>& contacts, int node, std::size_t& k)
+{
+  while (k < contacts.size() && contacts[k].node < node)
+    ++k;
+  while (k > 0 && contacts[k - 1].node >= node)
+    --k;
+  return k < contacts.size() && contacts[k].node == node ? &contacts[k] : nullptr;
+}
+
+void takeNearer(WallContact* contact, const contact::Feature& feature)
+{
+  if (contact == nullptr || feature.gap >= contact->gap)
+    return;
+  contact->gap = feature.gap;
+  contact->position = feature.point;
+  contact->triangle = feature.triangle;
+}
+
+}  // namespace
+
 void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts)
 {
   const rod::State& state = simulation.state();
@@ -23,17 +48,18 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
     contact.gap = std::numeric_limits<double>::infinity();
     contacts.push_back(contact);
   }
-  for (const contact::Feature& feature : simulation.contactSet().features)
-  {
-    const int node = feature.edge + (feature.parameter > 0.5 ? 1 : 0);
-    const auto contact = std::lower_bound(contacts.begin(), contacts.end(), node,
-                                          [](const WallContact& c, int wanted) { return c.node < wanted; });
-    if (contact == contacts.end() || contact->node != node || feature.gap >= contact->gap)
-      continue;
-    contact->gap = feature.gap;
-    contact->position = feature.point;
-    contact->triangle = feature.triangle;
-  }
+  const std::vector<contact::Feature>& features = simulation.contactSet().features;
+  std::size_t k = 0;
+  for (const contact::Feature& feature : features)
+    takeNearer(contactAt(contacts, feature.edge + (feature.parameter > 0.5 ? 1 : 0), k), feature);
+  // A node whose own halves of its edges have none got its force from the far halves.
+  const auto unlisted = [](const WallContact& contact) { return contact.triangle < 0; };
+  for (WallContact& contact : contacts)
+    if (unlisted(contact))
+      for (const contact::Feature& feature : features)
+        if (feature.parameter > 0.0 && feature.parameter < 1.0 &&
+            contact.node == feature.edge + (feature.parameter > 0.5 ? 0 : 1))
+          takeNearer(&contact, feature);
 }
 
 std::vector<WallContact> wallContacts(const Simulation& simulation)

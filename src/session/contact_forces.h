@@ -20,7 +20,8 @@ struct WallContact
   int triangle = -1;                                         ///< −1: the contact set lists nothing at the node
 };
 
-/** The nodes that carry wall force after the last step, in their order, each with the wall feature nearest to it.
+/** The nodes that carry wall force after the last step, in their order, each with the wall feature nearest to it,
+ *  of those beside it before those towards the next nodes.
  *  Without allocation once @p contacts has room for them. */
 void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts);
 std::vector<WallContact> wallContacts(const Simulation& simulation);
