@@ -26,6 +26,8 @@ constexpr double kWidestWire = 0.6e-3;       // m from a wire's axis up to which
 constexpr double kOnRidge = 1e-12;           // m
 constexpr double kSharp = 1.2;               // rad between triangles or of a vertex's cone that is not bounded
 constexpr double kLeastClearance = 0.05e-3;  // m
+constexpr std::size_t kUsualNodes = 512;     // of a wire; longer ones get their lists later
+constexpr std::size_t kUsualList = 16;       // entries
 constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
 
 enum FeatureKind
@@ -69,6 +71,14 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   for (std::size_t t = 0; t < prisms_.size(); ++t)
     cones.push_back(coneOf(static_cast<int>(t)));
   bvh_.setCones(cones);
+  // The first call shall not wait for memory.
+  near_.resize(kUsualNodes);
+  for (Neighbourhood& near : near_)
+    for (std::vector<Near>* list : {&near.triangles, &near.edges})
+    {
+      list->resize(kUsualList);
+      list->clear();
+    }
 }
 
 Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const

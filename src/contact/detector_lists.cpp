@@ -19,7 +19,6 @@ constexpr double kSlide = 0.5e-3;       // m more that a wire may slide along it
 constexpr double kSlides = 0.05e-3;     // m since the last list by which it has slid then
 // m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
 constexpr double kLimitSlack = 0.1e-3;
-constexpr std::size_t kUsual = 16;   // entries of a list
 constexpr double kListGuard = 1e-8;  // m by which lists hold more than rounding could miss
 
 /** Less by more than rounding could add. */
@@ -95,13 +94,8 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
 void Detector::renewLists(const Query& query)
 {
   const std::size_t count = query.nodes.size();
-  near_.reserve(count);
-  while (near_.size() < count)
-  {
-    near_.emplace_back();
-    near_.back().triangles.reserve(kUsual);
-    near_.back().edges.reserve(kUsual);
-  }
+  if (near_.size() < count)
+    near_.resize(count);
   for (std::size_t index = 0; index < count; ++index)
   {
     const std::size_t next = std::min(index + 1, count - 1);  // the tip has no edge

@@ -361,13 +361,20 @@ std::size_t WireProjection::endOfStraight(const XRayWire& wire, std::size_t firs
 
 void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire)
 {
+  const double nearest = kNearest * geometry.pose().source_to_detector;
+  const double farthest = geometry.pose().source_to_detector;
+  const auto canBeSeen = [&](double z, double radius)  // mitres reach less than r beyond
+  { return z >= nearest + 2.0 * radius && z <= farthest; };
   std::vector<Edge> edges;
   std::size_t next = 0;
   for (std::size_t j = 0; j + 1 < wire.nodes.size(); j = next)
   {
     next = endOfStraight(wire, j);
     const Eigen::Vector3d begin = geometry.toOptical(wire.nodes[j]);
-    const Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
+    Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
+    const double most = std::max(wire.radius[j], wire.radius[next]);
+    if (next > j + 1 && !(canBeSeen(begin.z(), most) && canBeSeen(end.z(), most)))
+      end = geometry.toOptical(wire.nodes[next = j + 1]);  // what cannot be seen is left out edge by edge
     if (begin == end)
       continue;
     Edge edge(begin, end, 0.5 * (wire.radius[j] + wire.radius[next]), wire.attenuation[j]);
@@ -378,11 +385,8 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
     }
     edges.push_back(edge);
   }
-  const double nearest = kNearest * geometry.pose().source_to_detector;
-  const double farthest = geometry.pose().source_to_detector;
   for (const Edge& edge : edges)
-    if (std::min(edge.begin.z(), edge.end.z()) >= nearest + 2.0 * edge.radius &&  // mitres reach less than r beyond
-        std::max(edge.begin.z(), edge.end.z()) <= farthest)
+    if (canBeSeen(edge.begin.z(), edge.radius) && canBeSeen(edge.end.z(), edge.radius))
       addEdge(geometry, offsets, edge);
 }
 

@@ -8,8 +8,9 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** What X-rays see of a wire: a chain of mitred solid cylinders, edge j from node j to node j + 1. A hollow shaft is
- * two: a solid one, and its lumen with what the wall's material would have added there taken away again. */
+/** What X-rays see of a wire: a chain of mitred solid cylinders, edge j from node j to node j + 1. Edges that
+ * are one straight even cylinder may be taken for one. A hollow shaft is two: a solid one, and its lumen with what the
+ * wall's material would have added there taken away again. */
 struct XRayWire
 {
   std::vector<Eigen::Vector3d> nodes;  ///< patient frame [m]

@@ -16,7 +16,7 @@ namespace
 constexpr double kLayerSlip = 20e-6;     // m that a layer is dragged in the next one before it slides
 constexpr double kTurnTolerance = 1e-4;  // rad that stuck layers may turn on each other: 0.006°
 // Bounds of how far a share of the friction turns a pair, against straight layers that nothing else holds.
-constexpr double kLeastResponse = 0.02;
+constexpr double kLeastResponse = 0.2;
 constexpr double kMostResponse = 3.0;
 constexpr double kLeastTorque = 1e-12;  // N·m: a pair with less friction does not stick
 
@@ -233,7 +233,12 @@ void StackStepper::settleTurns(State& state) const
       layer.friction_turn = outer < 0 ? 0.0 : layer.rotation - state.layers[outer].rotation;
     }
     else if (std::abs(layer.friction_share) == 1.0)
-      layer.friction_turn = meanTurn(k, outer, state);
+    {
+      // Friction that would push the pair back beyond where it stuck is too much of it, no slip.
+      const double turned = meanTurn(k, outer, state);
+      if ((turned - layer.friction_turn) * layer.friction_share >= 0.0)
+        layer.friction_turn = turned;
+    }
   }
 }
 

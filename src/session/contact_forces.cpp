@@ -1,6 +1,5 @@
 #include "session/contact_forces.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "rod/wall_friction.h"

@@ -17,7 +17,7 @@ class Archive;
 namespace endovascular_sim::session
 {
 
-/** Vertices that may move in one step: what contact must take up at once. */
+/** Vertices that may move in one pressing: what contact must take up at once. */
 constexpr std::size_t kMostMovedVertices = 200;
 
 /** The wall of a vessel that balloons move, and the detector that searches it, in this process. */

@@ -13,7 +13,7 @@ namespace
 
 constexpr double kGrip = 200.0;        // N/m with which an inflated balloon presses on what holds it back: assumed
 constexpr double kGrowth = 10e-6;      // m by which a balloon may widen at once
-constexpr int kSettlePressings = 100;  // after the last pressure: the wall has come to rest by then
+constexpr int kSettlePressings = 200;  // after the last pressure: the wall has come to rest by then
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

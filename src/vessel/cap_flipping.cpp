@@ -14,7 +14,9 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr int kMostRounds = 20;  // rows of caps: each round turns those that have no neighbour turned in it
+constexpr int kMostRounds = 200;  // in a row of caps each round turns the outermost
+
+constexpr double kGain = 1.01;  // of height, that is no rounding
 
 struct Base
 {
@@ -53,7 +55,14 @@ bool isEdge(const std::vector<EdgeUse>& uses, const Diagonal& edge)
   return use != uses.end() && use->low == edge.first && use->high == edge.second;
 }
 
-/** Turns the edge between two triangles. @return whether the lower one of both became higher */
+Eigen::Vector3d areaVector(const TriangleMesh& mesh, const Eigen::Vector3i& triangle)
+{
+  const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(triangle[k])]; };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0));
+}
+
+/** Turns the edge between two triangles, where both stay on their side and the lower one becomes higher.
+ *  @return whether it did */
 bool turnEdge(TriangleMesh& mesh, const EdgeUse& of_cap, const EdgeUse& beside)
 {
   Eigen::Vector3i& cap = mesh.triangles[static_cast<std::size_t>(of_cap.triangle)];
@@ -64,7 +73,9 @@ bool turnEdge(TriangleMesh& mesh, const EdgeUse& of_cap, const EdgeUse& beside)
   const int d = other[(beside.side + 2) % 3];
   const Eigen::Vector3i first(c, a, d), second(d, b, c);
   const auto height = [&mesh](const Eigen::Vector3i& triangle) { return baseOf(mesh, triangle).height; };
-  if (std::min(height(first), height(second)) <= std::min(height(cap), height(other)))
+  const Eigen::Vector3d before = areaVector(mesh, cap) + areaVector(mesh, other);
+  if (areaVector(mesh, first).dot(before) <= 0.0 || areaVector(mesh, second).dot(before) <= 0.0 ||
+      std::min(height(first), height(second)) <= kGain * std::min(height(cap), height(other)))
     return false;
   cap = first;
   other = second;
@@ -97,7 +108,9 @@ int flipOnce(TriangleMesh& mesh, double least_height)
     const auto at = [](const EdgeUse* use) { return static_cast<std::size_t>(use->triangle); };
     if (base_side[at(cap)] != cap->side)
       std::swap(cap, beside);
-    if (base_side[at(cap)] != cap->side || cap->forward == beside->forward || turned[at(cap)] || turned[at(beside)])
+    // Two caps side by side do not tell which way the surface looks; one of them stands beside another triangle.
+    if (base_side[at(cap)] != cap->side || base_side[at(beside)] >= 0 || cap->forward == beside->forward ||
+        turned[at(cap)] || turned[at(beside)])
       continue;
     const int c = mesh.triangles[at(cap)][(cap->side + 2) % 3];
     const int d = mesh.triangles[at(beside)][(beside->side + 2) % 3];

@@ -74,6 +74,11 @@ int dropTriangles(TriangleMesh& mesh, Predicate drop)
   return static_cast<int>(before - mesh.triangles.size());
 }
 
+int dropCollapsed(TriangleMesh& mesh)
+{
+  return dropTriangles(mesh, [](const Eigen::Vector3i& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
 int dropDegenerate(TriangleMesh& mesh)
 {
   return dropTriangles(mesh,
@@ -293,10 +298,14 @@ RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source)
       result.notes.push_back(counted(count, singular, plural));
   };
   note(weld(mesh), "vertex joined to an equal one", "vertices joined to equal ones");
+  // What is dropped first would hide the edges that are turned.
+  int without_area = dropCollapsed(mesh);
+  const int duplicates = dropDuplicates(mesh);
   note(flipCaps(mesh, kWeldDistance), "edge turned beside a face without height",
        "edges turned beside faces without height");
-  note(dropDegenerate(mesh), "face without area dropped", "faces without area dropped");
-  note(dropDuplicates(mesh), "duplicate face dropped", "duplicate faces dropped");
+  without_area += dropDegenerate(mesh);
+  note(without_area, "face without area dropped", "faces without area dropped");
+  note(duplicates, "duplicate face dropped", "duplicate faces dropped");
   note(dropCrumbs(mesh), "stray face that encloses nothing dropped", "stray faces that enclose nothing dropped");
   dropUnused(mesh);
   if (mesh.triangles.empty())

@@ -11,13 +11,26 @@ namespace
 
 constexpr double kLength = 0.3;
 
-/** A straight wire in a straight catheter that fits tightly: 2 N/m over 100 mm. */
+Wire curvedAtTip(Wire wire, double rest_curvature)
+{
+  if (rest_curvature == 0.0)
+    return wire;
+  Section tip = wire.sections.back();
+  tip.length = 0.1;
+  tip.rest_curvature = {rest_curvature, 0.0};
+  wire.sections.back().length -= tip.length;
+  wire.sections.push_back(tip);
+  return wire;
+}
+
+/** A wire in a catheter that fits tightly: 2 N/m over 100 mm. */
 struct TightFit
 {
-  TightFit()
+  /** @param rest_curvature of both, over their last 100 mm [1/m] */
+  explicit TightFit(double rest_curvature = 0.0)
   {
-    Layer wire{uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), 0.1, 2.0};
-    Layer catheter{uniformWire(kLength, 8e-5, 0.9e-3, 6000.0)};
+    Layer wire{curvedAtTip(uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), rest_curvature), 0.1, 2.0};
+    Layer catheter{curvedAtTip(uniformWire(kLength, 8e-5, 0.9e-3, 6000.0), rest_curvature)};
     stepper = std::make_unique<StackStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
                                              calm(), StepperSettings());
     state = stepper->initialState(input);
@@ -81,6 +94,24 @@ TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
   EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.0, 0.02 * limit);
   fit.moveTo(0.15, 7.0 * slip);
   EXPECT_NEAR(fit.state.layers[0].hand_torque, -limit, 1e-2 * limit);
+}
+
+/** Curvature of both holds them together: a change of the friction turns them far less than it would straight ones. */
+TEST(StackFriction, CurvedLayersThatStickSettleAtOnceAndDoNotSlip)
+{
+  TightFit fit(15.0);
+  const double limit = 0.1 * 0.4e-3 * 2.0 * 0.1;
+  const double slip = limit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);
+  const double stuck_at = fit.state.layers[0].friction_turn;
+  for (const double turn : {0.2, -0.2, 0.3, 0.0})
+  {
+    fit.moveTo(0.15, turn * slip);
+    EXPECT_EQ(fit.state.layers[0].friction_turn, stuck_at) << turn;
+    const double settled = fit.state.layers[0].friction_share;
+    EXPECT_LT(std::abs(settled), 1.0) << turn;
+    fit.moveTo(0.15, turn * slip);
+    EXPECT_NEAR(fit.state.layers[0].friction_share, settled, 0.01) << turn;
+  }
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ TriangleMesh withCaps(TriangleMesh mesh, int count, double off)
 TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
 {
   const TriangleMesh box = load("box_mm.obj");
-  for (const int count : {1, 2, 7})
+  for (const int count : {1, 2, 7, 40})
     for (const double off : {0.0, 1e-12, 5e-8})
     {
       const TriangleMesh mesh = withCaps(box, count, off);
@@ -152,6 +152,26 @@ TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
         EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).norm() / longest, kWeldDistance) << count << " " << off;
       }
     }
+}
+
+TEST(MeshRepair, TurnsTheEdgeBesideACapThoughJoinedVerticesAndDoubledFacesCoverIt)
+{
+  TriangleMesh mesh = withCaps(load("box_mm.obj"), 1, 0.0);
+  const int count = static_cast<int>(mesh.triangles.size());
+  const auto cap = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                [&mesh](const Eigen::Vector3i& t)
+                                {
+                                  const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+                                  return (at(1) - at(0)).cross(at(2) - at(0)).norm() < 1e-12;
+                                });
+  ASSERT_NE(cap, mesh.triangles.end());
+  const Eigen::Vector3i face = *cap;
+  mesh.vertices.emplace_back(mesh.vertices[static_cast<std::size_t>(face[1])] + Eigen::Vector3d(3e-8, 0.0, 0.0));
+  mesh.triangles.emplace_back(face[0], face[1], static_cast<int>(mesh.vertices.size()) - 1);  // collapses
+  mesh.triangles.push_back(face);
+  const RepairedMesh repaired = repairMesh(mesh, "x");
+  EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
+  EXPECT_EQ(static_cast<int>(repaired.mesh.triangles.size()), count);
 }
 
 TEST(MeshRepair, LeavesFacesThatAreFlatButHigherThanVerticesAreApart)

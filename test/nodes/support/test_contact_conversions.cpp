@@ -76,6 +76,7 @@ TEST(ContactConversions, AContactSetComesBackBitForBit)
 
 TEST(ContactConversions, FeaturesGoOntoTheWireAsFieldByFieldAlthoughTheyAreCopiedAsABlock)
 {
+  static_assert(ros::message_traits::IsSimple<ContactFeature>::value, "as a block");
   ContactSet message;
   message.features.resize(2);
   message.features[0].edge = 8;
