@@ -36,12 +36,12 @@ struct TightFit
     state = stepper->initialState(input);
   }
 
-  void moveTo(double insertion, double rotation)
+  void moveTo(double insertion, double rotation, int count = 20)
   {
     input[0] = {insertion, rotation};
     StepInput all;
     all.layers = input;
-    for (int k = 0; k < 20; ++k)  // until inertia has no part any more
+    for (int k = 0; k < count; ++k)  // 20: until inertia has no part any more
     {
       std::uint32_t pass = 0;
       all.step = steps++;
@@ -97,20 +97,19 @@ TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
 }
 
 /** Curvature of both holds them together: a change of the friction turns them far less than it would straight ones. */
-TEST(StackFriction, CurvedLayersThatStickSettleAtOnceAndDoNotSlip)
+TEST(StackFriction, CurvedLayersThatStickSettleSoonAndDoNotSlip)
 {
-  TightFit fit(15.0);
+  TightFit fit(40.0);
   const double limit = 0.1 * 0.4e-3 * 2.0 * 0.1;
   const double slip = limit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);
   const double stuck_at = fit.state.layers[0].friction_turn;
   for (const double turn : {0.2, -0.2, 0.3, 0.0})
   {
-    fit.moveTo(0.15, turn * slip);
+    fit.moveTo(0.15, turn * slip, 3);
+    const double soon = fit.state.layers[0].friction_share;
+    fit.moveTo(0.15, turn * slip, 60);
+    EXPECT_NEAR(soon, fit.state.layers[0].friction_share, 0.05) << turn;
     EXPECT_EQ(fit.state.layers[0].friction_turn, stuck_at) << turn;
-    const double settled = fit.state.layers[0].friction_share;
-    EXPECT_LT(std::abs(settled), 1.0) << turn;
-    fit.moveTo(0.15, turn * slip);
-    EXPECT_NEAR(fit.state.layers[0].friction_share, settled, 0.01) << turn;
   }
 }
 
