@@ -256,5 +256,55 @@ TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
   EXPECT_NEAR(of_regions, integral, 1e-9 * integral);
 }
 
+/** A wall that touches the wire at one place of one edge only. */
+class OneTouch : public contact::ContactSource
+{
+public:
+  explicit OneTouch(double parameter) : parameter_(parameter) {}
+
+  void detect(const contact::Query& query, contact::ContactSet& set) override
+  {
+    set.step = query.step;
+    set.substep = query.substep;
+    set.pass = query.pass;
+    set.stale = false;
+    set.first_edge = query.first_node;
+    set.free_distance.assign(query.nodes.size() - 1, query.margin);
+    const std::size_t edge = query.nodes.size() - 3;
+    contact::Feature feature;
+    feature.edge = query.first_node + static_cast<int>(edge);
+    feature.parameter = parameter_;
+    feature.normal = Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d axis = (1.0 - parameter_) * query.nodes[edge] + parameter_ * query.nodes[edge + 1];
+    feature.gap = axis.x() - 10e-6;  // a wall at 10 µm less than the radius from the straight wire
+    feature.point = axis - (feature.gap + query.radius[edge]) * feature.normal;
+    feature.triangle = 7;
+    feature.id = 21;
+    set.features = {feature};
+  }
+
+private:
+  double parameter_;
+};
+
+TEST(WallContacts, KnowTheTriangleAtBothNodesOfAnEdgeThatIsTouchedBetweenThem)
+{
+  for (const double parameter : {0.3, 0.5, 0.8})
+  {
+    const Scene scene = loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml",
+                                  {"drive.initial_insertion=0.1", "drive.travel=0.01"});
+    EntryPose entry;
+    entry.d1 = Eigen::Vector3d::UnitY();
+    OneTouch wall(parameter);
+    Simulation simulation(scene, entry, &wall);
+    simulation.step({0.1, 0.0});  // which pushes the wire off
+    const std::vector<WallContact> contacts = wallContacts(simulation);
+    ASSERT_EQ(contacts.size(), 2U) << parameter;
+    for (const WallContact& contact : contacts)
+      EXPECT_EQ(contact.triangle, 7) << parameter << ", node " << contact.node;
+    EXPECT_EQ(contacts[0].position, contacts[1].position);
+  }
+}
+
 }  // namespace
 }  // namespace endovascular_sim::session
