@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -58,7 +59,7 @@ double WallLaw::frictionAt(const Eigen::Vector3d& place) const
 }
 
 Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : wall_(mesh), bvh_(wall_), law_(law), vessel_version_(vessel_version)
+  : wall_(mesh), bvh_(wall_), law_(std::move(law)), vessel_version_(vessel_version)
 {
   prisms_.resize(wall_.triangles.size());
   for (std::size_t t = 0; t < prisms_.size(); ++t)
