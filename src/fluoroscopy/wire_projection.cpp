@@ -50,6 +50,34 @@ Eigen::Vector3d mitre(const Eigen::Vector3d& own, const Eigen::Vector3d& other)
   return own.dot(other) > kFoldedCosine ? (own + other).normalized() : own;
 }
 
+/** The node up to which a wire is one straight even cylinder: cuts between edges cost more than edges. */
+std::size_t endOfStraight(const XRayWire& wire, std::size_t first)
+{
+  std::size_t end = first + 1;
+  const auto straightTo = [&wire, first](std::size_t last)
+  {
+    const Eigen::Vector3d& from = wire.nodes[first];
+    const Eigen::Vector3d chord = wire.nodes[last] - from;
+    const double length = chord.norm();
+    double reached = 0.0;
+    for (std::size_t k = first + 1; k < last; ++k)
+    {
+      const Eigen::Vector3d way = wire.nodes[k] - from;
+      const double along = way.dot(chord);
+      if (!(along >= reached) || !(way.norm() <= length) || way.cross(chord).norm() > kStraight * length)
+        return false;
+      reached = along;
+    }
+    return std::abs(wire.radius[last] - wire.radius[first]) <= kStraight &&
+           wire.attenuation[last - 1] == wire.attenuation[first];
+  };
+  if (std::abs(wire.radius[end] - wire.radius[first]) > kStraight)
+    return end;
+  while (end + 1 < wire.nodes.size() && end - first < kLongestRun && straightTo(end + 1))
+    ++end;
+  return end;
+}
+
 /** Something that changes evenly over a pixel. */
 struct Linear
 {
@@ -331,34 +359,6 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Offsets& offset
     }
 }
 
-/** The node up to which a wire is one straight even cylinder: cuts between edges cost more than edges. */
-std::size_t WireProjection::endOfStraight(const XRayWire& wire, std::size_t first)
-{
-  std::size_t end = first + 1;
-  const auto straightTo = [&wire, first](std::size_t last)
-  {
-    const Eigen::Vector3d& from = wire.nodes[first];
-    const Eigen::Vector3d chord = wire.nodes[last] - from;
-    const double length = chord.norm();
-    double reached = 0.0;
-    for (std::size_t k = first + 1; k < last; ++k)
-    {
-      const Eigen::Vector3d way = wire.nodes[k] - from;
-      const double along = way.dot(chord);
-      if (!(along >= reached) || !(way.norm() <= length) || way.cross(chord).norm() > kStraight * length)
-        return false;
-      reached = along;
-    }
-    return std::abs(wire.radius[last] - wire.radius[first]) <= kStraight &&
-           wire.attenuation[last - 1] == wire.attenuation[first];
-  };
-  if (std::abs(wire.radius[end] - wire.radius[first]) > kStraight)
-    return end;
-  while (end + 1 < wire.nodes.size() && end - first < kLongestRun && straightTo(end + 1))
-    ++end;
-  return end;
-}
-
 void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire)
 {
   const double nearest = kNearest * geometry.pose().source_to_detector;
@@ -371,10 +371,11 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
   {
     next = endOfStraight(wire, j);
     const Eigen::Vector3d begin = geometry.toOptical(wire.nodes[j]);
-    Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
     const double most = std::max(wire.radius[j], wire.radius[next]);
-    if (next > j + 1 && !(canBeSeen(begin.z(), most) && canBeSeen(end.z(), most)))
-      end = geometry.toOptical(wire.nodes[next = j + 1]);  // what cannot be seen is left out edge by edge
+    // What cannot be seen is left out edge by edge.
+    if (!canBeSeen(begin.z(), most) || !canBeSeen(geometry.toOptical(wire.nodes[next]).z(), most))
+      next = j + 1;
+    const Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
     if (begin == end)
       continue;
     Edge edge(begin, end, 0.5 * (wire.radius[j] + wire.radius[next]), wire.attenuation[j]);

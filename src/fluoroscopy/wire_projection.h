@@ -49,7 +49,6 @@ private:
   class Footprint;
   class Chords;
 
-  static std::size_t endOfStraight(const XRayWire& wire, std::size_t first);
   void addWire(const XRayGeometry& geometry, const Offsets& offsets, const XRayWire& wire);
   void addEdge(const XRayGeometry& geometry, const Offsets& offsets, const Edge& edge);
   float* samplesOf(std::uint32_t pixel);

@@ -15,8 +15,14 @@ namespace
 {
 
 constexpr int kMostRounds = 200;  // in a row of caps each round turns the outermost
+constexpr double kGain = 1.01;    // of height, that is no rounding
 
-constexpr double kGain = 1.01;  // of height, that is no rounding
+/** Twice the area, along the normal [m²]. */
+Eigen::Vector3d areaVector(const TriangleMesh& mesh, const Eigen::Vector3i& triangle)
+{
+  const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(triangle[k])]; };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0));
+}
 
 struct Base
 {
@@ -35,14 +41,8 @@ Base baseOf(const TriangleMesh& mesh, const Eigen::Vector3i& triangle)
     if (length > longest)
       base.side = k, longest = length;
   }
-  const double twice_area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-  base.height = longest > 0.0 ? twice_area / longest : 0.0;
+  base.height = longest > 0.0 ? areaVector(mesh, triangle).norm() / longest : 0.0;
   return base;
-}
-
-bool hasThreeCorners(const Eigen::Vector3i& triangle)
-{
-  return triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
 }
 
 using Diagonal = std::pair<int, int>;
@@ -53,12 +53,6 @@ bool isEdge(const std::vector<EdgeUse>& uses, const Diagonal& edge)
       std::lower_bound(uses.begin(), uses.end(), edge,
                        [](const EdgeUse& u, const Diagonal& wanted) { return std::pair(u.low, u.high) < wanted; });
   return use != uses.end() && use->low == edge.first && use->high == edge.second;
-}
-
-Eigen::Vector3d areaVector(const TriangleMesh& mesh, const Eigen::Vector3i& triangle)
-{
-  const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(triangle[k])]; };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0));
 }
 
 /** Turns the edge between two triangles, where both stay on their side and the lower one becomes higher.
@@ -90,7 +84,7 @@ int flipOnce(TriangleMesh& mesh, double least_height)
   for (std::size_t t = 0; t < base_side.size(); ++t)
   {
     const Base base = baseOf(mesh, mesh.triangles[t]);
-    if (hasThreeCorners(mesh.triangles[t]) && base.height < least_height)
+    if (base.height < least_height)
       base_side[t] = base.side, any = true;
   }
   if (!any)

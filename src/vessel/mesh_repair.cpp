@@ -298,7 +298,7 @@ RepairedMesh repairMesh(TriangleMesh mesh, const std::string& source)
       result.notes.push_back(counted(count, singular, plural));
   };
   note(weld(mesh), "vertex joined to an equal one", "vertices joined to equal ones");
-  // What is dropped first would hide the edges that are turned.
+  // Before edges are turned, because they would be those of more than two faces.
   int without_area = dropCollapsed(mesh);
   const int duplicates = dropDuplicates(mesh);
   note(flipCaps(mesh, kWeldDistance), "edge turned beside a face without height",

@@ -11,6 +11,7 @@ namespace
 
 constexpr double kLength = 0.3;
 
+/** Curved over its last 100 mm and no softer there, so that curvature couples two layers more than torsion does. */
 Wire curvedAtTip(Wire wire, double rest_curvature)
 {
   if (rest_curvature == 0.0)
@@ -49,6 +50,10 @@ struct TightFit
     }
   }
 
+  /** Of straight layers: the largest torque between them [N·m], and the turn of the wire at which they slip [rad]. */
+  static constexpr double kLimit = 0.1 * 0.4e-3 * 2.0 * 0.1;
+  static constexpr double kSlip = kLimit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);  // ∫(L − s)² ds/L² of both, by GJ
+
   std::vector<LayerInput> input = {{0.15, 0.0}, {0.1, 0.0}};
   std::unique_ptr<StackStepper> stepper;
   State state;
@@ -76,9 +81,8 @@ TEST(StackFriction, FrictionBetweenLayersSticksSlidesAndHasHysteresis)
 TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
 {
   TightFit fit;
-  const double limit = 0.1 * 0.4e-3 * 2.0 * 0.1;
-  const double compliance = 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);  // ∫(L − s)² ds/L² of both, by GJ
-  const double slip = limit * compliance;
+  const double limit = TightFit::kLimit;
+  const double slip = TightFit::kSlip;
   fit.moveTo(0.15, 0.25 * slip);
   EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.25 * limit, 0.01 * limit);
   EXPECT_NEAR(fit.state.layers[1].hand_torque, -0.25 * limit, 0.01 * limit);
@@ -100,14 +104,12 @@ TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
 TEST(StackFriction, CurvedLayersThatStickSettleSoonAndDoNotSlip)
 {
   TightFit fit(40.0);
-  const double limit = 0.1 * 0.4e-3 * 2.0 * 0.1;
-  const double slip = limit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);
   const double stuck_at = fit.state.layers[0].friction_turn;
   for (const double turn : {0.2, -0.2, 0.3, 0.0})
   {
-    fit.moveTo(0.15, turn * slip, 3);
+    fit.moveTo(0.15, turn * TightFit::kSlip, 3);
     const double soon = fit.state.layers[0].friction_share;
-    fit.moveTo(0.15, turn * slip, 60);
+    fit.moveTo(0.15, turn * TightFit::kSlip, 60);
     EXPECT_NEAR(soon, fit.state.layers[0].friction_share, 0.05) << turn;
     EXPECT_EQ(fit.state.layers[0].friction_turn, stuck_at) << turn;
   }
