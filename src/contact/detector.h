@@ -12,6 +12,7 @@
 
 #include "contact/bvh.h"
 #include "contact/contact_set.h"
+#include "contact/helper_thread.h"
 #include "contact/wall.h"
 
 namespace endovascular_sim::contact
@@ -52,6 +53,11 @@ public:
   Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
 
   void detect(const Query& query, ContactSet& set) override;
+
+  /** Shares long searches (filled balloons) and movements of the wall with another thread from now on; answers stay the
+   * same bits.
+   *  @param helper must outlive the detector; null: none */
+  void setHelper(HelperThread* helper) { helper_ = helper; }
 
   /** Lets the wall follow a vessel whose vertices have moved, in a time that grows with what is near them only. Answers
    *  are afterwards, bit for bit, those of a detector made from the moved mesh.
@@ -140,6 +146,14 @@ private:
     }
   };
 
+  /** Nodes, the edges behind them, and what is found there. */
+  struct Part
+  {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::vector<Feature> of_nodes, of_edges;
+  };
+
   /** An edge of the wire, or what lists are made for. */
   struct AxisSegment
   {
@@ -173,7 +187,11 @@ private:
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
-  void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features);
+  bool isLong(const Query& query);
+  void detectParts(const Query& query, std::vector<Feature>& features);
+  void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const;
+  void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;
+  void addLaw(const Query& query, std::vector<Feature>& features) const;
   void makePrism(int triangle);
   double bulgeOf(int triangle) const;
   Bvh::Cone coneOf(int triangle) const;
@@ -185,7 +203,6 @@ private:
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
                    Feature& feature, double& distance, bool& outside) const;
-  void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features);
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
   bool canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
@@ -203,6 +220,8 @@ private:
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
   std::vector<int> collected_, collected_ridged_;
+  HelperThread* helper_ = nullptr;
+  std::vector<Part> parts_;
   std::vector<int> now_reflex_, now_moving_;
   std::vector<Prism> prisms_;
   std::vector<EdgeBall> edge_balls_;

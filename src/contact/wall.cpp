@@ -228,7 +228,8 @@ void Wall::widenToNeighbours(std::vector<int>& around)
         }
 }
 
-const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
+/** Moves the vertices and notes the triangles, edges and vertices of what has moved; all are marked. */
+void Wall::markMoved(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
 {
   changes_.triangles.clear();
   moved_edges_.clear();
@@ -245,8 +246,6 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
   }
   std::sort(changes_.triangles.begin(), changes_.triangles.end());
   for (int t : changes_.triangles)
-  {
-    finishTriangle(t);
     for (int k = 0; k < 3; ++k)
     {
       const int e = triangle_edges[t][k];
@@ -256,18 +255,12 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
       if (!vertex_marked_[v])
         vertex_marked_[v] = 1, ring_.push_back(v);
     }
-  }
   std::sort(moved_edges_.begin(), moved_edges_.end());
-  for (int e : moved_edges_)
-  {
-    finishEdge(edges[e]);
-    finishBend(e);
-  }
-  for (int v : ring_)
-  {
-    finishVertex(v);
-    bends_[0][v] = bendAt(v);
-  }
+}
+
+/** Notes the triangles that share a vertex with what has moved, and their edges; no triangle or edge is marked then. */
+void Wall::widenChanges()
+{
   changes_.around = changes_.triangles;
   for (int v : ring_)
     for (int t : vertex_triangles_[v])
@@ -276,12 +269,6 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
         triangle_marked_[t] = 1;
         changes_.around.push_back(t);
       }
-  for (int round = 1; round <= kCurvatureRounds; ++round)
-  {
-    widenToNeighbours(ring_);
-    for (int v : ring_)
-      bends_[round][v] = widened(v, round);
-  }
   changes_.edges = moved_edges_;
   for (int t : changes_.around)
   {
@@ -292,6 +279,32 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
   }
   for (int e : changes_.edges)
     edge_marked_[e] = 0;
+}
+
+const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
+                                        HelperThread* helper)
+{
+  markMoved(indices, positions);
+  forEach(helper, changes_.triangles, [this](int t) { finishTriangle(t); });
+  forEach(helper, moved_edges_,
+          [this](int e)
+          {
+            finishEdge(edges[e]);
+            finishBend(e);
+          });
+  forEach(helper, ring_,
+          [this](int v)
+          {
+            finishVertex(v);
+            bends_[0][v] = bendAt(v);
+          });
+  widenChanges();
+  for (int round = 1; round <= kCurvatureRounds; ++round)
+  {
+    widenToNeighbours(ring_);
+    forEach(helper, ring_, [this, round](int v) { bends_[round][v] = widened(v, round); });
+  }
+  curved_.clear();
   for (int v : ring_)
   {
     vertex_marked_[v] = 0;
@@ -299,12 +312,12 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
       if (!triangle_marked_[t])
       {
         triangle_marked_[t] = 1;
-        finishCurvature(t);
+        curved_.push_back(t);
       }
   }
-  for (int v : ring_)
-    for (int t : vertex_triangles_[v])
-      triangle_marked_[t] = 0;
+  for (int t : curved_)
+    triangle_marked_[t] = 0;
+  forEach(helper, curved_, [this](int t) { finishCurvature(t); });
   return changes_;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/helper_thread.h"
 #include "vessel/mesh.h"
 
 namespace endovascular_sim::contact
@@ -67,8 +68,10 @@ public:
    *  grows with the number of vertices moved only.
    *  @param indices distinct
    *  @param positions [m], as many
+   *  @param helper shares the work, unless it is null
    *  @return valid until the next call */
-  const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
+  const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
+                              HelperThread* helper = nullptr);
 
 private:
   static constexpr int kCurvatureRounds = 2;  ///< of neighbours over which curvature is averaged
@@ -90,6 +93,8 @@ private:
   Bend widened(int vertex, int round) const;
   void finishCurvature(int triangle);
   void widenToNeighbours(std::vector<int>& around);
+  void markMoved(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
+  void widenChanges();
 
   /** An edge's share of bend is weight · across acrossᵀ. */
   struct EdgeBend
@@ -105,7 +110,7 @@ private:
   std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
   Changes changes_;
   std::vector<int> moved_edges_;  ///< of the triangles with a vertex that moved; ascending
-  std::vector<int> ring_;
+  std::vector<int> ring_, curved_;
   std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };
 

@@ -16,6 +16,7 @@
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 #include "nodes/support/vessel_conversions.h"
+#include "session/moving_wall.h"
 #include "session/scene_vessel.h"
 
 namespace endovascular_sim::nodes
@@ -40,6 +41,8 @@ public:
       return;
     }
     law_ = session::wallLaw(*scene.vessel);
+    if (hasSpareProcessor() && session::hasBalloon(scene))
+      helper_ = std::make_unique<contact::HelperThread>(moveToSpareProcessor);
     publisher_ = node_.advertise<ContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     ros::NodeHandle direct(node_);
@@ -64,6 +67,7 @@ private:
     const bool newer = message->version != 1 && ros::service::call(node_.resolveName(names::kGetVessel), vessel);
     const VesselMesh& mesh = newer ? vessel.response.mesh : *message;
     auto detector = std::make_unique<contact::Detector>(fromMessage(mesh), law_, mesh.version);
+    detector->setHelper(helper_.get());
     triangles_ = mesh.mesh.triangles.size();
     ROS_INFO("contact: vessel version %lu, %zu triangles", static_cast<unsigned long>(mesh.version),
              mesh.mesh.triangles.size());
@@ -151,6 +155,7 @@ private:
     status.add("scheduling", grant_.message);
     status.add("answered", answered_.load());
     status.add("features in the last set", features_.load());
+    status.add("parts that the second thread did", helper_ ? helper_->helped() : 0);
     status.add("triangles", triangles_.load());
     status.add("vessel version", version_.load());
     status.add("waited for the vessel server", late_walls_.load());
@@ -159,6 +164,7 @@ private:
   ros::NodeHandle node_;
   RealTimeGrant grant_;
   contact::WallLaw law_;
+  std::unique_ptr<contact::HelperThread> helper_;
   std::mutex mutex_;                             ///< vessels come in another thread than all else
   std::unique_ptr<contact::Detector> detector_;  ///< guarded, as the next two
   std::deque<VesselMovedConstPtr> waiting_;      ///< movements that no state has asked for yet

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "contact/detector.h"
 #include "vessel/mesh_reader.h"
@@ -95,6 +98,77 @@ inline Query randomWire(const Eigen::Vector3d& start, std::mt19937& random, int 
     x += 1.8e-3 * direction;
   }
   return query;
+}
+
+template <typename Number>
+bool sameBits(const Number& a, const Number& b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+inline void expectSameSets(const ContactSet& a, const ContactSet& b)
+{
+  EXPECT_EQ(a.vessel_version, b.vessel_version);
+  EXPECT_EQ(a.free_distance, b.free_distance);
+  ASSERT_EQ(a.features.size(), b.features.size());
+  for (std::size_t k = 0; k < a.features.size(); ++k)
+  {
+    const Feature& x = a.features[k];
+    const Feature& y = b.features[k];
+    EXPECT_EQ(x.id, y.id);
+    EXPECT_EQ(x.edge, y.edge);
+    EXPECT_EQ(x.triangle, y.triangle);
+    EXPECT_TRUE(sameBits(x.parameter, y.parameter));
+    EXPECT_TRUE(sameBits(x.point, y.point));
+    EXPECT_TRUE(sameBits(x.normal, y.normal));
+    EXPECT_TRUE(sameBits(x.gap, y.gap));
+    EXPECT_TRUE(sameBits(x.friction, y.friction));
+    EXPECT_TRUE(sameBits(x.clearance_radius, y.clearance_radius));
+  }
+}
+
+/** Vertices of a ball round a place, and where they go: outwards by up to a share of the ball. */
+struct Movement
+{
+  std::vector<int> indices;
+  std::vector<Eigen::Vector3d> positions;
+};
+
+inline Movement pushOut(const vessel::TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius, double share)
+{
+  Movement movement;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+  {
+    const Eigen::Vector3d out = mesh.vertices[v] - centre;
+    const double t = out.norm() / radius;
+    if (t >= 1.0)
+      continue;
+    movement.indices.push_back(static_cast<int>(v));
+    movement.positions.emplace_back(mesh.vertices[v] + share * (1.0 - t) * out);
+  }
+  return movement;
+}
+
+inline void apply(const Movement& movement, vessel::TriangleMesh& mesh)
+{
+  for (std::size_t k = 0; k < movement.indices.size(); ++k)
+    mesh.vertices[static_cast<std::size_t>(movement.indices[k])] = movement.positions[k];
+}
+
+inline void expectSameWalls(const Wall& a, const Wall& b)
+{
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.plane_offsets, b.plane_offsets);
+  EXPECT_EQ(a.vertex_normals, b.vertex_normals);
+  EXPECT_EQ(a.vertex_reflex, b.vertex_reflex);
+  EXPECT_EQ(a.vertex_cone, b.vertex_cone);
+  EXPECT_EQ(a.curvature, b.curvature);
+  for (std::size_t e = 0; e < a.edges.size(); ++e)
+  {
+    EXPECT_EQ(a.edges[e].reflex_angle, b.edges[e].reflex_angle);
+    EXPECT_EQ(a.edges[e].normal, b.edges[e].normal);
+    EXPECT_EQ(a.edges[e].into_triangle, b.edges[e].into_triangle);
+  }
 }
 
 }  // namespace endovascular_sim::contact

@@ -25,6 +25,13 @@ RealTimeGrant askForRealTime(int priority);
  */
 void keepOffLockStepCpu();
 
+/** Whether the rod and the contact node have a processor of their own and there are others. */
+bool hasSpareProcessor();
+
+/** The calling thread, which was started by one that was granted real-time scheduling, runs on the other processors.
+ */
+void moveToSpareProcessor();
+
 /** Back to ordinary scheduling for the calling thread (diagnostics, files). */
 void leaveRealTime();
 
