@@ -14,6 +14,11 @@
 namespace
 {
 
+/** Between two looks at what has come: waking for every one of a thousand messages a second would cost more than they
+ * do.
+ */
+constexpr double kTurn = 5e-3;  // s
+
 using endovascular_sim::nodes::RecorderSettings;
 
 /** Folder below ROS_HOME for a session that was given none. */
@@ -54,7 +59,11 @@ int main(int argc, char** argv)
   {
     const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
     endovascular_sim::nodes::SessionRecorder recorder(node, scene, settingsFrom(ros::NodeHandle("~"), scene.name));
-    ros::spin();
+    while (ros::ok())
+    {
+      ros::spinOnce();
+      ros::WallDuration(kTurn).sleep();
+    }
     return recorder.finish() ? 0 : 1;
   }
   catch (const std::exception& error)

@@ -1,5 +1,6 @@
 #include "nodes/support/bag_writer.h"
 
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -15,6 +16,10 @@ namespace
 
 /** Messages that may wait for the disk: 20 s of every topic that the session records. */
 constexpr std::size_t kQueueCapacity = 40000;
+/** How many wait before the thread is woken, and how long they wait at most: a thread that woke for each of a thousand
+ *  small messages a second would take more time to wake than to write. */
+constexpr std::size_t kBatch = 256;
+constexpr std::chrono::milliseconds kLongestWait{100};
 /** Room that must be left on the disk, enough for the bag's index and the report [bytes]. */
 constexpr std::uintmax_t kReserve = 64U << 20U;
 /** How much is written between two looks at the room that is left [bytes]. */
@@ -64,6 +69,8 @@ void BagWriter::enqueue(Item item)
       return;
     }
     queue_.push_back(std::move(item));
+    if (queue_.size() != kBatch)
+      return;
   }
   wake_.notify_one();
 }
@@ -73,13 +80,15 @@ void BagWriter::loop()
   std::unique_lock<std::mutex> lock(mutex_);
   while (true)
   {
-    wake_.wait(lock, [this] { return ending_ || !queue_.empty(); });
-    if (queue_.empty())
-      return;
-    const Item item = std::move(queue_.front());
-    queue_.pop_front();
+    wake_.wait_for(lock, kLongestWait, [this] { return ending_ || queue_.size() >= kBatch; });
+    const bool last = ending_;
+    std::deque<Item> batch;
+    batch.swap(queue_);
     lock.unlock();
-    process(item);
+    for (const Item& item : batch)
+      process(item);
+    if (last)
+      return;
     lock.lock();
   }
 }

@@ -36,6 +36,13 @@ public:
     push([topic, event](rosbag::Bag& bag) { bag.write(topic, event); });
   }
 
+  /** Queues a message of this process, as of its stamp. Does not block. */
+  template <typename Message>
+  void write(const std::string& topic, const boost::shared_ptr<Message>& message)
+  {
+    push([topic, message](rosbag::Bag& bag) { bag.write(topic, message->header.stamp, *message); });
+  }
+
   /** Queues a message of this process as one of a latched topic. Does not block. */
   template <typename Message>
   void writeLatched(const std::string& topic, const Message& message)

@@ -7,6 +7,7 @@
 
 #include "endovascular_sim/OperatingState.h"
 #include "nodes/support/contact_conversions.h"
+#include "nodes/support/hand_message.h"
 #include "nodes/support/names.h"
 #include "nodes/support/treatment_conversions.h"
 #include "session/moving_wall.h"
@@ -40,6 +41,8 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const session::Scene& scene)
   applied_message_.insertion.resize(hand_.size());
   applied_message_.rotation.resize(hand_.size());
   applied_message_.pressure.resize(hand_.size());
+  applied_message_.hand_force.resize(hand_.size());
+  applied_message_.hand_torque.resize(hand_.size());
   visual_message_.header.frame_id = names::kPatientFrame;
 }
 
@@ -48,15 +51,11 @@ void RodPublisher::publishHands(const std::vector<Hand>& hands, double share)
   hand_message_.header.stamp = ros::Time::now();
   for (std::size_t k = 0; k < hand_.size(); ++k)
   {
-    hand_message_.name = {names::kInsertionJoint, names::kRotationJoint};
-    hand_message_.position = {hands[k].command.insertion, hands[k].command.rotation};
-    hand_message_.effort = {share * hands[k].force, share * hands[k].torque};
-    if (has_balloon_[k])
-    {
-      hand_message_.name.emplace_back(names::kPressureJoint);
-      hand_message_.position.push_back(hands[k].command.pressure);
-      hand_message_.effort.push_back(0.0);
-    }
+    if (hand_[k].getNumSubscribers() == 0)
+      continue;
+    const session::HandCommand& command = hands[k].command;
+    toMessage(has_balloon_[k], command.insertion, command.rotation, command.pressure, share * hands[k].force,
+              share * hands[k].torque, hand_message_);
     hand_[k].publish(hand_message_);
   }
 }
@@ -71,6 +70,8 @@ void RodPublisher::publishStep(const session::Simulation& simulation, const std:
     applied_message_.insertion[k] = hands[k].command.insertion;
     applied_message_.rotation[k] = hands[k].command.rotation;
     applied_message_.pressure[k] = hands[k].command.pressure;
+    applied_message_.hand_force[k] = hands[k].force;
+    applied_message_.hand_torque[k] = hands[k].torque;
   }
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -20,6 +21,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
 #include "nodes/support/contact_force_conversions.h"
+#include "nodes/support/hand_message.h"
 #include "nodes/support/names.h"
 #include "nodes/support/vessel_conversions.h"
 #include "session/wall_force_report.h"
@@ -107,7 +109,7 @@ SessionRecorder::SessionRecorder(ros::NodeHandle node, session::Scene scene, Rec
     metrics_(scene_),
     bag_(settings_.folder + "/session.bag"),
     pose_(scene_.record.pose_rate),
-    joints_(scene_.instruments.size(), Throttle(kJointRate)),
+    joints_(kJointRate),
     contacts_(kContactRate),
     last_step_(ros::SteadyTime::now())
 {
@@ -177,13 +179,8 @@ void SessionRecorder::subscribeToWire()
   listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
   measure<TreatmentVisual>(names::kTreatmentVisual, kQueue);
-  for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
-  {
-    const std::string instrument = names::kInstruments + scene_.instruments[k].instrument.name;
-    listen<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kStepQueue,
-                                    [this, k](const auto& event) { onJoints(k, event); });
-    record<OperatingState>(instrument + names::kOperatingState, kQueue);
-  }
+  for (const session::DrivenInstrument& driven : scene_.instruments)
+    record<OperatingState>(names::kInstruments + driven.instrument.name + names::kOperatingState, kQueue);
 }
 
 void SessionRecorder::subscribeToVessel()
@@ -231,6 +228,28 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   last_step_ = ros::SteadyTime::now();
   metrics_.setPressures(drive.pressure);
   bag_.write(node_.resolveName(names::kDriveApplied), event);
+  recordHands(drive);
+}
+
+/** measured_js of all instruments, which drive/applied holds in one message: thousands of small ones a second would
+ * cost the sender and the recorder more than the rest of the recording. */
+void SessionRecorder::recordHands(const DriveApplied& drive)
+{
+  const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
+                                      drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
+  for (std::size_t k = 0; k < hands; ++k)
+    report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
+  if (!joints_.passes(drive.header.stamp.toSec()))
+    return;
+  for (std::size_t k = 0; k < hands; ++k)
+  {
+    const auto joints = boost::make_shared<sensor_msgs::JointState>();
+    joints->header.stamp = drive.header.stamp;
+    const instrument::Instrument& instrument = scene_.instruments[k].instrument;
+    toMessage(instrument.balloon.has_value(), drive.insertion[k], drive.rotation[k], drive.pressure[k],
+              drive.hand_force[k], drive.hand_torque[k], *joints);
+    bag_.write(node_.resolveName(names::kInstruments + instrument.name + names::kMeasuredJs), joints);
+  }
 }
 
 void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event)
@@ -263,19 +282,6 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   }
   if (pose_.passes(rod.time))
     bag_.write(node_.resolveName(names::kRodStateVisual), event);
-}
-
-void SessionRecorder::onJoints(std::size_t instrument, const ros::MessageEvent<sensor_msgs::JointState const>& event)
-{
-  const sensor_msgs::JointState& joints = *event.getMessage();
-  if (finished_ || joints.header.stamp.isZero())  // CRTK: stamp 0 marks invalid data
-    return;
-  if (joints.effort.size() >= 2)
-    report_.addHand(joints.effort[0], joints.effort[1]);
-  if (joints_[instrument].passes(joints.header.stamp.toSec()))
-    bag_.write(
-        node_.resolveName(names::kInstruments + scene_.instruments[instrument].instrument.name + names::kMeasuredJs),
-        event);
 }
 
 void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)

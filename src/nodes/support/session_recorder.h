@@ -10,7 +10,6 @@
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/JointState.h>
 #include <std_srvs/Trigger.h>
 
 #include "endovascular_sim/ContactForceMap.h"
@@ -81,7 +80,7 @@ private:
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
-  void onJoints(std::size_t instrument, const ros::MessageEvent<sensor_msgs::JointState const>& event);
+  void recordHands(const DriveApplied& drive);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
@@ -111,7 +110,7 @@ private:
   MetricsRecorder metrics_;
   BagWriter bag_;
   Throttle pose_;
-  std::vector<Throttle> joints_;  ///< per instrument
+  Throttle joints_;
   Throttle contacts_;
   ContactForceMapConstPtr force_map_;  ///< the newest
   VesselMeshConstPtr vessel_;
