@@ -199,7 +199,7 @@ int main(int argc, char** argv)
   try
   {
     nodes::ContactNode contact(node, grant);
-    ros::spin();
+    nodes::spinUntilShutdown();
   }
   catch (const std::exception& error)
   {

@@ -435,7 +435,7 @@ int main(int argc, char** argv)
   {
     const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
     const endovascular_sim::nodes::HapticDevice device(node, ros::NodeHandle("~"), scene, real_time);
-    ros::spin();
+    endovascular_sim::nodes::spinUntilShutdown();
   }
   catch (const std::exception& error)
   {

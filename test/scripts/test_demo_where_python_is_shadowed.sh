@@ -24,8 +24,15 @@ assert report["recording"]["error"] is None and report["recording"]["dropped"] =
 PYTHON
 set +u
 . "$repository/catkin_ws/devel/setup.bash"
-rosbag info results/session.bag | grep -q '/drive/applied  *1000 msgs'
+rosbag info results/session.bag > bag_info
+grep -q '/drive/applied  *1000 msgs' bag_info
+grep -Eq '/instruments/guidewire/measured_js  *(99|100|101) msgs' bag_info  # made of the former
 "$repository/catkin_ws/devel/lib/endovascular_sim/replay" results/session.bag | grep -q '1000 steps, 0 different'
+
+# Every node ended when it was asked to.
+if grep escalating results/log/launch.log; then
+  exit 1
+fi
 
 # Nothing is left running; every process of the session has the folder in its command line.
 sleep 1

@@ -8,6 +8,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
 namespace endovascular_sim::nodes
 {
 namespace
@@ -84,6 +87,13 @@ bool hasSpareProcessor()
 void moveToSpareProcessor()
 {
   sched_setaffinity(0, sizeof spareCpus(), &spareCpus());
+}
+
+void spinUntilShutdown()
+{
+  const ros::WallDuration patience(0.1);
+  while (ros::ok() && !ros::isShuttingDown())
+    ros::getGlobalCallbackQueue()->callAvailable(patience);
 }
 
 void leaveRealTime()

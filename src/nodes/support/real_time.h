@@ -32,6 +32,10 @@ bool hasSpareProcessor();
  */
 void moveToSpareProcessor();
 
+/** ros::spin() for a process with real-time scheduling. The original turns round without rest while ROS shuts down,
+ * which keeps from ending, on one processor, the threads that are waited for. */
+void spinUntilShutdown();
+
 /** Back to ordinary scheduling for the calling thread (diagnostics, files). */
 void leaveRealTime();
 
