@@ -27,6 +27,7 @@ namespace
 {
 
 constexpr int kQueue = 100;               // of pressings and answers: none may be lost
+constexpr int kPriority = 50;             // below the contact node's, which asks
 constexpr double kRepublishPeriod = 0.5;  // s between two meshes of a wall that moves
 
 /** Loads or makes the scene's vessel and hands it out: latched topics, a service, rviz's marker, static frames. Moves
@@ -84,6 +85,10 @@ private:
 
   void receivePressing(const VesselPressingConstPtr& message)
   {
+    // In the thread that reads the sockets: contact waits for its answers, pictures for the rest of this process.
+    if (!asked_for_real_time_ && !makeThreadRealTime(kPriority))
+      ROS_WARN("vessel_server: real-time scheduling was refused: the simulation may wait for a wall that is pressed");
+    asked_for_real_time_ = true;
     try
     {
       lost_ = !wall_->press(*message, moved_);
@@ -209,6 +214,7 @@ private:
   ros::Publisher mesh_publisher_, centreline_publisher_, marker_publisher_;
   std::unique_ptr<WallKeeper> wall_;  ///< null without a balloon
   VesselMoved moved_;
+  bool asked_for_real_time_ = false;  ///< the pressing thread's
   std::atomic<bool> lost_{false};
   ros::Publisher moved_publisher_;
   DirectCallbackQueue queue_;

@@ -69,6 +69,13 @@ RealTimeGrant askForRealTime(int priority)
   return {true, message};
 }
 
+bool makeThreadRealTime(int priority)
+{
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
 void keepOffLockStepCpu()
 {
   cpu_set_t allowed;

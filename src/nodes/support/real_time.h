@@ -21,6 +21,9 @@ struct RealTimeGrant
  *  @param priority 1 to 99 */
 RealTimeGrant askForRealTime(int priority);
 
+/** SCHED_FIFO for the calling thread alone, wherever it runs. @return whether it was granted */
+bool makeThreadRealTime(int priority);
+
 /** Leaves that processor to the rod and the contact node, where this process has another one. Call it before ros::init.
  */
 void keepOffLockStepCpu();

@@ -1,5 +1,7 @@
 #include "nodes/support/wall_keeper.h"
 
+#include <mutex>
+
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/vessel_conversions.h"
 #include "session/moving_wall.h"
@@ -15,15 +17,14 @@ constexpr std::size_t kRecent = 2;  // versions that contact may lag behind, see
 
 bool WallKeeper::press(const VesselPressing& pressing, VesselMoved& answer)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (pressing.version != version_ + 1)
+  if (pressing.version != version_ + 1)  // which no other thread changes
     return false;
-  const intervention::MovedVertices& moved = opening_.press(pressingFromMessage(pressing), session::kMostMovedVertices);
-  version_ = pressing.version;
-  toMessage(moved, answer);
+  toMessage(opening_.press(pressingFromMessage(pressing), session::kMostMovedVertices), answer);
   answer.step = pressing.step;
-  answer.version = version_;
+  answer.version = pressing.version;
   answer.at_risk = opening_.atRisk();
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  version_ = pressing.version;
   recent_.push_back(answer);
   for (; recent_.size() > kRecent; recent_.pop_front())
     for (std::size_t k = 0; k < recent_.front().index.size(); ++k)
@@ -33,13 +34,13 @@ bool WallKeeper::press(const VesselPressing& pressing, VesselMoved& answer)
 
 WallKeeper::Snapshot WallKeeper::snapshot() const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return {version_ - recent_.size(), base_, {recent_.begin(), recent_.end()}};
 }
 
 std::uint64_t WallKeeper::version() const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return version_;
 }
 

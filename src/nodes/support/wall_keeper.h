@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <deque>
-#include <mutex>
 
 #include "endovascular_sim/VesselMoved.h"
 #include "endovascular_sim/VesselPressing.h"
 #include "intervention/vessel_opening.h"
+#include "nodes/support/priority_mutex.h"
 
 namespace endovascular_sim::nodes
 {
@@ -20,7 +20,8 @@ public:
   {
   }
 
-  /** @return false when the message is not the next one: a rod that knows another wall than this one */
+  /** From one thread only.
+   *  @return false when the message is not the next one: a rod that knows another wall than this one */
   bool press(const VesselPressing& pressing, VesselMoved& answer);
 
   /** A mesh and what has moved since, in order. Contact may still be found with a wall two versions back. */
@@ -35,8 +36,8 @@ public:
   std::uint64_t version() const;  ///< newest
 
 private:
-  mutable std::mutex mutex_;
-  intervention::VesselOpening opening_;
+  intervention::VesselOpening opening_;  ///< the pressing thread's
+  mutable PriorityMutex mutex_;          ///< of what follows
   std::uint64_t version_ = 1;
   vessel::TriangleMesh base_;       ///< the wall before recent_
   std::deque<VesselMoved> recent_;  ///< the last versions
