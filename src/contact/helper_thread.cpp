@@ -1,5 +1,6 @@
 #include "contact/helper_thread.h"
 
+#include <chrono>
 #include <utility>
 
 namespace endovascular_sim::contact
@@ -7,7 +8,8 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr int kSpins = 2000;  // looks at what the helper still does before the caller sleeps: some tens of microseconds
+// For so long the caller looks whether the helper is done before it sleeps: about what a part of a search takes.
+constexpr std::chrono::microseconds kLook{30};
 constexpr std::uint64_t kLower = 0xffffffff;
 
 std::uint32_t begin(std::uint64_t open)
@@ -60,7 +62,8 @@ void HelperThread::run(std::uint32_t count, const std::function<void(std::uint32
       --left_;
       open = open_;
     }
-  for (int spin = 0; spin < kSpins && left_ > 0; ++spin)
+  const auto until = std::chrono::steady_clock::now() + kLook;
+  while (left_ > 0 && std::chrono::steady_clock::now() < until)
   {
   }
   std::unique_lock<std::mutex> lock(mutex_);

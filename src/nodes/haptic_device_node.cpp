@@ -26,6 +26,7 @@
 #include "haptics/haptic_link.h"
 #include "nodes/support/haptic_topics.h"
 #include "nodes/support/names.h"
+#include "nodes/support/priority_mutex.h"
 #include "nodes/support/real_time.h"
 #include "nodes/support/scene_parameters.h"
 
@@ -56,28 +57,6 @@ haptics::WallTime wallNow()
   const ros::WallTime now = ros::WallTime::now();
   return {now.sec, now.nsec};
 }
-
-/** A mutex whose holder inherits the priority of who waits: diagnostics must not keep the real-time thread waiting. */
-class InheritingMutex
-{
-public:
-  InheritingMutex()
-  {
-    pthread_mutexattr_t attributes;
-    pthread_mutexattr_init(&attributes);
-    pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
-    pthread_mutex_init(&mutex_, &attributes);
-    pthread_mutexattr_destroy(&attributes);
-  }
-  ~InheritingMutex() { pthread_mutex_destroy(&mutex_); }
-  InheritingMutex(const InheritingMutex&) = delete;
-  InheritingMutex& operator=(const InheritingMutex&) = delete;
-  void lock() { pthread_mutex_lock(&mutex_); }
-  void unlock() { pthread_mutex_unlock(&mutex_); }
-
-private:
-  pthread_mutex_t mutex_;
-};
 
 /** Asks for the lowest real-time priority for this thread and those it starts, which are ROS's own too: ahead of
  * ordinary threads, behind the simulation's. Without leave all runs on as it is. @return true when it was granted */
@@ -184,7 +163,7 @@ private:
   void wake() const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  InheritingMutex mutex_;  ///< guards link_
+  PriorityMutex mutex_;  ///< guards link_
   haptics::HapticLink link_;
   int wake_up_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   std::atomic<bool> running_{true};
@@ -248,7 +227,7 @@ void HapticDevice::servePort()
 
   while (running_)
   {
-    std::unique_lock<InheritingMutex> lock(mutex_);
+    std::unique_lock<PriorityMutex> lock(mutex_);
     link_.service(steadyNow(), wallNow());
     const auto samples = link_.host().takeMotion();
     const auto log = link_.host().takeLog();
@@ -302,7 +281,7 @@ void HapticDevice::takeForce(const sensor_msgs::JointState& state)
   haptics::HandMotion caused_by{std::nan(""), std::nan("")};
   if (state.position.size() >= 2)
     caused_by = {state.position[0], state.position[1]};
-  const std::lock_guard<InheritingMutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const DeviceState before = link_.host().state();
   link_.commandForce({state.effort[0], state.effort[1]}, caused_by, steadyNow(), wallNow());
   if (!link_.isIdle() || link_.host().state() != before)
@@ -359,7 +338,7 @@ void HapticDevice::publishState(DeviceState state, const std::string& reason, co
 
 void HapticDevice::sayGoodbye()
 {
-  const std::lock_guard<InheritingMutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const double begin = steadyNow();
   link_.shutDown(begin, wallNow());
   while (!link_.isIdle() && steadyNow() < begin + kGoodbyeTime)
@@ -372,7 +351,7 @@ void HapticDevice::sayGoodbye()
 void HapticDevice::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::lock_guard<InheritingMutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const haptics::RosserialHost& host = link_.host();
   const haptics::ParserCounters& parser = host.parserCounters();
   const haptics::HostCounters& counters = host.counters();

@@ -19,6 +19,8 @@ namespace
  */
 constexpr double kTurn = 5e-3;  // s
 
+volatile std::sig_atomic_t stop_signal = 0;
+
 using endovascular_sim::nodes::RecorderSettings;
 
 /** Folder below ROS_HOME for a session that was given none. */
@@ -52,18 +54,20 @@ int main(int argc, char** argv)
 {
   endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "session");
-  // ROS ends in good order on SIGINT only; a recording must be closed on SIGTERM, too.
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   ros::NodeHandle node;
+  // What has come by then is still recorded; ROS's own handler drops it, and knows SIGINT only.
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, [](int) { stop_signal = 1; });
   try
   {
     const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
     endovascular_sim::nodes::SessionRecorder recorder(node, scene, settingsFrom(ros::NodeHandle("~"), scene.name));
-    while (ros::ok())
+    while (ros::ok() && stop_signal == 0)
     {
       ros::spinOnce();
       ros::WallDuration(kTurn).sleep();
     }
+    ros::spinOnce();
     return recorder.finish() ? 0 : 1;
   }
   catch (const std::exception& error)

@@ -124,8 +124,13 @@ private:
     mesh_.version = now.version + now.moved.size();
     mesh_.content_hash = now.mesh.hash();
     toMessage(now.mesh, mesh_);
+    const visualization_msgs::Marker pictured = marker(now.mesh);
+    // ROS writes out a message of megabytes under a lock that the pressing thread needs for its small ones.
+    const bool granted = makeThreadRealTime(kPriority);
     mesh_publisher_.publish(mesh_);
-    marker_publisher_.publish(marker(now.mesh));
+    marker_publisher_.publish(pictured);
+    if (granted)
+      leaveRealTime();
   }
 
   void fillMessages(const vessel::Vessel& vessel)

@@ -62,8 +62,10 @@ Recording read(const std::string& file)
     if (isTopic(message.getTopic(), nodes::names::kDriveApplied))
     {
       const auto applied = message.instantiate<DriveApplied>();
-      if (applied)
-        recording.steps[applied->step] = applied;
+      if (!applied)
+        throw InputError(file, nodes::names::kDriveApplied,
+                         "is that of another version of this software; replay it with the one that recorded it");
+      recording.steps[applied->step] = applied;
     }
     else if (isTopic(message.getTopic(), nodes::names::kSessionInfo))
       recording.info = message.instantiate<SessionInfo>();

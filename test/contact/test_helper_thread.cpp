@@ -46,15 +46,19 @@ TEST(HelperThread, LeavesAllToTheCallerWhereItComesTooLate)
 TEST(HelperThread, TakesTheLastTasksAndIsWaitedFor)
 {
   HelperThread helper([] {});
-  std::promise<void> begun;
+  std::promise<void> begun, taken;
   std::thread::id by;
   bool over = false;
   helper.run(2,
              [&](std::uint32_t index)
              {
                if (index == 0)
+               {
+                 taken.set_value();
                  return begun.get_future().wait();
+               }
                begun.set_value();
+               taken.get_future().wait();          // or else the first one would be the helper's, too
                std::this_thread::sleep_for(20ms);  // longer than the caller looks
                by = std::this_thread::get_id();
                over = true;
@@ -106,19 +110,23 @@ TEST(HelperThread, SharesAMovementOfTheWallToTheSameBits)
   Detector shared(mesh, WallLaw{});
   shared.setHelper(&helper);
   ContactSet one, two;
-  for (std::uint64_t version = 2; version < 20 || (helper.helped() == 0 && version < 500); ++version)
+  std::uint64_t moved_by_helper = 0;
+  for (std::uint64_t version = 2; version < 20 || (moved_by_helper == 0 && version < 500); ++version)
   {
     const Movement movement = pushOut(mesh, {0.0, 0.0, 1e-3 * static_cast<double>(version % 20)}, 6e-3, 0.02);
     ASSERT_GT(movement.indices.size(), 100U);
     shared.detect(balloon(5e-3), two);
     apply(movement, mesh);
+    const std::uint64_t before = helper.helped();
     shared.moveVertices(movement.indices, movement.positions, version);
+    moved_by_helper += helper.helped() - before;
     Detector anew(mesh, WallLaw{}, version);
     expectSameWalls(shared.wall(), anew.wall());
     anew.detect(balloon(5e-3), one);
     shared.detect(balloon(5e-3), two);
     expectSameSets(one, two);
   }
+  EXPECT_GT(moved_by_helper, 0U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include <ros/console.h>
 
@@ -77,16 +78,21 @@ void BagWriter::enqueue(Item item)
 
 void BagWriter::loop()
 {
+  std::vector<Item> batch;
   std::unique_lock<std::mutex> lock(mutex_);
   while (true)
   {
     wake_.wait_for(lock, kLongestWait, [this] { return ending_ || queue_.size() >= kBatch; });
-    const bool last = ending_;
-    std::deque<Item> batch;
-    batch.swap(queue_);
+    for (std::size_t k = 0; k < kBatch && !queue_.empty(); ++k)
+    {
+      batch.push_back(std::move(queue_.front()));
+      queue_.pop_front();
+    }
+    const bool last = ending_ && queue_.empty();
     lock.unlock();
     for (const Item& item : batch)
       process(item);
+    batch.clear();  // while nobody waits for it
     if (last)
       return;
     lock.lock();

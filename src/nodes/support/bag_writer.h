@@ -36,11 +36,11 @@ public:
     push([topic, event](rosbag::Bag& bag) { bag.write(topic, event); });
   }
 
-  /** Queues a message of this process, as of its stamp. Does not block. */
+  /** Queues a message of this process. Does not block. @param time that it is recorded with */
   template <typename Message>
-  void write(const std::string& topic, const boost::shared_ptr<Message>& message)
+  void write(const std::string& topic, ros::Time time, const boost::shared_ptr<Message>& message)
   {
-    push([topic, message](rosbag::Bag& bag) { bag.write(topic, message->header.stamp, *message); });
+    push([topic, time, message](rosbag::Bag& bag) { bag.write(topic, time, *message); });
   }
 
   /** Queues a message of this process as one of a latched topic. Does not block. */

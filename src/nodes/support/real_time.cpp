@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -67,6 +68,16 @@ RealTimeGrant askForRealTime(int priority)
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
   return {true, message};
+}
+
+double shareToLeave()
+{
+  constexpr double kMargin = 0.01;
+  double runtime = -1.0;
+  double period = 0.0;
+  std::ifstream("/proc/sys/kernel/sched_rt_runtime_us") >> runtime;
+  std::ifstream("/proc/sys/kernel/sched_rt_period_us") >> period;
+  return runtime < 0.0 || !(runtime < period) ? 0.0 : 1.0 - runtime / period + kMargin;
 }
 
 bool makeThreadRealTime(int priority)

@@ -21,6 +21,10 @@ struct RealTimeGrant
  *  @param priority 1 to 99 */
 RealTimeGrant askForRealTime(int priority);
 
+/** What real-time scheduling must leave of a processor's time, or Linux stops it there for a while: from
+ *  `kernel.sched_rt_runtime_us`; 0 where there is no such limit. */
+double shareToLeave();
+
 /** SCHED_FIFO for the calling thread alone, wherever it runs. @return whether it was granted */
 bool makeThreadRealTime(int priority);
 
@@ -36,7 +40,8 @@ bool hasSpareProcessor();
 void moveToSpareProcessor();
 
 /** ros::spin() for a process with real-time scheduling. The original turns round without rest while ROS shuts down,
- * which keeps from ending, on one processor, the threads that are waited for. */
+ * which keeps from ending, on one processor, the threads that are waited for. To be ended by a signal or by
+ * ros::requestShutdown(). */
 void spinUntilShutdown();
 
 /** Back to ordinary scheduling for the calling thread (diagnostics, files). */

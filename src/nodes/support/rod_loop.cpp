@@ -28,7 +28,8 @@ constexpr double kLate = 1e-3;              // s after its slot: then a step cou
 constexpr double kForceBand = 5e-3;         // N, of the bridges over missing sets
 constexpr double kTorqueBand = 5e-5;        // N·m
 constexpr double kNoPressure = std::numeric_limits<double>::quiet_NaN();  // none came: the scene's own counts
-constexpr double kIdlePeriod = 10e-3;                                     // s between forces of zero while paused
+constexpr double kRest = 1e-3;         // s that the loop sleeps at once where it has no time left
+constexpr double kIdlePeriod = 10e-3;  // s between forces of zero while paused
 
 std::chrono::steady_clock::duration period(double seconds)
 {
@@ -47,7 +48,11 @@ std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
 }  // namespace
 
 RodLoop::RodLoop(ros::NodeHandle node, session::Scene scene, RealTimeGrant grant)
-  : node_(node), scene_(std::move(scene)), grant_(std::move(grant)), publisher_(node_, scene_)
+  : node_(node),
+    scene_(std::move(scene)),
+    grant_(std::move(grant)),
+    publisher_(node_, scene_),
+    rest_(grant_.granted ? shareToLeave() : 0.0, kRest)
 {
   const ros::NodeHandle parameters("~");
   pause_after_ = parameters.param("pause_after", kPauseAfter);
@@ -195,6 +200,7 @@ bool RodLoop::run()
   Clock::time_point slot_begin = Clock::now();
   while (ros::ok() && simulation_->steps() < last_step)
   {
+    const Clock::time_point awake = Clock::now();
     sleepUntil(slot_begin);
     if (contactIsLost())
     {
@@ -204,7 +210,12 @@ bool RodLoop::run()
     }
     const Clock::time_point begin = Clock::now();
     stepOnce();
-    countTime(begin, Clock::now(), slot_begin + slot);
+    const Clock::time_point end = Clock::now();
+    countTime(begin, end, slot_begin + slot);
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    const double rest = rest_.after(seconds(begin - awake), seconds(end - begin));
+    if (rest > 0.0)
+      sleepUntil(end + period(rest));
     slot_begin += slot;
     if (Clock::now() - slot_begin > period(kMaxBacklog))
     {

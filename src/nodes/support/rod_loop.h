@@ -15,6 +15,7 @@
 #include "nodes/support/real_time.h"
 #include "nodes/support/remote_contact_source.h"
 #include "nodes/support/remote_wall.h"
+#include "nodes/support/rest_keeper.h"
 #include "nodes/support/rod_publisher.h"
 #include "session/force_bridge.h"
 #include "session/simulation.h"
@@ -78,6 +79,7 @@ private:
   std::unique_ptr<session::Simulation> simulation_;
   std::unique_ptr<ProcedureDriver> procedure_;  ///< null where the scene has none
   RodPublisher publisher_;
+  RestKeeper rest_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DirectCallbackQueue command_queue_;
   std::mutex command_mutex_;

@@ -228,18 +228,18 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   last_step_ = ros::SteadyTime::now();
   metrics_.setPressures(drive.pressure);
   bag_.write(node_.resolveName(names::kDriveApplied), event);
-  recordHands(drive);
+  recordHands(drive, event.getReceiptTime());
 }
 
 /** measured_js of all instruments, which drive/applied holds in one message: thousands of small ones a second would
  * cost the sender and the recorder more than the rest of the recording. */
-void SessionRecorder::recordHands(const DriveApplied& drive)
+void SessionRecorder::recordHands(const DriveApplied& drive, ros::Time time)
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
                                       drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
   for (std::size_t k = 0; k < hands; ++k)
     report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
-  if (!joints_.passes(drive.header.stamp.toSec()))
+  if (!joints_.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
     return;
   for (std::size_t k = 0; k < hands; ++k)
   {
@@ -248,7 +248,7 @@ void SessionRecorder::recordHands(const DriveApplied& drive)
     const instrument::Instrument& instrument = scene_.instruments[k].instrument;
     toMessage(instrument.balloon.has_value(), drive.insertion[k], drive.rotation[k], drive.pressure[k],
               drive.hand_force[k], drive.hand_torque[k], *joints);
-    bag_.write(node_.resolveName(names::kInstruments + instrument.name + names::kMeasuredJs), joints);
+    bag_.write(node_.resolveName(names::kInstruments + instrument.name + names::kMeasuredJs), time, joints);
   }
 }
 

@@ -34,8 +34,14 @@ bool WallKeeper::press(const VesselPressing& pressing, VesselMoved& answer)
 
 WallKeeper::Snapshot WallKeeper::snapshot() const
 {
+  Snapshot now;
+  now.mesh.triangles = base_.triangles;  // which never change
+  now.mesh.vertices.reserve(base_.vertices.size());
   const std::lock_guard<PriorityMutex> lock(mutex_);
-  return {version_ - recent_.size(), base_, {recent_.begin(), recent_.end()}};
+  now.version = version_ - recent_.size();
+  now.mesh.vertices = base_.vertices;
+  now.moved.assign(recent_.begin(), recent_.end());
+  return now;
 }
 
 std::uint64_t WallKeeper::version() const
