@@ -114,23 +114,31 @@ private:
   /** For pictures and late joiners: the wall as it is, when it has moved. */
   void republish()
   {
-    if (wall_->version() == mesh_.version)
+    const bool moved = wall_->version() != mesh_.version;
+    const bool unseen = marker_version_ != wall_->version() && marker_publisher_.getNumSubscribers() > 0;
+    if (!moved && !unseen)
       return;
     WallKeeper::Snapshot now = wall_->snapshot();
-    for (const VesselMoved& moved : now.moved)
-      for (std::size_t k = 0; k < moved.index.size(); ++k)
-        now.mesh.vertices[moved.index[k]] = fromMessage(moved.position[k]);
+    for (const VesselMoved& moved_then : now.moved)
+      for (std::size_t k = 0; k < moved_then.index.size(); ++k)
+        now.mesh.vertices[moved_then.index[k]] = fromMessage(moved_then.position[k]);
     mesh_.header.stamp = ros::Time::now();
     mesh_.version = now.version + now.moved.size();
     mesh_.content_hash = now.mesh.hash();
     toMessage(now.mesh, mesh_);
-    const visualization_msgs::Marker pictured = marker(now.mesh);
-    // ROS writes out a message of megabytes under a lock that the pressing thread needs for its small ones.
-    const bool granted = makeThreadRealTime(kPriority);
+    visualization_msgs::Marker pictured;
+    if (unseen)
+      pictured = marker(now.mesh);
+    // ROS writes out messages of megabytes under a lock that the pressing thread needs for its small ones: nobody but
+    // that thread may come between.
+    const bool granted = makeThreadRealTime(kPriority - 1);
     mesh_publisher_.publish(mesh_);
-    marker_publisher_.publish(pictured);
+    if (unseen)
+      marker_publisher_.publish(pictured);
     if (granted)
       leaveRealTime();
+    if (unseen)
+      marker_version_ = mesh_.version;
   }
 
   void fillMessages(const vessel::Vessel& vessel)
@@ -213,6 +221,7 @@ private:
 
   ros::NodeHandle node_;
   VesselMesh mesh_;
+  std::uint64_t marker_version_ = 1;  ///< of the wall in the last marker
   VesselCentreline centreline_;
   std::vector<std::string> notes_;
   tf2_ros::StaticTransformBroadcaster frames_;
