@@ -29,9 +29,7 @@ constexpr double kSharp = 1.2;               // rad between triangles or of a ve
 constexpr double kLeastClearance = 0.05e-3;  // m
 constexpr std::size_t kUsualNodes = 512;     // of a wire; longer ones get their lists later
 constexpr std::size_t kUsualList = 16;       // entries
-constexpr std::size_t kLongSearch = 4000;  // entries to look at from which on a second thread is woken: a tenth of a ms
-constexpr std::size_t kParts = 16;         // into which such a search is cut
-constexpr double kEnd = 1e-3;              // of a wire's edge: closer to a node the node's own features stand
+constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
 
 enum FeatureKind
 {
@@ -163,57 +161,6 @@ Bvh::Cone Detector::coneOf(int triangle) const
   return cone;
 }
 
-void Detector::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
-                            std::uint64_t vessel_version)
-{
-  vessel_version_ = vessel_version;
-  if (indices.empty())
-    return;
-  Eigen::AlignedBox3d moved;  // holds the triangles before and after; at first those around them too
-  double farthest = 0.0;
-  for (std::size_t k = 0; k < indices.size(); ++k)
-  {
-    moved.extend(wall_.vertices[indices[k]]);
-    farthest = std::max(farthest, (positions[k] - wall_.vertices[indices[k]]).norm());
-  }
-  const Wall::Changes& changes = wall_.moveVertices(indices, positions, helper_);
-  renewPrisms(changes.around);
-  const bool anew = !now_moving_.empty();
-  for (int t : anew ? changes.around : changes.triangles)
-    for (int corner = 0; corner < 3; ++corner)
-      moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
-  renewEdges(changes.edges);
-  bvh_.refit(changes.triangles);
-  bvh_.openCones(now_moving_);
-  keepUp(moved, farthest, anew);
-}
-
-/** Notes those that have never moved before. */
-void Detector::renewPrisms(const std::vector<int>& changed)
-{
-  now_moving_.clear();
-  forEach(helper_, changed, [this](int t) { makePrism(t); });
-  for (int t : changed)
-  {
-    if (!prisms_[t].has_moved)
-      now_moving_.push_back(t);
-    prisms_[t].has_moved = true;
-  }
-}
-
-/** Notes those that have become reflex. */
-void Detector::renewEdges(const std::vector<int>& changed)
-{
-  now_reflex_.clear();
-  for (int e : changed)
-  {
-    const bool was_reflex = edge_balls_[e].reflex;
-    edge_balls_[e] = ballOf(wall_.edges[e]);
-    if (edge_balls_[e].reflex && !was_reflex)
-      now_reflex_.push_back(e);
-  }
-}
-
 double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nearest) const
 {
   const Bvh::Nearest found = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
@@ -247,7 +194,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
   renewLists(query);
-  if (helper_ != nullptr && isLong(query))
+  if (helper_ != nullptr && cutIntoParts(query))
   {
     detectParts(query, set.features);
     return;
@@ -257,56 +204,6 @@ void Detector::detect(const Query& query, ContactSet& set)
   for (std::size_t i = 0; i + 1 < n; ++i)
     detectEdge(query, i, set.features);
   addLaw(query, set.features);
-}
-
-/** Whether it pays to wake another thread; then the parts are such that each has about as much to look at. */
-bool Detector::isLong(const Query& query)
-{
-  const auto entries = [this, &query](std::size_t index)
-  {
-    const Neighbourhood& near = neighbourhood(query, index);
-    return near.triangles.size() + near.edges.size();
-  };
-  const std::size_t n = query.nodes.size();
-  std::size_t all = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    all += entries(i);
-  if (all < kLongSearch)
-    return false;
-  parts_.resize(kParts);
-  std::size_t node = 0;
-  std::size_t before = 0;
-  for (std::size_t p = 0; p < kParts; ++p)
-  {
-    parts_[p].begin = node;
-    while (node < n && (p + 1 == kParts || before * kParts < all * (p + 1)))
-      before += entries(node++);
-    parts_[p].end = node;
-  }
-  return true;
-}
-
-/** As one thread finds them: what the nodes meet, then what the edges do. */
-void Detector::detectParts(const Query& query, std::vector<Feature>& features)
-{
-  const std::size_t edges = query.nodes.size() - 1;
-  helper_->run(kParts,
-               [this, &query, edges](std::uint32_t p)
-               {
-                 Part& part = parts_[p];
-                 part.of_nodes.clear();
-                 part.of_edges.clear();
-                 for (std::size_t i = part.begin; i < part.end; ++i)
-                   detectNode(query, i, part.of_nodes);
-                 for (std::size_t i = part.begin; i < std::min(part.end, edges); ++i)
-                   detectEdge(query, i, part.of_edges);
-                 addLaw(query, part.of_nodes);
-                 addLaw(query, part.of_edges);
-               });
-  for (const Part& part : parts_)
-    features.insert(features.end(), part.of_nodes.begin(), part.of_nodes.end());
-  for (const Part& part : parts_)
-    features.insert(features.end(), part.of_edges.begin(), part.of_edges.end());
 }
 
 void Detector::addLaw(const Query& query, std::vector<Feature>& features) const

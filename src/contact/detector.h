@@ -187,7 +187,7 @@ private:
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
-  bool isLong(const Query& query);
+  bool cutIntoParts(const Query& query);
   void detectParts(const Query& query, std::vector<Feature>& features);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;

@@ -1,5 +1,4 @@
 #include <poll.h>
-#include <pthread.h>
 #include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -56,15 +55,6 @@ haptics::WallTime wallNow()
 {
   const ros::WallTime now = ros::WallTime::now();
   return {now.sec, now.nsec};
-}
-
-/** Asks for the lowest real-time priority for this thread and those it starts, which are ROS's own too: ahead of
- * ordinary threads, behind the simulation's. Without leave all runs on as it is. @return true when it was granted */
-bool requestRealTime()
-{
-  sched_param priority = {};
-  priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0;
 }
 
 const char* stateName(DeviceState state)
@@ -408,7 +398,9 @@ int main(int argc, char** argv)
 {
   endovascular_sim::nodes::keepOffLockStepCpu();
   ros::init(argc, argv, "haptic_device");
-  const bool real_time = endovascular_sim::nodes::requestRealTime();
+  // For the threads that it starts, ROS's own, too: ahead of ordinary ones, behind the simulation's.
+  constexpr int kLowest = 1;
+  const bool real_time = endovascular_sim::nodes::makeThreadRealTime(kLowest);
   const ros::NodeHandle node;
   try
   {

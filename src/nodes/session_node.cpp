@@ -14,9 +14,7 @@
 namespace
 {
 
-/** Between two looks at what has come: waking for every one of a thousand messages a second would cost more than they
- * do.
- */
+/** Between two looks at what has come: not a wake-up per message. */
 constexpr double kTurn = 5e-3;  // s
 
 volatile std::sig_atomic_t stop_signal = 0;

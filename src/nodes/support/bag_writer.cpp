@@ -17,8 +17,7 @@ namespace
 
 /** Messages that may wait for the disk: 20 s of every topic that the session records. */
 constexpr std::size_t kQueueCapacity = 40000;
-/** How many wait before the thread is woken, and how long they wait at most: a thread that woke for each of a thousand
- *  small messages a second would take more time to wake than to write. */
+/** How many wait before the thread is woken, and how long they wait at most: not a wake-up per message. */
 constexpr std::size_t kBatch = 256;
 constexpr std::chrono::milliseconds kLongestWait{100};
 /** Room that must be left on the disk, enough for the bag's index and the report [bytes]. */

@@ -25,7 +25,8 @@ RealTimeGrant askForRealTime(int priority);
  *  `kernel.sched_rt_runtime_us`; 0 where there is no such limit. */
 double shareToLeave();
 
-/** SCHED_FIFO for the calling thread alone, wherever it runs. @return whether it was granted */
+/** SCHED_FIFO for the calling thread and those that it starts later, wherever they run. @return whether it was granted
+ */
 bool makeThreadRealTime(int priority);
 
 /** Leaves that processor to the rod and the contact node, where this process has another one. Call it before ros::init.

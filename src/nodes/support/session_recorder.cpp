@@ -231,8 +231,7 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   recordHands(drive, event.getReceiptTime());
 }
 
-/** measured_js of all instruments, which drive/applied holds in one message: thousands of small ones a second would
- * cost the sender and the recorder more than the rest of the recording. */
+/** measured_js of all instruments, made of drive/applied: nobody has to send thousands of messages a second for it. */
 void SessionRecorder::recordHands(const DriveApplied& drive, ros::Time time)
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
