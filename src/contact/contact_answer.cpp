@@ -19,12 +19,12 @@ bool makesSense(const Query& query, const Feature& feature)
     return false;
   const double t = feature.parameter;
   if (!(t >= 0.0 && t <= 1.0 && feature.friction >= 0.0 && std::isfinite(feature.friction) && feature.stiffness > 0.0 &&
-        feature.clearance_radius == feature.clearance_radius && feature.point.allFinite() &&
-        std::abs(feature.normal.squaredNorm() - 1.0) < kUnit))
+        feature.clearance_radius == feature.clearance_radius && std::abs(feature.normal.squaredNorm() - 1.0) < kUnit))
     return false;
   const auto node = static_cast<std::size_t>(feature.edge - query.first_node);
   const Eigen::Vector3d axis = (1.0 - t) * query.nodes[node] + t * query.nodes[node + 1];
   const double radius = (1.0 - t) * query.radius[node] + t * query.radius[node + 1];
+  // No point that is not finite passes it.
   return std::abs(feature.normal.dot(axis - feature.point) - radius - feature.gap) < kSamePlace;
 }
 

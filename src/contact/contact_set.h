@@ -10,10 +10,12 @@
 namespace endovascular_sim::contact
 {
 
-/** A feature of the wall near one edge of the rod: geometry, not force. Edge j joins nodes j and j+1. */
+/** A feature of the wall near one edge of the rod: geometry, not force. Edge j joins nodes j and j+1. In the order of
+ *  ContactFeature.msg, so that a set goes into a message as one block. */
 struct Feature
 {
   int edge = 0;                                      ///< index over the whole wire
+  int triangle = 0;                                  ///< triangle that owns the feature
   double parameter = 0.0;                            ///< place on the edge, 0 at node j, 1 at node j+1
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< closest point of the wall [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the lumen
@@ -22,7 +24,6 @@ struct Feature
       std::numeric_limits<double>::infinity();  ///< wall's radius of curvature across the wire − wire radius [m]
   double stiffness = std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]
   double friction = 0.0;                                       ///< Coulomb coefficient
-  int triangle = 0;                                            ///< triangle that owns the feature
   std::int64_t id = 0;  ///< 3·index + kind (0 face, 1 edge, 2 vertex of the mesh)
 };
 

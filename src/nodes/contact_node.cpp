@@ -11,6 +11,7 @@
 #include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/contact_conversions.h"
+#include "nodes/support/contact_message.h"
 #include "nodes/support/direct_callback_queue.h"
 #include "nodes/support/names.h"
 #include "nodes/support/real_time.h"
@@ -43,7 +44,7 @@ public:
     law_ = session::wallLaw(*scene.vessel);
     if (hasSpareProcessor() && session::hasBalloon(scene))
       helper_ = std::make_unique<contact::HelperThread>(moveToSpareProcessor);
-    publisher_ = node_.advertise<ContactSet>(names::kContactSet, kQueue);
+    publisher_ = node_.advertise<StampedContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     ros::NodeHandle direct(node_);
     direct.setCallbackQueue(&queue_);
@@ -135,13 +136,12 @@ private:
       return;
     }
     fromMessage(*message, query_);
-    detector_->detect(query_, set_);
-    toMessage(set_, answer_);
+    detector_->detect(query_, answer_.set);
     answer_.header.stamp = ros::Time::now();
     answer_.header.frame_id = names::kPatientFrame;
     publisher_.publish(answer_);
     ++answered_;
-    features_ = set_.features.size();
+    features_ = answer_.set.features.size();
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
@@ -170,8 +170,7 @@ private:
   std::deque<VesselMovedConstPtr> waiting_;      ///< movements that no state has asked for yet
   RodStateConstPtr asked_;                       ///< that cannot be answered yet
   contact::Query query_;
-  contact::ContactSet set_;
-  ContactSet answer_;
+  StampedContactSet answer_;
   // For /diagnostics, which another thread writes.
   std::atomic<std::uint64_t> answered_{0};
   std::atomic<std::size_t> features_{0};

@@ -14,11 +14,6 @@ constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: what stands ou
 
 }  // namespace
 
-double HeldWire::bodyPosition(int node, double inserted_length) const
-{
-  return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
-}
-
 bool HeldWire::isPrescribed(int node, const State& state) const
 {
   if (boundary_.introducer)

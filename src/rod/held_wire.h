@@ -18,7 +18,10 @@ public:
   HeldWire(const Discretisation& rod, const Boundary& boundary) : rod_(rod), boundary_(boundary) {}
 
   /** Place of a node along the boundary's direction while the wire is straight, 0 at its origin [m]. */
-  double bodyPosition(int node, double inserted_length) const;
+  double bodyPosition(int node, double inserted_length) const
+  {
+    return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
+  }
 
   /** True for nodes that the boundary moves. */
   bool isPrescribed(int node, const State& state) const;

@@ -64,6 +64,15 @@ bool KktStepper::isPrescribed(int node, const State& state) const
   return (boundary_.proximal != EndHold::kFree && node == 0) || (boundary_.proximal == EndHold::kClamped && node == 1);
 }
 
+/** The first one that the proximal end does not hold. */
+int KktStepper::firstFreeNode(const State& state) const
+{
+  int free = first_;
+  while (free < rod_.nodes() && isPrescribed(free, state) && !isDistalHeld(free))
+    ++free;
+  return free;
+}
+
 void KktStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
 {
   const int old_first = state.first_node;
@@ -243,6 +252,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   contacts_.refresh(state, report);
   contacts_.settle(state);
   capped_ = false;
+  bool moved = true;
   for (int solve = 0; solve < settings_.max_solves; ++solve)
   {
     collectFriction(state, dt, solve == 0);
@@ -255,8 +265,10 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     ++report.solves;
     if (!solveActiveSet(state, dt, report))
       return false;
-    const bool last = solve + 1 == settings_.max_solves;
     const double factor = move(state, truncation(state, report), report);
+    // Where nothing could move twice the next solve would be the same again.
+    const bool last = solve + 1 == settings_.max_solves || (factor == 0.0 && !moved);
+    moved = factor != 0.0;
     if (solve > 0)
       contacts_.keepPressed(state);
     if (factor == 1.0)
@@ -270,6 +282,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     report.capped += last;
     if (last && (!restoreLengths(state, input, dt, report) || maxStrain(rod_, state) > kLargestStrain))
       return false;
+    if (last)
+      break;
   }
   contacts_.dropKept();
   finish(state, dt);
@@ -317,8 +331,8 @@ void KktStepper::finish(State& state, double dt)
   const SurfaceMotion surface = surfaceMotion();
   friction_.finish(state, begin_, &surface);
   const double inverse = 1.0 / dt;
-  for (int i = first_; i < rod_.nodes(); ++i)
-    if (!isPrescribed(i, state))
+  for (int i = firstFreeNode(state); i < rod_.nodes(); ++i)
+    if (!isDistalHeld(i))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
   complete(state, dt);
 }

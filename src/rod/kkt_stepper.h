@@ -110,6 +110,7 @@ private:
   void placePrescribedNodes(State& state, double inserted_length, double dt);
   void placeDistalEnd(State& state, const EndMotion& motion, double dt);
   bool isPrescribed(int node, const State& state) const;
+  int firstFreeNode(const State& state) const;
   bool isDistalHeld(int node) const;
   static Eigen::Matrix3d distalRotation(const State& state);
   SurfaceMotion surfaceMotion() const;

@@ -66,10 +66,7 @@ bool KktStepper::canRewind(const State& state) const
 {
   if (settings_.linear_solver == LinearSolver::kSparse || !boundary_.introducer || boundary_.distal != EndHold::kFree)
     return false;
-  int free = first_;
-  while (free < rod_.nodes() && isPrescribed(free, state))
-    ++free;
-  return row(free) + kBandwidth <= Matrix::kMarkEvery;
+  return row(firstFreeNode(state)) + kBandwidth <= Matrix::kMarkEvery;
 }
 
 void KktStepper::addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt)

@@ -52,8 +52,9 @@ Eigen::Vector3d KktStepper::forceOnHold(int node, double dt) const
 
 void KktStepper::updateEndForces(State& state, double dt) const
 {
+  const int free = firstFreeNode(state);
   rod::updateEndForces(
-      state, boundary_, [this, &state](int node) { return isPrescribed(node, state); },
+      state, boundary_, [this, free](int node) { return node < free || isDistalHeld(node); },
       [this, dt](int node) { return forceOnHold(node, dt); });
 }
 
@@ -61,10 +62,7 @@ void KktStepper::updateEndForces(State& state, double dt) const
 void KktStepper::updateHandParts(State& state, double dt)
 {
   const int n = rod_.nodes();
-  int held = first_ - 1;  // the last node that the proximal end holds
-  while (held + 1 < n && isPrescribed(held + 1, state) && !isDistalHeld(held + 1))
-    ++held;
-  slideAlongItself(state.position, motion_, first_, held, boundary_.direction, slide_);
+  slideAlongItself(state.position, motion_, first_, firstFreeNode(state) - 1, boundary_.direction, slide_);
   const double inverse = 1.0 / dt;
   const std::vector<MassSlide>* mass_slide = massSlide();
   const bool heavy = !environment_.gravity.isZero(0.0);

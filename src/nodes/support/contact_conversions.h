@@ -5,7 +5,6 @@
 
 #include "contact/contact_set.h"
 #include "endovascular_sim/RodState.h"
-#include "nodes/support/contact_message.h"
 
 namespace endovascular_sim::nodes
 {
@@ -15,10 +14,9 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v);
 Eigen::Vector3d fromMessage(const geometry_msgs::Point& p);
 Eigen::Vector3d fromMessage(const geometry_msgs::Vector3& v);
 
-/** The contract between rod and contact as messages, every number bit for bit; headers are left to the caller. */
+/** What the rod asks of the contact node, every number bit for bit; headers are left to the caller. Its answers are
+ *  sent and read as they are (contact_message.h). */
 void toMessage(const contact::Query& query, RodState& message);
 void fromMessage(const RodState& message, contact::Query& query);
-void toMessage(const contact::ContactSet& set, ContactSet& message);
-void fromMessage(const ContactSet& message, contact::ContactSet& set);
 
 }  // namespace endovascular_sim::nodes

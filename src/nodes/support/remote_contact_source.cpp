@@ -12,7 +12,6 @@ namespace
 {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kSilentPatience = 0.1;  // of the patience, while the node has not answered
 constexpr int kQueue = 4;
 
 }  // namespace
@@ -35,16 +34,18 @@ void RemoteContactSource::publish()
 
 /** An answer counts only when it is the first to the asked state and makes sense; anything else is dropped and counted.
  */
-void RemoteContactSource::receive(const ContactSetConstPtr& message)
+void RemoteContactSource::receive(const boost::shared_ptr<StampedContactSet>& message)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!has_answer_)
     {
-      fromMessage(*message, answer_);
+      std::swap(answer_, message->set);
       has_answer_ = contact::answers(asked_, answer_);
       heard_ = heard_ || has_answer_;
       odd_sets_ += !has_answer_;
+      if (!has_answer_)
+        patience_.heardLate();
     }
     else
       ++odd_sets_;
@@ -74,17 +75,17 @@ bool RemoteContactSource::waitForAnswer(double seconds)
 void RemoteContactSource::detect(const contact::Query& query, contact::ContactSet& set)
 {
   ask(query);
-  if (waitForAnswer(silent_ ? kSilentPatience * patience_ : patience_))
+  if (waitForAnswer(patience_.next()))
   {
-    silent_ = false;
+    patience_.answered();
     const std::lock_guard<std::mutex> lock(mutex_);
     std::swap(set, answer_);  // what it gets for it may be overwritten: the next answer is to another query
     set.stale = false;
     return;
   }
-  if (!silent_)
+  if (!patience_.silent())
     silent_since_ = Clock::now();
-  silent_ = true;
+  patience_.missed();
   ++stale_sets_;
   set.stale = true;
 }
@@ -93,7 +94,7 @@ bool RemoteContactSource::probe()
 {
   if (heard_.exchange(false))
   {
-    silent_ = false;
+    patience_.answered();
     return true;
   }
   {

@@ -10,6 +10,7 @@
 
 #include "contact/contact_set.h"
 #include "endovascular_sim/RodState.h"
+#include "nodes/support/answer_patience.h"
 #include "nodes/support/contact_message.h"
 #include "nodes/support/direct_callback_queue.h"
 
@@ -19,8 +20,7 @@ namespace endovascular_sim::nodes
 /** The contact node behind its topics, as the solver's source of contact sets.
  *
  *  Lock-step: a query is published and its answer, the set with the same step, sub-step and pass, is waited for in the
- *  calling thread. An answer that does not come within the patience leaves the set stale (degraded mode); as long as
- *  the node stays silent only a fraction of it is waited for, so that the loop keeps its pace. */
+ *  calling thread. An answer that does not come within the patience leaves the set stale (degraded mode). */
 class RemoteContactSource : public contact::ContactSource
 {
 public:
@@ -39,13 +39,13 @@ public:
   /** Waits until the contact node answers for the first time, or ROS ends. @return false when ROS ended */
   bool waitForNode(const contact::Query& query);
 
-  bool silent() const { return silent_; }  ///< the last query was not answered
+  bool silent() const { return patience_.silent(); }  ///< the last query was not answered
   std::chrono::steady_clock::time_point silentSince() const { return silent_since_; }
   std::uint64_t staleSets() const { return stale_sets_; }  ///< queries that went unanswered so far
   std::uint64_t oddSets() const { return odd_sets_; }      ///< answers that fit no question: late, duplicate or wrong
 
 private:
-  void receive(const ContactSetConstPtr& message);
+  void receive(const boost::shared_ptr<StampedContactSet>& message);
   bool waitForAnswer(double seconds);
   void ask(const contact::Query& query);
   void publish();
@@ -53,7 +53,7 @@ private:
   ros::NodeHandle node_;
   DirectCallbackQueue queue_;
   ros::Publisher publisher_;
-  double patience_;
+  AnswerPatience patience_;
   mutable std::mutex mutex_;
   std::condition_variable answered_;
   RodState query_;              ///< as it is published
@@ -61,7 +61,6 @@ private:
   contact::ContactSet answer_;  ///< guarded
   bool has_answer_ = false;     ///< guarded
   std::atomic<bool> heard_{false};
-  bool silent_ = false;
   std::chrono::steady_clock::time_point silent_since_;
   std::uint64_t stale_sets_ = 0;
   std::atomic<std::uint64_t> odd_sets_{0};
