@@ -244,7 +244,6 @@ void Wall::markMoved(const std::vector<int>& indices, const std::vector<Eigen::V
         changes_.triangles.push_back(t);
       }
   }
-  std::sort(changes_.triangles.begin(), changes_.triangles.end());
   for (int t : changes_.triangles)
     for (int k = 0; k < 3; ++k)
     {
@@ -255,7 +254,6 @@ void Wall::markMoved(const std::vector<int>& indices, const std::vector<Eigen::V
       if (!vertex_marked_[v])
         vertex_marked_[v] = 1, ring_.push_back(v);
     }
-  std::sort(moved_edges_.begin(), moved_edges_.end());
 }
 
 /** Notes the triangles that share a vertex with what has moved, and their edges; no triangle or edge is marked then. */

@@ -56,7 +56,7 @@ public:
    *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
   std::vector<Eigen::Matrix3d> curvature;
 
-  /** What a movement of vertices has changed; ascending. */
+  /** What a movement of vertices has changed. */
   struct Changes
   {
     std::vector<int> triangles;  ///< with a vertex that moved
@@ -109,7 +109,7 @@ private:
   std::vector<std::vector<int>> vertex_triangles_;             ///< ascending
   std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
   Changes changes_;
-  std::vector<int> moved_edges_;  ///< of the triangles with a vertex that moved; ascending
+  std::vector<int> moved_edges_;  ///< of the triangles with a vertex that moved
   std::vector<int> ring_, curved_;
   std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <boost/make_shared.hpp>
+
 #include "contact/contact_answer.h"
 #include "nodes/support/contact_conversions.h"
 #include "nodes/support/names.h"
@@ -20,8 +22,12 @@ RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double patience) 
 {
   node_.setCallbackQueue(&queue_);
   publisher_ = node_.advertise<RodState>(names::kRodState, kQueue);
-  subscriber_ = node_.subscribe(names::kContactSet, kQueue, &RemoteContactSource::receive, this,
-                                ros::TransportHints().tcpNoDelay());
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const boost::shared_ptr<StampedContactSet>&>(
+      names::kContactSet, kQueue, [this](const boost::shared_ptr<StampedContactSet>& message) { receive(message); },
+      [this] { return emptyMessage(); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscriber_ = node_.subscribe(options);
   query_.header.frame_id = names::kPatientFrame;
 }
 
@@ -30,6 +36,14 @@ void RemoteContactSource::publish()
   // Only this thread writes the query, so it may read it without the lock.
   query_.header.stamp = ros::Time::now();
   publisher_.publish(query_);
+}
+
+/** One whose memory has held a set already: that of a thousand features costs time to get anew. */
+boost::shared_ptr<StampedContactSet> RemoteContactSource::emptyMessage()
+{
+  if (!message_ || !message_.unique())
+    message_ = boost::make_shared<StampedContactSet>();
+  return message_;
 }
 
 /** An answer counts only when it is the first to the asked state and makes sense; anything else is dropped and counted.

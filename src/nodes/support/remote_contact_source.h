@@ -45,6 +45,7 @@ public:
   std::uint64_t oddSets() const { return odd_sets_; }      ///< answers that fit no question: late, duplicate or wrong
 
 private:
+  boost::shared_ptr<StampedContactSet> emptyMessage();
   void receive(const boost::shared_ptr<StampedContactSet>& message);
   bool waitForAnswer(double seconds);
   void ask(const contact::Query& query);
@@ -56,10 +57,11 @@ private:
   AnswerPatience patience_;
   mutable std::mutex mutex_;
   std::condition_variable answered_;
-  RodState query_;              ///< as it is published
-  contact::Query asked_;        ///< guarded: the receiving thread compares answers with it
-  contact::ContactSet answer_;  ///< guarded
-  bool has_answer_ = false;     ///< guarded
+  RodState query_;                                ///< as it is published
+  contact::Query asked_;                          ///< guarded: the receiving thread compares answers with it
+  contact::ContactSet answer_;                    ///< guarded
+  bool has_answer_ = false;                       ///< guarded
+  boost::shared_ptr<StampedContactSet> message_;  ///< of the receiving thread
   std::atomic<bool> heard_{false};
   std::chrono::steady_clock::time_point silent_since_;
   std::uint64_t stale_sets_ = 0;

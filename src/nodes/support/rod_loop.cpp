@@ -22,7 +22,8 @@ namespace
 constexpr double kContactPatience = 3e-3;   // s for one contact set
 constexpr double kPauseAfter = 15e-3;       // s of silence of the contact node
 constexpr double kRampTime = 30e-3;         // s in which the hand's force falls to zero on any doubt, and returns
-constexpr double kMaxBacklog = 50e-3;       // s of late steps that are caught up; beyond it time is let go
+constexpr double kMaxBacklog = 0.5;         // s of late steps that are caught up; beyond it time is let go
+constexpr double kCatchUp = 1.25;           // times real time: no faster, so that nobody feels it
 constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
 constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
 constexpr double kForceBand = 5e-3;         // N, of the bridges over missing sets
@@ -192,23 +193,25 @@ bool RodLoop::run()
         updater.force_update();
       });
   const auto slot = period(scene_.solver.time_step);
+  const auto fastest = period(scene_.solver.time_step / kCatchUp);
   const auto last_step =
       seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step)) : ~std::uint64_t{0};
   publisher_.publishOperatingState("ENABLED", "");
   waitForRecorder();
   ROS_INFO("rod_dynamics: running");
   Clock::time_point slot_begin = Clock::now();
+  Clock::time_point begin = slot_begin - slot;
   while (ros::ok() && simulation_->steps() < last_step)
   {
     const Clock::time_point awake = Clock::now();
-    sleepUntil(slot_begin);
+    sleepUntil(std::max(slot_begin, begin + fastest));
     if (contactIsLost())
     {
       pause();
       slot_begin = Clock::now();
       continue;
     }
-    const Clock::time_point begin = Clock::now();
+    begin = Clock::now();
     stepOnce();
     const Clock::time_point end = Clock::now();
     countTime(begin, end, slot_begin + slot);
@@ -281,8 +284,10 @@ void RodLoop::tellHands(const std::vector<session::HandCommand>& used)
 void RodLoop::countTime(Clock::time_point begin, Clock::time_point end, Clock::time_point slot_end)
 {
   const double seconds = std::chrono::duration<double>(end - begin).count();
+  const double late = std::chrono::duration<double>(end - slot_end).count();
   ++counters_.steps;
-  counters_.late_steps += std::chrono::duration<double>(end - slot_end).count() > kLate;
+  counters_.late_steps += late > kLate;
+  counters_.worst_lag = std::max(counters_.worst_lag.load(), late);
   counters_.refused_steps += !simulation_->report().solved;
   counters_.last_refused = !simulation_->report().solved || force_share_ < 1.0;
   if (!simulation_->contactSet().stale)  // an old set only estimates
@@ -355,6 +360,7 @@ void RodLoop::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("contact sets dropped (late, double or wrong)", counters_.odd_sets.load());
   status.add("pauses", counters_.pauses.load());
   status.add("steps refused by the solver", counters_.refused_steps.load());
+  status.add("behind the clock, most [s]", counters_.worst_lag.load());
   status.add("backlogs let go", counters_.time_losses.load());
   status.add("worst penetration [m]", counters_.worst_penetration.load());
 }

@@ -52,6 +52,7 @@ private:
     std::atomic<bool> last_refused{false};
     std::atomic<double> worst_penetration{0.0};  ///< [m]
     std::atomic<double> longest_step{0.0};       ///< [s]
+    std::atomic<double> worst_lag{0.0};          ///< of a step behind its slot [s]
     std::atomic<double> total_step{0.0};         ///< [s]
     std::atomic<bool> paused{false};
   };
