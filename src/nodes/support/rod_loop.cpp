@@ -11,6 +11,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/support/names.h"
+#include "nodes/support/step_pace.h"
 #include "nodes/support/vessel_conversions.h"
 #include "session/moving_wall.h"
 
@@ -22,8 +23,6 @@ namespace
 constexpr double kContactPatience = 3e-3;   // s for one contact set
 constexpr double kPauseAfter = 15e-3;       // s of silence of the contact node
 constexpr double kRampTime = 30e-3;         // s in which the hand's force falls to zero on any doubt, and returns
-constexpr double kMaxBacklog = 0.5;         // s of late steps that are caught up; beyond it time is let go
-constexpr double kCatchUp = 1.25;           // times real time: no faster, so that nobody feels it
 constexpr double kRecorderPatience = 10.0;  // s that a recorder is waited for
 constexpr double kLate = 1e-3;              // s after its slot: then a step counts as a deadline miss
 constexpr double kForceBand = 5e-3;         // N, of the bridges over missing sets
@@ -31,11 +30,6 @@ constexpr double kTorqueBand = 5e-5;        // N·m
 constexpr double kNoPressure = std::numeric_limits<double>::quiet_NaN();  // none came: the scene's own counts
 constexpr double kRest = 1e-3;         // s that the loop sleeps at once where it has no time left
 constexpr double kIdlePeriod = 10e-3;  // s between forces of zero while paused
-
-std::chrono::steady_clock::duration period(double seconds)
-{
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 /** The wall may have moved since the message that is latched. */
 std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
@@ -192,39 +186,33 @@ bool RodLoop::run()
         }
         updater.force_update();
       });
-  const auto slot = period(scene_.solver.time_step);
-  const auto fastest = period(scene_.solver.time_step / kCatchUp);
   const auto last_step =
       seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step)) : ~std::uint64_t{0};
   publisher_.publishOperatingState("ENABLED", "");
   waitForRecorder();
   ROS_INFO("rod_dynamics: running");
-  Clock::time_point slot_begin = Clock::now();
-  Clock::time_point begin = slot_begin - slot;
+  StepPace pace(scene_.solver.time_step);
+  pace.start(Clock::now());
   while (ros::ok() && simulation_->steps() < last_step)
   {
     const Clock::time_point awake = Clock::now();
-    sleepUntil(std::max(slot_begin, begin + fastest));
+    sleepUntil(pace.next());
     if (contactIsLost())
     {
       pause();
-      slot_begin = Clock::now();
+      pace.start(Clock::now());
       continue;
     }
-    begin = Clock::now();
+    const Clock::time_point begin = Clock::now();
+    pace.begin(begin);
     stepOnce();
     const Clock::time_point end = Clock::now();
-    countTime(begin, end, slot_begin + slot);
+    countTime(begin, end, pace.slotEnd());
     const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
     const double rest = rest_.after(seconds(begin - awake), seconds(end - begin));
     if (rest > 0.0)
-      sleepUntil(end + period(rest));
-    slot_begin += slot;
-    if (Clock::now() - slot_begin > period(kMaxBacklog))
-    {
-      ++counters_.time_losses;
-      slot_begin = Clock::now();
-    }
+      sleepUntil(end + StepPace::period(rest));
+    counters_.time_losses += pace.end(Clock::now());
   }
   publisher_.publishOperatingState("DISABLED", "the session is over");
   publisher_.publishHands(hands_, 0.0);
@@ -241,7 +229,7 @@ void RodLoop::waitForRecorder()
 {
   if (!ros::NodeHandle("~").param("wait_for_recorder", false))
     return;
-  const Clock::time_point end = Clock::now() + period(kRecorderPatience);
+  const Clock::time_point end = Clock::now() + StepPace::period(kRecorderPatience);
   while (ros::ok() && !publisher_.isRecorded())
   {
     if (Clock::now() > end)
@@ -320,7 +308,7 @@ void RodLoop::pause()
     const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
     const double share = std::max(0.0, 1.0 - elapsed / kRampTime);
     publisher_.publishHands(hands_, share);
-    sleepUntil(Clock::now() + period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
+    sleepUntil(Clock::now() + StepPace::period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
   counters_.paused = false;
   for (session::ForceBridge& bridge : force_bridge_)
