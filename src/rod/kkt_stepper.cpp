@@ -265,6 +265,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     ++report.solves;
     if (!solveActiveSet(state, dt, report))
       return false;
+    correctLengths(state);
     const double factor = move(state, truncation(state, report), report);
     // Where nothing could move twice the next solve would be the same again.
     const bool last = solve + 1 == settings_.max_solves || (factor == 0.0 && !moved);
@@ -380,14 +381,10 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
   {
     if (!klu_.factorise(sparseFromBand(matrix_)))
       return false;
-    klu_.solve(rhs_.data());
   }
-  else
-  {
-    if (matrix_.factorise() != rod_.nodes() - first_)
-      return false;
-    matrix_.solve(rhs_);
-  }
+  else if (matrix_.factorise() != rod_.nodes() - first_)
+    return false;
+  solveAgain(rhs_);
   // Tensions may be huge for one solve, where a straight wire is shortened; motions may not.
   for (std::size_t k = 0; k < rhs_.size(); ++k)
   {
@@ -396,6 +393,15 @@ bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
       return false;
   }
   return true;
+}
+
+/** With the factors that are there. */
+void KktStepper::solveAgain(std::vector<double>& rhs)
+{
+  if (settings_.linear_solver == LinearSolver::kSparse)
+    klu_.solve(rhs.data());
+  else
+    matrix_.solve(rhs);
 }
 
 Energy KktStepper::energy(const State& state)

@@ -131,6 +131,8 @@ private:
   bool solveActiveSet(const State& state, double dt, StepReport& report);
   bool canRewind(const State& state) const;
   bool factoriseAndSolve(const State& state, StepReport& report);
+  void solveAgain(std::vector<double>& rhs);
+  void correctLengths(const State& state);
   void addContact(const contact::Feature& feature, const NodalContacts::Spring& contact, double dt);
   double truncation(const State& state, StepReport& report);
   double move(State& state, double factor, StepReport& report);
@@ -174,6 +176,7 @@ private:
   int fresh_ = 0;  ///< first column of the matrix that holds nothing but the base
   KluSolver klu_;
   std::vector<double> base_rhs_, rhs_;
+  std::vector<double> correction_;      ///< of the solution
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   std::vector<double> begin_twist_;     ///< and twist angles
   std::vector<double> kept_twist_;

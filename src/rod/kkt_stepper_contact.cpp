@@ -17,7 +17,7 @@ constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below
 constexpr int kMaxFoldHalvings = 10;
 constexpr double kDeepest = 80e-6;  // m into a rigid wall that no motion exceeds
 constexpr int kMaxDepthHalvings = 6;
-constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kShift = 10.0;     // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
 
@@ -59,6 +59,32 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
                        friction_changed ? friction_.firstChanged() : rod_.nodes());
   }
   return true;
+}
+
+/** A motion stretches the edges by the square of what they turn by. Where that is little it is taken out by another right-hand side instead of another solve (second-order correction: Nocedal & Wright 2006,
+ *  §18.3); the correction is another order smaller. */
+void KktStepper::correctLengths(const State& state)
+{
+  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
+  correction_.assign(rhs_.size(), 0.0);
+  const int free = firstFreeNode(state);
+  double largest = 0.0;
+  for (int j = std::max(first_, free - 1); j + 1 < rod_.nodes(); ++j)
+  {
+    if (isDistalHeld(j))
+      continue;
+    const Eigen::Vector3d edge = state.position[j + 1] + motion_[j + 1] - state.position[j] - motion_[j];
+    const double stretch = edge.norm() - rod_.rest_length[j];
+    correction_[multiplierRow(j)] = -scale_ * stretch;
+    largest = std::max(largest, std::abs(stretch) / rod_.rest_length[j]);
+  }
+  if (largest <= settings_.strain_tolerance || !(largest <= settings_.corrected_strain))
+    return;
+  solveAgain(correction_);
+  for (std::size_t k = 0; k < rhs_.size(); ++k)
+    rhs_[k] += correction_[k];
+  for (int i = first_; i < rod_.nodes(); ++i)
+    motion_[i] = increment(i);
 }
 
 /** Whether a factorisation may go on from where it stands: only where the prescribed nodes are done with by then. */

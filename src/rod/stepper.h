@@ -64,8 +64,10 @@ enum class LinearSolver
 struct StepperSettings
 {
   LinearSolver linear_solver = LinearSolver::kBanded;
-  int max_solves = 12;                  ///< linear solves in one step, truncated ones included
-  double strain_tolerance = 5e-5;       ///< a step that leaves more is solved again
+  int max_solves = 12;             ///< linear solves in one step, truncated ones included
+  double strain_tolerance = 5e-5;  ///< a step that leaves more is solved again
+  /** `kkt`: a larger strain up to this is taken out by another right-hand side instead of another solve; 0: none. */
+  double corrected_strain = 0.0;
   double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]
   double contact_margin = 0.25e-3;      ///< features closer than this are listed [m]
   double penetration_tolerance = 3e-5;  ///< an unknown contact deeper than this is solved for again [m]

@@ -15,6 +15,8 @@ namespace endovascular_sim::session
 namespace
 {
 
+constexpr double kCorrected = 4.0;  // times the tolerated strain: what turns by more is linearised anew
+
 constexpr double kLeastClearance = 20e-6;  // m
 constexpr double kRoomShare = 0.9;         // of what the vessel leaves to the wire in the introducer's mouth
 
@@ -134,6 +136,7 @@ std::unique_ptr<rod::Stepper> makeStepper(const Scene& scene, const EntryPose& e
   settings.linear_solver = scene.solver.linear_solver;
   settings.max_solves = scene.solver.max_newton;
   settings.strain_tolerance = scene.solver.strain_tolerance;
+  settings.corrected_strain = kCorrected * scene.solver.strain_tolerance;
   settings.contact_stiffness = scene.solver.contact_stiffness;
   settings.contact_margin = scene.solver.contact_margin;
   const rod::Boundary boundary = boundaryOf(scene, entry);
