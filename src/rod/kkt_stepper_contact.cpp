@@ -17,7 +17,7 @@ constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below
 constexpr int kMaxFoldHalvings = 10;
 constexpr double kDeepest = 80e-6;  // m into a rigid wall that no motion exceeds
 constexpr int kMaxDepthHalvings = 6;
-constexpr double kShift = 10.0;     // of the mass matrix, when a factorisation has the wrong inertia
+constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
 }  // namespace
 
@@ -61,8 +61,9 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
   return true;
 }
 
-/** A motion stretches the edges by the square of what they turn by. Where that is little it is taken out by another right-hand side instead of another solve (second-order correction: Nocedal & Wright 2006,
- *  §18.3); the correction is another order smaller. */
+/** A motion stretches the edges by the square of what they turn by. Where that is little it is taken out by another
+ * right-hand side instead of another solve (second-order correction: Nocedal & Wright 2006, §18.3); the correction is
+ * another order smaller. */
 void KktStepper::correctLengths(const State& state)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
