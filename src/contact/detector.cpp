@@ -427,13 +427,14 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   if (near.edges.empty())
     return;
   const AxisSegment segment(a, b);
+  const double taper = query.radius[index + 1] - query.radius[index];
   for (const Near& one : near.edges)
   {
     const int e = one.index;
     if (one.clear > near.moved || !canCross(segment, e, limit_begin, limit_end))
       continue;
     double distance = 0.0;
-    if (!crossing(a, b, e, std::max(limit_begin, limit_end), feature, distance))
+    if (!crossing(a, b, taper, e, std::max(limit_begin, limit_end), feature, distance))
       continue;
     const double t = feature.parameter;
     if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
@@ -448,14 +449,16 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   }
 }
 
-/** Closest point of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local minimum. */
-bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit,
+/** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local
+ *  minimum. @param taper the radius at b minus that at a [m] */
+bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, int wall_edge, double limit,
                         Feature& feature, double& distance) const
 {
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
-  const SegmentPair pair = closestPointsOfSegments(a, b, end0, end1);
+  const SegmentPair pair =
+      taper == 0.0 ? closestPointsOfSegments(a, b, end0, end1) : closestPointsOfCone(a, b, taper, end0, end1);
   if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
     return false;
   feature.point = end0 + pair.second * (end1 - end0);

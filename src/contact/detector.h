@@ -205,8 +205,8 @@ private:
                    Feature& feature, double& distance, bool& outside) const;
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
   bool canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
-  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int wall_edge, double limit, Feature& feature,
-                double& distance) const;
+  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, int wall_edge, double limit,
+                Feature& feature, double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
   double clearanceRadius(const Query& query, const Feature& feature) const;

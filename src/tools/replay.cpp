@@ -1,7 +1,9 @@
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -17,18 +19,21 @@
 #include "session/moving_wall.h"
 #include "session/replay_source.h"
 #include "session/simulation.h"
+#include "session/step_costs_file.h"
 
 namespace
 {
 
 using namespace endovascular_sim;  // NOLINT: a program's main file
+using Clock = std::chrono::steady_clock;
 
 constexpr auto kUsage =
     R"(Simulates a recorded session again, from its inputs, and compares every step with the recording bit for bit.
 
-usage: replay SESSION.bag [--keep-going]
+usage: replay SESSION.bag [--keep-going] [--costs FILE]
 
   --keep-going  counts all steps that differ instead of ending at the first
+  --costs FILE  writes what every step costs here, as CSV: time, solves, contacts (docs/SIMULATE.md)
   --help        prints this
 
 The scene, the vessel and the inputs of every step come from the bag. To look at a session instead of computing it
@@ -81,8 +86,11 @@ Recording read(const std::string& file)
   return recording;
 }
 
-int replay(const std::string& file, bool keep_going)
+int replay(const std::string& file, bool keep_going, const std::string& costs_file)
 {
+  std::optional<session::StepCostsFile> costs;
+  if (!costs_file.empty())
+    costs.emplace(costs_file);
   const Recording recording = read(file);
   const session::Scene scene = session::parseRecordedScene(recording.info->scene_yaml, file);
   std::unique_ptr<contact::Detector> detector;
@@ -123,7 +131,10 @@ int replay(const std::string& file, bool keep_going)
     commands.clear();
     for (std::size_t k = 0; k < applied->insertion.size(); ++k)
       commands.push_back({applied->insertion[k], applied->rotation.at(k), applied->pressure.at(k)});
+    const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
+    if (costs)
+      costs->add(simulation, std::chrono::duration<double>(Clock::now() - before).count());
     if (simulation.stateHash() != applied->state_hash)
     {
       if (different++ == 0)
@@ -136,6 +147,8 @@ int replay(const std::string& file, bool keep_going)
       std::fprintf(stderr, "\r%3.0f %% ", 100.0 * static_cast<double>(step) / static_cast<double>(last + 1));
   }
   std::fprintf(stderr, "\r");
+  if (costs && !costs->flush())
+    throw InputError(costs_file, "", "the disk refused it; free some space");
   std::printf("%lu steps, %lu different, trajectory %s\n", static_cast<unsigned long>(simulation.steps()),
               static_cast<unsigned long>(different), Hash64::toHex(simulation.trajectoryHash()).c_str());
   return different == 0 ? 0 : 1;
@@ -146,6 +159,7 @@ int replay(const std::string& file, bool keep_going)
 int main(int argc, char** argv)
 {
   std::string file;
+  std::string costs;
   bool keep_going = false;
   for (int i = 1; i < argc; ++i)
   {
@@ -157,6 +171,8 @@ int main(int argc, char** argv)
     }
     if (word == "--keep-going")
       keep_going = true;
+    else if (word == "--costs" && i + 1 < argc)
+      costs = argv[++i];
     else if (!word.empty() && word[0] != '-' && file.empty())
       file = word;
     else
@@ -172,7 +188,7 @@ int main(int argc, char** argv)
   }
   try
   {
-    return replay(file, keep_going);
+    return replay(file, keep_going, costs);
   }
   catch (const std::exception& error)
   {

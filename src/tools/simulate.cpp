@@ -8,6 +8,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "common/error.h"
 #include "contact/detector.h"
@@ -18,6 +19,7 @@
 #include "session/scene.h"
 #include "session/scene_vessel.h"
 #include "session/simulation.h"
+#include "session/step_costs_file.h"
 #include "session/trajectory_file.h"
 #include "session/wall_force_map.h"
 #include "session/wall_force_report.h"
@@ -32,7 +34,7 @@ constexpr auto kUsage =
     R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
 same trajectory bit for bit.
 
-usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes]
+usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes|costs]
                 [--pictures] [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
 
   --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
@@ -40,6 +42,7 @@ usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [-
   --seconds T           runs for T seconds of simulated time instead of the scene's duration
   --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
   --record nodes        also writes nodes.csv: every node at every recorded step
+  --record costs        also writes costs.csv: what every step cost, in time, solves and contacts
   --pictures            also writes fluoroscopy/phase_01.png and so on: what the C-arm sees at the end of every phase of a procedure
   --save-state FILE     writes the state at the time of --at T, in seconds of simulated time, and goes on
   --from-state FILE     begins with a state that was saved in this scene; T of --seconds is then counted from it
@@ -61,6 +64,7 @@ struct Options
   double save_at = NAN;  ///< [s]
   std::string from_state;
   bool record_nodes = false;
+  bool record_costs = false;
   bool pictures = false;
   bool plots = true;
   bool quiet = false;
@@ -118,9 +122,10 @@ int parse(int argc, char** argv, Options& options)
     }
     else if (word == "--record" && has_value)
     {
-      if (std::string(argv[++i]) != "nodes")
-        return wrongUse("--record takes 'nodes'");
-      options.record_nodes = true;
+      const std::string what = argv[++i];
+      if (what != "nodes" && what != "costs")
+        return wrongUse("--record takes 'nodes' or 'costs', not '" + what + "'");
+      (what == "nodes" ? options.record_nodes : options.record_costs) = true;
     }
     else if (!word.empty() && word[0] != '-' && options.scene.empty())
       options.scene = word;
@@ -305,6 +310,9 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     nodes = openFile(options.out + "/nodes.csv");
     nodes << "time,node,x,y,z\n";
   }
+  std::optional<session::StepCostsFile> costs;
+  if (options.record_costs)
+    costs.emplace(options.out + "/costs.csv");
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
@@ -321,7 +329,10 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
                              : session::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
-    result.addStep(simulation, std::chrono::duration<double>(Clock::now() - before).count());
+    const double took = std::chrono::duration<double>(Clock::now() - before).count();
+    result.addStep(simulation, took);
+    if (costs)
+      costs->add(simulation, took);
     if (k == save_at)
       saveState(options.save_state, simulation, surroundings);
     if (surroundings.wall_forces)
@@ -354,6 +365,8 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     diskRefused(options.out + "/hand_force.csv");
   if (options.record_nodes && !nodes.flush())
     diskRefused(options.out + "/nodes.csv");
+  if (costs && !costs->flush())
+    diskRefused(options.out + "/costs.csv");
 }
 
 void writeWallForces(const std::string& folder, const Surroundings& surroundings)
