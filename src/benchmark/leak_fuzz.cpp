@@ -35,6 +35,7 @@ struct Setup
   double stiffness;  // of the wall; infinite: rigid
   double friction, force_limit;
   std::string sampling;
+  double tip_width;  // of the tip's surface, as a share of the body's
 };
 
 /** Of a wire that is to enter [m]. In trees, it meets branches that are too narrow for it. */
@@ -77,6 +78,7 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
   if (random.chance(0.2))
     setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
   setup.radius = std::min(setup.radius, largestRadius(vessel));
+  setup.tip_width = random.chance(0.3) ? random.between(0.3, 1.0) : 1.0;
   return setup;
 }
 
@@ -87,7 +89,7 @@ std::string sceneText(const Setup& setup)
   out << "name: fuzz\nduration: 1.0e6\nvessel: none\ninstrument:\n  name: wire\n  sections:\n"
       << "    - {length: " << setup.length - setup.tip_length << ", radius: " << setup.radius
       << ", material: nitinol, density: 6450, bending_stiffness: " << setup.bending << ", poisson_ratio: 0.3}\n"
-      << "    - {length: " << setup.tip_length << ", radius: " << setup.radius
+      << "    - {length: " << setup.tip_length << ", radius: " << setup.tip_width * setup.radius
       << ", material: nitinol, density: 6450, bending_stiffness: " << setup.tip_bending << ", poisson_ratio: 0.3";
   if (setup.tip_radius > 0.0)
     out << ", rest_curvature: {radius: " << setup.tip_radius << ", direction: 0}";
@@ -100,7 +102,8 @@ std::string sceneText(const Setup& setup)
 std::string described(const Setup& setup, const FuzzVessel& vessel)
 {
   return (vessel.detail.empty() ? "" : vessel.detail + "; ") + "EI " + number(1e6 * setup.bending) + " and " +
-         number(1e6 * setup.tip_bending) + " N·mm², radius " + number(1e3 * setup.radius) + " mm, tip " +
+         number(1e6 * setup.tip_bending) + " N·mm², radius " + number(1e3 * setup.radius) + " and " +
+         number(1e3 * setup.tip_width * setup.radius) + " mm, tip " +
          (setup.tip_radius > 0.0 ? "of " + number(1e3 * setup.tip_radius) + " mm" : std::string("straight")) + ", " +
          setup.sampling + ", Δt " + number(1e3 * setup.time_step) + " ms, wall " +
          (std::isfinite(setup.stiffness) ? number(1e-6 * setup.stiffness) + " N/mm per mm" : std::string("rigid")) +
