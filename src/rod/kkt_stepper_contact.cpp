@@ -15,7 +15,6 @@ constexpr int kMaxActiveSetPasses = 16;
 constexpr double kQuietTurn = 0.01;  // rad of an edge in one solve: less cannot fold anything
 constexpr double kSharpTurn = 0.6;   // 1 + cos of a turning angle (114°) below which folding is watched for
 constexpr int kMaxFoldHalvings = 10;
-constexpr double kDeepest = 80e-6;  // m into a rigid wall that no motion exceeds
 constexpr int kMaxDepthHalvings = 6;
 constexpr double kShift = 10.0;  // of the mass matrix, when a factorisation has the wrong inertia
 
@@ -189,10 +188,10 @@ double KktStepper::move(State& state, double factor, StepReport& report)
     state.position[i] += factor * motion_[i];
   if (!contacts_.present())
     return factor;
-  const double allowed = std::max(kDeepest, contacts_.deepest());
+  const double before = contacts_.tooDeep();
   double moved = factor;
   contacts_.detect(state, report);
-  for (int halving = 0; !contacts_.set().stale && contacts_.deepest() > allowed && moved > 0.0; ++halving)
+  for (int halving = 0; !contacts_.set().stale && contacts_.tooDeep() > before && moved > 0.0; ++halving)
   {
     const double shorter = halving < kMaxDepthHalvings ? 0.5 * moved : 0.0;
     for (int i = first_; i < rod_.nodes(); ++i)

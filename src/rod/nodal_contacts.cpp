@@ -14,6 +14,8 @@ namespace
 constexpr double kBackingDepth = 40e-6;      // m into a rigid wall from where on it is stiffer
 constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
+constexpr double kDeepest = 80e-6;           // m into a wall that does not give way that no motion exceeds
+constexpr double kShareToAxis = 0.8;         // of the way from there to the wire's axis, where that is less
 constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
 constexpr int kLineSearchHalvings = 10;
 constexpr double kBeyondMargin = 1.0 + 1e-12;  // for rounding
@@ -58,6 +60,14 @@ void NodalContacts::beginStep(const StepInput& input, contact::ContactSource* so
 double NodalContacts::radiusOf(int node) const
 {
   return radii_.empty() ? rod_.radius[node] : std::max(rod_.radius[node], radii_[node]);
+}
+
+/** Of the wire, where it touches [m]. */
+double NodalContacts::radiusAt(const contact::Feature& feature) const
+{
+  const double first = rod_.radius[feature.edge];
+  const double second = rod_.radius[std::min(feature.edge + 1, rod_.nodes() - 1)];
+  return first == second ? first : (1.0 - feature.parameter) * first + feature.parameter * second;
 }
 
 /** How far a node may move and none of its edges' points meets what the detector did not list [m]. */
@@ -111,7 +121,7 @@ void NodalContacts::addBacking()
   {
     contact::Feature backing = contacts_.features[f];
     const bool soft = std::isfinite(backing.stiffness);
-    backing.gap += soft ? softWallTravel(rod_.radius[backing.edge]) : kBackingDepth;
+    backing.gap += soft ? softWallTravel(radiusAt(backing)) : kBackingDepth;
     // A rigid wall's is of use only where its spring is pressed in already.
     if (backing.gap > (soft ? settings_.contact_margin : 0.5 * kBackingDepth))
       continue;
@@ -120,16 +130,23 @@ void NodalContacts::addBacking()
   }
 }
 
-double NodalContacts::deepest() const
+double NodalContacts::tooDeep() const
 {
   double depth = 0.0;
   for (std::size_t f = 0; f + kept_ < contacts_.features.size(); ++f)
   {
     const contact::Feature& feature = contacts_.features[f];
     if (isBacking(feature) || !std::isfinite(feature.stiffness))
-      depth = std::max(depth, -feature.gap);
+      depth = std::max(depth, -feature.gap - toleratedDepth(feature));
   }
   return depth;
+}
+
+double NodalContacts::toleratedDepth(const contact::Feature& feature) const
+{
+  const double radius = radiusAt(feature);
+  const double to_axis = std::isfinite(feature.stiffness) ? radius - softWallTravel(radius) : radius;
+  return std::min(kDeepest, kShareToAxis * to_axis);
 }
 
 void NodalContacts::prepare(const State& state, double dt)

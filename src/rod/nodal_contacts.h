@@ -67,8 +67,9 @@ public:
   /** Once more for a state that was moved back; the last solve's contacts are kept. */
   void detectAgain(const State& state, StepReport& report);
 
-  /** Largest depth in the present contacts with walls that do not give way [m]. */
-  double deepest() const;
+  /** By how much the present contacts are deeper in walls that do not give way than is tolerated, at most; 0 where none
+   *  is [m]. Tolerated is less than would take the wire's axis to the wall. */
+  double tooDeep() const;
 
   /** Detects where the last answer is missing or old. */
   void refresh(const State& state, StepReport& report);
@@ -139,6 +140,8 @@ private:
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings(const State& state);
   double radiusOf(int node) const;
+  double radiusAt(const contact::Feature& feature) const;
+  double toleratedDepth(const contact::Feature& feature) const;
   double marginOf(int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
