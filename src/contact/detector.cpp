@@ -43,11 +43,6 @@ std::int64_t featureId(int index, FeatureKind kind)
   return std::int64_t{3} * index + kind;
 }
 
-double clampedShare(double value)
-{
-  return std::max(0.0, std::min(1.0, value));
-}
-
 }  // namespace
 
 double WallLaw::frictionAt(const Eigen::Vector3d& place) const

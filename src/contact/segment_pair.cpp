@@ -1,6 +1,5 @@
 #include "contact/segment_pair.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,15 +10,10 @@ namespace
 
 constexpr double kParallel = 1e-12;  // squared sine
 
-double clampedShare(double value)
-{
-  return std::max(0.0, std::min(1.0, value));
-}
-
 /** How far beyond the foot of a perpendicular on its axis a cone's surface is closest to the perpendicular's other end.
  *  @param height of the perpendicular [m]
- *  @param squared_sine of the angle between the axis and the line of which the other end is the closest point; 1: a
- * point
+ *  @param squared_sine of the angle between the axis and the line of which the other end is the closest point; 1 for a
+ *  point
  *  @param slope of the radius along the axis, flatter than that angle */
 double shift(double height, double squared_sine, double slope)
 {
@@ -75,13 +69,12 @@ SegmentPair closestPointsOfCone(const Eigen::Vector3d& p1, const Eigen::Vector3d
     return std::abs(slope) < 1.0 ? foot + shift(height, 1.0, slope) : (slope > 0.0 ? length : 0.0);
   };
   double along = 0.0;
-  double share = -1.0;
   if (squared_sine > std::max(kParallel, slope * slope * (1.0 + kParallel)))
   {
     const double foot = (cosine * from.dot(v) - from.dot(u)) / squared_sine;
     const double foot2 = (from + foot * u).dot(v);
     along = foot + shift((from + foot * u - foot2 * v).norm(), squared_sine, slope);
-    share = (foot2 + (along - foot) * cosine) / length2;
+    const double share = (foot2 + (along - foot) * cosine) / length2;
     if (share < 0.0 || share > 1.0)
       along = placeFor(share < 0.0 ? p2 : q2);
   }

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 namespace endovascular_sim::contact
 {
+
+inline double clampedShare(double value)
+{
+  return std::max(0.0, std::min(1.0, value));
+}
 
 /** Parameters of the closest points of two segments p1q1 and p2q2, each in [0,1] (Ericson 2005, §5.1.9). */
 struct SegmentPair

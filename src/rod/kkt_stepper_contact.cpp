@@ -65,6 +65,8 @@ bool KktStepper::solveActiveSet(const State& state, double dt, StepReport& repor
  * another order smaller. */
 void KktStepper::correctLengths(const State& state)
 {
+  if (settings_.corrected_strain <= settings_.strain_tolerance)
+    return;
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
   correction_.assign(rhs_.size(), 0.0);
   const int free = firstFreeNode(state);

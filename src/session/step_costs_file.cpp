@@ -1,6 +1,7 @@
 #include "session/step_costs_file.h"
 
 #include "common/error.h"
+#include "common/phase_timer.h"
 
 namespace endovascular_sim::session
 {
@@ -9,7 +10,10 @@ StepCostsFile::StepCostsFile(const std::string& file) : stream_(file)
 {
   if (!stream_)
     throw InputError(file, "", "cannot be written; choose a folder that exists and has room");
-  stream_ << kStepCostColumns << '\n';
+  stream_ << "step,us,solves,factorisations,truncations,capped,contacts,detections";
+  for (const char* phase : kPhaseNames)
+    stream_ << ',' << phase << "_us";
+  stream_ << '\n';
 }
 
 void StepCostsFile::add(const Simulation& simulation, double seconds)

@@ -8,7 +8,8 @@
 namespace endovascular_sim::session
 {
 
-/** Writes what every step cost: a row per step, whose columns kStepCostColumns names. */
+/** Writes what every step cost, a row per step: times in µs, of the whole step and of its phases, and counts;
+ * detections are contact sets asked for. */
 class StepCostsFile
 {
 public:
@@ -24,11 +25,5 @@ public:
 private:
   std::ofstream stream_;
 };
-
-/** Times in µs: of the whole step and of its phases. Detections: contact sets asked for. */
-constexpr auto kStepCostColumns =
-    "step,us,solves,factorisations,truncations,capped,contacts,detections,collision_us,assembly_us,solve_us,sampling_"
-    "us,"
-    "twist_us";
 
 }  // namespace endovascular_sim::session
