@@ -70,14 +70,20 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   // The first call shall not wait for memory.
   near_.resize(kUsualNodes);
   for (Neighbourhood& near : near_)
-    for (std::vector<Near>* list : {&near.triangles, &near.edges})
+  {
+    const auto reserve = [](auto& list, std::size_t count)
     {
-      list->resize(kUsualList);
-      list->clear();
-    }
+      list.resize(count);
+      list.clear();
+    };
+    reserve(near.triangles, kUsualList);
+    reserve(near.edges, kUsualList);
+    reserve(near.prisms, kUsualList / kQuad);
+    reserve(near.ridges, kUsualList / kQuad);
+  }
 }
 
-Detector::EdgeBall Detector::ballOf(const WallEdge& edge) const
+EdgeBall Detector::ballOf(const WallEdge& edge) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
@@ -249,25 +255,26 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
   Feature feature;
-  for (const Near& one : near.triangles)
+  const PrismQuad::Place place(point, near.begin, limit, near.moved);
+  for (const PrismQuad& quad : near.prisms)
   {
-    if (one.clear > near.moved)
-      continue;
-    const Prism& prism = prisms_[one.index];
-    const Eigen::Array4d above = prism.heights(point);
-    double distance = 0.0;
-    bool outside = false;
-    if (!prism.canTouch(above, limit) || !faceFeature(point, one.index, above, limit, feature, distance, outside))
-      continue;
-    feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
-    feature.parameter = last ? 1.0 : 0.0;
-    feature.gap -= radius;
-    if (!outside)
-      appendDistinct(features, first, feature);
-    else if (distance < outside_distance)
+    const QuadLanes hidden = quad.hidden(place);
+    for (int lane = 0; lane < kQuad; ++lane)
     {
-      outside_distance = distance;
-      outside_feature = feature;
+      double distance = 0.0;
+      bool outside = false;
+      if (!(hidden[lane] <= 0.0F) || !faceFeature(point, quad.index(lane), limit, feature, distance, outside))
+        continue;
+      feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
+      feature.parameter = last ? 1.0 : 0.0;
+      feature.gap -= radius;
+      if (!outside)
+        appendDistinct(features, first, feature);
+      else if (distance < outside_distance)
+      {
+        outside_distance = distance;
+        outside_feature = feature;
+      }
     }
   }
   if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point, limit) + 1e-12 &&
@@ -275,19 +282,21 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
     features.push_back(outside_feature);
 }
 
-/** @param above the point's heights over the planes of the triangle's prism [m]
- *  @param limit distance up to which features are wanted [m]
+/** @param limit distance up to which features are wanted [m]
  *  @param distance to the triangle, where its closest point is one
  *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
  *  measured from the point itself */
-bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
-                           Feature& feature, double& distance, bool& outside) const
+bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
+                           bool& outside) const
 {
+  const Eigen::Array4d above = prisms_[triangle].heights(point);
   const double height = above[0];
+  if (height * height > limit * limit)
+    return false;
   const Eigen::Vector3d& normal = wall_.normals[triangle];
   feature.triangle = triangle;
   feature.stiffness = law_.stiffness;
-  if (outsideOf(above) < -kOffTriangle)
+  if (Prism::outsideOf(above) < -kOffTriangle)
   {
     distance = std::abs(height);
     outside = height < 0.0;
@@ -365,49 +374,20 @@ Detector::AxisSegment::AxisSegment(const Eigen::Vector3d& from, const Eigen::Vec
   inverse_length = std::sqrt(inverse_square);
 }
 
-/** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment, which goes evenly from
- *  @p limit_begin to @p limit_end. A segment whose ends are both higher than the limit above the mesh edge is higher
- * all along. */
-bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const
+/** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment. A segment whose ends are
+ *  both higher than the limit above the mesh edge is higher all along. */
+bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit) const
 {
   const EdgeBall& ball = edge_balls_[wall_edge];
   if (!ball.reflex)
     return false;
   const Eigen::Vector3d from_begin = segment.begin - ball.middle;
   const Eigen::Vector3d from_end = segment.end - ball.middle;
-  const double limit = std::max(limit_begin, limit_end);
   if (from_begin.dot(ball.normal) > limit && from_end.dot(ball.normal) > limit)
     return false;
   const double t = clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
-  // What of the mesh edge is near is so near to its middle.
-  const double half = segment.inverse_length > 0.0 ? ball.half_length * segment.inverse_length : 1.0;
-  const double widest = limit_begin < limit_end ? t + half : t - half;
-  const double far = limit_begin + clampedShare(widest) * (limit_end - limit_begin) + ball.half_length;
+  const double far = limit + ball.half_length;
   return (from_begin + t * segment.along).squaredNorm() <= far * far;
-}
-
-/** Cheap rejection: whether a reflex mesh edge can be a local minimum of the distance to a point of a segment within a
- *  limit, as canMeet has it. Inside the lumen such a point lies above the mesh edge as seen along the edge's normal, or
- *  nearly so. */
-bool Detector::canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const
-{
-  const EdgeBall& ball = edge_balls_[wall_edge];
-  const Eigen::Vector3d from_begin = segment.begin - ball.middle;
-  const Eigen::Vector3d from_end = segment.end - ball.middle;
-  const double low = std::min(from_begin.dot(ball.normal), from_end.dot(ball.normal));
-  const double high = std::max(from_begin.dot(ball.normal), from_end.dot(ball.normal));
-  if (low < 0.0 || std::isinf(ball.lean))
-    return canMeet(segment, wall_edge, limit_begin, limit_end);
-  const double limit = std::max(limit_begin, limit_end);
-  const double beside = ball.lean * std::min(limit, high) + kOffTriangle;
-  const auto apart = [&from_begin, &from_end](const Eigen::Vector3d& axis, double farthest)
-  {
-    const double begin = from_begin.dot(axis);
-    const double end = from_end.dot(axis);
-    return std::min(begin, end) > farthest || std::max(begin, end) < -farthest;
-  };
-  return ball.reflex && low <= limit && !apart(ball.normal.cross(ball.half), beside * ball.half_length) &&
-         !apart(ball.half, (beside + ball.half_length) * ball.half_length);
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const
@@ -419,21 +399,19 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double limit_end = query.radius[index + 1] + query.marginAt(index + 1);
   Feature feature;
   const Neighbourhood& near = neighbourhood(query, index);
-  if (near.edges.empty())
+  if (near.ridges.empty())
     return;
-  const AxisSegment segment(a, b);
   const double taper = query.radius[index + 1] - query.radius[index];
-  for (const Near& one : near.edges)
+  const double limit = std::max(limit_begin, limit_end);
+  const RidgeQuad::Place place(a, b, taper, near.begin, limit, near.moved);
+  const auto look = [&](int wall_edge)
   {
-    const int e = one.index;
-    if (one.clear > near.moved || !canCross(segment, e, limit_begin, limit_end))
-      continue;
     double distance = 0.0;
-    if (!crossing(a, b, taper, e, std::max(limit_begin, limit_end), feature, distance))
-      continue;
+    if (!crossing(a, b, taper, wall_edge, limit, feature, distance))
+      return;
     const double t = feature.parameter;
     if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
-      continue;
+      return;
     feature.gap -= (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
     feature.edge = query.first_node + static_cast<int>(index);
     const auto same = [&feature](const Feature& other) { return other.id == feature.id; };
@@ -441,6 +419,13 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
     if (feature.id % 3 == kEdge ||
         std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
+  };
+  for (const RidgeQuad& quad : near.ridges)
+  {
+    const QuadLanes hidden = quad.hidden(place);
+    for (int lane = 0; lane < kQuad; ++lane)
+      if (hidden[lane] <= 0.0F)
+        look(quad.index(lane));
   }
 }
 

@@ -12,7 +12,11 @@
 
 #include "contact/bvh.h"
 #include "contact/contact_set.h"
+#include "contact/edge_ball.h"
 #include "contact/helper_thread.h"
+#include "contact/prism.h"
+#include "contact/prism_quad.h"
+#include "contact/ridge_quad.h"
 #include "contact/wall.h"
 
 namespace endovascular_sim::contact
@@ -92,12 +96,15 @@ private:
     Eigen::Vector3d listed_at = Eigen::Vector3d::Zero();  ///< where the node was then
     double length = 0.0;                                  ///< of the segment [m]
     double reach = 0.0;                                   ///< of it from its begin: where the node may lie [m]
-    double limit = -1.0;          ///< distance up to which features are wanted [m]; negative: not listed yet
-    double room = 0.0;            ///< by which wire and wall may come closer and the lists still hold [m]
-    double moved = 0.0;           ///< by which wire and wall have come closer since, at most [m]
-    double wall_moved = 0.0;      ///< the wall's share of it [m]
-    std::vector<Near> triangles;  ///< that the node may meet, ascending
-    std::vector<Near> edges;      ///< reflex ones that the wire's edge may meet, ascending
+    double limit = -1.0;            ///< distance up to which features are wanted [m]; negative: not listed yet
+    double room = 0.0;              ///< by which wire and wall may come closer and the lists still hold [m]
+    double moved = 0.0;             ///< by which wire and wall have come closer since, at most [m]
+    double wall_moved = 0.0;        ///< the wall's share of it [m]
+    std::vector<Near> triangles;    ///< that the node may meet, ascending
+    std::vector<Near> edges;        ///< reflex ones that the wire's edge may meet, ascending
+    std::vector<PrismQuad> prisms;  ///< of the triangles, as seen from begin
+    std::vector<RidgeQuad> ridges;  ///< of the edges
+    bool wall_differs = false;      ///< from what they hold
 
     /** Notes how far the wire is. @return whether the lists still hold all that it may meet */
     bool follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
@@ -105,45 +112,6 @@ private:
     /** From a place of the segment no farther than that from its begin [m]. */
     double distanceTo(const Eigen::Vector3d& point, double farthest) const;
     Eigen::Vector3d end() const { return begin + length * along; }
-  };
-
-  static constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge: more is no rounding
-
-  /** How far a point's foot in a triangle's plane lies beyond the farthest of the lines along its edges, negative
-   * inside [m]. @param above the point's heights over the planes of the triangle's prism [m] */
-  static double outsideOf(const Eigen::Array4d& above) { return -std::min({above[1], above[2], above[3]}); }
-
-  /** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
-  struct Prism
-  {
-    std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
-    /** A closest point on its border can be a local minimum in front of it only while the foot lies no farther beyond
-     * than so much of the height; infinite: not bounded. */
-    double bulge = 0.0;
-    std::array<int, 3> own_edges{-1, -1,
-                                 -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
-    bool has_moved = false;            ///< it, its edges or what is around them, ever
-
-    /** Heights of a point over the four planes [m]. */
-    Eigen::Array4d heights(const Eigen::Vector3d& point) const
-    {
-      return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
-    }
-
-    /** Cheap rejection: whether the point of the triangle that is closest to a point can be a local minimum within a
-     *  limit.
-     *  @param above the point's heights over the planes [m] */
-    bool canTouch(const Eigen::Array4d& above, double limit) const
-    {
-      constexpr double kFar = 1.0 + 1e-9;  // of a squared distance, for rounding
-      const double height = above[0];
-      const double beyond = outsideOf(above);
-      if (height * height > limit * limit)
-        return false;
-      return beyond <= kOffTriangle ||
-             ((height < 0.0 || std::isinf(bulge) || beyond <= height * bulge + kOffTriangle) &&
-              height * height + beyond * beyond <= kFar * limit * limit);
-    }
   };
 
   /** Nodes, the edges behind them, and what is found there. */
@@ -164,17 +132,6 @@ private:
     double inverse_length = 0.0;        ///< [1/m]
   };
 
-  /** A mesh edge and its smallest ball. */
-  struct EdgeBall
-  {
-    Eigen::Vector3d middle;
-    Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
-    Eigen::Vector3d half;    ///< from the middle to the edge's end
-    double half_length;      ///< [m]
-    double lean;             ///< no local minimum's offset is tilted more off the normal, as a tangent; infinite: any
-    bool reflex;             ///< whether the wire's edges can meet it
-  };
-
   /** Index by which a node or edge is remembered. */
   static int placeFromTip(const Query& query, std::size_t index);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index) const
@@ -183,6 +140,7 @@ private:
   }
   void renewLists(const Query& query);
   void list(Neighbourhood& near);
+  void pack(Neighbourhood& near) const;
   void listTriangle(int triangle, Neighbourhood& near) const;
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
@@ -201,10 +159,9 @@ private:
   void renewPrisms(const std::vector<int>& changed);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew);
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
-  bool faceFeature(const Eigen::Vector3d& point, int triangle, const Eigen::Array4d& above, double limit,
-                   Feature& feature, double& distance, bool& outside) const;
-  bool canMeet(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
-  bool canCross(const AxisSegment& segment, int wall_edge, double limit_begin, double limit_end) const;
+  bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
+                   bool& outside) const;
+  bool canMeet(const AxisSegment& segment, int wall_edge, double limit) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, int wall_edge, double limit,
                 Feature& feature, double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;

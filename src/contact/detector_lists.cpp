@@ -50,6 +50,7 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
   for (Neighbourhood& near : near_)
     if (touches(near))
     {
+      near.wall_differs = true;
       near.wall_moved = anew ? near.room : near.wall_moved + farthest;
       for (int e : now_reflex_)
       {
@@ -102,10 +103,13 @@ void Detector::renewLists(const Query& query)
     const double limit =
         std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
     Neighbourhood& near = near_[placeFromTip(query, index)];
-    if (near.follows(query.nodes[index], query.nodes[next], limit))
-      continue;
-    near.start(query.nodes[index], query.nodes[next], limit);
-    list(near);
+    if (!near.follows(query.nodes[index], query.nodes[next], limit))
+    {
+      near.start(query.nodes[index], query.nodes[next], limit);
+      list(near);
+    }
+    else if (near.wall_differs)
+      pack(near);
   }
 }
 
@@ -127,6 +131,25 @@ void Detector::list(Neighbourhood& near)
   const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
   std::sort(near.triangles.begin(), near.triangles.end(), by_index);
   std::sort(near.edges.begin(), near.edges.end(), by_index);
+  pack(near);
+}
+
+/** Lays side by side what is listed. */
+void Detector::pack(Neighbourhood& near) const
+{
+  const auto lay = [&near](auto& quads, const std::vector<Near>& listed, const auto& shapes)
+  {
+    quads.clear();
+    for (std::size_t k = 0; k < listed.size(); ++k)
+    {
+      if (k % kQuad == 0)
+        quads.emplace_back();
+      quads.back().set(k % kQuad, listed[k].index, shapes[listed[k].index], near.begin, listed[k].clear);
+    }
+  };
+  lay(near.prisms, near.triangles, prisms_);
+  lay(near.ridges, near.edges, edge_balls_);
+  near.wall_differs = false;
 }
 
 /** A triangle that the node may meet. */
@@ -138,7 +161,7 @@ void Detector::listTriangle(int triangle, Neighbourhood& near) const
   const double low = std::min(first[0], last[0]);
   const double high = std::max(first[0], last[0]);
   // Of the places that the node may have, no more than their distance from the triangle.
-  const double beside = std::max(0.0, outsideOf(first.max(last)));
+  const double beside = std::max(0.0, Prism::outsideOf(first.max(last)));
   const double height = std::max({0.0, low, -high});
   double clear = std::sqrt(height * height + beside * beside) - near.limit;
   if (!prism.has_moved)
@@ -152,7 +175,7 @@ void Detector::listTriangle(int triangle, Neighbourhood& near) const
 void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const
 {
   const double wide = near.limit + near.room + kListGuard;
-  if (!canMeet(segment, wall_edge, wide, wide))
+  if (!canMeet(segment, wall_edge, wide))
     return;
   const EdgeBall& ball = edge_balls_[wall_edge];
   double clear = has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
@@ -197,13 +220,18 @@ double Detector::ridgeClearance(const EdgeBall& ball, const AxisSegment& segment
   return coneClearance(heights.first, heights.second, std::max({0.0, across, along}), ball.lean, limit);
 }
 
-/** Distance to what a point may touch, infinite where that is nothing [m]. */
+/** Distance to what a point may touch within a limit, infinite or beyond it where that is nothing [m]. */
 double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Near& one : near.triangles)
-    if (prisms_[one.index].canTouch(prisms_[one.index].heights(point), limit))
-      nearest = std::min(nearest, bvh_.distanceTo(one.index, point));
+  const PrismQuad::Place place(point, near.begin, limit, near.moved);
+  for (const PrismQuad& quad : near.prisms)
+  {
+    const QuadLanes hidden = quad.hidden(place);
+    for (int lane = 0; lane < kQuad; ++lane)
+      if (hidden[lane] <= 0.0F)
+        nearest = std::min(nearest, bvh_.distanceTo(quad.index(lane), point));
+  }
   return nearest;
 }
 

@@ -13,7 +13,7 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   vessel_version_ = vessel_version;
   if (indices.empty())
     return;
-  Eigen::AlignedBox3d moved;  // holds the triangles before and after; at first those around them too
+  Eigen::AlignedBox3d moved;  // holds the triangles before and after, and those around them
   double farthest = 0.0;
   for (std::size_t k = 0; k < indices.size(); ++k)
   {
@@ -22,14 +22,13 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   }
   const Wall::Changes& changes = wall_.moveVertices(indices, positions, helper_);
   renewPrisms(changes.around);
-  const bool anew = !now_moving_.empty();
-  for (int t : anew ? changes.around : changes.triangles)
+  for (int t : changes.around)
     for (int corner = 0; corner < 3; ++corner)
       moved.extend(wall_.vertices[wall_.triangles[t][corner]]);
   renewEdges(changes.edges);
   bvh_.refit(changes.triangles);
   bvh_.openCones(now_moving_);
-  keepUp(moved, farthest, anew);
+  keepUp(moved, farthest, !now_moving_.empty());
 }
 
 /** Notes those that have never moved before. */

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "contact/prism.h"
+#include "contact/quad_lanes.h"
+
+namespace endovascular_sim::contact
+{
+
+/** Four triangles' prisms side by side. */
+class PrismQuad
+{
+public:
+  PrismQuad();
+
+  /** @param origin from which it is seen [m]
+   *  @param clear by how much wire and wall have to come closer before it counts [m] */
+  void set(int lane, int triangle, const Prism& prism, const Eigen::Vector3d& origin, float clear);
+
+  int index(int lane) const { return triangles_[lane]; }
+
+  /** A point from which it is looked. */
+  struct Place
+  {
+    /** @param limit distance up to which features are wanted [m]
+     *  @param moved by which wire and wall have come closer [m] */
+    Place(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, double limit, double moved);
+
+    Eigen::Vector3f from_origin;
+    float limit, squared_limit, moved;
+  };
+
+  /** Positive where a triangle's point that is closest to the place can be no local minimum of the distance within the
+   * limit. */
+  EIGEN_STRONG_INLINE QuadLanes hidden(const Place& place) const
+  {
+    const QuadLanes height = over(0, place);
+    const QuadLanes beyond = -over(1, place).min(over(2, place)).min(over(3, place)) - kQuadSlack;
+    // Behind the plane any slope will do.
+    const QuadLanes slope = ((height + kQuadSlack) * bulge_).max(kQuadOpen * (kQuadSlack - height));
+    const QuadLanes border = (beyond - slope).max(height.square() + beyond.max(0.0F).square() - place.squared_limit);
+    return (clear_ - place.moved).max(height.abs() - place.limit).max(beyond.min(border));
+  }
+
+private:
+  EIGEN_STRONG_INLINE QuadLanes over(int plane, const Place& place) const
+  {
+    return normals_[plane].dot(place.from_origin) + offsets_[plane];
+  }
+
+  std::array<QuadVectors, 4> normals_;  ///< of a triangle's plane and of the planes along its edges
+  std::array<QuadLanes, 4> offsets_;    ///< [m]
+  QuadLanes bulge_, clear_;
+  std::array<int, kQuad> triangles_;
+};
+
+}  // namespace endovascular_sim::contact

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace endovascular_sim::contact
+{
+
+// What of the wall is near, looked at four at a time in single precision, as seen from an origin close by. Such a look
+// only leaves out what cannot matter: it is generous by kQuadSlack, which is more than rounding adds for places up to
+// 0.1 m from the origin and a wall of up to 1 m.
+
+constexpr int kQuad = 4;
+using QuadLanes = Eigen::Array<float, kQuad, 1>;
+
+constexpr float kQuadSlack = 1e-6F;  ///< m
+constexpr float kQuadOpen = 1e30F;   ///< a slope that is not bounded
+
+/** A vector per lane. */
+struct QuadVectors
+{
+  QuadLanes x, y, z;
+
+  EIGEN_STRONG_INLINE QuadLanes dot(const Eigen::Vector3f& v) const { return x * v.x() + y * v.y() + z * v.z(); }
+  EIGEN_STRONG_INLINE QuadLanes dot(const QuadVectors& v) const { return x * v.x + y * v.y + z * v.z; }
+  /** From these places to another one. */
+  EIGEN_STRONG_INLINE QuadVectors to(const Eigen::Vector3f& v) const { return {v.x() - x, v.y() - y, v.z() - z}; }
+
+  void set(int lane, const Eigen::Vector3d& v)
+  {
+    x[lane] = static_cast<float>(v.x());
+    y[lane] = static_cast<float>(v.y());
+    z[lane] = static_cast<float>(v.z());
+  }
+};
+
+}  // namespace endovascular_sim::contact
