@@ -255,28 +255,24 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
   Feature feature;
-  const PrismQuad::Place place(point, near.begin, limit, near.moved);
-  for (const PrismQuad& quad : near.prisms)
+  const auto look = [&](int triangle)
   {
-    const QuadLanes hidden = quad.hidden(place);
-    for (int lane = 0; lane < kQuad; ++lane)
+    double distance = 0.0;
+    bool outside = false;
+    if (!faceFeature(point, triangle, limit, feature, distance, outside))
+      return;
+    feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
+    feature.parameter = last ? 1.0 : 0.0;
+    feature.gap -= radius;
+    if (!outside)
+      appendDistinct(features, first, feature);
+    else if (distance < outside_distance)
     {
-      double distance = 0.0;
-      bool outside = false;
-      if (!(hidden[lane] <= 0.0F) || !faceFeature(point, quad.index(lane), limit, feature, distance, outside))
-        continue;
-      feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
-      feature.parameter = last ? 1.0 : 0.0;
-      feature.gap -= radius;
-      if (!outside)
-        appendDistinct(features, first, feature);
-      else if (distance < outside_distance)
-      {
-        outside_distance = distance;
-        outside_feature = feature;
-      }
+      outside_distance = distance;
+      outside_feature = feature;
     }
-  }
+  };
+  forEachInSight(near.prisms, PrismQuad::Place(point, near.begin, limit, near.moved), look);
   if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point, limit) + 1e-12 &&
       signedDistance(point, outside_feature.triangle) < 0.0)
     features.push_back(outside_feature);
@@ -371,7 +367,6 @@ Detector::AxisSegment::AxisSegment(const Eigen::Vector3d& from, const Eigen::Vec
   if (squared <= 0.0)
     return;
   inverse_square = 1.0 / squared;
-  inverse_length = std::sqrt(inverse_square);
 }
 
 /** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment. A segment whose ends are
@@ -403,7 +398,6 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
     return;
   const double taper = query.radius[index + 1] - query.radius[index];
   const double limit = std::max(limit_begin, limit_end);
-  const RidgeQuad::Place place(a, b, taper, near.begin, limit, near.moved);
   const auto look = [&](int wall_edge)
   {
     double distance = 0.0;
@@ -420,13 +414,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
         std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
   };
-  for (const RidgeQuad& quad : near.ridges)
-  {
-    const QuadLanes hidden = quad.hidden(place);
-    for (int lane = 0; lane < kQuad; ++lane)
-      if (hidden[lane] <= 0.0F)
-        look(quad.index(lane));
-  }
+  forEachInSight(near.ridges, RidgeQuad::Place(a, b, taper, near.begin, limit, near.moved), look);
 }
 
 /** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local

@@ -129,7 +129,6 @@ private:
 
     Eigen::Vector3d begin, end, along;  ///< along: end − begin
     double inverse_square = 0.0;        ///< of its length [1/m²]; 0 for a point
-    double inverse_length = 0.0;        ///< [1/m]
   };
 
   /** Index by which a node or edge is remembered. */

@@ -225,13 +225,7 @@ double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d&
 {
   double nearest = std::numeric_limits<double>::infinity();
   const PrismQuad::Place place(point, near.begin, limit, near.moved);
-  for (const PrismQuad& quad : near.prisms)
-  {
-    const QuadLanes hidden = quad.hidden(place);
-    for (int lane = 0; lane < kQuad; ++lane)
-      if (hidden[lane] <= 0.0F)
-        nearest = std::min(nearest, bvh_.distanceTo(quad.index(lane), point));
-  }
+  forEachInSight(near.prisms, place, [&](int t) { nearest = std::min(nearest, bvh_.distanceTo(t, point)); });
   return nearest;
 }
 

@@ -1,28 +1,17 @@
 #include "contact/prism_quad.h"
 
 #include <cmath>
-#include <limits>
 
 namespace endovascular_sim::contact
 {
-
-PrismQuad::PrismQuad()
-{
-  for (QuadVectors& normal : normals_)
-    normal = {QuadLanes::Zero(), QuadLanes::Zero(), QuadLanes::Zero()};
-  offsets_.fill(QuadLanes::Zero());
-  bulge_.setZero();
-  clear_.setConstant(std::numeric_limits<float>::infinity());
-  triangles_.fill(-1);
-}
 
 void PrismQuad::set(int lane, int triangle, const Prism& prism, const Eigen::Vector3d& origin, float clear)
 {
   const Eigen::Array4d heights = prism.heights(origin);
   for (int plane = 0; plane < 4; ++plane)
   {
-    normals_[plane].set(lane, {prism.planes[0][plane], prism.planes[1][plane], prism.planes[2][plane]});
-    offsets_[plane][lane] = static_cast<float>(heights[plane]);
+    planes_[plane].normal.set(lane, {prism.planes[0][plane], prism.planes[1][plane], prism.planes[2][plane]});
+    planes_[plane].offset[lane] = static_cast<float>(heights[plane]);
   }
   bulge_[lane] = std::isinf(prism.bulge) ? kQuadOpen : static_cast<float>(prism.bulge);
   clear_[lane] = clear;

@@ -14,8 +14,6 @@ namespace endovascular_sim::contact
 class PrismQuad
 {
 public:
-  PrismQuad();
-
   /** @param origin from which it is seen [m]
    *  @param clear by how much wire and wall have to come closer before it counts [m] */
   void set(int lane, int triangle, const Prism& prism, const Eigen::Vector3d& origin, float clear);
@@ -48,13 +46,19 @@ public:
 private:
   EIGEN_STRONG_INLINE QuadLanes over(int plane, const Place& place) const
   {
-    return normals_[plane].dot(place.from_origin) + offsets_[plane];
+    return planes_[plane].normal.dot(place.from_origin) + planes_[plane].offset;
   }
 
-  std::array<QuadVectors, 4> normals_;  ///< of a triangle's plane and of the planes along its edges
-  std::array<QuadLanes, 4> offsets_;    ///< [m]
-  QuadLanes bulge_, clear_;
-  std::array<int, kQuad> triangles_;
+  struct Planes
+  {
+    QuadVectors normal;
+    QuadLanes offset = QuadLanes::Zero();  ///< [m]
+  };
+
+  std::array<Planes, 4> planes_;  ///< the triangles' own and those along their edges
+  QuadLanes bulge_ = QuadLanes::Zero();
+  QuadLanes clear_ = QuadLanes::Constant(kNever);
+  std::array<int, kQuad> triangles_{};
 };
 
 }  // namespace endovascular_sim::contact

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,13 +15,16 @@ namespace endovascular_sim::contact
 constexpr int kQuad = 4;
 using QuadLanes = Eigen::Array<float, kQuad, 1>;
 
-constexpr float kQuadSlack = 1e-6F;  ///< m
-constexpr float kQuadOpen = 1e30F;   ///< a slope that is not bounded
+constexpr float kQuadSlack = 1e-6F;                               ///< m
+constexpr float kQuadOpen = 1e30F;                                ///< a slope that is not bounded
+constexpr float kNever = std::numeric_limits<float>::infinity();  ///< of clearances [m]
 
 /** A vector per lane. */
 struct QuadVectors
 {
-  QuadLanes x, y, z;
+  QuadLanes x = QuadLanes::Zero();
+  QuadLanes y = QuadLanes::Zero();
+  QuadLanes z = QuadLanes::Zero();
 
   EIGEN_STRONG_INLINE QuadLanes dot(const Eigen::Vector3f& v) const { return x * v.x() + y * v.y() + z * v.z(); }
   EIGEN_STRONG_INLINE QuadLanes dot(const QuadVectors& v) const { return x * v.x + y * v.y + z * v.z; }
@@ -35,5 +38,19 @@ struct QuadVectors
     z[lane] = static_cast<float>(v.z());
   }
 };
+
+/** Visits the index of whatever is not hidden from a place, in their order. */
+template <class Quad, class Visit>
+EIGEN_STRONG_INLINE void forEachInSight(const std::vector<Quad>& quads, const typename Quad::Place& place,
+                                        Visit&& visit)
+{
+  for (const Quad& quad : quads)
+  {
+    const QuadLanes hidden = quad.hidden(place);
+    for (int lane = 0; lane < kQuad; ++lane)
+      if (hidden[lane] <= 0.0F)
+        visit(quad.index(lane));
+  }
+}
 
 }  // namespace endovascular_sim::contact

@@ -1,22 +1,11 @@
 #include "contact/ridge_quad.h"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
 
 namespace endovascular_sim::contact
 {
-
-RidgeQuad::RidgeQuad()
-{
-  for (QuadVectors* vectors : {&middles_, &normals_, &along_, &across_})
-    *vectors = {QuadLanes::Zero(), QuadLanes::Zero(), QuadLanes::Zero()};
-  half_.setZero();
-  lean_.setZero();
-  clear_.setConstant(std::numeric_limits<float>::infinity());
-  edges_.fill(-1);
-}
 
 void RidgeQuad::set(int lane, int wall_edge, const EdgeBall& ball, const Eigen::Vector3d& origin, float clear)
 {
@@ -28,7 +17,7 @@ void RidgeQuad::set(int lane, int wall_edge, const EdgeBall& ball, const Eigen::
   across_.set(lane, ball.normal.cross(along));
   half_[lane] = static_cast<float>(ball.half_length);
   lean_[lane] = std::isinf(ball.lean) ? kQuadOpen : static_cast<float>(ball.lean);
-  clear_[lane] = ball.reflex ? clear : std::numeric_limits<float>::infinity();
+  clear_[lane] = ball.reflex ? clear : kNever;
   edges_[lane] = wall_edge;
 }
 

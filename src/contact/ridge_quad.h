@@ -14,8 +14,6 @@ namespace endovascular_sim::contact
 class RidgeQuad
 {
 public:
-  RidgeQuad();
-
   /** @param origin from which it is seen [m]
    *  @param clear by how much wire and wall have to come closer before it counts [m] */
   void set(int lane, int wall_edge, const EdgeBall& ball, const Eigen::Vector3d& origin, float clear);
@@ -72,9 +70,10 @@ private:
 
   QuadVectors middles_;                   ///< [m]
   QuadVectors normals_, along_, across_;  ///< unit, each ⟂ the others
-  QuadLanes half_;                        ///< length [m]
-  QuadLanes lean_, clear_;
-  std::array<int, kQuad> edges_;
+  QuadLanes half_ = QuadLanes::Zero();    ///< length [m]
+  QuadLanes lean_ = QuadLanes::Zero();
+  QuadLanes clear_ = QuadLanes::Constant(kNever);
+  std::array<int, kQuad> edges_{};
 };
 
 }  // namespace endovascular_sim::contact
