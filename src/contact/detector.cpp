@@ -105,7 +105,7 @@ double Detector::leanOf(const WallEdge& edge) const
 void Detector::makePrism(int triangle)
 {
   Prism& prism = prisms_[triangle];
-  prism.bulge = bulgeOf(triangle);
+  setSlopes(triangle, prism);
   const auto set = [&prism](int lane, const Eigen::Vector3d& normal, double offset)
   {
     for (int axis = 0; axis < 3; ++axis)
@@ -124,34 +124,46 @@ void Detector::makePrism(int triangle)
   }
 }
 
-/** Where a reflex edge is closest, the point lies between both triangles' normals, where a vertex is, in its cone. The
- *  foot lies no farther beyond a line along an edge than beyond the triangle, so corners of any angle will do. */
-double Detector::bulgeOf(int triangle) const
+/** Where a reflex edge is closest, the point lies between both triangles' normals, where a reflex vertex is, in its
+ *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle, so corners of any angle will
+ * do. Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the
+ * wall folds there by more than a right angle. */
+void Detector::setSlopes(int triangle, Prism& prism) const
 {
-  const Eigen::Vector3i& corners = wall_.triangles[triangle];
-  bool any = false;
-  for (int k = 0; k < 3; ++k)
-    any = any || wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle > 0.0 ||
-          wall_.vertex_reflex[corners[k]] != 0;
-  if (!any)
-    return 0.0;
-  double widest = 0.0;  // rad
+  double widest_edge = 0.0;    // rad
+  double widest_corner = 0.0;  // rad
   for (int k = 0; k < 3; ++k)
   {
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
-    const double tilt =
-        angleBetween(wall_.normals[triangle], wall_.vertex_normals[corners[k]]) + wall_.vertex_cone[corners[k]];
-    if (std::abs(angle) > kSharp || tilt > kSharp)
-      return std::numeric_limits<double>::infinity();
-    widest = std::max({widest, angle, wall_.vertex_reflex[corners[k]] != 0 ? tilt : 0.0});
+    const int vertex = wall_.triangles[triangle][k];
+    widest_edge = std::max(widest_edge, angle > -kSharp ? angle : M_PI);
+    if (wall_.vertex_reflex[vertex] != 0)
+      widest_corner = std::max(widest_corner, angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) +
+                                                  wall_.vertex_cone[vertex]);
+    else if (foldsAt(vertex, triangle))
+      widest_corner = M_PI;
   }
-  return std::tan(widest);
+  const auto slope = [](double angle)
+  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
+  prism.edge_slope = slope(widest_edge);
+  prism.corner_slope = slope(widest_corner);
+}
+
+/** Whether a triangle at the vertex is turned against another one there by about a right angle, or more. */
+bool Detector::foldsAt(int vertex, int triangle) const
+{
+  const double least = std::cos(kSharp);
+  const auto turned = [this, triangle, least](int other)
+  { return wall_.normals[other].dot(wall_.normals[triangle]) < least; };
+  const std::vector<int>& edges = wall_.vertex_edges[vertex];
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](int e) { return turned(wall_.edges[e].triangles[0]) || turned(wall_.edges[e].triangles[1]); });
 }
 
 Bvh::Cone Detector::coneOf(int triangle) const
 {
   const Prism& prism = prisms_[triangle];
-  Bvh::Cone cone{prism.bulge, -1.0};
+  Bvh::Cone cone{prism.bulge(), -1.0};
   for (int e : prism.own_edges)
     if (e >= 0)
     {
@@ -285,11 +297,12 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
 bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                            bool& outside) const
 {
-  const Eigen::Array4d above = prisms_[triangle].heights(point);
+  const Prism& prism = prisms_[triangle];
+  const Eigen::Array4d above = prism.heights(point);
   const double height = above[0];
   if (height * height > limit * limit)
     return false;
-  const Eigen::Vector3d& normal = wall_.normals[triangle];
+  const Eigen::Vector3d normal = prism.normal();
   feature.triangle = triangle;
   feature.stiffness = law_.stiffness;
   if (Prism::outsideOf(above) < -kOffTriangle)

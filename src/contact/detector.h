@@ -150,7 +150,8 @@ private:
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
   void makePrism(int triangle);
-  double bulgeOf(int triangle) const;
+  void setSlopes(int triangle, Prism& prism) const;
+  bool foldsAt(int vertex, int triangle) const;
   Bvh::Cone coneOf(int triangle) const;
   EdgeBall ballOf(const WallEdge& edge) const;
   double leanOf(const WallEdge& edge) const;

@@ -165,7 +165,7 @@ void Detector::listTriangle(int triangle, Neighbourhood& near) const
   const double height = std::max({0.0, low, -high});
   double clear = std::sqrt(height * height + beside * beside) - near.limit;
   if (!prism.has_moved)
-    clear = std::max(clear, coneClearance(low, high, beside, prism.bulge, near.limit));
+    clear = std::max(clear, coneClearance(low, high, beside, prism.bulge(), near.limit));
   if (clear < near.room + kListGuard)
     near.triangles.push_back({triangle, lower(clear)});
 }

@@ -11,14 +11,20 @@ namespace endovascular_sim::contact
 constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge: more is no rounding
 
 /** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
-struct Prism
+struct alignas(64) Prism  // what every search reads fills two cache lines
 {
   std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
-  /** A closest point on its border can be a local minimum in front of it only while the foot lies no farther beyond
-   * than so much of the height; infinite: not bounded. */
-  double bulge = 0.0;
+  /** A closest point on an edge can be a local minimum in front of the triangle only while the foot lies no farther
+   * from the edge's line than so much of the height; infinite: not bounded. */
+  double edge_slope = 0.0;
+  double corner_slope = 0.0;                 ///< the same of a closest point at a corner, and of that
   std::array<int, 3> own_edges{-1, -1, -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
   bool has_moved = false;                    ///< it, its edges or what is around them, ever
+
+  /** No foot of such a point lies farther beyond the border than so much of the height. */
+  double bulge() const { return std::max(edge_slope, corner_slope); }
+
+  Eigen::Vector3d normal() const { return {planes[0][0], planes[1][0], planes[2][0]}; }
 
   /** Heights of a point over the four planes [m]. */
   Eigen::Array4d heights(const Eigen::Vector3d& point) const

@@ -13,7 +13,9 @@ void PrismQuad::set(int lane, int triangle, const Prism& prism, const Eigen::Vec
     planes_[plane].normal.set(lane, {prism.planes[0][plane], prism.planes[1][plane], prism.planes[2][plane]});
     planes_[plane].offset[lane] = static_cast<float>(heights[plane]);
   }
-  bulge_[lane] = std::isinf(prism.bulge) ? kQuadOpen : static_cast<float>(prism.bulge);
+  const auto slope = [](double tangent) { return std::isinf(tangent) ? kQuadOpen : static_cast<float>(tangent); };
+  edge_slope_[lane] = slope(prism.edge_slope);
+  corner_slope_[lane] = slope(prism.corner_slope);
   clear_[lane] = clear;
   triangles_[lane] = triangle;
 }

@@ -36,10 +36,20 @@ public:
   EIGEN_STRONG_INLINE QuadLanes hidden(const Place& place) const
   {
     const QuadLanes height = over(0, place);
-    const QuadLanes beyond = -over(1, place).min(over(2, place)).min(over(3, place)) - kQuadSlack;
-    // Behind the plane any slope will do.
-    const QuadLanes slope = ((height + kQuadSlack) * bulge_).max(kQuadOpen * (kQuadSlack - height));
-    const QuadLanes border = (beyond - slope).max(height.square() + beyond.max(0.0F).square() - place.squared_limit);
+    const QuadLanes one = over(1, place);
+    const QuadLanes two = over(2, place);
+    const QuadLanes three = over(3, place);
+    const QuadLanes beyond = -one.min(two).min(three) - kQuadSlack;
+    // From the line along the nearest edge, and along the next one.
+    const QuadLanes least = one.abs().min(two.abs());
+    const QuadLanes edge = least.min(three.abs());
+    const QuadLanes corner = least.max(one.abs().max(two.abs()).min(three.abs()));
+    const QuadLanes up = height + kQuadSlack;
+    const QuadLanes aside = (edge - up * edge_slope_).min(corner - up * corner_slope_) - kQuadSlack;
+    // Behind the plane anything will do.
+    const QuadLanes hidden =
+        aside.max(beyond - up * edge_slope_.max(corner_slope_)).min(kQuadOpen * (height - kQuadSlack));
+    const QuadLanes border = hidden.max(height.square() + beyond.max(0.0F).square() - place.squared_limit);
     return (clear_ - place.moved).max(height.abs() - place.limit).max(beyond.min(border));
   }
 
@@ -56,7 +66,8 @@ private:
   };
 
   std::array<Planes, 4> planes_;  ///< the triangles' own and those along their edges
-  QuadLanes bulge_ = QuadLanes::Zero();
+  QuadLanes edge_slope_ = QuadLanes::Zero();
+  QuadLanes corner_slope_ = QuadLanes::Zero();
   QuadLanes clear_ = QuadLanes::Constant(kNever);
   std::array<int, kQuad> triangles_{};
 };

@@ -46,7 +46,8 @@ protected:
     set(0, normal, corners[0]);
     for (int k = 0; k < 3; ++k)
       set(k + 1, normal.cross(corners[(k + 1) % 3] - corners[k]).normalized(), corners[k]);
-    prism.bulge = slope();
+    prism.edge_slope = slope();
+    prism.corner_slope = slope();
     return prism;
   }
 
@@ -66,7 +67,12 @@ double missed(const Prism& prism, const Eigen::Vector3d& point)
 {
   const Eigen::Array4d above = prism.heights(point);
   const double beyond = std::max(0.0, Prism::outsideOf(above));
-  const double aside = above[0] < 0.0 || std::isinf(prism.bulge) ? 0.0 : beyond - above[0] * prism.bulge;
+  std::array<double, 3> off{std::abs(above[1]), std::abs(above[2]), std::abs(above[3])};
+  std::sort(off.begin(), off.end());
+  const auto outside = [&above](double distance, double slope)
+  { return above[0] < 0.0 || std::isinf(slope) ? 0.0 : distance - above[0] * slope; };
+  const double aside = std::max(outside(beyond, prism.bulge()),
+                                std::min(outside(off[0], prism.edge_slope), outside(off[1], prism.corner_slope)));
   return std::max(std::hypot(above[0], beyond) - kLimit, beyond > 0.0 ? aside : 0.0);
 }
 
