@@ -130,23 +130,20 @@ void Detector::makePrism(int triangle)
  * wall folds there by more than a right angle. */
 void Detector::setSlopes(int triangle, Prism& prism) const
 {
-  double widest_edge = 0.0;    // rad
-  double widest_corner = 0.0;  // rad
+  const auto slope = [](double angle)
+  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
   for (int k = 0; k < 3; ++k)
   {
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
+    prism.edge_slopes[k] = slope(angle > -kSharp ? angle : M_PI);
     const int vertex = wall_.triangles[triangle][k];
-    widest_edge = std::max(widest_edge, angle > -kSharp ? angle : M_PI);
+    double corner = 0.0;  // rad
     if (wall_.vertex_reflex[vertex] != 0)
-      widest_corner = std::max(widest_corner, angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) +
-                                                  wall_.vertex_cone[vertex]);
+      corner = angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) + wall_.vertex_cone[vertex];
     else if (foldsAt(vertex, triangle))
-      widest_corner = M_PI;
+      corner = M_PI;
+    prism.corner_slopes[k] = slope(corner);
   }
-  const auto slope = [](double angle)
-  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
-  prism.edge_slope = slope(widest_edge);
-  prism.corner_slope = slope(widest_corner);
 }
 
 /** Whether a triangle at the vertex is turned against another one there by about a right angle, or more. */
@@ -197,21 +194,23 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.vessel_version = vessel_version_;
   set.first_edge = query.first_node;
   set.features.clear();
+  const std::size_t n = query.nodes.size();
+  if (near_.size() < n)
+    near_.resize(n);
   if (query.wanted_free_distance > 0.0)
   {
     freeDistances(query, set);
     return;
   }
-  const std::size_t n = query.nodes.size();
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
-  renewLists(query);
   if (helper_ != nullptr && cutIntoParts(query))
   {
     detectParts(query, set.features);
     return;
   }
+  renewLists(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -315,6 +314,8 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     feature.id = featureId(triangle, kFace);
     return true;
   }
+  if (!prism.canMeetBorder(above))
+    return false;
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
@@ -367,7 +368,8 @@ bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
   {
     const WallEdge& edge = wall_.edges[e];
     const Eigen::Vector3d along = wall_.vertices[edge.otherEnd(vertex)] - wall_.vertices[vertex];
-    if (offset.dot(along) > kConeTolerance * along.norm())
+    const double beyond = offset.dot(along);
+    if (beyond > 0.0 && beyond > kConeTolerance * along.norm())
       return false;
   }
   return true;
@@ -410,11 +412,12 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   if (near.ridges.empty())
     return;
   const double taper = query.radius[index + 1] - query.radius[index];
+  const TaperedSegment cone(a, b, taper);
   const double limit = std::max(limit_begin, limit_end);
   const auto look = [&](int wall_edge)
   {
     double distance = 0.0;
-    if (!crossing(a, b, taper, wall_edge, limit, feature, distance))
+    if (!crossing(a, b, taper == 0.0 ? nullptr : &cone, wall_edge, limit, feature, distance))
       return;
     const double t = feature.parameter;
     if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
@@ -431,15 +434,15 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
 }
 
 /** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local
- *  minimum. @param taper the radius at b minus that at a [m] */
-bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, int wall_edge, double limit,
-                        Feature& feature, double& distance) const
+ *  minimum. @param cone the wire's edge where it tapers, or null */
+bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const TaperedSegment* cone, int wall_edge,
+                        double limit, Feature& feature, double& distance) const
 {
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
   const SegmentPair pair =
-      taper == 0.0 ? closestPointsOfSegments(a, b, end0, end1) : closestPointsOfCone(a, b, taper, end0, end1);
+      cone == nullptr ? closestPointsOfSegments(a, b, end0, end1) : closestPointsOfCone(*cone, end0, end1);
   if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
     return false;
   feature.point = end0 + pair.second * (end1 - end0);

@@ -17,6 +17,7 @@
 #include "contact/prism.h"
 #include "contact/prism_quad.h"
 #include "contact/ridge_quad.h"
+#include "contact/segment_pair.h"
 #include "contact/wall.h"
 
 namespace endovascular_sim::contact
@@ -114,11 +115,18 @@ private:
     Eigen::Vector3d end() const { return begin + length * along; }
   };
 
+  /** Triangles that something was listed from. */
+  struct Collected
+  {
+    std::vector<int> triangles, ridged;
+  };
+
   /** Nodes, the edges behind them, and what is found there. */
   struct Part
   {
     std::size_t begin = 0;
     std::size_t end = 0;
+    Collected collected;
     std::vector<Feature> of_nodes, of_edges;
   };
 
@@ -138,7 +146,8 @@ private:
     return near_[placeFromTip(query, index)];
   }
   void renewLists(const Query& query);
-  void list(Neighbourhood& near);
+  void renewList(const Query& query, std::size_t index, Collected& collected);
+  void list(Neighbourhood& near, Collected& collected) const;
   void pack(Neighbourhood& near) const;
   void listTriangle(int triangle, Neighbourhood& near) const;
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
@@ -162,8 +171,8 @@ private:
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit) const;
-  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, int wall_edge, double limit,
-                Feature& feature, double& distance) const;
+  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const TaperedSegment* cone, int wall_edge,
+                double limit, Feature& feature, double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
   double clearanceRadius(const Query& query, const Feature& feature) const;
@@ -176,7 +185,7 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
-  std::vector<int> collected_, collected_ridged_;
+  Collected collected_;
   HelperThread* helper_ = nullptr;
   std::vector<Part> parts_;
   std::vector<int> now_reflex_, now_moving_;

@@ -91,39 +91,38 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
   edges.clear();
 }
 
-/** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
 void Detector::renewLists(const Query& query)
 {
-  const std::size_t count = query.nodes.size();
-  if (near_.size() < count)
-    near_.resize(count);
-  for (std::size_t index = 0; index < count; ++index)
-  {
-    const std::size_t next = std::min(index + 1, count - 1);  // the tip has no edge
-    const double limit =
-        std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
-    Neighbourhood& near = near_[placeFromTip(query, index)];
-    if (!near.follows(query.nodes[index], query.nodes[next], limit))
-    {
-      near.start(query.nodes[index], query.nodes[next], limit);
-      list(near);
-    }
-    else if (near.wall_differs)
-      pack(near);
-  }
+  for (std::size_t index = 0; index < query.nodes.size(); ++index)
+    renewList(query, index, collected_);
 }
 
-void Detector::list(Neighbourhood& near)
+/** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
+void Detector::renewList(const Query& query, std::size_t index, Collected& collected)
+{
+  const std::size_t next = std::min(index + 1, query.nodes.size() - 1);  // the tip has no edge
+  const double limit = std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
+  Neighbourhood& near = near_[placeFromTip(query, index)];
+  if (!near.follows(query.nodes[index], query.nodes[next], limit))
+  {
+    near.start(query.nodes[index], query.nodes[next], limit);
+    list(near, collected);
+  }
+  else if (near.wall_differs)
+    pack(near);
+}
+
+void Detector::list(Neighbourhood& near, Collected& collected) const
 {
   const double wide = near.limit + near.room + kListGuard;
   const AxisSegment segment(near.begin, near.end());
-  collected_.clear();
-  collected_ridged_.clear();
+  collected.triangles.clear();
+  collected.ridged.clear();
   bvh_.collect({near.begin, near.reach * near.along, wide, near.room}, {near.begin, segment.along, wide, near.room},
-               collected_, collected_ridged_);
-  for (int t : collected_)
+               collected.triangles, collected.ridged);
+  for (int t : collected.triangles)
     listTriangle(t, near);
-  for (int t : collected_ridged_)
+  for (int t : collected.ridged)
     for (int e : prisms_[t].own_edges)
       if (e >= 0)
         listEdge(e, prisms_[t].has_moved, segment, near);

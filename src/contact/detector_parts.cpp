@@ -14,7 +14,8 @@ constexpr std::size_t kParts = 16;         // into which such a search is cut
 
 }  // namespace
 
-/** Makes parts that each have about as much to look at. @return false where the search is too short to wake a thread */
+/** Makes parts that each have about as much to look at, as the lists are now. @return false where the search is too
+ * short to wake a thread */
 bool Detector::cutIntoParts(const Query& query)
 {
   const auto entries = [this, &query](std::size_t index)
@@ -51,6 +52,8 @@ void Detector::detectParts(const Query& query, std::vector<Feature>& features)
                  Part& part = parts_[p];
                  part.of_nodes.clear();
                  part.of_edges.clear();
+                 for (std::size_t i = part.begin; i < part.end; ++i)
+                   renewList(query, i, part.collected);
                  for (std::size_t i = part.begin; i < part.end; ++i)
                    detectNode(query, i, part.of_nodes);
                  for (std::size_t i = part.begin; i < std::min(part.end, edges); ++i)

@@ -50,14 +50,19 @@ SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vect
   return pair;
 }
 
-SegmentPair closestPointsOfCone(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, double taper,
-                                const Eigen::Vector3d& p2, const Eigen::Vector3d& q2)
+TaperedSegment::TaperedSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double taper)
+  : begin(p), length((q - p).norm()), direction((q - p) / length), slope(taper / length)
 {
-  const double length = (q1 - p1).norm();
+}
+
+SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3d& p2, const Eigen::Vector3d& q2)
+{
+  const Eigen::Vector3d& p1 = cone.begin;
+  const Eigen::Vector3d& u = cone.direction;
+  const double length = cone.length;
+  const double slope = cone.slope;
   const double length2 = (q2 - p2).norm();
-  const Eigen::Vector3d u = (q1 - p1) / length;
   const Eigen::Vector3d v = (q2 - p2) / length2;
-  const double slope = taper / length;
   const Eigen::Vector3d from = p1 - p2;
   const double cosine = u.dot(v);
   const double squared_sine = 1.0 - cosine * cosine;

@@ -21,11 +21,21 @@ struct SegmentPair
 SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, const Eigen::Vector3d& p2,
                                     const Eigen::Vector3d& q2);
 
+/** A segment with a cone round it. */
+struct TaperedSegment
+{
+  /** @param taper the radius at q minus that at p [m] */
+  TaperedSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double taper);
+
+  Eigen::Vector3d begin;
+  double length;              ///< [m]
+  Eigen::Vector3d direction;  ///< unit
+  double slope;               ///< of the radius along it
+};
+
 /** The same where a cone round the first segment comes closest to the second one: least distance of the axis minus the
  *  cone's radius there. A convex function, minimised in closed form: where the ends allow it, the axis is seen from the
- *  second segment at the angle whose sine is the cone's slope.
- *  @param taper the radius at q1 minus that at p1 [m] */
-SegmentPair closestPointsOfCone(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, double taper,
-                                const Eigen::Vector3d& p2, const Eigen::Vector3d& q2);
+ *  second segment at the angle whose sine is the cone's slope. */
+SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3d& p2, const Eigen::Vector3d& q2);
 
 }  // namespace endovascular_sim::contact

@@ -19,7 +19,7 @@ bool crosses(const Wall& wall, const WallEdge& ridge, const Query& query)
   const Eigen::Vector3d& b = query.nodes[1];
   const Eigen::Vector3d& begin = wall.vertices[ridge.vertices[0]];
   const Eigen::Vector3d& end = wall.vertices[ridge.vertices[1]];
-  const SegmentPair pair = closestPointsOfCone(a, b, query.radius[1] - query.radius[0], begin, end);
+  const SegmentPair pair = closestPointsOfCone({a, b, query.radius[1] - query.radius[0]}, begin, end);
   if (pair.first < 0.01 || pair.first > 0.99 || pair.second < 1e-6 || pair.second > 1.0 - 1e-6)
     return false;
   const Eigen::Vector3d offset = a + pair.first * (b - a) - begin - pair.second * (end - begin);

@@ -47,7 +47,7 @@ TEST_F(SegmentPairTest, OfAConeAndASegmentIsNeverBeatenByAGrid)
     const double taper = (trial % 3 == 0 ? 2.0 : 0.5) * next().x();                               // some are steep
     const auto surface = [&](double t, double s)
     { return (p1 + t * (q1 - p1) - p2 - s * (q2 - p2)).norm() - t * taper; };
-    const SegmentPair pair = closestPointsOfCone(p1, q1, taper, p2, q2);
+    const SegmentPair pair = closestPointsOfCone({p1, q1, taper}, p2, q2);
     double best = 1e9;
     for (int i = 0; i <= kCells; ++i)
       for (int j = 0; j <= kCells; ++j)
@@ -65,7 +65,7 @@ TEST_F(SegmentPairTest, OfAConeThatDoesNotTaperIsThatOfTheSegments)
   {
     const Eigen::Vector3d p1 = next(), q1 = next(), p2 = next(), q2 = next();
     const SegmentPair plain = closestPointsOfSegments(p1, q1, p2, q2);
-    const SegmentPair cone = closestPointsOfCone(p1, q1, 0.0, p2, q2);
+    const SegmentPair cone = closestPointsOfCone({p1, q1, 0.0}, p2, q2);
     EXPECT_NEAR(cone.first, plain.first, 1e-9);
     EXPECT_NEAR(cone.second, plain.second, 1e-9);
   }
