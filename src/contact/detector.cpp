@@ -130,20 +130,23 @@ void Detector::makePrism(int triangle)
  * wall folds there by more than a right angle. */
 void Detector::setSlopes(int triangle, Prism& prism) const
 {
-  const auto slope = [](double angle)
-  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
+  double widest_edge = 0.0;    // rad
+  double widest_corner = 0.0;  // rad
   for (int k = 0; k < 3; ++k)
   {
     const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
-    prism.edge_slopes[k] = slope(angle > -kSharp ? angle : M_PI);
     const int vertex = wall_.triangles[triangle][k];
-    double corner = 0.0;  // rad
+    widest_edge = std::max(widest_edge, angle > -kSharp ? angle : M_PI);
     if (wall_.vertex_reflex[vertex] != 0)
-      corner = angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) + wall_.vertex_cone[vertex];
+      widest_corner = std::max(widest_corner, angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) +
+                                                  wall_.vertex_cone[vertex]);
     else if (foldsAt(vertex, triangle))
-      corner = M_PI;
-    prism.corner_slopes[k] = slope(corner);
+      widest_corner = M_PI;
   }
+  const auto slope = [](double angle)
+  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
+  prism.edge_slope = slope(widest_edge);
+  prism.corner_slope = slope(widest_corner);
 }
 
 /** Whether a triangle at the vertex is turned against another one there by about a right angle, or more. */
@@ -314,8 +317,6 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     feature.id = featureId(triangle, kFace);
     return true;
   }
-  if (!prism.canMeetBorder(above))
-    return false;
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
   const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);

@@ -14,8 +14,8 @@ void PrismQuad::set(int lane, int triangle, const Prism& prism, const Eigen::Vec
     planes_[plane].offset[lane] = static_cast<float>(heights[plane]);
   }
   const auto slope = [](double tangent) { return std::isinf(tangent) ? kQuadOpen : static_cast<float>(tangent); };
-  edge_slope_[lane] = slope(prism.widestEdge());
-  corner_slope_[lane] = slope(prism.widestCorner());
+  edge_slope_[lane] = slope(prism.edge_slope);
+  corner_slope_[lane] = slope(prism.corner_slope);
   clear_[lane] = clear;
   triangles_[lane] = triangle;
 }
