@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -37,6 +38,12 @@ enum FeatureKind
   kEdge = 1,
   kVertex = 2,
 };
+
+/** How far beside what it stands on a cone reaches, as a share of the height. @param angle to its axis [rad] */
+double slopeOf(double angle)
+{
+  return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle);
+}
 
 std::int64_t featureId(int index, FeatureKind kind)
 {
@@ -98,8 +105,7 @@ double Detector::leanOf(const WallEdge& edge) const
   double widest = 0.5 * edge.reflex_angle + 1.1 * slack;  // rad
   for (int vertex : edge.vertices)
     widest = std::max(widest, wall_.vertex_cone[vertex] + angleBetween(edge.normal, wall_.vertex_normals[vertex]));
-  return std::abs(edge.reflex_angle) > kSharp || widest > kSharp ? std::numeric_limits<double>::infinity()
-                                                                 : std::tan(widest);
+  return slopeOf(std::abs(edge.reflex_angle) > kSharp ? M_PI : widest);
 }
 
 void Detector::makePrism(int triangle)
@@ -125,9 +131,9 @@ void Detector::makePrism(int triangle)
 }
 
 /** Where a reflex edge is closest, the point lies between both triangles' normals, where a reflex vertex is, in its
- *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle, so corners of any angle will
- * do. Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the
- * wall folds there by more than a right angle. */
+ *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle: corners of any angle will do.
+ *  Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the wall
+ *  folds there by more than a right angle. */
 void Detector::setSlopes(int triangle, Prism& prism) const
 {
   double widest_edge = 0.0;    // rad
@@ -143,10 +149,8 @@ void Detector::setSlopes(int triangle, Prism& prism) const
     else if (foldsAt(vertex, triangle))
       widest_corner = M_PI;
   }
-  const auto slope = [](double angle)
-  { return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle); };
-  prism.edge_slope = slope(widest_edge);
-  prism.corner_slope = slope(widest_corner);
+  prism.edge_slope = slopeOf(widest_edge);
+  prism.corner_slope = slopeOf(widest_corner);
 }
 
 /** Whether a triangle at the vertex is turned against another one there by about a right angle, or more. */
@@ -169,7 +173,7 @@ Bvh::Cone Detector::coneOf(int triangle) const
     {
       const double tilt = angleBetween(wall_.normals[triangle], wall_.edges[e].normal);
       const double widest = tilt + std::atan(edge_balls_[e].lean);
-      cone.ridge = std::max(cone.ridge, widest > kSharp ? std::numeric_limits<double>::infinity() : std::tan(widest));
+      cone.ridge = std::max(cone.ridge, slopeOf(widest));
     }
   return cone;
 }
@@ -413,12 +417,14 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   if (near.ridges.empty())
     return;
   const double taper = query.radius[index + 1] - query.radius[index];
-  const TaperedSegment cone(a, b, taper);
+  std::optional<TaperedSegment> cone;
+  if (taper != 0.0)
+    cone.emplace(a, b, taper);
   const double limit = std::max(limit_begin, limit_end);
   const auto look = [&](int wall_edge)
   {
     double distance = 0.0;
-    if (!crossing(a, b, taper == 0.0 ? nullptr : &cone, wall_edge, limit, feature, distance))
+    if (!crossing(a, b, cone, wall_edge, limit, feature, distance))
       return;
     const double t = feature.parameter;
     if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
@@ -435,15 +441,14 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
 }
 
 /** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local
- *  minimum. @param cone the wire's edge where it tapers, or null */
-bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const TaperedSegment* cone, int wall_edge,
-                        double limit, Feature& feature, double& distance) const
+ *  minimum. @param cone the wire's edge where it tapers */
+bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<TaperedSegment>& cone,
+                        int wall_edge, double limit, Feature& feature, double& distance) const
 {
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
-  const SegmentPair pair =
-      cone == nullptr ? closestPointsOfSegments(a, b, end0, end1) : closestPointsOfCone(*cone, end0, end1);
+  const SegmentPair pair = cone ? closestPointsOfCone(*cone, end0, end1) : closestPointsOfSegments(a, b, end0, end1);
   if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
     return false;
   feature.point = end0 + pair.second * (end1 - end0);

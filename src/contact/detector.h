@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -171,8 +172,8 @@ private:
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit) const;
-  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const TaperedSegment* cone, int wall_edge,
-                double limit, Feature& feature, double& distance) const;
+  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<TaperedSegment>& cone,
+                int wall_edge, double limit, Feature& feature, double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
   double clearanceRadius(const Query& query, const Feature& feature) const;

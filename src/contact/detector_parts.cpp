@@ -14,8 +14,8 @@ constexpr std::size_t kParts = 16;         // into which such a search is cut
 
 }  // namespace
 
-/** Makes parts that each have about as much to look at, as the lists are now. @return false where the search is too
- * short to wake a thread */
+/** Makes parts that each have about as much to look at, by the last lists.
+ *  @return false where the search is too short to wake a thread */
 bool Detector::cutIntoParts(const Query& query)
 {
   const auto entries = [this, &query](std::size_t index)
