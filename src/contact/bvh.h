@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -109,6 +110,7 @@ private:
   void openAllCones();
   void setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone);
   void widenCone(int node);
+  bool hasRidge(int node, int lane) const { return ((ridged_[node] >> lane) & 1) != 0; }
   /** How far four boxes are from another one along an axis; negative where they overlap [m]. */
   static Lanes gaps(const Node& node, const Box& box, int axis)
   {
@@ -116,12 +118,13 @@ private:
   }
   static Lanes squaredGaps(const Node& node, const Box& box);
 
-  std::vector<Node> nodes_;      ///< children stand behind their parents
-  std::vector<Cones> cones_;     ///< of each node
-  std::vector<char> pointed_;    ///< per node: whether its cones are worth a look
-  std::vector<Place> place_of_;  ///< of each triangle
-  std::vector<Place> above_;     ///< of each node; the root has none
-  std::vector<char> marked_;     ///< per node
+  std::vector<Node> nodes_;           ///< children stand behind their parents
+  std::vector<Cones> cones_;          ///< of each node
+  std::vector<char> pointed_;         ///< per node: whether its cones are worth a look
+  std::vector<std::uint8_t> ridged_;  ///< per node, a bit per box: whether something in it has a ridge
+  std::vector<Place> place_of_;       ///< of each triangle
+  std::vector<Place> above_;          ///< of each node; the root has none
+  std::vector<char> marked_;          ///< per node
   std::vector<int> ancestors_;
   const Wall* wall_;
 };

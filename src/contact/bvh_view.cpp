@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -18,7 +19,8 @@ constexpr double kWidestCone = 1.2;        // rad: wider ones are open
 constexpr double kConeRounding = 1e-4;     // rad
 constexpr float kPlaceRounding = 0.5e-6F;  // m
 constexpr float kSquareRounding = 1e-5F;   // of squared distances
-constexpr float kWideBox = 0.3e-3F;        // m of radius: wider ones are seldom hidden
+constexpr std::uint8_t kAllLanes = 0xF;
+constexpr float kWideBox = 0.3e-3F;  // m of radius: wider ones are seldom hidden
 
 /** Tangent of a cone that is wider by an angle; infinite: it holds any direction. */
 double widened(double tangent, double angle)
@@ -45,6 +47,7 @@ void Bvh::openAllCones()
   open.ridge.setConstant(kOpen);
   cones_.assign(nodes_.size(), open);
   pointed_.assign(nodes_.size(), 0);
+  ridged_.assign(nodes_.size(), kAllLanes);
 }
 
 void Bvh::setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone)
@@ -64,6 +67,8 @@ void Bvh::setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone)
   cones.ridge[place.lane] = laneTangent(cone.ridge);
   if (radius < kWideBox && cones.facet[place.lane] < kOpen)
     pointed_[place.node] = 1;
+  if (cone.ridge < 0.0)
+    ridged_[place.node] &= static_cast<std::uint8_t>(~(1U << place.lane));
 }
 
 void Bvh::setCones(const std::vector<Cone>& cones)
@@ -93,7 +98,7 @@ void Bvh::widenCone(int index)
       continue;
     const double tilt = angleBetween(axis, axisOf(lane).normalized());
     cone.facet = std::max(cone.facet, widened(cones.facet[lane], tilt));
-    if (cones.ridge[lane] >= 0.0F)
+    if (hasRidge(index, lane))
       cone.ridge = std::max(cone.ridge, widened(cones.ridge[lane], tilt));
   }
   setCone(above_[index], axis, cone);
@@ -103,7 +108,10 @@ void Bvh::openCones(const std::vector<int>& triangles)
 {
   for (int t : triangles)
     for (Place place = place_of_[t]; place.node >= 0; place = above_[place.node])
+    {
       cones_[place.node].facet[place.lane] = cones_[place.node].ridge[place.lane] = kOpen;
+      ridged_[place.node] |= static_cast<std::uint8_t>(1U << place.lane);
+    }
 }
 
 struct Bvh::Sight
@@ -188,7 +196,7 @@ void Bvh::collect(const View& facets, const View& ridges, std::vector<int>& tria
     {
       const Cones& cones = cones_[index];
       none = none.max(facet_sight.hidden(node, cones, cones.facet));
-      none_ridged = none_ridged.max(ridge_sight.hidden(node, cones, cones.ridge)).max(-cones.ridge);
+      none_ridged = none_ridged.max(ridge_sight.hidden(node, cones, cones.ridge));
     }
     if (count + kWidth > kHandful)
       handOver(found, count, triangles);
@@ -199,7 +207,7 @@ void Bvh::collect(const View& facets, const View& ridges, std::vector<int>& tria
     {
       const int child = node.child[lane];
       const bool near = none[lane] <= 0.0F;
-      const bool near_ridged = none_ridged[lane] <= 0.0F;
+      const bool near_ridged = none_ridged[lane] <= 0.0F && hasRidge(index, lane);
       stack[top] = child;
       found[count] = found_ridged[count_ridged] = ~child;
       top += static_cast<int>((near || near_ridged) && child >= 0);
