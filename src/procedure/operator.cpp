@@ -11,11 +11,8 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr double kProgress = 2e-3;       // m that count as progress of a tip
-constexpr double kNoticed = 3e-3;        // m beyond its ostium where a tip is seen to be in a wrong branch
-constexpr double kSlowFrom = 0.6;        // of the force at which he stops: from here he pushes more slowly
-constexpr double kManoeuvreLimit = 8.0;  // s for one pull back or turn
-constexpr double kFastBack = 0.02;       // m/s, of pulling back
+constexpr double kNoticed = 3e-3;  // m beyond its ostium where a tip is seen to be in a wrong branch
+constexpr double kSlowFrom = 0.6;  // of the force at which he stops: from here he pushes more slowly
 
 using session::StepAction;
 using session::StepScene;
@@ -89,12 +86,19 @@ void Operator::expand()
 
 void Operator::checkBranches() const
 {
+  const auto check = [this](const std::string& name, std::size_t step, const std::string& key)
+  {
+    if (!name.empty() && places_.find(name) < 0)
+      throw InputError(scene_.file, "procedure.steps." + std::to_string(step) + "." + key,
+                       "the vessel has no branch '" + name + "'; it has " + places_.names());
+  };
   for (std::size_t k = 0; k < scene_.procedure->steps.size(); ++k)
-    for (const std::string* name :
-         {&scene_.procedure->steps[k].until.tip_in, &scene_.procedure->steps[k].until.balloon_in})
-      if (!name->empty() && places_.find(*name) < 0)
-        throw InputError(scene_.file, "procedure.steps." + std::to_string(k) + ".until",
-                         "the vessel has no branch '" + *name + "'; it has " + places_.names());
+  {
+    const StepScene& step = scene_.procedure->steps[k];
+    check(step.until.tip_in, k, "until");
+    check(step.until.balloon_in, k, "until");
+    check(step.support.tip_in, k, "support");
+  }
 }
 
 std::string Operator::nameOf(const StepScene& step) const
@@ -176,7 +180,7 @@ void Operator::see(const Observation& seen)
   if (!begun_)
     begin(seen);
   records_.back().end = seen.time;
-  const bool reached = isReached(seen);
+  const bool reached = mode_ != Mode::kReturn && isReached(seen);
   if (!reached)
     reached_since_ = -1.0;
   else if (reached_since_ < 0.0)
@@ -193,13 +197,14 @@ void Operator::begin(const Observation& seen)
 {
   begun_ = true;
   StepRecord record;
+  record.step = current_;
   record.name = nameOf(step());
   record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
   record.begin = record.end = seen.time;
   records_.push_back(record);
   prepareStep();
   mode_ = Mode::kGo;
-  reached_since_ = -1.0;
+  reached_since_ = lost_since_ = -1.0;
   begin_time_ = progress_time_ = seen.time;
   if (active_ < 0)
     return;
@@ -221,6 +226,8 @@ void Operator::prepareStep()
   const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
   goal_branch_ = branch.empty() ? -1 : places_.find(branch);
   on_way_ = places_.wayBetween(entered_, step().any_branch ? -1 : goal_branch_);
+  support_ = instrumentOf(scene_, step().support.instrument);
+  support_branch_ = places_.find(step().support.tip_in);
 }
 
 void Operator::finishStep(double time)
@@ -315,6 +322,10 @@ void Operator::act(const Observation& seen)
     return;
   if (seen.time - begin_time_ > step().time_limit)
     return fail(&view, written("not done within %.0f s", step().time_limit));
+  if (mode_ == Mode::kReturn)
+    return comeBack(seen);
+  if (missesSupport(seen))
+    return giveUp(view, seen.time);
   if (mode_ != Mode::kGo)
     return manoeuvre(view, seen.time);
   const bool astray = !view.covered && view.place.branch >= 0 && !on_way_[static_cast<std::size_t>(view.place.branch)];
@@ -333,71 +344,6 @@ void Operator::act(const Observation& seen)
     return;
   }
   go(view);
-}
-
-bool Operator::stalls(const InstrumentView& view, double time)
-{
-  const bool outside = view.hand.insertion <= 0.0;
-  if (outside ? std::abs(view.hand.insertion - progress_insertion_) > kProgress
-              : (view.tip - progress_tip_).norm() > kProgress)
-  {
-    progress_time_ = time;
-    progress_tip_ = view.tip;
-    progress_insertion_ = view.hand.insertion;
-  }
-  return time - progress_time_ > hand_.patience;
-}
-
-/** @return false when he has tried often enough */
-bool Operator::tryAgain(Mode mode, const InstrumentView& view, const std::string& why)
-{
-  if (records_.back().retries == step().retry.times)
-  {
-    fail(&view, why + written(", after %.0f new tries", records_.back().retries));
-    return false;
-  }
-  ++records_.back().retries;
-  mode_ = mode;
-  mode_insertion_ = view.hand.insertion;
-  mode_rotation_ = view.hand.rotation;
-  return true;
-}
-
-/** Out of a wrong branch, a little back, a turn. Each of them ends at its goal or when it takes too long. */
-void Operator::manoeuvre(const InstrumentView& view, double time)
-{
-  Hand& hand = hands_[static_cast<std::size_t>(active_)];
-  const bool late = time - mode_time_ > kManoeuvreLimit;
-  const session::RetryScene& retry = step().retry;
-  const auto enter = [this, &view, time](Mode mode)
-  {
-    mode_ = mode;
-    mode_insertion_ = view.hand.insertion;
-    mode_rotation_ = view.hand.rotation;
-    mode_time_ = time;
-  };
-  if (mode_ == Mode::kLeave)
-  {
-    const bool out = view.place.branch < 0 || on_way_[static_cast<std::size_t>(view.place.branch)];
-    if (out || late)
-      return enter(Mode::kBack);
-    hand.wanted = pushed(view, -kFastBack);
-  }
-  else if (mode_ == Mode::kBack)
-  {
-    if (mode_insertion_ - view.hand.insertion >= retry.back || late)
-      return enter(Mode::kTurn);
-    hand.wanted = pushed(view, -kFastBack);
-  }
-  else if (std::abs(view.hand.rotation - mode_rotation_) >= std::abs(retry.turn) || late)
-  {
-    enter(Mode::kGo);
-    progress_time_ = time;
-    progress_tip_ = view.tip;
-    progress_insertion_ = view.hand.insertion;
-  }
-  else
-    hand.wanted_turn = std::copysign(std::min(2.0, hand_.max_turn), retry.turn);
 }
 
 }  // namespace endovascular_sim::procedure

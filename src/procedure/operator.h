@@ -18,6 +18,7 @@ enum class Progress
   kRunning,
   kDone,
   kFailed,
+  kLost,  ///< a step's support, so that he has gone back to an earlier one
 };
 
 /** How one step of the procedure went. */
@@ -30,13 +31,16 @@ struct StepRecord
   int retries = 0;         ///< after no progress
   int wrong_branches = 0;  ///< entered and left again
   Progress outcome = Progress::kRunning;
+  std::size_t step = 0;  ///< of the procedure, an exchange counted as two
 };
 
 /** A scripted person at the hands of all instruments: sees the tips and feels the hands' forces at his reaction
  *  interval, moves one instrument at a time within the limits of his hands, and goes through the steps of the scene's
  *  procedure. The same observations give the same commands, bit for bit.
  *
- *  Without progress, and from a branch that does not lead to the goal, he pulls back, turns and tries again. */
+ *  Without progress, and from a branch that does not lead to the goal, he pulls back, turns and tries again. When what
+ *  supports the instrument has left its place, he draws the instrument back into it and goes on from an earlier step.
+ */
 class Operator
 {
 public:
@@ -70,10 +74,11 @@ private:
   /** What he does within a step. */
   enum class Mode
   {
-    kGo,     ///< the step itself
-    kLeave,  ///< out of a wrong branch
-    kBack,   ///< a little further
-    kTurn,   ///< before he tries again
+    kGo,      ///< the step itself
+    kLeave,   ///< out of a wrong branch
+    kBack,    ///< a little further
+    kTurn,    ///< before he tries again
+    kReturn,  ///< into what supported it, before he goes on from an earlier step
   };
 
   struct Hand
@@ -95,6 +100,10 @@ private:
   void go(const InstrumentView& view);
   void manoeuvre(const InstrumentView& view, double time);
   bool isReached(const Observation& seen) const;
+  bool isInPlace(const InstrumentView& view) const;
+  bool missesSupport(const Observation& seen);
+  void comeBack(const Observation& seen);
+  void giveUp(const InstrumentView& view, double time);
   bool stalls(const InstrumentView& view, double time);
   bool tryAgain(Mode mode, const InstrumentView& view, const std::string& why);
   void fail(const InstrumentView* view, const std::string& why);
@@ -122,9 +131,12 @@ private:
   int active_ = -1;  ///< instrument
   int goal_branch_ = -1;
   std::vector<bool> on_way_;  ///< of every branch
+  int support_ = -1;          ///< instrument; −1: none is asked for
+  int support_branch_ = -1;
   Mode mode_ = Mode::kGo;
   double begin_time_ = 0.0, begin_insertion_ = 0.0, begin_rotation_ = 0.0;
   double reached_since_ = -1.0;                            ///< negative: not reached [s]
+  double lost_since_ = -1.0;                               ///< the support; negative: it is in its place [s]
   double progress_time_ = 0.0, progress_insertion_ = 0.0;  ///< of the last progress
   Eigen::Vector3d progress_tip_ = Eigen::Vector3d::Zero();
   double mode_insertion_ = 0.0, mode_rotation_ = 0.0, mode_time_ = 0.0;  ///< where the manoeuvre began

@@ -5,20 +5,31 @@
 namespace endovascular_sim::procedure
 {
 
+namespace
+{
+
+constexpr std::uint64_t kMostRecords = 1000000;
+
+}  // namespace
+
 /** Names follow from the steps. */
 void Operator::archiveRecords(Archive& archive)
 {
   std::uint64_t count = records_.size();
   archive(count);
-  if (archive.reading() && count > steps_.size())
-    throw ArchiveError("has more steps than the procedure");
+  if (archive.reading() && count > kMostRecords)
+    throw ArchiveError("has more steps than a procedure can have begun");
   records_.resize(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < records_.size(); ++k)
   {
     StepRecord& record = records_[k];
-    archive(record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
-    record.name = nameOf(steps_[k]);
-    record.phase = steps_[k].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[k].phase;
+    std::uint64_t step = record.step;
+    archive(step, record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
+    if (archive.reading() && step >= steps_.size())
+      throw ArchiveError("is of a step that the procedure does not have");
+    record.step = static_cast<std::size_t>(step);
+    record.name = nameOf(steps_[record.step]);
+    record.phase = steps_[record.step].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[record.step].phase;
   }
 }
 
@@ -26,7 +37,7 @@ void Operator::archive(Archive& archive)
 {
   std::uint64_t current = current_;
   archive(current, begun_, progress_, mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_,
-          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
+          lost_since_, progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
   for (Hand& hand : hands_)
     archive(hand);
   archiveRecords(archive);

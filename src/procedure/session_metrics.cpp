@@ -62,6 +62,8 @@ const char* word(Progress progress)
       return "done";
     case Progress::kFailed:
       return "failed";
+    case Progress::kLost:
+      return "lost its support";
     case Progress::kRunning:
       break;
   }

@@ -43,6 +43,16 @@ struct RetryScene
   double deepest = std::numeric_limits<double>::quiet_NaN();
 };
 
+/** What leads a step's instrument to its way, as a guide in its ostium; and what a person does when the instrument
+ * comes out of it elsewhere: draws it back and goes on from an earlier phase. */
+struct SupportScene
+{
+  std::string instrument;  ///< that supports; empty: nothing is asked
+  std::string tip_in;      ///< branch in which its tip or that of the step's instrument has to be, or beyond
+  std::string again_from;  ///< phase
+  int times = 3;           ///< then the procedure has failed
+};
+
 /** One step of a procedure. */
 struct StepScene
 {
@@ -58,6 +68,7 @@ struct StepScene
   double time_limit = 30.0;  ///< then the step has failed [s]
   bool any_branch = false;   ///< branches that do not lead to the goal are not left again
   RetryScene retry;
+  SupportScene support;
 };
 
 /** What the operator's hands and eyes can do. */

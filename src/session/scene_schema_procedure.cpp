@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,6 +54,14 @@ void visitRetry(SceneFields& fields, StepScene& step)
     fields.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
 }
 
+void visitSupport(SceneFields& fields, SupportScene& support)
+{
+  fields.text("instrument", support.instrument, Need::kRequired);
+  fields.text("tip_in", support.tip_in, Need::kRequired);
+  fields.text("again_from", support.again_from, Need::kRequired);
+  fields.integer("times", support.times, 0, 1000);
+}
+
 /** The key that says what the step does, and with what. */
 void visitAction(SceneFields& fields, StepScene& step)
 {
@@ -105,6 +114,8 @@ void visitStep(SceneFields& fields, StepScene& step)
   fields.number("time_limit", step.time_limit, "s", Range::positive());
   fields.boolean("any_branch", step.any_branch);
   fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });
+  if (fields.reading() ? fields.has("support") : !step.support.instrument.empty())
+    fields.map("support", [&step](SceneFields& support) { visitSupport(support, step.support); });
 }
 
 void visitHand(SceneFields& fields, HandScene& hand)
@@ -127,6 +138,24 @@ const DrivenInstrument* scripted(const Scene& scene, const std::string& instrume
     if (driven.instrument.name == instrument && driven.drive.source == DriveSource::kProcedure)
       return &driven;
   return nullptr;
+}
+
+void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
+{
+  const std::vector<StepScene>& steps = scene.procedure->steps;
+  const SupportScene& support = steps[k].support;
+  if (support.instrument.empty())
+    return;
+  const std::string path = "procedure.steps." + std::to_string(k) + ".support.";
+  if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
+                   [&support](const DrivenInstrument& driven) { return driven.instrument.name == support.instrument; }))
+    fields.refuse(path + "instrument", "'" + support.instrument + "' is no instrument of the scene; name one of them");
+  if (support.instrument == steps[k].instrument)
+    fields.refuse(path + "instrument", "'" + support.instrument + "' is what the step moves; name another one");
+  const auto end = steps.begin() + static_cast<std::ptrdiff_t>(k + 1);
+  if (std::none_of(steps.begin(), end, [&support](const StepScene& step) { return step.phase == support.again_from; }))
+    fields.refuse(path + "again_from",
+                  "no step so far has the phase '" + support.again_from + "'; name one that has begun before");
 }
 
 }  // namespace
@@ -172,6 +201,7 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
       fields.refuse(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
     if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
       fields.refuse(path + "for", "'" + step.replacement + remedy);
+    checkSupport(fields, scene, k);
   }
 }
 

@@ -28,11 +28,16 @@ def read(path):
 
 
 def phases(folder):
-    """Name and end of every phase, in their order [s]."""
+    """Name, end [s] and picture's number of every phase, in their order; of one that began again, the last time."""
     found = {}
+    before = None
+    number = 0
     for step in json.loads((folder / "metrics.json").read_text(encoding="utf-8"))["steps"]:
-        found[step["phase"] or step["step"]] = step["end"]
-    return list(found.items())
+        name = step["phase"] or step["step"]
+        number += name != before
+        before = name
+        found[name] = (step["end"], number)
+    return [(name, end, number) for name, (end, number) in found.items()]
 
 
 def shapes(path, times):
@@ -81,9 +86,9 @@ def upto(nodes, length):
     return part
 
 
-def picture_of(folder, phase, time, duration):
+def picture_of(folder, number, time, duration):
     """The fluoroscopy picture of a phase's end: `simulate --pictures` takes one there, a session evenly over the run."""
-    own = folder / "fluoroscopy" / f"phase_{phase + 1:02d}.png"
+    own = folder / "fluoroscopy" / f"phase_{number:02d}.png"
     if own.exists():
         return own
     pictures = sorted((folder / "fluoroscopy").glob("frame_*.png"))
@@ -125,20 +130,20 @@ def main():
     shape_folder = options.shapes or options.results
     try:
         moments = phases(options.results)
-        times = [end for _, end in moments]
+        times = [end for _, end, _ in moments]
         nodes = shapes(shape_folder / "nodes.csv", times)
         inside = insertions(shape_folder / "instruments.csv", times)
         vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in read(shape_folder / "vessel_points.csv")]
     except (OSError, KeyError) as error:
         sys.exit(f"procedure_pictures: {error}; give results of a procedure, recorded with --record nodes")
-    pictures = [picture_of(options.results, k, end, times[-1]) for k, end in enumerate(times)]
+    pictures = [picture_of(options.results, number, end, times[-1]) for _, end, number in moments]
     layers = 2 if any(pictures) else 1
     lines = -(-len(moments) // COLUMNS)
     figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
     for axis in axes.flat:
         axis.set_visible(False)
     handles = {}
-    for k, (name, end) in enumerate(moments):
+    for k, (name, end, _) in enumerate(moments):
         axis = axes[k // COLUMNS * layers][k % COLUMNS]
         axis.set_visible(True)
         draw(axis, vessel, nodes[k], inside[k])

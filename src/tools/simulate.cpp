@@ -393,8 +393,9 @@ void tellProcedure(const Surroundings& surroundings)
     return;
   const procedure::Operator& person = *surroundings.session->person();
   for (const procedure::StepRecord& step : person.records())
-    std::fprintf(stderr, "%7.2f to %7.2f s: %s%s\n", step.begin, step.end, step.name.c_str(),
-                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " new tries)").c_str() : "");
+    std::fprintf(stderr, "%7.2f to %7.2f s: %s%s%s\n", step.begin, step.end, step.name.c_str(),
+                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " new tries)").c_str() : "",
+                 step.outcome == procedure::Progress::kLost ? ", lost its support" : "");
   if (!person.failure().empty())
     std::cerr << "simulate: the procedure failed: " << person.failure() << "\n";
 }

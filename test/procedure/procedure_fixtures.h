@@ -93,12 +93,15 @@ public:
       view.place = hand.insertion > 0.0 ? person.places().at(view.tip) : BranchPlace();
       observation.instruments.push_back(view);
     }
+    if (happens)
+      happens(observation);
     return observation;
   }
 
   Operator person;
   double time = 0.0;
-  double force = 0.0;  ///< on every hand [N]
+  double force = 0.0;                              ///< on every hand [N]
+  std::function<void(Observation& seen)> happens;  ///< changes what the operator sees
   std::vector<std::vector<session::HandCommand>> history;
   const session::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
 

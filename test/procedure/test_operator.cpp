@@ -155,6 +155,127 @@ TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
   EXPECT_EQ(world.person.records().front().wrong_branches, 1);
 }
 
+/** The catheter lies in the goal branch; a wire that comes 20 mm out of it lifts it into the trunk and goes there too,
+ * so many times; there they stay until the catheter is pushed again by 2 mm. */
+struct LiftingWire
+{
+  int times = 1;
+  bool lifted = false;
+  double lifted_at = 0.0;  ///< insertion of the catheter [m]
+
+  void operator()(Observation& seen)
+  {
+    InstrumentView& wire = seen.instruments[0];
+    InstrumentView& catheter = seen.instruments[1];
+    if (!lifted && times > 0 && wire.hand.insertion > catheter.hand.insertion + 0.02)
+    {
+      lifted = true;
+      lifted_at = catheter.hand.insertion;
+      --times;
+    }
+    lifted = lifted && catheter.hand.insertion < lifted_at + 0.002;
+    if (!lifted)
+      return;
+    wire.place = catheter.place = {0, 0.14};
+    wire.tip = catheter.tip = {0.0, 0.0, 0.14};
+  }
+};
+
+/** Wire and catheter of an engagement that needs support. */
+struct SupportedWorld : PlainWorld
+{
+  explicit SupportedWorld(int times)
+    : PlainWorld(
+          sceneWith("    - {phase: Engagement, advance: catheter, until: {tip_in: goal, beyond: 0.01}, speed: 0.01}\n"
+                    "    - {advance: wire, until: {insertion: 0.15}, speed: 0.05}\n"
+                    "    - {phase: Wire, advance: wire, until: {tip_in: goal, beyond: 0.045}, speed: 0.005,\n"
+                    "       support: {instrument: catheter, tip_in: goal, again_from: Engagement, times: 2}}\n"),
+          [](double insertion, double /*rotation*/) -> Eigen::Vector3d
+          {
+            const double beyond = std::max(0.0, insertion - 0.15);
+            return {-beyond, 0.0, insertion - beyond};
+          })
+  {
+    happens = LiftingWire{times};
+  }
+};
+
+TEST(Operator, DrawsBackAndBeginsAnEarlierPhaseAgainWhenTheSupportHasLeftItsPlace)
+{
+  SupportedWorld world(1);
+  world.run(80.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  std::vector<std::size_t> steps;
+  for (const StepRecord& record : world.person.records())
+    steps.push_back(record.step);
+  ASSERT_EQ(steps, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(world.person.records()[2].outcome, Progress::kLost);
+  EXPECT_EQ(world.person.records()[5].outcome, Progress::kDone);
+  EXPECT_EQ(world.person.records()[4].phase, "Engagement");
+  for (std::size_t k = 1; k < world.history.size(); ++k)
+  {
+    const double wire = world.history[k][0].insertion;
+    const double catheter = world.history[k][1].insertion;
+    if (catheter > 0.1 && catheter != world.history[k - 1][1].insertion)
+    {
+      ASSERT_LT(wire, catheter - 0.04) << "the catheter moves while the wire is within it";
+    }
+  }
+}
+
+TEST(Operator, FailsWhenTheSupportLeavesItsPlaceAgainAndAgain)
+{
+  SupportedWorld world(100);
+  world.run(200.0);
+  EXPECT_EQ(world.person.progress(), Progress::kFailed);
+  EXPECT_NE(world.person.failure().find("catheter has left goal again and again"), std::string::npos)
+      << world.person.failure();
+  EXPECT_EQ(world.person.records().size(), 9U) << "two new beginnings";
+}
+
+TEST(Operator, DoesNotMindASupportThatIsAwayForAMoment)
+{
+  SupportedWorld world(0);
+  world.happens = [](Observation& seen)
+  {
+    if (seen.instruments[0].hand.insertion > 0.17 && std::fmod(seen.time, 2.0) < 1.0)
+      seen.instruments[0].place = seen.instruments[1].place = {0, 0.14};
+  };
+  world.run(40.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  for (const StepRecord& record : world.person.records())
+    EXPECT_EQ(record.outcome, Progress::kDone);
+}
+
+TEST(Operator, NeedsNoSupportWhereTheTipHasFoundItsWay)
+{
+  SupportedWorld world(0);
+  world.happens = [](Observation& seen)
+  {
+    if (seen.instruments[0].hand.insertion > 0.18)
+      seen.instruments[1].place = {0, 0.14};
+  };
+  world.run(80.0);
+  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_EQ(world.person.records().size(), 3U);
+}
+
+TEST(Operator, RefusesASupportThatCannotBe)
+{
+  const auto step = [](const std::string& support)
+  {
+    return "    - {phase: Engagement, advance: catheter, until: {tip_in: goal}}\n"
+           "    - {phase: Wire, advance: wire, until: {tip_in: goal}, support: " +
+           support + "}\n    - {phase: Later, wait: 1}\n";
+  };
+  EXPECT_NO_THROW(sceneWith(step("{instrument: catheter, tip_in: goal, again_from: Engagement}")));
+  EXPECT_THROW(sceneWith(step("{instrument: stent, tip_in: goal, again_from: Engagement}")), InputError);
+  EXPECT_THROW(sceneWith(step("{instrument: wire, tip_in: goal, again_from: Engagement}")), InputError);
+  EXPECT_THROW(sceneWith(step("{instrument: catheter, tip_in: goal, again_from: Later}")), InputError);
+  EXPECT_THROW(sceneWith(step("{instrument: catheter, tip_in: goal}")), InputError);
+  EXPECT_THROW(PlainWorld(sceneWith(step("{instrument: catheter, tip_in: gaol, again_from: Engagement}"))), InputError);
+}
+
 TEST(Operator, FailureNamesTheStepTheReasonAndThePlaceOfTheTip)
 {
   PlainWorld world(sceneWith("    - {wait: 0.1}\n"
@@ -257,6 +378,28 @@ TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
     EXPECT_EQ(world.person.records().size(), other.person.records().size());
     EXPECT_EQ(world.person.records().back().name, other.person.records().back().name);
     EXPECT_EQ(world.person.records().back().retries, other.person.records().back().retries);
+  }
+}
+
+TEST(Operator, GoesOnFromAStateThatWasSavedAfterTheSupportWasLost)
+{
+  for (const double at : {28.0, 30.5, 32.0, 34.0, 38.0})
+  {
+    SupportedWorld world(1);
+    world.run(at);
+    Archive saved;
+    world.person.archive(saved);
+    SupportedWorld other(world);
+    other.person = SupportedWorld(1).person;
+    Archive loaded(saved.bytes());
+    other.person.archive(loaded);
+    world.run(50.0);
+    other.run(50.0);
+    EXPECT_EQ(world.person.records().size(), 6U);
+    ASSERT_EQ(world.history.size(), other.history.size());
+    for (std::size_t k = 0; k < world.history.size(); ++k)
+      for (int hand : {0, 1})
+        ASSERT_EQ(world.history[k][hand].insertion, other.history[k][hand].insertion) << at << " " << k;
   }
 }
 
