@@ -18,7 +18,7 @@ enum class Progress
   kRunning,
   kDone,
   kFailed,
-  kLost,  ///< a step's support, so that he has gone back to an earlier one
+  kLost,  ///< of a step: the instrument has come out of its support elsewhere, and he goes back to an earlier one
 };
 
 /** How one step of the procedure went. */
@@ -38,9 +38,8 @@ struct StepRecord
  *  interval, moves one instrument at a time within the limits of his hands, and goes through the steps of the scene's
  *  procedure. The same observations give the same commands, bit for bit.
  *
- *  Without progress, and from a branch that does not lead to the goal, he pulls back, turns and tries again. When what
- *  supports the instrument has left its place, he draws the instrument back into it and goes on from an earlier step.
- */
+ *  Without progress, and from a branch that does not lead to the goal, he pulls back, turns and tries again. Where the
+ *  instrument has come out of its support elsewhere, he draws it back and goes on from an earlier step. */
 class Operator
 {
 public:

@@ -46,8 +46,7 @@ bool Operator::tryAgain(Mode mode, const InstrumentView& view, const std::string
   return true;
 }
 
-/** Out of a wrong branch, a little back, a turn.
- * Each of them ends at its goal or when it takes too long. */
+/** Out of a wrong branch, a little back, a turn. Each of them ends at its goal or when it takes too long. */
 void Operator::manoeuvre(const InstrumentView& view, double time)
 {
   Hand& hand = hands_[static_cast<std::size_t>(active_)];

@@ -147,11 +147,15 @@ void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
   if (support.instrument.empty())
     return;
   const std::string path = "procedure.steps." + std::to_string(k) + ".support.";
-  if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
-                   [&support](const DrivenInstrument& driven) { return driven.instrument.name == support.instrument; }))
-    fields.refuse(path + "instrument", "'" + support.instrument + "' is no instrument of the scene; name one of them");
-  if (support.instrument == steps[k].instrument)
-    fields.refuse(path + "instrument", "'" + support.instrument + "' is what the step moves; name another one");
+  if (steps[k].action != StepAction::kAdvance)
+    fields.refuse(path + "instrument", "only an instrument that advances is supported; remove it");
+  // From the inside out.
+  const auto named = [](const std::string& name)
+  { return [&name](const DrivenInstrument& driven) { return driven.instrument.name == name; }; };
+  const auto inner = std::find_if(scene.instruments.begin(), scene.instruments.end(), named(steps[k].instrument));
+  if (std::none_of(inner + 1, scene.instruments.end(), named(support.instrument)))
+    fields.refuse(path + "instrument", "'" + support.instrument + "' is no instrument around '" + steps[k].instrument +
+                                           "'; name one that the scene lists behind it");
   const auto end = steps.begin() + static_cast<std::ptrdiff_t>(k + 1);
   if (std::none_of(steps.begin(), end, [&support](const StepScene& step) { return step.phase == support.again_from; }))
     fields.refuse(path + "again_from",

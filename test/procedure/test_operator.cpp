@@ -272,6 +272,13 @@ TEST(Operator, RefusesASupportThatCannotBe)
   EXPECT_THROW(sceneWith(step("{instrument: stent, tip_in: goal, again_from: Engagement}")), InputError);
   EXPECT_THROW(sceneWith(step("{instrument: wire, tip_in: goal, again_from: Engagement}")), InputError);
   EXPECT_THROW(sceneWith(step("{instrument: catheter, tip_in: goal, again_from: Later}")), InputError);
+  EXPECT_THROW(sceneWith("    - {phase: Engagement, advance: catheter, until: {tip_in: goal},\n"
+                         "       support: {instrument: wire, tip_in: goal, again_from: Engagement}}\n"),
+               InputError)
+      << "the wire is within the catheter";
+  EXPECT_THROW(sceneWith("    - {phase: Wire, withdraw: wire, until: {outside: true},\n"
+                         "       support: {instrument: catheter, tip_in: goal, again_from: Wire}}\n"),
+               InputError);
   EXPECT_THROW(sceneWith(step("{instrument: catheter, tip_in: goal}")), InputError);
   EXPECT_THROW(PlainWorld(sceneWith(step("{instrument: catheter, tip_in: gaol, again_from: Engagement}"))), InputError);
 }
