@@ -76,7 +76,8 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   bvh_.setCones(cones);
   // The first call shall not wait for memory.
   near_.resize(kUsualNodes);
-  for (Neighbourhood& near : near_)
+  left_.resize(kUsualNodes);
+  const auto prepare = [](Neighbourhood& near)
   {
     const auto reserve = [](auto& list, std::size_t count)
     {
@@ -87,7 +88,9 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
     reserve(near.edges, kUsualList);
     reserve(near.prisms, kUsualList / kQuad);
     reserve(near.ridges, kUsualList / kQuad);
-  }
+  };
+  std::for_each(near_.begin(), near_.end(), prepare);
+  std::for_each(left_.begin(), left_.end(), prepare);
 }
 
 EdgeBall Detector::ballOf(const WallEdge& edge) const
@@ -204,6 +207,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   const std::size_t n = query.nodes.size();
   if (near_.size() < n)
     near_.resize(n);
+  followWire(query);
   if (query.wanted_free_distance > 0.0)
   {
     freeDistances(query, set);

@@ -80,6 +80,9 @@ public:
 
   const Wall& wall() const { return wall_; }
 
+  /** Nodes for which what is near had to be listed anew, ever: what the wire's motion costs. */
+  std::uint64_t listsRenewed() const { return lists_renewed_; }
+
 private:
   /** A triangle or mesh edge, and by how much wire and wall have to come closer before it can be met. */
   struct Near
@@ -106,10 +109,13 @@ private:
     std::vector<Near> edges;        ///< reflex ones that the wire's edge may meet, ascending
     std::vector<PrismQuad> prisms;  ///< of the triangles, as seen from begin
     std::vector<RidgeQuad> ridges;  ///< of the edges
+    bool holds = false;             ///< whether the lists hold all that the wire may meet where it is now
     bool wall_differs = false;      ///< from what they hold
 
-    /** Notes how far the wire is. @return whether the lists still hold all that it may meet */
-    bool follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
+    /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
+    void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
+    /** Whether the wire is about where it was listed; else its lists may be another node's. */
+    bool isHere() const { return limit >= 0.0 && moved < 2.0 * room; }
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     /** From a place of the segment no farther than that from its begin [m]. */
     double distanceTo(const Eigen::Vector3d& point, double farthest) const;
@@ -142,10 +148,15 @@ private:
 
   /** Index by which a node or edge is remembered. */
   static int placeFromTip(const Query& query, std::size_t index);
+  static std::size_t nextNode(const Query& query, std::size_t index);
+  static double listedLimit(const Query& query, std::size_t index);
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index) const
   {
     return near_[placeFromTip(query, index)];
   }
+  void followWire(const Query& query);
+  static void followNode(const Query& query, std::size_t index, Neighbourhood& near);
+  void handOver(const Query& query);
   void renewLists(const Query& query);
   void renewList(const Query& query, std::size_t index, Collected& collected);
   void list(Neighbourhood& near, Collected& collected) const;
@@ -185,7 +196,9 @@ private:
   WallLaw law_;
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
-  std::vector<int> nearest_;         ///< triangle that was nearest to each node, or −1
+  std::vector<Neighbourhood> left_;  ///< while they are handed over; then nothing is listed in them
+  std::uint64_t lists_renewed_ = 0;
+  std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;
   HelperThread* helper_ = nullptr;
   std::vector<Part> parts_;

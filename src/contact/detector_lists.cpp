@@ -29,12 +29,6 @@ float lower(double clearance)
 
 }  // namespace
 
-/** From the tip, so that nodes that come and go at the wire's other end change nothing. */
-int Detector::placeFromTip(const Query& query, std::size_t index)
-{
-  return static_cast<int>(query.nodes.size() - 1 - index);
-}
-
 /** Lists hold more than what can be met. While wire and wall have moved by less than that, they stay; edges that have
  *  become reflex are added, and those that no longer are stand in them to no effect.
  *  @param anew something moves for the first time, which lists may have left out because of how it was turned */
@@ -68,11 +62,11 @@ double Detector::Neighbourhood::distanceTo(const Eigen::Vector3d& point, double 
   return (from - std::max(0.0, std::min(farthest, from.dot(along))) * along).norm();
 }
 
-bool Detector::Neighbourhood::follows(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
+void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
   // The distance to a segment is convex: between the edge's ends it is no larger than at them.
   moved = std::max(distanceTo(a, reach), distanceTo(b, length)) + wall_moved;
-  return moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
+  holds = moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
@@ -100,12 +94,10 @@ void Detector::renewLists(const Query& query)
 /** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
 void Detector::renewList(const Query& query, std::size_t index, Collected& collected)
 {
-  const std::size_t next = std::min(index + 1, query.nodes.size() - 1);  // the tip has no edge
-  const double limit = std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
   Neighbourhood& near = near_[placeFromTip(query, index)];
-  if (!near.follows(query.nodes[index], query.nodes[next], limit))
+  if (!near.holds)
   {
-    near.start(query.nodes[index], query.nodes[next], limit);
+    near.start(query.nodes[index], query.nodes[nextNode(query, index)], listedLimit(query, index));
     list(near, collected);
   }
   else if (near.wall_differs)
