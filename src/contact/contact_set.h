@@ -39,6 +39,19 @@ inline double marginShare(double radius)
   return std::max(kLeast, share * share * share * share);
 }
 
+/** Whether a body of some radius is wide: its margin is that of a Query's wide bodies if that is less. */
+inline bool isWide(double radius)
+{
+  return marginShare(radius) < 0.5;
+}
+
+/** How far off a body's surface features are listed [m]. @param wide_margin of wide bodies at most [m] */
+inline double listingMargin(double margin, double wide_margin, double radius)
+{
+  const double own = margin * marginShare(radius);
+  return isWide(radius) ? std::min(own, wide_margin) : own;
+}
+
 /** What the rod asks of the detector: its centreline, and how far to look. */
 struct Query
 {
@@ -47,14 +60,15 @@ struct Query
   std::uint32_t pass = 0;
   /** Above 0, free distances up to this are asked for instead of features [m]; larger ones need not be told apart. */
   double wanted_free_distance = 0.0;
-  std::uint64_t vessel_version = 0;    ///< of the wall that is to be searched; 0: whichever there is
-  double margin = 0.0;                 ///< features closer than this to the wire's surface are listed, see marginAt [m]
-  int first_node = 0;                  ///< index of nodes[0] in the whole wire
-  std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]
-  std::vector<double> radius;          ///< at each node [m]
+  std::uint64_t vessel_version = 0;  ///< of the wall that is to be searched; 0: whichever there is
+  double margin = 0.0;               ///< features closer than this to the wire's surface are listed, see marginAt [m]
+  double wide_margin = std::numeric_limits<double>::infinity();  ///< a wide body's is no larger [m]
+  int first_node = 0;                                            ///< index of nodes[0] in the whole wire
+  std::vector<Eigen::Vector3d> nodes;                            ///< proximal to distal [m]
+  std::vector<double> radius;                                    ///< at each node [m]
 
   /** What counts as near at one of the nodes, evenly between two of them [m]. */
-  double marginAt(std::size_t node) const { return margin * marginShare(radius[node]); }
+  double marginAt(std::size_t node) const { return listingMargin(margin, wide_margin, radius[node]); }
 };
 
 /** All wall features near the rod for one state of it (the contract between rod and contact). */

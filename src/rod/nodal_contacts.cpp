@@ -16,6 +16,8 @@ constexpr double kBackingStiffness = 100.0;  // times the rigid wall's
 constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a soft wall leaves in the lumen
 constexpr double kDeepest = 80e-6;           // m into a wall that does not give way that no motion exceeds
 constexpr double kShareToAxis = 0.8;         // of the way from there to the wire's axis, where that is less
+constexpr double kWideMargin = 5e-6;         // m of a filled balloon's margin, and
+constexpr double kWideMotions = 4.0;         // so many times its last motion
 constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
 constexpr int kLineSearchHalvings = 10;
 constexpr double kBeyondMargin = 1.0 + 1e-12;  // for rounding
@@ -70,12 +72,35 @@ double NodalContacts::radiusAt(const contact::Feature& feature) const
   return first == second ? first : (1.0 - feature.parameter) * first + feature.parameter * second;
 }
 
+/** Radius of a node or of a neighbour, the largest [m]. */
+double NodalContacts::widestAt(int node) const
+{
+  return std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))});
+}
+
 /** How far a node may move and none of its edges' points meets what the detector did not list [m]. */
 double NodalContacts::marginOf(int node) const
 {
-  const double widest =
-      std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))});
-  return settings_.contact_margin * contact::marginShare(widest);
+  return contact::listingMargin(settings_.contact_margin, wide_margin_, widestAt(node));
+}
+
+/** Notes the motion of the wide body that moves most; an earlier, larger one counts by half. */
+void NodalContacts::noteWideMotion(const Motion& motion, int first, double factor)
+{
+  double most = 0.0;
+  for (int i = first; i < rod_.nodes(); ++i)
+    if (contact::isWide(widestAt(i)))
+      most = std::max(most, factor * motion[i].norm());
+  wide_motion_ = std::isinf(wide_motion_) ? most : std::max(most, 0.5 * wide_motion_);
+}
+
+/** A filled balloon has the whole wall round it and hardly moves: it is asked about as far as it may soon move. */
+double NodalContacts::wantedWideMargin() const
+{
+  bool filled = false;
+  for (std::size_t i = 0; i < radii_.size() && !filled; ++i)
+    filled = contact::isWide(radii_[i]) && radii_[i] > rod_.radius[i];
+  return filled ? kWideMargin + kWideMotions * wide_motion_ : std::numeric_limits<double>::infinity();
 }
 
 /** What is asked about is as wide as what the wire carries. */
@@ -128,6 +153,28 @@ void NodalContacts::addBacking()
     backing.id = -1 - backing.id;
     contacts_.features.push_back(backing);
   }
+}
+
+void NodalContacts::dropBacking()
+{
+  contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
+                           contacts_.features.end());
+}
+
+void NodalContacts::setRadii(const std::vector<double>& radii)
+{
+  if (radii_.size() == radii.size())
+  {
+    dropBacking();
+    for (contact::Feature& feature : contacts_.features)
+    {
+      const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
+      const auto growth = [&](int node) { return std::max(rod_.radius[node], radii[node]) - radiusOf(node); };
+      feature.gap -= (1.0 - feature.parameter) * growth(feature.edge) + feature.parameter * growth(next);
+    }
+    addBacking();
+  }
+  radii_ = radii;
 }
 
 double NodalContacts::tooDeep() const
@@ -323,6 +370,7 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return std::min(factor, staleTruncation(motion));
   const double margins = marginsIn(motion, state.first_node);
   factor = freshTruncation(state, motion, factor, margins, report);
+  noteWideMotion(motion, state.first_node, factor);
   // Should the next set fail to come, this motion counts as well.
   stale_budget_ = std::max(0.0, 1.0 - factor * margins);
   return factor;
@@ -449,8 +497,7 @@ void NodalContacts::detect(const State& state, StepReport& report)
   }
   contacts_.features = previous_contacts_.features;
   contacts_.features.resize(contacts_.features.size() - kept_before_);
-  contacts_.features.erase(std::remove_if(contacts_.features.begin(), contacts_.features.end(), isBacking),
-                           contacts_.features.end());
+  dropBacking();
   for (contact::Feature& feature : contacts_.features)
     feature.gap = gapAt(state, feature);
   addBacking();
@@ -510,9 +557,11 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
   held.describe(state, query_);
   widen();
   const double mouth = held.describeMouth(state, query_);
+  query_.wide_margin = wantedWideMargin();
   send(answer, report);
   if (answer.stale)
     return;
+  wide_margin_ = query_.wide_margin;
   // The first point stood inside of its edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)
@@ -541,6 +590,7 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
   query_.wanted_free_distance = farthest;
+  query_.wide_margin = wide_margin_;
   send(free_distances_, report);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -54,8 +55,12 @@ public:
   /** @param source null without a vessel */
   void beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass, PhaseTimer& timer);
 
-  /** Least radius of the surface at every node until the nodes change; empty: the rod's own [m]. */
-  void setRadii(const std::vector<double>& radii) { radii_ = radii; }
+  /** Least radius of the surface at every node until the nodes change; the present contacts come closer by as much as
+   * it grows [m]. */
+  void setRadii(const std::vector<double>& radii);
+
+  /** Margin of wide bodies in the present contacts; infinite: nothing but their width makes it less [m]. */
+  double wideMargin() const { return wide_margin_; }
 
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
@@ -134,14 +139,17 @@ private:
 
   Spring springOf(int index) const;
   void addBacking();
+  void dropBacking();
   void carry();
   void settleOffset(int index, std::vector<double>& offset) const;
   double carriedForce(const contact::Feature& feature) const;
+  void moveRadii(int added);
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings(const State& state);
   double radiusOf(int node) const;
   double radiusAt(const contact::Feature& feature) const;
   double toleratedDepth(const contact::Feature& feature) const;
+  double widestAt(int node) const;
   double marginOf(int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
@@ -149,6 +157,8 @@ private:
   double shareOfLeastEnergy();
   double approach(const Spring& spring, const Eigen::Vector3d& normal, const Motion& motion) const;
   double marginsIn(const Motion& motion, int first) const;
+  void noteWideMotion(const Motion& motion, int first, double factor);
+  double wantedWideMargin() const;
   double freshTruncation(const State& state, const Motion& motion, double factor, double margins, StepReport& report);
   double listedTruncation(const State& state, const Motion& motion, double factor) const;
   double freeDistanceTruncation(const State& state, const Motion& motion, double factor, StepReport& report);
@@ -176,6 +186,8 @@ private:
   bool valid_ = false;
   bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
+  double wide_margin_ = std::numeric_limits<double>::infinity();  ///< of wide bodies, in the last fresh contact set [m]
+  double wide_motion_ = std::numeric_limits<double>::infinity();  ///< of the wide body that moved most of late [m]
   double stale_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;
   contact::ContactSource* source_ = nullptr;
@@ -184,7 +196,7 @@ private:
   std::uint64_t step_ = 0;
   std::uint32_t substep_ = 0;
   std::uint64_t vessel_version_ = 0;
-  std::vector<double> radii_;  ///< least ones, per node; empty: none [m]
+  std::vector<double> radii_;  ///< least ones, per node; empty: the rod's own [m]
 };
 
 }  // namespace endovascular_sim::rod

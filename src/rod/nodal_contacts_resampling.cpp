@@ -28,8 +28,20 @@ void NodalContacts::resample(const Discretisation& to)
     else
       moveToSampling(feature, to);
   valid_ = valid_ && same;
-  radii_.clear();
+  if (!same)
+    radii_.clear();
+  else if (!radii_.empty())
+    moveRadii(added);
   carry();
+}
+
+/** Nodes have come or gone before those that were asked about. */
+void NodalContacts::moveRadii(int added)
+{
+  if (added > 0)
+    radii_.insert(radii_.begin(), static_cast<std::size_t>(added), 0.0);
+  else
+    radii_.erase(radii_.begin(), radii_.begin() - added);
 }
 
 void NodalContacts::moveToSampling(contact::Feature& feature, const Discretisation& to) const

@@ -47,7 +47,7 @@ Treatments::Treatments(const Scene& scene, intervention::WallMover* wall)
     const instrument::Instrument& instrument = scene.instruments[k].instrument;
     lumens_.push_back(instrument.inner_radius);
     if (instrument.balloon)
-      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument), {}, {}});
+      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument), {}, {}, 0});
   }
   if (wall_ != nullptr)
     shown_ = due_ = promised_ = wall_->version();
@@ -133,21 +133,6 @@ std::uint64_t Treatments::beginStep(std::uint64_t step)
   return shown_;
 }
 
-/** From every node to the nearest wall, where that is near [m]. */
-void Treatments::measureRoom(const rod::State& state, const contact::ContactSet& contacts)
-{
-  room_.assign(state.position.size(), kInfinity);
-  for (const contact::Feature& feature : contacts.features)
-  {
-    const auto edge = static_cast<std::size_t>(feature.edge);
-    const std::size_t next = std::min(edge + 1, room_.size() - 1);
-    const Eigen::Vector3d axis =
-        (1.0 - feature.parameter) * state.position[edge] + feature.parameter * state.position[next];
-    double& room = room_[feature.parameter < 0.5 ? edge : next];
-    room = std::min(room, feature.normal.dot(axis - feature.point));
-  }
-}
-
 /** Radius at a place when contacts were last asked for; 0 where it was not there [m]. */
 double Treatments::lastWidth(const Worked& worked, double from_tip)
 {
@@ -160,12 +145,12 @@ double Treatments::lastWidth(const Worked& worked, double from_tip)
   return worked.widths[k - 1] + t * (worked.widths[k] - worked.widths[k - 1]);
 }
 
+/** Radii that a balloon would have in a wider vessel. */
 void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod)
 {
   const double tip = tipOf(worked.instrument, state, rod);
   const double covered_from = coveredFrom(worked.instrument, state, rod);
   places_.clear();
-  widths_.clear();
   for (int i = rod.nodes() - 1; i >= state.first_node; --i)
   {
     const double from_tip = tip - rod.position[i];
@@ -173,25 +158,55 @@ void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discr
       break;
     if (from_tip <= worked.treatment.begin())
       continue;
+    if (places_.empty())
+      worked.last_node = i;
     const double hard = worked.treatment.crossingRadiusAt(from_tip);
-    const double most = std::min(room_[i] + kGrip * rod.cell_length[i] / contact_stiffness_,
-                                 std::max(hard, lastWidth(worked, from_tip)) + kGrowth);
-    const double width = std::min(worked.treatment.radiusAt(from_tip), std::max(hard, most));
-    radii_[i] = std::max(radii_[i], width);
+    const double most = std::max(hard, lastWidth(worked, from_tip)) + kGrowth;
+    radii_[i] = std::max({radii_[i], hard, std::min(worked.treatment.radiusAt(from_tip), most)});
+    hard_[i] = std::max(hard_[i], hard);
     places_.push_back(from_tip);
-    widths_.push_back(width);
   }
   worked.places.swap(places_);
-  worked.widths.swap(widths_);
+}
+
+/** Makes balloons narrower where they would press on the wall by more than their grip. Between two nodes both give way,
+ *  the nearer one more, so that a contact that moves along the edge does not jump from one to the other. */
+void Treatments::giveWay(const rod::State& state, const rod::Discretisation& rod, const contact::ContactSet& contacts)
+{
+  for (const contact::Feature& feature : contacts.features)
+  {
+    const auto node = static_cast<std::size_t>(feature.edge);
+    const std::size_t next = std::min(node + 1, hard_.size() - 1);
+    if (hard_[node] == 0.0 && hard_[next] == 0.0)
+      continue;
+    const double w1 = feature.parameter;
+    const double w0 = 1.0 - w1;
+    const Eigen::Vector3d axis = w0 * state.position[node] + w1 * state.position[next];
+    const double grip = kGrip * (w0 * rod.cell_length[node] + w1 * rod.cell_length[next]) / contact_stiffness_;
+    const double width = w0 * std::max(radii_[node], rod.radius[node]) + w1 * std::max(radii_[next], rod.radius[next]);
+    const double beyond = width - feature.normal.dot(axis - feature.point) - grip;
+    if (beyond <= 0.0)
+      continue;
+    const double least = beyond / (w0 * w0 + w1 * w1);
+    radii_[node] = std::max(hard_[node], radii_[node] - w0 * least);
+    radii_[next] = std::max(hard_[next], radii_[next] - w1 * least);
+  }
 }
 
 const std::vector<double>& Treatments::contactRadii(const rod::State& state, const rod::Discretisation& rod,
                                                     const contact::ContactSet& contacts)
 {
   radii_.assign(state.position.size(), 0.0);
-  measureRoom(state, contacts);
+  hard_.assign(state.position.size(), 0.0);
   for (Worked& worked : treatments_)
     widen(worked, state, rod);
+  giveWay(state, rod, contacts);
+  for (Worked& worked : treatments_)
+  {
+    worked.widths.clear();
+    for (std::size_t k = 0; k < worked.places.size(); ++k)
+      worked.widths.push_back(radii_[static_cast<std::size_t>(worked.last_node) - k]);
+  }
   return radii_;
 }
 

@@ -87,6 +87,7 @@ private:
     intervention::Treatment treatment;
     /** Radius with which it touched the wall last, at distances from the tip, ascending [m]. */
     std::vector<double> places, widths;
+    int last_node = 0;  ///< at the first of them
 
     void archive(Archive& archive);
   };
@@ -100,7 +101,7 @@ private:
   void addEvent(std::uint64_t step, int instrument, TreatmentEvent event);
   static double lastWidth(const Worked& worked, double from_tip);
   void widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod);
-  void measureRoom(const rod::State& state, const contact::ContactSet& contacts);
+  void giveWay(const rod::State& state, const rod::Discretisation& rod, const contact::ContactSet& contacts);
   void pressWall(std::uint64_t step);
 
   double time_step_;
@@ -109,14 +110,15 @@ private:
   std::vector<Worked> treatments_;
   intervention::WallMover* wall_;
   std::vector<TimedEvent> events_;
-  intervention::Pressing next_;  ///< that the wall is told of with the next pressing
-  std::uint64_t shown_ = 0;      ///< version that contact searches
-  std::uint64_t due_ = 0;        ///< version that it searches from the next step on that begins such a round
-  std::uint64_t promised_ = 0;   ///< version that comes of the last pressing
-  int still_ = 0;                ///< pressings without pressure since the last one with
-  bool pressed_ = false;         ///< ever
-  bool at_risk_ = false;         ///< told already
-  std::vector<double> radii_, room_, places_, widths_;
+  intervention::Pressing next_;       ///< that the wall is told of with the next pressing
+  std::uint64_t shown_ = 0;           ///< version that contact searches
+  std::uint64_t due_ = 0;             ///< version that it searches from the next step on that begins such a round
+  std::uint64_t promised_ = 0;        ///< version that comes of the last pressing
+  int still_ = 0;                     ///< pressings without pressure since the last one with
+  bool pressed_ = false;              ///< ever
+  bool at_risk_ = false;              ///< told already
+  std::vector<double> radii_, hard_;  ///< of every node: that is wanted, and what of it cannot be pressed in [m]
+  std::vector<double> places_;
 };
 
 }  // namespace endovascular_sim::session

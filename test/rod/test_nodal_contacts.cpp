@@ -345,7 +345,12 @@ protected:
   {
     const double widest =
         std::max({radius(std::max(0, node - 1)), radius(node), radius(std::min(node + 1, kNodes - 1))});
-    return settings_.contact_margin * contact::marginShare(widest);
+    return marginOf(widest);
+  }
+
+  double marginOf(double radius) const
+  {
+    return contact::listingMargin(settings_.contact_margin, contacts_.wideMargin(), radius);
   }
 
   double expected(const NodalContacts::Motion& motion) const
@@ -360,7 +365,7 @@ protected:
     }
     for (int i = 0; i < kNodes; ++i)  // nodes of edges with a listed contact keep to their margins
       for (int k = std::max(0, i - 1); k <= std::min(i + 1, kNodes - 1); ++k)
-        if (gap(i) <= settings_.contact_margin * contact::marginShare(radius(i)))
+        if (gap(i) <= marginOf(radius(i)))
           factor = std::min(factor, margin(k) / motion[k].norm());
     return factor;
   }
@@ -412,8 +417,6 @@ TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesB
 {
   constexpr int kMiddle = 10;
   constexpr double kWide = 1.5e-3;
-  const double wide_margin = settings_.contact_margin * contact::marginShare(kWide);
-  ASSERT_LT(wide_margin, 0.5 * settings_.contact_margin);
   radii_[kMiddle] = kWide;
   contacts_.setRadii(radii_);
   for (int moved = 0; moved < kNodes; ++moved)
@@ -421,6 +424,8 @@ TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesB
     place(0.1e-3, 0.1e-3);
     NodalContacts::Motion motion(kNodes, Vector3d::Zero());
     motion[moved] = Vector3d(0.9 * settings_.contact_margin, 0.0, 0.0);
+    const double wide_margin = marginOf(kWide);
+    ASSERT_LT(wide_margin, 0.5 * settings_.contact_margin);
     const double margin = std::abs(moved - kMiddle) <= 1 ? wide_margin : settings_.contact_margin;
     EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), std::min(1.0, margin / motion[moved].norm()), 1e-12)
         << moved;
@@ -433,12 +438,12 @@ TEST_F(TruncationOverAFloor, CountsTheMotionThatWasMadeOnTheLastSetBeforeTheNext
 {
   radii_[5] = 1.2e-3;
   contacts_.setRadii(radii_);
-  const double narrow = settings_.contact_margin * contact::marginShare(1.2e-3);
-  ASSERT_LT(narrow, settings_.contact_margin);
   for (const double before : {0.0, 0.3, 1.0})
   {
     floor_.stale = false;
     place(0.1e-3, 0.1e-3);
+    const double narrow = marginOf(1.2e-3);
+    ASSERT_LT(narrow, settings_.contact_margin);
     NodalContacts::Motion motion(kNodes, Vector3d::Zero());
     motion[5] = Vector3d(before * narrow, 0.0, 0.0);
     EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
@@ -451,6 +456,31 @@ TEST_F(TruncationOverAFloor, CountsTheMotionThatWasMadeOnTheLastSetBeforeTheNext
   }
 }
 
+TEST_F(TruncationOverAFloor, LeavesAFilledBalloonAsMuchAsItMaySoonMove)
+{
+  const auto moveBalloon = [&](double distance)
+  {
+    place(20e-3, 20e-3);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[5] = Vector3d(distance, 0.0, 0.0);
+    contacts_.truncation(state_, motion, 1.0, report_);
+    place(20e-3, 20e-3);
+    return contacts_.wideMargin();
+  };
+  EXPECT_TRUE(std::isinf(moveBalloon(1e-5)));  // nothing wide yet
+  radii_[5] = 1.5e-3;
+  contacts_.setRadii(radii_);
+  const double moving = moveBalloon(1e-5);
+  EXPECT_GT(moving, 2e-5);
+  EXPECT_LT(moving, 1e-4);
+  EXPECT_GT(moveBalloon(0.0), 0.5 * moving);  // it may go on
+  for (int still = 0; still < 20; ++still)
+    moveBalloon(0.0);
+  EXPECT_GT(moveBalloon(0.0), 1e-6);
+  EXPECT_LT(moveBalloon(0.0), 1e-5);
+  EXPECT_GT(moveBalloon(1e-5), 2e-5);
+}
+
 TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)
 {
   place(0.0, 0.1e-3);
@@ -459,6 +489,37 @@ TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)
   place(1e-3, 2e-3);
   contacts_.truncation(state_, randomMotion(5e-3), 1.0, report_);
   EXPECT_EQ(passes_, 1U);
+}
+
+TEST_F(TruncationOverAFloor, ContactsComeCloserByAsMuchAsABalloonGrowsAsIfTheyWereAskedForAnew)
+{
+  const auto grown = [&](bool anew)
+  {
+    NodalContacts contacts(rod_, boundary_, settings_);
+    std::vector<double> radii(kNodes, 0.0);
+    contacts.beginStep(StepInput(), &floor_, passes_, timer_);
+    contacts.setRadii(radii);
+    for (int i = 0; i < kNodes; ++i)
+      state_.position[i].z() = kRadius + 0.05e-3;
+    contacts.refresh(state_, report_);
+    for (int i = 4; i < 9; ++i)
+      radii[i] = kRadius + 0.03e-3 * (i - 3);
+    contacts.setRadii(radii);
+    if (anew)
+      contacts.invalidate();
+    contacts.refresh(state_, report_);
+    contacts.prepare(state_, 1e-3);
+    std::vector<double> gaps;
+    for (std::size_t c = 0; c < contacts.count(); ++c)
+      gaps.push_back(contacts.spring(c).gap);
+    return gaps;
+  };
+  const std::vector<double> gaps = grown(false);
+  const std::vector<double> anew = grown(true);
+  ASSERT_EQ(gaps.size(), anew.size());
+  EXPECT_GT(gaps.size(), static_cast<std::size_t>(kNodes));  // with what is behind the wall
+  for (std::size_t c = 0; c < gaps.size(); ++c)
+    EXPECT_NEAR(gaps[c], anew[c], 1e-12);
 }
 
 TEST(NodalContacts, TheActiveSetOfAConvexProblemIsFoundBeforeContactsAreOnlyAdded)

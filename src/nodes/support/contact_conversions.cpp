@@ -38,6 +38,7 @@ void toMessage(const contact::Query& query, RodState& message)
   message.pass = static_cast<std::uint16_t>(query.pass);
   message.wanted_free_distance = query.wanted_free_distance;
   message.margin = query.margin;
+  message.wide_margin = query.wide_margin;
   message.vessel_version = query.vessel_version;
   message.first_node = static_cast<std::uint32_t>(query.first_node);
   message.radius = query.radius;
@@ -53,6 +54,7 @@ void fromMessage(const RodState& message, contact::Query& query)
   query.pass = message.pass;
   query.wanted_free_distance = message.wanted_free_distance;
   query.margin = message.margin;
+  query.wide_margin = message.wide_margin;
   query.vessel_version = message.vessel_version;
   query.first_node = static_cast<int>(message.first_node);
   query.radius = message.radius;
