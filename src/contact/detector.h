@@ -115,7 +115,9 @@ private:
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     /** Whether the wire is about where it was listed; else its lists may be another node's. */
-    bool isHere() const { return limit >= 0.0 && moved < 2.0 * room; }
+    bool isHere() const { return limit >= 0.0 && moved < 1.5 * room; }
+    /** Has nothing listed any more. */
+    void forget();
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     /** From a place of the segment no farther than that from its begin [m]. */
     double distanceTo(const Eigen::Vector3d& point, double farthest) const;
@@ -196,7 +198,7 @@ private:
   WallLaw law_;
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
-  std::vector<Neighbourhood> left_;  ///< while they are handed over; then nothing is listed in them
+  std::vector<Neighbourhood> left_;  ///< while they are handed over; else nothing is listed in them
   std::uint64_t lists_renewed_ = 0;
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;

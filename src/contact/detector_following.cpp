@@ -68,7 +68,6 @@ void Detector::handOver(const Query& query)
   for (std::size_t index = query.nodes.size(); index-- > 0;)
   {
     const int place = placeFromTip(query, index);
-    near_[place].holds = false;
     for (const int step : kSteps)
     {
       const int from = place + shift + step;
@@ -79,13 +78,19 @@ void Detector::handOver(const Query& query)
       if (!left.isHere())
         continue;
       std::swap(near_[place], left);
-      left.limit = -1.0;
       shift += step;
       break;
     }
   }
+  // Old lists of the same number still tell about how long the new ones will be.
+  for (std::size_t place = 0; place < query.nodes.size(); ++place)
+    if (near_[place].limit < 0.0 && left_[place].limit >= 0.0)
+    {
+      std::swap(near_[place], left_[place]);
+      near_[place].holds = false;
+    }
   for (Neighbourhood& left : left_)
-    left.limit = -1.0;
+    left.forget();
 }
 
 }  // namespace endovascular_sim::contact

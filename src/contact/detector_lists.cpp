@@ -69,6 +69,16 @@ void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eigen::Vect
   holds = moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
+void Detector::Neighbourhood::forget()
+{
+  limit = -1.0;
+  holds = false;
+  triangles.clear();
+  edges.clear();
+  prisms.clear();
+  ridges.clear();
+}
+
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
   length = (b - a).norm();

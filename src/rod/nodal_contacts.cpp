@@ -17,6 +17,7 @@ constexpr double kLeastCover = 0.1e-3;       // m of the wire's radius that a so
 constexpr double kDeepest = 80e-6;           // m into a wall that does not give way that no motion exceeds
 constexpr double kShareToAxis = 0.8;         // of the way from there to the wire's axis, where that is less
 constexpr double kWideMargin = 5e-6;         // m of a filled balloon's margin, and
+constexpr double kLeastOfMargin = 0.5;       // that growth leaves, so that the wire is not held
 constexpr double kWideMotions = 4.0;         // so many times its last motion
 constexpr int kOnlyAddFromPass = 12;         // later passes only add contacts; those that are left over pull
 constexpr int kLineSearchHalvings = 10;
@@ -54,6 +55,7 @@ void NodalContacts::beginStep(const StepInput& input, contact::ContactSource* so
   source_ = source;
   pass_ = &pass;
   timer_ = &timer;
+  wide_motion_ *= 0.5;
   step_ = input.step;
   substep_ = input.substep;
   vessel_version_ = input.vessel_version;
@@ -72,26 +74,45 @@ double NodalContacts::radiusAt(const contact::Feature& feature) const
   return first == second ? first : (1.0 - feature.parameter) * first + feature.parameter * second;
 }
 
-/** Radius of a node or of a neighbour, the largest [m]. */
-double NodalContacts::widestAt(int node) const
+/** By which a node's surface may come closer to a wall that was not listed [m]. */
+double NodalContacts::listedMargin(int node) const
 {
-  return std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))});
+  const auto i = static_cast<std::size_t>(node);
+  return i < margins_.size() ? margins_[i] : settings_.contact_margin * contact::marginShare(radiusOf(node));
 }
 
-/** How far a node may move and none of its edges' points meets what the detector did not list [m]. */
+/** None of its edges' points then meets what the detector did not list. */
 double NodalContacts::marginOf(int node) const
 {
-  return contact::listingMargin(settings_.contact_margin, wide_margin_, widestAt(node));
+  return std::min(
+      {listedMargin(std::max(0, node - 1)), listedMargin(node), listedMargin(std::min(node + 1, rod_.nodes() - 1))});
 }
 
-/** Notes the motion of the wide body that moves most; an earlier, larger one counts by half. */
+/** Of what has just been asked. */
+void NodalContacts::keepMargins()
+{
+  margins_.clear();
+  for (int i = 0; i < query_.first_node; ++i)
+    margins_.push_back(settings_.contact_margin * contact::marginShare(radiusOf(i)));
+  for (std::size_t i = 0; i < query_.nodes.size(); ++i)
+    margins_.push_back(query_.marginAt(i));
+}
+
+/** The node or a neighbour. */
+bool NodalContacts::isWideAt(int node) const
+{
+  return contact::isWide(
+      std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))}));
+}
+
+/** Notes the motion of the wide body that moves most. */
 void NodalContacts::noteWideMotion(const Motion& motion, int first, double factor)
 {
   double most = 0.0;
   for (int i = first; i < rod_.nodes(); ++i)
-    if (contact::isWide(widestAt(i)))
+    if (isWideAt(i))
       most = std::max(most, factor * motion[i].norm());
-  wide_motion_ = std::isinf(wide_motion_) ? most : std::max(most, 0.5 * wide_motion_);
+  wide_motion_ = std::isinf(wide_motion_) ? most : std::max(most, wide_motion_);
 }
 
 /** A filled balloon has the whole wall round it and hardly moves: it is asked about as far as it may soon move. */
@@ -165,7 +186,15 @@ void NodalContacts::setRadii(const std::vector<double>& radii)
 {
   if (radii_.size() == radii.size())
   {
+    dropKept();
     dropBacking();
+    for (std::size_t i = 0; i < margins_.size(); ++i)
+    {
+      const double growth = std::max(0.0, std::max(rod_.radius[i], radii[i]) - radiusOf(static_cast<int>(i)));
+      margins_[i] = std::max(kLeastOfMargin * margins_[i], margins_[i] - growth);
+      if (contact::isWide(radii[i]))
+        wide_motion_ = std::max(wide_motion_, growth);
+    }
     for (contact::Feature& feature : contacts_.features)
     {
       const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
@@ -425,7 +454,10 @@ double NodalContacts::freeDistanceTruncation(const State& state, const Motion& m
   {
     const auto e = static_cast<std::size_t>(j - free_distances_.first_edge);
     const bool known = !free_distances_.stale && e < free_distances_.free_distance.size();
-    const double free = known ? free_distances_.free_distance[e] : 0.0;
+    // Less than the margin there says nothing: what is within is listed, if it was asked with the same one.
+    const auto q = static_cast<std::size_t>(j - query_.first_node);
+    const double told = known ? free_distances_.free_distance[e] : 0.0;
+    const double free = told > std::min(query_.marginAt(q), query_.marginAt(q + 1)) ? told : 0.0;
     const double first = motion[j].norm();
     const double second = motion[j + 1].norm();
     if (factor * first <= marginOf(j) && factor * second <= marginOf(j + 1))
@@ -561,7 +593,7 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
   send(answer, report);
   if (answer.stale)
     return;
-  wide_margin_ = query_.wide_margin;
+  keepMargins();
   // The first point stood inside of its edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)
@@ -590,7 +622,6 @@ void NodalContacts::askFreeDistances(const State& state, const Motion& motion, d
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
   query_.wanted_free_distance = farthest;
-  query_.wide_margin = wide_margin_;
   send(free_distances_, report);
 }
 

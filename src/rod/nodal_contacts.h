@@ -59,8 +59,8 @@ public:
    * it grows [m]. */
   void setRadii(const std::vector<double>& radii);
 
-  /** Margin of wide bodies in the present contacts; infinite: nothing but their width makes it less [m]. */
-  double wideMargin() const { return wide_margin_; }
+  /** How far a node may move before the features within reach of it are not all among the present contacts [m]. */
+  double marginOf(int node) const;
 
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
@@ -143,14 +143,15 @@ private:
   void carry();
   void settleOffset(int index, std::vector<double>& offset) const;
   double carriedForce(const contact::Feature& feature) const;
-  void moveRadii(int added);
+  static void moveNodes(int added, std::vector<double>& of_nodes);
   void moveToSampling(contact::Feature& feature, const Discretisation& to) const;
   void listCrossings(const State& state);
   double radiusOf(int node) const;
   double radiusAt(const contact::Feature& feature) const;
   double toleratedDepth(const contact::Feature& feature) const;
-  double widestAt(int node) const;
-  double marginOf(int node) const;
+  double listedMargin(int node) const;
+  bool isWideAt(int node) const;
+  void keepMargins();
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
@@ -186,7 +187,7 @@ private:
   bool valid_ = false;
   bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
-  double wide_margin_ = std::numeric_limits<double>::infinity();  ///< of wide bodies, in the last fresh contact set [m]
+  std::vector<double> margins_;  ///< of the nodes in the last fresh contact set, less what they have grown by since [m]
   double wide_motion_ = std::numeric_limits<double>::infinity();  ///< of the wide body that moved most of late [m]
   double stale_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;

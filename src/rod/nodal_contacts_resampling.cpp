@@ -28,20 +28,21 @@ void NodalContacts::resample(const Discretisation& to)
     else
       moveToSampling(feature, to);
   valid_ = valid_ && same;
-  if (!same)
-    radii_.clear();
-  else if (!radii_.empty())
-    moveRadii(added);
+  for (std::vector<double>* of_nodes : {&radii_, &margins_})
+    if (!same)
+      of_nodes->clear();
+    else if (!of_nodes->empty())
+      moveNodes(added, *of_nodes);
   carry();
 }
 
 /** Nodes have come or gone before those that were asked about. */
-void NodalContacts::moveRadii(int added)
+void NodalContacts::moveNodes(int added, std::vector<double>& of_nodes)
 {
   if (added > 0)
-    radii_.insert(radii_.begin(), static_cast<std::size_t>(added), 0.0);
+    of_nodes.insert(of_nodes.begin(), static_cast<std::size_t>(added), of_nodes.front());
   else
-    radii_.erase(radii_.begin(), radii_.begin() - added);
+    of_nodes.erase(of_nodes.begin(), of_nodes.begin() - added);
 }
 
 void NodalContacts::moveToSampling(contact::Feature& feature, const Discretisation& to) const

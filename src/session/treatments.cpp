@@ -145,8 +145,8 @@ double Treatments::lastWidth(const Worked& worked, double from_tip)
   return worked.widths[k - 1] + t * (worked.widths[k] - worked.widths[k - 1]);
 }
 
-/** Radii that a balloon would have in a wider vessel. */
-void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod)
+/** Radii that a balloon would have in a wider vessel. @param growth that it may widen by [m] */
+void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod, double growth)
 {
   const double tip = tipOf(worked.instrument, state, rod);
   const double covered_from = coveredFrom(worked.instrument, state, rod);
@@ -161,7 +161,7 @@ void Treatments::widen(Worked& worked, const rod::State& state, const rod::Discr
     if (places_.empty())
       worked.last_node = i;
     const double hard = worked.treatment.crossingRadiusAt(from_tip);
-    const double most = std::max(hard, lastWidth(worked, from_tip)) + kGrowth;
+    const double most = std::max(hard, lastWidth(worked, from_tip)) + growth;
     radii_[i] = std::max({radii_[i], hard, std::min(worked.treatment.radiusAt(from_tip), most)});
     hard_[i] = std::max(hard_[i], hard);
     places_.push_back(from_tip);
@@ -199,7 +199,7 @@ const std::vector<double>& Treatments::contactRadii(const rod::State& state, con
   radii_.assign(state.position.size(), 0.0);
   hard_.assign(state.position.size(), 0.0);
   for (Worked& worked : treatments_)
-    widen(worked, state, rod);
+    widen(worked, state, rod, contacts.stale ? 0.0 : kGrowth);  // not into a wall that nobody has seen
   giveWay(state, rod, contacts);
   for (Worked& worked : treatments_)
   {

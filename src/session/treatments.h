@@ -100,7 +100,7 @@ private:
   void collectEvents(const Worked& worked, std::uint64_t step);
   void addEvent(std::uint64_t step, int instrument, TreatmentEvent event);
   static double lastWidth(const Worked& worked, double from_tip);
-  void widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod);
+  void widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod, double growth);
   void giveWay(const rod::State& state, const rod::Discretisation& rod, const contact::ContactSet& contacts);
   void pressWall(std::uint64_t step);
 

@@ -20,6 +20,8 @@ public:
 
   void detect(const contact::Query& query, contact::ContactSet& set) override
   {
+    if (query.wanted_free_distance <= 0.0)
+      wide_margin = query.wide_margin;
     set.features.clear();
     set.first_edge = query.first_node;
     set.free_distance.clear();
@@ -46,8 +48,9 @@ public:
     set.stale = stale;
   }
 
-  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m²]
-  bool stale = false;                                          ///< what is said of the answers
+  double stiffness = std::numeric_limits<double>::infinity();    ///< [N/m²]
+  double wide_margin = std::numeric_limits<double>::infinity();  ///< that features were last asked for with [m]
+  bool stale = false;                                            ///< what is said of the answers
 
 private:
   double friction_;
