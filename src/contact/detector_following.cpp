@@ -12,7 +12,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr std::size_t kFewElsewhere = 4;  // nodes that are no longer where their lists are, and not for another number
+constexpr std::size_t kFewElsewhere = 4;  // nodes that are elsewhere without others having come or gone
 constexpr int kNearby = 3;                // numbers by which a node's may have changed since its neighbour's has
 
 }  // namespace
@@ -58,7 +58,7 @@ void Detector::followWire(const Query& query)
 }
 
 /** Where nodes have come or gone, all those behind have other numbers than when they were listed: hands each node the
- *  lists that were made about where it is, if there are any. Those of other places are forgotten. */
+ *  lists that were made about where it is, if there are any. */
 void Detector::handOver(const Query& query)
 {
   constexpr std::array<int, 2 * kNearby + 1> kSteps{0, 1, -1, 2, -2, 3, -3};

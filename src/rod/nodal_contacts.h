@@ -152,6 +152,8 @@ private:
   double listedMargin(int node) const;
   bool isWideAt(int node) const;
   void keepMargins();
+  void spendMargins(const std::vector<double>& radii);
+  double growthTo(double radius, int node) const;
   double lengthOf(int index) const;
   double shareAtNode(int index) const;
   double lengthTowards(int index, int edge, double place, int direction) const;
