@@ -79,8 +79,10 @@ private:
   struct alignas(64) Cones
   {
     std::array<Lanes, 3> axis;  ///< unit
-    Lanes radius;               ///< of the balls round the boxes, as made [m]: boxes that move have open cones
-    Lanes facet, ridge;         ///< as of a Cone, about the axis; kOpen: anywhere
+    /** Of the cylinders about the axes round what is in the boxes, from the boxes' middles, as made [m]: boxes that
+     * move have open cones. */
+    Lanes radius, bottom, top;
+    Lanes facet, ridge;  ///< as of a Cone, about the axis; kOpen: anywhere
   };
 
   /** A place in a node. */
@@ -110,6 +112,7 @@ private:
   void openAllCones();
   void setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone);
   void widenCone(int node);
+  void enclose(int triangle, Place place);
   bool hasRidge(int node, int lane) const { return ((ridged_[node] >> lane) & 1) != 0; }
   /** How far four boxes are from another one along an axis; negative where they overlap [m]. */
   static Lanes gaps(const Node& node, const Box& box, int axis)

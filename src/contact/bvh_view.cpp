@@ -14,13 +14,14 @@ namespace
 {
 
 constexpr std::size_t kHandful = 128;      // triangles that are handed over at once
+constexpr float kFarOff = 1e3F;            // m
 constexpr float kOpen = 1e6F;              // tangent of a cone that holds any direction
 constexpr double kWidestCone = 1.2;        // rad: wider ones are open
 constexpr double kConeRounding = 1e-4;     // rad
 constexpr float kPlaceRounding = 0.5e-6F;  // m
 constexpr float kSquareRounding = 1e-5F;   // of squared distances
 constexpr std::uint8_t kAllLanes = 0xF;
-constexpr float kWideBox = 0.3e-3F;  // m of radius: wider ones are seldom hidden
+constexpr float kWideBox = 1.2e-3F;  // m of radius: wider ones are seldom hidden
 
 /** Tangent of a cone that is wider by an angle; infinite: it holds any direction. */
 double widened(double tangent, double angle)
@@ -43,6 +44,8 @@ void Bvh::openAllCones()
   for (Lanes& axis : open.axis)
     axis.setZero();
   open.radius.setZero();
+  open.bottom.setConstant(kFarOff);
+  open.top.setConstant(-kFarOff);
   open.facet.setConstant(kOpen);
   open.ridge.setConstant(kOpen);
   cones_.assign(nodes_.size(), open);
@@ -52,21 +55,11 @@ void Bvh::openAllCones()
 
 void Bvh::setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone)
 {
-  const Node& node = nodes_[place.node];
   Cones& cones = cones_[place.node];
-  float squared = 0.0F;
   for (int k = 0; k < 3; ++k)
-  {
     cones.axis[k][place.lane] = static_cast<float>(axis[k]);
-    const float size = node.high[k][place.lane] - node.low[k][place.lane];
-    squared += size * size;
-  }
-  const float radius = (0.5F + kSquareRounding) * std::sqrt(squared) + kPlaceRounding;
-  cones.radius[place.lane] = radius;
   cones.facet[place.lane] = laneTangent(cone.facet);
   cones.ridge[place.lane] = laneTangent(cone.ridge);
-  if (radius < kWideBox && cones.facet[place.lane] < kOpen)
-    pointed_[place.node] = 1;
   if (cone.ridge < 0.0)
     ridged_[place.node] &= static_cast<std::uint8_t>(~(1U << place.lane));
 }
@@ -78,6 +71,34 @@ void Bvh::setCones(const std::vector<Cone>& cones)
     setCone(place_of_[t], wall_->normals[t], cones[t]);
   for (int n = static_cast<int>(nodes_.size()) - 1; n > 0; --n)
     widenCone(n);
+  for (int t = 0; t < static_cast<int>(cones.size()); ++t)
+    for (Place place = place_of_[t]; place.node >= 0; place = above_[place.node])
+      enclose(t, place);
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    pointed_[n] = (cones_[n].radius < kWideBox && cones_[n].facet < kOpen).any() ? 1 : 0;
+}
+
+/** Makes the cylinder round a cone's axis hold a triangle. */
+void Bvh::enclose(int triangle, Place place)
+{
+  const Node& node = nodes_[place.node];
+  Cones& cones = cones_[place.node];
+  const int lane = place.lane;
+  for (int vertex : wall_->triangles[triangle])
+  {
+    double height = 0.0;
+    double squared = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double from = wall_->vertices[vertex][k] - 0.5F * (node.low[k][lane] + node.high[k][lane]);
+      height += from * cones.axis[k][lane];
+      squared += from * from;
+    }
+    const double beside = std::sqrt(std::max(0.0, squared - height * height));
+    cones.radius[lane] = std::max(cones.radius[lane], static_cast<float>(beside) + kPlaceRounding);
+    cones.bottom[lane] = std::min(cones.bottom[lane], static_cast<float>(height) - kPlaceRounding);
+    cones.top[lane] = std::max(cones.top[lane], static_cast<float>(height) + kPlaceRounding);
+  }
 }
 
 /** Makes the cone above a node hold those in it. */
@@ -153,8 +174,8 @@ struct Bvh::Sight
       onto += along[k] * from;
     }
     const Lanes reach = cones.radius + room;
-    const Lanes low = height.min(height + climb) - reach;
-    const Lanes high = height.max(height + climb) + reach;
+    const Lanes low = height.min(height + climb) - cones.top - room;
+    const Lanes high = height.max(height + climb) - cones.bottom + room;
     // The least squared distance from the axis, rounded down.
     const Lanes cross = onto - height * climb;
     const Lanes flat2 = (squared - climb * climb).max(1e-20F);
@@ -191,13 +212,13 @@ void Bvh::collect(const View& facets, const View& ridges, std::vector<int>& tria
     const int index = stack[--top];
     const Node& node = nodes_[index];
     Lanes none = facet_sight.apart(node);
-    Lanes none_ridged = ridge_sight.apart(node);
+    Lanes none_ridged = Lanes::Ones();
     if (pointed_[index] != 0)
-    {
-      const Cones& cones = cones_[index];
-      none = none.max(facet_sight.hidden(node, cones, cones.facet));
-      none_ridged = none_ridged.max(ridge_sight.hidden(node, cones, cones.ridge));
-    }
+      none = none.max(facet_sight.hidden(node, cones_[index], cones_[index].facet));
+    if (ridged_[index] != 0)
+      none_ridged = ridge_sight.apart(node);
+    if (ridged_[index] != 0 && pointed_[index] != 0)
+      none_ridged = none_ridged.max(ridge_sight.hidden(node, cones_[index], cones_[index].ridge));
     if (count + kWidth > kHandful)
       handOver(found, count, triangles);
     if (count_ridged + kWidth > kHandful)

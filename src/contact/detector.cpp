@@ -136,16 +136,19 @@ void Detector::makePrism(int triangle)
 /** Where a reflex edge is closest, the point lies between both triangles' normals, where a reflex vertex is, in its
  *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle: corners of any angle will do.
  *  Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the wall
- *  folds there by more than a right angle. */
+ *  folds there by more than a right angle. What belongs to another triangle is seen there. */
 void Detector::setSlopes(int triangle, Prism& prism) const
 {
   double widest_edge = 0.0;    // rad
   double widest_corner = 0.0;  // rad
   for (int k = 0; k < 3; ++k)
   {
-    const double angle = wall_.edges[wall_.triangle_edges[triangle][k]].reflex_angle;
+    const WallEdge& edge = wall_.edges[wall_.triangle_edges[triangle][k]];
+    if (edge.triangles[0] == triangle)
+      widest_edge = std::max(widest_edge, edge.reflex_angle > -kSharp ? edge.reflex_angle : M_PI);
     const int vertex = wall_.triangles[triangle][k];
-    widest_edge = std::max(widest_edge, angle > -kSharp ? angle : M_PI);
+    if (wall_.ownerOf(vertex) != triangle)
+      continue;
     if (wall_.vertex_reflex[vertex] != 0)
       widest_corner = std::max(widest_corner, angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) +
                                                   wall_.vertex_cone[vertex]);
@@ -326,8 +329,10 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     return true;
   }
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
-  const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+  vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  if (closest.edge >= 0)
+    closest.point = placeOnEdge(point, wall_.triangle_edges[triangle][closest.edge]);
   const Eigen::Vector3d offset = point - closest.point;
   const double squared = offset.squaredNorm();
   if (squared > limit * limit)
@@ -354,6 +359,7 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     if ((!outside && edge.reflex_angle <= 0.0) || offset.dot(edge.into_triangle[0]) > kConeTolerance ||
         offset.dot(edge.into_triangle[1]) > kConeTolerance)
       return false;
+    feature.triangle = edge.triangles[0];
     feature.id = featureId(e, kEdge);
   }
   else
@@ -363,12 +369,22 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     outside = offset.dot(pseudo_normal) < 0.0;
     if ((!outside && !wall_.vertex_reflex[vertex]) || !vertexIsMinimum(vertex, offset))
       return false;
+    feature.triangle = wall_.ownerOf(vertex);
     feature.id = featureId(vertex, kVertex);
   }
   const double sign = outside ? -1.0 : 1.0;
   feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : pseudo_normal;
   feature.gap = sign * distance;
   return true;
+}
+
+/** Closest point of a mesh edge: the same from both of its triangles. */
+Eigen::Vector3d Detector::placeOnEdge(const Eigen::Vector3d& point, int wall_edge) const
+{
+  const WallEdge& edge = wall_.edges[wall_edge];
+  const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
+  const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - begin;
+  return begin + clampedShare((point - begin).dot(along) / along.squaredNorm()) * along;
 }
 
 bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const

@@ -184,6 +184,7 @@ private:
   double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
+  Eigen::Vector3d placeOnEdge(const Eigen::Vector3d& point, int wall_edge) const;
   bool canMeet(const AxisSegment& segment, int wall_edge, double limit) const;
   bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<TaperedSegment>& cone,
                 int wall_edge, double limit, Feature& feature, double& distance) const;

@@ -14,10 +14,10 @@ constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge: more is no roundin
 struct alignas(64) Prism  // what every search reads fills two cache lines
 {
   std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
-  /** A closest point on an edge can be a local minimum in front of the triangle only while the foot lies no farther
-   * from the edge's line than so much of the height; infinite: not bounded. */
+  /** A closest point on an edge that belongs to the triangle can be a local minimum in front of it only while the foot
+   * lies no farther from the edge's line than so much of the height; infinite: not bounded. */
   double edge_slope = 0.0;
-  double corner_slope = 0.0;                 ///< the same of a closest point at a corner, and of that
+  double corner_slope = 0.0;                 ///< the same of a closest point at a corner that does, and of that
   std::array<int, 3> own_edges{-1, -1, -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
   bool has_moved = false;                    ///< it, its edges or what is around them, ever
 

@@ -56,6 +56,10 @@ public:
    *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
   std::vector<Eigen::Matrix3d> curvature;
 
+  /** The triangle that a vertex belongs to: the first one that it is a corner of. An edge belongs to its first
+   * triangle. */
+  int ownerOf(int vertex) const { return vertex_triangles_[vertex].front(); }
+
   /** What a movement of vertices has changed. */
   struct Changes
   {
