@@ -101,7 +101,7 @@ TEST(Simulation, KeepsTheWireInsideARealAortaForSeveralHandAngles)
   {
     Bench bench("peer_wire.yaml", {std::string("vessel.mesh=") + folder + "/aortic_arch_tree.obj",
                                    std::string("drive.initial_rotation=") + angle});
-    expectInside(bench, 11.5, 3.5e-4, 100);
+    expectInside(bench, 11.5, 1e-4, 100);
   }
 }
 
