@@ -114,8 +114,9 @@ private:
 
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
-    /** Whether the wire is about where it was listed; else its lists may be another node's. */
-    bool isHere() const { return limit >= 0.0 && moved < 1.5 * room; }
+    /** Whether the wire is about where it was listed, hardly moved or by much less than an edge; else its lists may be
+     * another node's. */
+    bool isHere() const { return limit >= 0.0 && moved < std::max(1.5 * room, 0.25 * length); }
     /** Has nothing listed any more. */
     void forget();
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "session/scene_schema.h"
 #include "vessel/anatomy_mesh.h"
 #include "vessel/centreline_extraction.h"
 #include "vessel/mesh_check.h"
@@ -217,6 +218,27 @@ EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, co
     pose = resolveEntry(entry, origin);
   requireInside(pose, vessel, origin);
   pose.room = roomAround(pose.position, vessel.mesh);
+  return pose;
+}
+
+EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel)
+{
+  EntryPose pose = resolveEntry(scene.entry, vessel, scene.file);
+  if (!scene.introducer)
+    return pose;
+  const vessel::MeshDistance wall(vessel.mesh);
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    const double inserted = scene.instruments[k].drive.insertionAt(0.0);
+    const double free = inserted > pose.room ? wall.rayHit(pose.position, pose.direction) : -1.0;
+    if (free < 0.0 || inserted < free)
+      continue;
+    char most[32];
+    std::snprintf(most, sizeof most, "%.3g m", free);
+    throw InputError(scene.file, drivePath(scene, k) + "drive.initial_insertion",
+                     "puts the instrument, which begins straight, through the vessel's wall; must be less than " +
+                         std::string(most) + " along entry.direction from entry.position");
+  }
   return pose;
 }
 

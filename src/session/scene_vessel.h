@@ -51,4 +51,8 @@ EntryPose resolveEntry(const EntryScene& entry, const std::string& origin = "sce
  *  @throws InputError when the named end does not exist (listing those that do) or the entry is not inside */
 EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, const std::string& origin = "scene");
 
+/** The same for a scene whose instruments begin there.
+ *  @throws InputError as above, and where an instrument, which begins straight, would begin in the wall */
+EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel);
+
 }  // namespace endovascular_sim::session

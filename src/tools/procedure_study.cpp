@@ -102,7 +102,7 @@ int parse(int argc, char** argv, Options& options)
 /** One run. @return what became of it; empty: success */
 std::string run(const session::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
 {
-  const session::EntryPose entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  const session::EntryPose entry = session::resolveStart(scene, vessel);
   contact::Detector wall(vessel.mesh, session::wallLaw(*scene.vessel));
   procedure::SessionRun session(scene, vessel, entry.position);
   const std::unique_ptr<session::MovingWall> moving_wall = session::makeMovingWall(scene, vessel, wall);

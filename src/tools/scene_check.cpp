@@ -41,7 +41,7 @@ void checkVessel(const endovascular_sim::session::Scene& scene)
       session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
-  const session::EntryPose entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  const session::EntryPose entry = session::resolveStart(scene, vessel);
   const procedure::SessionRun goals(scene, vessel, entry.position);
 }
 

@@ -231,7 +231,7 @@ Surroundings build(const session::Scene& scene)
       session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
-  made.entry = session::resolveEntry(scene.entry, vessel, scene.file);
+  made.entry = session::resolveStart(scene, vessel);
   made.centreline = vessel.centreline;
   made.wall_points = vessel.mesh.vertices;
   made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);

@@ -219,15 +219,29 @@ TEST(Scene, AppliesOverridesInOrderAndByListIndex)
   EXPECT_EQ(scene.loads.gravity.z(), -9.81);
 }
 
+/** Leaves the data folder to the tests that follow as it was. */
+class DataFolderAsItWas
+{
+public:
+  DataFolderAsItWas() : was_(std::getenv(kName) != nullptr ? std::getenv(kName) : "") {}
+  ~DataFolderAsItWas() { was_.empty() ? unsetenv(kName) : setenv(kName, was_.c_str(), 1); }
+
+  static constexpr const char* kName = "ENDOVASCULAR_DATA_DIR";
+
+private:
+  std::string was_;
+};
+
 TEST(Scene, SeeksPathsInTheConfigFolderBesideTheSceneAndInTheDataFolder)
 {
+  const DataFolderAsItWas as_it_was;
   const std::string mesh = someMesh();
   const Names entry = {"vessel={mesh: endovascular_sim_scene_test.stl, unit: 1, friction: 0}",
                        "entry={position: [0,0,0], direction: [0,0,1]}"};
-  setenv("ENDOVASCULAR_DATA_DIR", std::filesystem::temp_directory_path().c_str(), 1);
+  setenv(DataFolderAsItWas::kName, std::filesystem::temp_directory_path().c_str(), 1);
   EXPECT_EQ(std::filesystem::path(loadScene(kBench, entry).vessel->mesh),
             std::filesystem::path(mesh).lexically_normal());
-  unsetenv("ENDOVASCULAR_DATA_DIR");
+  unsetenv(DataFolderAsItWas::kName);
   EXPECT_THROW(loadScene(kBench, entry), InputError);
   EXPECT_NO_THROW(loadScene(kBench, {"instrument=instruments/peer_j_wire.yaml"}));
   EXPECT_NO_THROW(loadScene(kBench, {"instrument=../../../config/instruments/peer_j_wire.yaml"}));

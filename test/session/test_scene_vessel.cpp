@@ -197,5 +197,37 @@ TEST(SceneVessel, RefusesAnOffsetLongerThanTheBranch)
   EXPECT_NE(refusal([&] { resolveEntry(entry, vessel, "scene.yaml"); }).find("entry.offset"), std::string::npos);
 }
 
+/** A tube that bends after 50 mm. */
+Scene bentScene(const std::string& initial_insertion)
+{
+  return loadScene(PROJECT_DIR "/config/scenes/tube.yaml", {"drive.initial_insertion=" + initial_insertion});
+}
+
+TEST(SceneVessel, LetsInstrumentsBeginAsFarInAsTheyLieStraight)
+{
+  for (const char* insertion : {"0.005", "0.01", "0.05"})
+  {
+    const Scene scene = bentScene(insertion);
+    const vessel::Vessel vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
+    EXPECT_EQ(resolveStart(scene, vessel).position, scene.entry.position) << insertion;
+  }
+}
+
+TEST(SceneVessel, RefusesAnInstrumentThatWouldBeginThroughTheWallAndTellsHowFarInItMayBe)
+{
+  const Scene scene = bentScene("0.12");
+  const vessel::Vessel vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
+  const std::string message = refusal([&] { resolveStart(scene, vessel); });
+  EXPECT_NE(message.find("tube.yaml"), std::string::npos) << message;
+  EXPECT_NE(message.find("drive.initial_insertion"), std::string::npos) << message;
+  // The tube's outer side is met where the bend of radius R has gone sideways by its own radius r.
+  const double bend = 0.03;
+  const double side = scene.vessel->tube->radius;
+  const double most = 0.05 + std::sqrt((bend + side) * (bend + side) - bend * bend);
+  const std::size_t number = message.find("less than ");
+  ASSERT_NE(number, std::string::npos) << message;
+  EXPECT_NEAR(std::stod(message.substr(number + 10)), most, 0.5e-3) << message;
+}
+
 }  // namespace
 }  // namespace endovascular_sim::session

@@ -142,7 +142,7 @@ bool RodLoop::waitForVessel(session::EntryPose& entry, vessel::Vessel& vessel)
   vessel.mesh = fromMessage(*mesh);
   vessel.centreline = fromMessage(*centreline);
   vessel.source = mesh->source;
-  entry = session::resolveEntry(scene_.entry, vessel, scene_.file);
+  entry = session::resolveStart(scene_, vessel);
   forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel, mesh->content_hash);
   if (session::hasBalloon(scene_))
     wall_ = std::make_unique<RemoteWall>(node_, newestVersion(*mesh, node_));
