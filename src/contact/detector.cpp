@@ -77,6 +77,7 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   // The first call shall not wait for memory.
   near_.resize(kUsualNodes);
   left_.resize(kUsualNodes);
+  trails_.resize(kUsualNodes + 1);
   const auto prepare = [](Neighbourhood& near)
   {
     const auto reserve = [](auto& list, std::size_t count)
@@ -209,7 +210,10 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.features.clear();
   const std::size_t n = query.nodes.size();
   if (near_.size() < n)
+  {
     near_.resize(n);
+    trails_.resize(n + 1);
+  }
   followWire(query);
   if (query.wanted_free_distance > 0.0)
   {
@@ -269,12 +273,12 @@ void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first,
 
 void Detector::detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const
 {
-  const Eigen::Vector3d& point = query.nodes[index];
-  const double radius = query.radius[index];
-  const double limit = radius + query.marginAt(index);
   const Neighbourhood& near = neighbourhood(query, index);
   if (near.triangles.empty())
     return;
+  const Eigen::Vector3d& point = query.nodes[index];
+  const double radius = query.radius[index];
+  const double limit = limitAt(query, index);
   const std::size_t first = features.size();
   const bool last = index + 1 == query.nodes.size();
   Feature outside_feature;
@@ -427,15 +431,15 @@ bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit) 
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const
 {
-  const Eigen::Vector3d& a = query.nodes[index];
-  const Eigen::Vector3d& b = query.nodes[index + 1];
-  const std::size_t begin = features.size();
-  const double limit_begin = query.radius[index] + query.marginAt(index);
-  const double limit_end = query.radius[index + 1] + query.marginAt(index + 1);
-  Feature feature;
   const Neighbourhood& near = neighbourhood(query, index);
   if (near.ridges.empty())
     return;
+  const Eigen::Vector3d& a = query.nodes[index];
+  const Eigen::Vector3d& b = query.nodes[index + 1];
+  const std::size_t begin = features.size();
+  const double limit_begin = limitAt(query, index);
+  const double limit_end = limitAt(query, index + 1);
+  Feature feature;
   const double taper = query.radius[index + 1] - query.radius[index];
   std::optional<TaperedSegment> cone;
   if (taper != 0.0)

@@ -96,6 +96,10 @@ private:
    */
   struct Neighbourhood
   {
+    /** m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon
+     * does). */
+    static constexpr double kLimitSlack = 0.1e-3;
+
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();      ///< of the segment on which the edge may lie
     Eigen::Vector3d along = Eigen::Vector3d::Zero();      ///< its direction, unit; 0 for a point
     Eigen::Vector3d listed_at = Eigen::Vector3d::Zero();  ///< where the node was then
@@ -111,18 +115,49 @@ private:
     std::vector<RidgeQuad> ridges;  ///< of the edges
     bool holds = false;             ///< whether the lists hold all that the wire may meet where it is now
     bool wall_differs = false;      ///< from what they hold
+    bool was_long = false;          ///< when they were made
 
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     /** Whether the wire is about where it was listed, hardly moved or by much less than an edge; else its lists may be
      * another node's. */
     bool isHere() const { return limit >= 0.0 && moved < std::max(1.5 * room, 0.25 * length); }
+    /** Whether there is nothing to make anew. */
+    bool isUpToDate() const { return holds && !wall_differs; }
     /** Has nothing listed any more. */
     void forget();
+    /** Has nothing listed, but knows of the last lists what new ones depend on. */
+    void comeAfter(const Neighbourhood& last);
+    /** How far a node has come along the wire since it was where the lists begin [m]. */
+    double past(const Eigen::Vector3d& node) const { return (node - begin).dot(along); }
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
-    /** From a place of the segment no farther than that from its begin [m]. */
-    double distanceTo(const Eigen::Vector3d& point, double farthest) const;
+    double squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const;
     Eigen::Vector3d end() const { return begin + length * along; }
+  };
+
+  /** What nodes that slid on have left where they were: lists of places between a node and the one behind it, in their
+   * order along the wire. */
+  class Trail
+  {
+  public:
+    /** Of the trail's two ends, the one at the node that it is behind. */
+    enum class End
+    {
+      kRear,
+      kFront,
+    };
+
+    bool empty() const { return count_ == 0; }
+    Neighbourhood& at(End end) { return ring_[end == End::kRear ? first_ : (first_ + count_ - 1) % ring_.size()]; }
+    void drop(End end);
+    /** A place at an end to leave lists in; where there is no room, the other end's are lost. */
+    Neighbourhood& extend(End end);
+    void clear() { count_ = 0; }
+
+  private:
+    std::array<Neighbourhood, 8> ring_;
+    std::size_t first_ = 0;
+    std::size_t count_ = 0;
   };
 
   /** Triangles that something was listed from. */
@@ -149,10 +184,24 @@ private:
     double inverse_square = 0.0;        ///< of its length [1/m²]; 0 for a point
   };
 
-  /** Index by which a node or edge is remembered. */
-  static int placeFromTip(const Query& query, std::size_t index);
-  static std::size_t nextNode(const Query& query, std::size_t index);
-  static double listedLimit(const Query& query, std::size_t index);
+  /** Index by which a node or edge is remembered: from the tip, so that nodes that come and go at the wire's other end
+   * change nothing. */
+  static int placeFromTip(const Query& query, std::size_t index)
+  {
+    return static_cast<int>(query.nodes.size() - 1 - index);
+  }
+  /** The other end of the edge behind a node; the tip has none. */
+  static std::size_t nextNode(const Query& query, std::size_t index)
+  {
+    return std::min(index + 1, query.nodes.size() - 1);
+  }
+  /** Distance from a node up to which features are wanted [m]. */
+  static double limitAt(const Query& query, std::size_t index) { return query.radius[index] + query.marginAt(index); }
+  /** Of a node and the edge behind it. */
+  static double listedLimit(const Query& query, std::size_t index)
+  {
+    return std::max(limitAt(query, index), limitAt(query, nextNode(query, index)));
+  }
   const Neighbourhood& neighbourhood(const Query& query, std::size_t index) const
   {
     return near_[placeFromTip(query, index)];
@@ -160,6 +209,8 @@ private:
   void followWire(const Query& query);
   static void followNode(const Query& query, std::size_t index, Neighbourhood& near);
   void handOver(const Query& query);
+  void slideOn(const Query& query, std::size_t place);
+  static bool takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, Neighbourhood& near);
   void renewLists(const Query& query);
   void renewList(const Query& query, std::size_t index, Collected& collected);
   void list(Neighbourhood& near, Collected& collected) const;
@@ -201,6 +252,7 @@ private:
   std::uint64_t vessel_version_;
   std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
   std::vector<Neighbourhood> left_;  ///< while they are handed over; else nothing is listed in them
+  std::vector<Trail> trails_;        ///< before each node and behind the last, by their indices from the tip
   std::uint64_t lists_renewed_ = 0;
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -17,26 +18,21 @@ constexpr int kNearby = 3;                // numbers by which a node's may have 
 
 }  // namespace
 
-/** From the tip, so that nodes that come and go at the wire's other end change nothing. */
-int Detector::placeFromTip(const Query& query, std::size_t index)
+/** From a place of the segment no farther than that from its begin [m²]. */
+inline double Detector::Neighbourhood::squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const
 {
-  return static_cast<int>(query.nodes.size() - 1 - index);
+  const Eigen::Vector3d from = point - begin;
+  return (from - std::max(0.0, std::min(farthest, from.dot(along))) * along).squaredNorm();
 }
 
-/** The other end of the edge behind a node; the tip has none. */
-std::size_t Detector::nextNode(const Query& query, std::size_t index)
+inline void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
-  return std::min(index + 1, query.nodes.size() - 1);
+  // The distance to a segment is convex: between the edge's ends it is no larger than at them.
+  moved = std::sqrt(std::max(squaredDistanceTo(a, reach), squaredDistanceTo(b, length))) + wall_moved;
+  holds = moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
 }
 
-/** Distance up to which features of a node and the edge behind it are wanted [m]. */
-double Detector::listedLimit(const Query& query, std::size_t index)
-{
-  const std::size_t next = nextNode(query, index);
-  return std::max(query.radius[index] + query.marginAt(index), query.radius[next] + query.marginAt(next));
-}
-
-void Detector::followNode(const Query& query, std::size_t index, Neighbourhood& near)
+inline void Detector::followNode(const Query& query, std::size_t index, Neighbourhood& near)
 {
   near.follow(query.nodes[index], query.nodes[nextNode(query, index)], listedLimit(query, index));
 }
@@ -54,7 +50,66 @@ void Detector::followWire(const Query& query)
   if (elsewhere > kFewElsewhere)
     handOver(query);
   for (std::size_t place = 0; place < query.nodes.size(); ++place)
-    lists_renewed_ += near_[place].holds ? 0 : 1;
+    if (!near_[place].holds)
+    {
+      slideOn(query, place);
+      lists_renewed_ += near_[place].holds ? 0 : 1;
+    }
+}
+
+void Detector::Trail::drop(End end)
+{
+  first_ = end == End::kRear ? (first_ + 1) % ring_.size() : first_;
+  --count_;
+}
+
+Detector::Neighbourhood& Detector::Trail::extend(End end)
+{
+  if (count_ == ring_.size())
+    drop(end == End::kRear ? End::kFront : End::kRear);
+  first_ = end == End::kRear ? (first_ + ring_.size() - 1) % ring_.size() : first_;
+  ++count_;
+  return at(end);
+}
+
+/** A node that has slid out of its lists leaves them to the next one that comes there, and takes those that were left
+ *  where it is now. */
+void Detector::slideOn(const Query& query, std::size_t place)
+{
+  Neighbourhood& near = near_[place];
+  const std::size_t index = query.nodes.size() - 1 - place;
+  const double past = near.past(query.nodes[index]);
+  if (near.reach == 0.0 || !near.isHere() || (past >= 0.0 && past <= near.reach))
+    return;
+  const bool forwards = past > 0.0;
+  Trail& before = trails_[place];
+  Trail& behind = trails_[place + 1];
+  Neighbourhood& left = forwards ? behind.extend(Trail::End::kFront) : before.extend(Trail::End::kRear);
+  std::swap(near, left);
+  const bool taken = forwards ? takeOver(query, index, before, Trail::End::kRear, near)
+                              : takeOver(query, index, behind, Trail::End::kFront, near);
+  if (!taken)
+    near.comeAfter(left);
+}
+
+/** Lists of a trail that hold where a node is now, if there are any; what it has passed by is lost. */
+bool Detector::takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, Neighbourhood& near)
+{
+  for (; !trail.empty(); trail.drop(end))
+  {
+    Neighbourhood& there = trail.at(end);
+    const double past = there.past(query.nodes[index]);
+    const double entered = end == Trail::End::kRear ? past : there.reach - past;
+    if (entered < -there.room)
+      return false;
+    followNode(query, index, there);
+    if (!there.holds)
+      continue;
+    std::swap(near, there);
+    trail.drop(end);
+    return true;
+  }
+  return false;
 }
 
 /** Where nodes have come or gone, all those behind have other numbers than when they were listed: hands each node the

@@ -16,9 +16,10 @@ namespace
 constexpr double kRoom = 0.15e-3;       // m by which wire and wall may come closer before what is near is listed anew
 constexpr double kFirstRoom = 0.05e-3;  // m the first time, when lists of the whole wire are made at once
 constexpr double kSlide = 0.5e-3;       // m more that a wire may slide along itself before, when it is expected to
-constexpr double kSlides = 0.05e-3;     // m since the last list by which it has slid then
-// m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon does).
-constexpr double kLimitSlack = 0.1e-3;
+// The same where walls are so fine that long lists cost more to look through than to take over from the next node.
+constexpr double kSlideOfLong = 0.25e-3;
+constexpr std::size_t kLong = 8;     // entries of lists that are not yet long
+constexpr double kSlides = 0.05e-3;  // m since the last list by which it has slid then
 constexpr double kListGuard = 1e-8;  // m by which lists hold more than rounding could miss
 
 /** Less by more than rounding could add. */
@@ -41,6 +42,8 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
     const double far = half + room + near.limit + near.room + kListGuard;
     return near.limit >= 0.0 && room >= 0.0 && moved.exteriorDistance(near.begin + half * near.along) <= far;
   };
+  for (Trail& trail : trails_)
+    trail.clear();
   for (Neighbourhood& near : near_)
     if (touches(near))
     {
@@ -56,19 +59,6 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
     }
 }
 
-double Detector::Neighbourhood::distanceTo(const Eigen::Vector3d& point, double farthest) const
-{
-  const Eigen::Vector3d from = point - begin;
-  return (from - std::max(0.0, std::min(farthest, from.dot(along))) * along).norm();
-}
-
-void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
-{
-  // The distance to a segment is convex: between the edge's ends it is no larger than at them.
-  moved = std::max(distanceTo(a, reach), distanceTo(b, length)) + wall_moved;
-  holds = moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
-}
-
 void Detector::Neighbourhood::forget()
 {
   limit = -1.0;
@@ -79,12 +69,20 @@ void Detector::Neighbourhood::forget()
   ridges.clear();
 }
 
+void Detector::Neighbourhood::comeAfter(const Neighbourhood& last)
+{
+  forget();
+  was_long = last.was_long;
+  limit = last.limit;
+  listed_at = last.listed_at;
+}
+
 void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
   length = (b - a).norm();
   along = length > 0.0 ? Eigen::Vector3d((b - a) / length) : Eigen::Vector3d::Zero();
   const double slid = limit < 0.0 ? 0.0 : (a - listed_at).dot(along);
-  reach = std::abs(slid) > kSlides ? kSlide : 0.0;
+  reach = std::abs(slid) > kSlides ? (was_long ? kSlideOfLong : kSlide) : 0.0;
   length += reach;
   begin = slid < 0.0 ? Eigen::Vector3d(a - reach * along) : a;
   listed_at = a;
@@ -98,7 +96,8 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
 void Detector::renewLists(const Query& query)
 {
   for (std::size_t index = 0; index < query.nodes.size(); ++index)
-    renewList(query, index, collected_);
+    if (!neighbourhood(query, index).isUpToDate())
+      renewList(query, index, collected_);
 }
 
 /** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
@@ -132,6 +131,7 @@ void Detector::list(Neighbourhood& near, Collected& collected) const
   const auto by_index = [](const Near& one, const Near& other) { return one.index < other.index; };
   std::sort(near.triangles.begin(), near.triangles.end(), by_index);
   std::sort(near.edges.begin(), near.edges.end(), by_index);
+  near.was_long = near.triangles.size() + near.edges.size() > kLong;
   pack(near);
 }
 
