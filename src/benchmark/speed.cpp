@@ -170,11 +170,12 @@ Section growth(const StudyOptions& options, const Progress& progress, const std:
       wire.strain_tolerance = 5e-5;
       BenchRun run(sceneText(wire));
       run.advance(0.02);
+      const std::vector<session::HandCommand> at_rest(1);
       const std::uint64_t allocated = allocations ? allocations() : 0;
       const std::uint64_t begin = cycles();
       const int steps = std::max(20, 100000 / nodes);
       for (int k = 0; k < steps; ++k)
-        run.simulation().step({});
+        run.simulation().stepAll(at_rest);
       const double cycles_per_step = static_cast<double>(cycles() - begin) / steps;
       const double allocations_per_step = allocations ? static_cast<double>(allocations() - allocated) / steps : NAN;
       const RunSummary summary = run.advance(steps * 1e-3);

@@ -63,12 +63,20 @@ struct Query
   std::uint64_t vessel_version = 0;  ///< of the wall that is to be searched; 0: whichever there is
   double margin = 0.0;               ///< features closer than this to the wire's surface are listed, see marginAt [m]
   double wide_margin = std::numeric_limits<double>::infinity();  ///< a wide body's is no larger [m]
-  int first_node = 0;                                            ///< index of nodes[0] in the whole wire
-  std::vector<Eigen::Vector3d> nodes;                            ///< proximal to distal [m]
-  std::vector<double> radius;                                    ///< at each node [m]
+  double fast_margin = 0.0;  ///< instead of the margin at nodes that move fast and are not wide, if larger [m]
+  int fast_begin = 0;        ///< the first of those nodes, by its index in the whole wire
+  int fast_end = 0;          ///< behind the last of them
+  int first_node = 0;        ///< index of nodes[0] in the whole wire
+  std::vector<Eigen::Vector3d> nodes;  ///< proximal to distal [m]
+  std::vector<double> radius;          ///< at each node [m]
 
   /** What counts as near at one of the nodes, evenly between two of them [m]. */
-  double marginAt(std::size_t node) const { return listingMargin(margin, wide_margin, radius[node]); }
+  double marginAt(std::size_t node) const
+  {
+    const int index = first_node + static_cast<int>(node);
+    const bool fast = index >= fast_begin && index < fast_end && !isWide(radius[node]);
+    return listingMargin(fast ? std::max(margin, fast_margin) : margin, wide_margin, radius[node]);
+  }
 };
 
 /** All wall features near the rod for one state of it (the contract between rod and contact). */

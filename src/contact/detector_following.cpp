@@ -29,7 +29,7 @@ inline void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eige
 {
   // The distance to a segment is convex: between the edge's ends it is no larger than at them.
   moved = std::sqrt(std::max(squaredDistanceTo(a, reach), squaredDistanceTo(b, length))) + wall_moved;
-  holds = moved < room && wanted <= limit && wanted >= limit - kLimitSlack;
+  holds = moved < room && wanted <= limit && wanted >= limit - kLimitKept;
 }
 
 inline void Detector::followNode(const Query& query, std::size_t index, Neighbourhood& near)

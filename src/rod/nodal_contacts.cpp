@@ -52,6 +52,8 @@ void NodalContacts::beginStep(const StepInput& input, contact::ContactSource* so
   pass_ = &pass;
   timer_ = &timer;
   wide_motion_ *= 0.5;
+  fast_before_ = fast_;
+  fast_ = {};
   step_ = input.step;
   substep_ = input.substep;
   vessel_version_ = input.vessel_version;
@@ -449,10 +451,12 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
   widen();
   const double mouth = held.describeMouth(state, query_);
   query_.wide_margin = wantedWideMargin();
+  askFurtherForFastNodes();
   send(answer, report);
   if (answer.stale)
     return;
   keepMargins();
+  keepReaches();
   // The first point stood inside of its edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)

@@ -137,6 +137,17 @@ private:
     void archive(Archive& archive);
   };
 
+  /** Nodes that a snap moves, by their indices from begin to before end. */
+  struct FastNodes
+  {
+    int begin = 0;
+    int end = 0;
+
+    bool empty() const { return begin >= end; }
+    void add(const FastNodes& other);
+    void archive(Archive& archive);
+  };
+
   Spring springOf(int index) const;
   void addBacking();
   void dropBacking();
@@ -149,9 +160,15 @@ private:
   double radiusOf(int node) const;
   double radiusAt(const contact::Feature& feature) const;
   double toleratedDepth(const contact::Feature& feature) const;
+  double usualMargin(int node) const;
   double listedMargin(int node) const;
   bool isWideAt(int node) const;
   void keepMargins();
+  void findClearances();
+  void keepReaches();
+  double leastAround(int node, double (NodalContacts::*value)(int) const) const;
+  void askFurtherForFastNodes();
+  void noteFastNodes(const Motion& motion, int first);
   void spendMargins(const std::vector<double>& radii);
   double growthTo(double radius, int node) const;
   double lengthOf(int index) const;
@@ -190,6 +207,11 @@ private:
   bool moved_on_ = false;  ///< contacts were found since the last solve, whose ones are the previous ones
   bool step_is_stale_ = false;
   std::vector<double> margins_;  ///< of the nodes in the last fresh contact set, less what they have grown by since [m]
+  std::vector<double> reaches_;  ///< how far the nodes may move, by their margins and what they are clear of [m]
+  std::vector<double> clearances_;                                ///< for those [m]
+  bool any_wide_ = false;                                         ///< of the bodies
+  FastNodes fast_;                                                ///< in this step so far
+  FastNodes fast_before_;                                         ///< in the last one
   double wide_motion_ = std::numeric_limits<double>::infinity();  ///< of the wide body that moved most of late [m]
   double stale_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;

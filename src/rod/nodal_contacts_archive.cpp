@@ -16,11 +16,16 @@ void NodalContacts::Carried::archive(Archive& archive)
   archive(id, place, force);
 }
 
+void NodalContacts::FastNodes::archive(Archive& archive)
+{
+  archive(begin, end);
+}
+
 void NodalContacts::archive(Archive& archive)
 {
   archive(contacts_, previous_contacts_, springs_, previous_springs_, carried_, radii_);
-  archive(valid_, moved_on_, step_is_stale_, stale_budget_, margins_, wide_motion_, step_, substep_, vessel_version_,
-          query_.first_node);
+  archive(valid_, moved_on_, step_is_stale_, stale_budget_, margins_, reaches_, any_wide_, fast_, fast_before_,
+          wide_motion_, step_, substep_, vessel_version_, query_.first_node);
 }
 
 }  // namespace endovascular_sim::rod

@@ -28,11 +28,13 @@ void NodalContacts::resample(const Discretisation& to)
     else
       moveToSampling(feature, to);
   valid_ = valid_ && same;
-  for (std::vector<double>* of_nodes : {&radii_, &margins_})
+  for (std::vector<double>* of_nodes : {&radii_, &margins_, &reaches_})
     if (!same)
       of_nodes->clear();
     else if (!of_nodes->empty())
       moveNodes(added, *of_nodes);
+  for (FastNodes* fast : {&fast_, &fast_before_})
+    *fast = same && !fast->empty() ? FastNodes{std::max(0, fast->begin + added), fast->end + added} : FastNodes{};
   carry();
 }
 

@@ -16,21 +16,101 @@ constexpr double kWideMargin = 5e-6;           // m of a filled balloon's margin
 constexpr double kWideMotions = 4.0;           // so many times its last motion
 constexpr double kLeastOfMargin = 0.5;         // that growth leaves, so that the wire is not held
 constexpr double kBeyondMargin = 1.0 + 1e-12;  // for rounding
+constexpr double kFastMotion = 0.6;            // of the margin, in one solve: a node that moves more is fast
+constexpr double kFastMargin = 3.0;            // times the margin, for nodes that are
+constexpr int kBesideFast = 2;                 // nodes on either side that count too
+constexpr double kShareOfClearance = 0.9;      // that a fast node may move
 
 }  // namespace
+
+/** Of a node that is not fast [m]. */
+double NodalContacts::usualMargin(int node) const
+{
+  return settings_.contact_margin * contact::marginShare(radiusOf(node));
+}
 
 /** By which a node's surface may come closer to a wall that was not listed [m]. */
 double NodalContacts::listedMargin(int node) const
 {
   const auto i = static_cast<std::size_t>(node);
-  return i < margins_.size() ? margins_[i] : settings_.contact_margin * contact::marginShare(radiusOf(node));
+  return i < margins_.size() ? margins_[i] : usualMargin(node);
 }
 
-/** None of its edges' points then meets what the detector did not list. */
+/** The least of some nodes' values at a node and its neighbours. */
+double NodalContacts::leastAround(int node, double (NodalContacts::*value)(int) const) const
+{
+  return std::min({(this->*value)(std::max(0, node - 1)), (this->*value)(node),
+                   (this->*value)(std::min(node + 1, rod_.nodes() - 1))});
+}
+
 double NodalContacts::marginOf(int node) const
 {
-  return std::min(
-      {listedMargin(std::max(0, node - 1)), listedMargin(node), listedMargin(std::min(node + 1, rod_.nodes() - 1))});
+  const auto i = static_cast<std::size_t>(node);
+  return i < reaches_.size() ? reaches_[i] : leastAround(node, &NodalContacts::usualMargin);
+}
+
+void NodalContacts::FastNodes::add(const FastNodes& other)
+{
+  if (other.empty())
+    return;
+  begin = empty() ? other.begin : std::min(begin, other.begin);
+  end = std::max(end, other.end);
+}
+
+/** From the first to the last one that a solve wants to move by much of the margin. */
+void NodalContacts::noteFastNodes(const Motion& motion, int first)
+{
+  const double fast = kFastMotion * settings_.contact_margin;
+  for (int i = first; i < rod_.nodes(); ++i)
+    if (motion[i].squaredNorm() > fast * fast)
+      fast_.add({std::max(0, i - kBesideFast), std::min(i + kBesideFast + 1, rod_.nodes())});
+}
+
+/** A snap takes the wire farther than the margin in one step: where it is under way it is asked about farther off, so
+ *  that fewer solves have to be cut short. */
+void NodalContacts::askFurtherForFastNodes()
+{
+  FastNodes fast = fast_before_;
+  fast.add(fast_);
+  query_.fast_begin = fast.begin;
+  query_.fast_end = fast.end;
+  query_.fast_margin = fast.empty() ? 0.0 : kFastMargin * settings_.contact_margin;
+}
+
+/** How far the axis of every node's edges is from the wall: where a contact is listed, by it, else at least by the
+ *  margin. The distance to the wall is least at a contact or at a node [m]. */
+void NodalContacts::findClearances()
+{
+  clearances_.clear();
+  for (int i = 0; i < rod_.nodes(); ++i)
+    clearances_.push_back(radiusOf(i) + listedMargin(i));
+  for (const contact::Feature& feature : contacts_.features)
+  {
+    const double clearance = std::max(0.0, feature.gap + radiusAt(feature));
+    const int from = std::max(0, feature.edge - (feature.parameter <= 0.0 ? 1 : 0));
+    const int to = std::min(rod_.nodes() - 1, feature.edge + (feature.parameter >= 1.0 ? 2 : 1));
+    for (int i = from; i <= to; ++i)
+      clearances_[i] = std::min(clearances_[i], clearance);
+  }
+}
+
+/** None of a node's edges' points meets what the detector did not list; nor, where that is far off, comes so far that
+ *  the axis could reach any wall at all. */
+void NodalContacts::keepReaches()
+{
+  const bool far = query_.fast_margin > 0.0;
+  if (far)
+    findClearances();
+  reaches_.resize(static_cast<std::size_t>(rod_.nodes()));
+  any_wide_ = false;
+  for (int i = 0; i < rod_.nodes(); ++i)
+  {
+    reaches_[i] = leastAround(i, &NodalContacts::listedMargin);
+    if (far)
+      reaches_[i] = std::min(reaches_[i],
+                             std::max(leastAround(i, &NodalContacts::usualMargin), kShareOfClearance * clearances_[i]));
+    any_wide_ = any_wide_ || contact::isWide(radiusOf(i));
+  }
 }
 
 /** Of what has just been asked. */
@@ -38,7 +118,7 @@ void NodalContacts::keepMargins()
 {
   margins_.clear();
   for (int i = 0; i < query_.first_node; ++i)
-    margins_.push_back(settings_.contact_margin * contact::marginShare(radiusOf(i)));
+    margins_.push_back(usualMargin(i));
   for (std::size_t i = 0; i < query_.nodes.size(); ++i)
     margins_.push_back(query_.marginAt(i));
 }
@@ -52,7 +132,10 @@ void NodalContacts::spendMargins(const std::vector<double>& radii)
     margins_[i] = std::max(kLeastOfMargin * margins_[i], margins_[i] - growth);
     if (contact::isWide(radii[i]))
       wide_motion_ = std::max(wide_motion_, growth);
+    any_wide_ = any_wide_ || contact::isWide(radii[i]);
   }
+  for (std::size_t i = 0; i < reaches_.size(); ++i)
+    reaches_[i] = std::min(reaches_[i], leastAround(static_cast<int>(i), &NodalContacts::listedMargin));
 }
 
 /** The node or a neighbour. */
@@ -66,7 +149,7 @@ bool NodalContacts::isWideAt(int node) const
 void NodalContacts::noteWideMotion(const Motion& motion, int first, double factor)
 {
   double most = 0.0;
-  for (int i = first; i < rod_.nodes(); ++i)
+  for (int i = first; i < rod_.nodes() && any_wide_; ++i)
     if (isWideAt(i))
       most = std::max(most, factor * motion[i].norm());
   wide_motion_ = std::isinf(wide_motion_) ? most : std::max(most, wide_motion_);
@@ -87,6 +170,7 @@ double NodalContacts::truncation(const State& state, const Motion& motion, doubl
     return factor;
   if (contacts_.stale)
     return std::min(factor, staleTruncation(motion));
+  noteFastNodes(motion, state.first_node);
   const double margins = marginsIn(motion, state.first_node);
   factor = freshTruncation(state, motion, factor, margins, report);
   noteWideMotion(motion, state.first_node, factor);
@@ -110,10 +194,14 @@ double NodalContacts::freshTruncation(const State& state, const Motion& motion, 
 /** How many margins the node moves by that moves by the most of its own. */
 double NodalContacts::marginsIn(const Motion& motion, int first) const
 {
-  double most = 0.0;
+  double most = 0.0;  // squared, until all are seen
   for (int i = first; i < rod_.nodes(); ++i)
-    most = std::max(most, motion[i].norm() / marginOf(i));
-  return most;
+  {
+    const double margin = marginOf(i);
+    if (motion[i].squaredNorm() > most * margin * margin)
+      most = motion[i].squaredNorm() / (margin * margin);
+  }
+  return std::sqrt(most);
 }
 
 /** Where a contact is listed the free distance is the margin, and it need not be asked for: mostly that settles it. */

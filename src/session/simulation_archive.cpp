@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
-constexpr std::uint32_t kFormat = 3;  ///< to be counted up with every change of what is saved
+constexpr std::uint32_t kFormat = 4;  ///< to be counted up with every change of what is saved
 
 /** What must agree before a state is used. */
 struct Head

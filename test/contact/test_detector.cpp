@@ -172,6 +172,49 @@ TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
   EXPECT_GT(found, 100U);
 }
 
+TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhateverItWasAskedBefore)
+{
+  const vessel::TriangleMesh mesh = bentTube();
+  Detector warm(mesh, WallLaw{});
+  Query query;
+  query.margin = 0.3e-3;
+  for (int i = 0; i < 30; ++i)
+  {
+    query.nodes.emplace_back(2.6e-3, 0.0, 0.6e-3 * i);
+    query.radius.push_back(0.4e-3);
+  }
+  std::size_t more = 0;
+  for (int step = 0; step < 80; ++step)
+  {
+    for (Eigen::Vector3d& node : query.nodes)
+      node += 1e-4 * (step % 20 < 10 ? 1.0 : -1.0) * Eigen::Vector3d(0.5, 0.7, 0.1);
+    query.fast_margin = 3.0 * query.margin;
+    query.fast_begin = step % 7 < 4 ? 8 : 0;
+    query.fast_end = step % 7 < 4 ? 20 : 0;
+    expectSameAsFresh(warm, mesh, query);
+    Query wide = query;
+    wide.margin = query.fast_margin;
+    const auto ofFastNodes = [&](const Query& asked)
+    {
+      ContactSet set;
+      Detector(mesh, WallLaw{}).detect(asked, set);
+      std::vector<std::int64_t> ids;
+      for (const Feature& feature : set.features)
+        if (feature.edge >= 8 && feature.edge < 19)
+          ids.push_back(feature.id);
+      return ids;
+    };
+    const std::vector<std::int64_t> usual = ofFastNodes(query);
+    if (query.fast_end > 0)
+    {
+      EXPECT_EQ(usual, ofFastNodes(wide)) << step;
+    }
+    else
+      more += ofFastNodes(wide).size() - usual.size();
+  }
+  EXPECT_GT(more, 100U);
+}
+
 TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
 {
   const vessel::TriangleMesh mesh = bentTube();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -21,7 +23,12 @@ public:
   void detect(const contact::Query& query, contact::ContactSet& set) override
   {
     if (query.wanted_free_distance <= 0.0)
+    {
       wide_margin = query.wide_margin;
+      margins.clear();
+      for (std::size_t i = 0; i < query.nodes.size(); ++i)
+        margins.push_back(query.marginAt(i));
+    }
     set.features.clear();
     set.first_edge = query.first_node;
     set.free_distance.clear();
@@ -50,6 +57,7 @@ public:
 
   double stiffness = std::numeric_limits<double>::infinity();    ///< [N/m²]
   double wide_margin = std::numeric_limits<double>::infinity();  ///< that features were last asked for with [m]
+  std::vector<double> margins;                                   ///< of the nodes, then [m]
   bool stale = false;                                            ///< what is said of the answers
 
 private:

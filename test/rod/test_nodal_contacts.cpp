@@ -337,6 +337,9 @@ protected:
     passes_ = 0;
   }
 
+  /** A step in which nothing moves. */
+  void rest() { contacts_.beginStep(StepInput(), &floor_, passes_, timer_); }
+
   double radius(int node) const { return std::max(kRadius, radii_[node]); }
   double gap(int node) const { return state_.position[node].z() - radius(node); }
 
@@ -398,6 +401,7 @@ TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrI
   int asked = 0;
   for (int trial = 0; trial < 200; ++trial)
   {
+    rest();
     place(trial % 2 == 0 ? 0.1e-3 : 0.5e-3, 20e-3);
     const NodalContacts::Motion motion = randomMotion(1e-3 * (1 + trial % 10));
     EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), expected(motion), 1e-9) << trial;
@@ -421,6 +425,7 @@ TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesB
   contacts_.setRadii(radii_);
   for (int moved = 0; moved < kNodes; ++moved)
   {
+    rest();
     place(0.1e-3, 0.1e-3);
     NodalContacts::Motion motion(kNodes, Vector3d::Zero());
     motion[moved] = Vector3d(0.9 * settings_.contact_margin, 0.0, 0.0);
@@ -479,6 +484,87 @@ TEST_F(TruncationOverAFloor, LeavesAFilledBalloonAsMuchAsItMaySoonMove)
   EXPECT_GT(moveBalloon(0.0), 1e-6);
   EXPECT_LT(moveBalloon(0.0), 1e-5);
   EXPECT_GT(moveBalloon(1e-5), 2e-5);
+}
+
+TEST_F(TruncationOverAFloor, AsksFartherOffWhereASnapIsUnderWayAndForgetsItAfterAStepWithoutOne)
+{
+  const auto askedAfter = [&](double distance)
+  {
+    place(0.1e-3, 0.1e-3);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[9] = motion[10] = Vector3d(distance, 0.0, 0.0);
+    contacts_.truncation(state_, motion, 1.0, report_);
+    contacts_.detect(state_, report_);
+    return floor_.margins;
+  };
+  const double usual = settings_.contact_margin;
+  for (const double margin : askedAfter(0.5 * usual))
+    EXPECT_EQ(margin, usual);
+  const std::vector<double> fast = askedAfter(4.0 * usual);
+  for (int i = 0; i < kNodes; ++i)
+    EXPECT_EQ(fast[i], (i >= 7 && i <= 12 ? 3.0 : 1.0) * usual) << i;
+  EXPECT_EQ(askedAfter(0.0)[9], 3.0 * usual);  // the last step's snap may go on
+  EXPECT_EQ(askedAfter(0.0)[9], usual);
+}
+
+TEST_F(TruncationOverAFloor, NoFastNodeMovesFartherThanItsAxisIsFromTheWallNorThanWhatIsListed)
+{
+  const double usual = settings_.contact_margin;
+  for (const double gap : {-0.05e-3, 0.0, 0.2e-3, 0.6e-3, 2e-3})
+    for (const int moved : {3, 8, 10})
+    {
+      rest();
+      place(gap, gap);
+      NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+      motion[moved] = Vector3d(3e-3, 0.0, 0.0);
+      contacts_.truncation(state_, motion, 1.0, report_);
+      contacts_.detect(state_, report_);
+      const double free = 3e-3 * contacts_.truncation(state_, motion, 1.0, report_);
+      EXPECT_LE(free, std::max({usual, std::min(3.0 * usual, kRadius + gap), gap}) + 1e-12) << gap;
+      EXPECT_GE(free, std::min(3.0 * usual, 0.9 * (kRadius + gap)) - 1e-12) << gap;
+      EXPECT_GE(free, usual - 1e-12) << gap;
+    }
+}
+
+TEST_F(TruncationOverAFloor, FastNodesKeepWhatTheyMayMoveWhereTheNextSetFailsToCome)
+{
+  place(0.2e-3, 0.2e-3);
+  NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+  motion[8] = Vector3d(3e-3, 0.0, 0.0);
+  contacts_.truncation(state_, motion, 1.0, report_);
+  contacts_.detect(state_, report_);
+  const double free = contacts_.marginOf(8);
+  ASSERT_GT(free, settings_.contact_margin);
+  motion[8] = Vector3d(0.25 * free, 0.0, 0.0);
+  EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
+  floor_.stale = true;
+  contacts_.detect(state_, report_);
+  motion[8] = Vector3d(free, 0.0, 0.0);
+  EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.75, 1e-12);
+  EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.0, 1e-12);
+}
+
+TEST_F(TruncationOverAFloor, FastNodesGoWithTheirNumbersWhenNodesComeBeforeThem)
+{
+  place(0.1e-3, 0.1e-3);
+  NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+  motion[9] = Vector3d(1e-3, 0.0, 0.0);
+  contacts_.truncation(state_, motion, 1.0, report_);
+  contacts_.detect(state_, report_);
+  const double before = contacts_.marginOf(9);
+  ASSERT_GT(before, settings_.contact_margin);
+  ASSERT_EQ(contacts_.marginOf(12), settings_.contact_margin);
+  Discretisation longer = rod_;
+  for (const int node : {0, 0})
+  {
+    longer.position.insert(longer.position.begin(), -1.0 - node);
+    longer.mass.insert(longer.mass.begin(), longer.mass.front());
+  }
+  contacts_.resample(longer);
+  EXPECT_EQ(contacts_.marginOf(11), before);
+  EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
+  contacts_.resample(discretiseUniformly(uniformWire(0.2, kEi, kRadius, 7900.0), kNodes));
+  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // of another wire nothing is known
 }
 
 TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)

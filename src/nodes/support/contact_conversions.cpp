@@ -39,6 +39,9 @@ void toMessage(const contact::Query& query, RodState& message)
   message.wanted_free_distance = query.wanted_free_distance;
   message.margin = query.margin;
   message.wide_margin = query.wide_margin;
+  message.fast_margin = query.fast_margin;
+  message.fast_begin = static_cast<std::uint32_t>(query.fast_begin);
+  message.fast_end = static_cast<std::uint32_t>(query.fast_end);
   message.vessel_version = query.vessel_version;
   message.first_node = static_cast<std::uint32_t>(query.first_node);
   message.radius = query.radius;
@@ -55,6 +58,9 @@ void fromMessage(const RodState& message, contact::Query& query)
   query.wanted_free_distance = message.wanted_free_distance;
   query.margin = message.margin;
   query.wide_margin = message.wide_margin;
+  query.fast_margin = message.fast_margin;
+  query.fast_begin = static_cast<int>(message.fast_begin);
+  query.fast_end = static_cast<int>(message.fast_end);
   query.vessel_version = message.vessel_version;
   query.first_node = static_cast<int>(message.first_node);
   query.radius = message.radius;
