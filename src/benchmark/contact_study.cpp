@@ -247,9 +247,10 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
       " or " + number(slope(doublings, nearest), 2) +
       " µs per doubling of N; from the coarsest to the finest N grows " + number(triangles.back() / triangles.front()) +
       " times, steady " + number(steady.back() / steady.front()) + " times, cold " +
-      number(cold.back() / cold.front()) +
-      " times. The tree's query grows with the logarithm. A walk that lists what an edge may meet grows faster: the "
-      "finer the facets, the more of them lie right below the way for which the list is made.";
+      number(cold.back() / cold.front()) + " times, that query " + number(nearest.back() / nearest.front()) +
+      " times. The query goes down a tree whose depth is the logarithm of N; how its time grows beyond that is what caches "
+      "add. A wire that slides has lists from before, whose length follows N only where facets are smaller than the "
+      "room for which they are made; a new detector makes them all.";
   return section;
 }
 

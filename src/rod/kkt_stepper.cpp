@@ -16,7 +16,8 @@ constexpr int kMaxHalvings = 3;
 constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
 constexpr double kEnergyGrowth = 1.1;
 constexpr int kMaxRestoringSolves = 4;
-constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
+constexpr double kRestoringFraction = 0.03;  // of the time step, and at most
+constexpr double kRestoringTime = 30e-6;     // s: elastic forces move next to nothing in it
 constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
 constexpr double kLargestStrain = 1e-2;      // that a step may leave, e.g. of a straight wire that is shortened
 constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
@@ -309,7 +310,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
       break;
     begin_ = state.position;
     std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
-    const double fraction = kRestoringFraction * dt;
+    const double fraction = std::min(kRestoringFraction * dt, kRestoringTime);
     contacts_.prepare(state, fraction);
     collectFriction(state, fraction, true);
     assemble(state, input, fraction, true);
