@@ -100,7 +100,7 @@ private:
      * does). */
     static constexpr double kLimitSlack = 0.1e-3;
     /** The same where less is wanted: more than a wire that moved fast, and does no more, was asked about beyond it. */
-    static constexpr double kLimitKept = 0.55e-3;
+    static constexpr double kLimitKept = 0.6e-3;
 
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();      ///< of the segment on which the edge may lie
     Eigen::Vector3d along = Eigen::Vector3d::Zero();      ///< its direction, unit; 0 for a point

@@ -15,8 +15,8 @@ namespace
 
 constexpr double kRoom = 0.15e-3;       // m by which wire and wall may come closer before what is near is listed anew
 constexpr double kFirstRoom = 0.05e-3;  // m the first time, when lists of the whole wire are made at once
-// Where it has left its place by so much, a wire snaps aside: it is soon as far off again.
-constexpr double kSnap = 0.21e-3;       // m
+// Where it has left its place by so much more than there was room for, a wire snaps aside: it is soon as far off again.
+constexpr double kSnap = 0.06e-3;       // m
 constexpr double kRoomToSnap = 0.6e-3;  // m; where lists are long, half of it
 constexpr double kSlide = 0.5e-3;       // m more that a wire may slide along itself before, when it is expected to
 // The same where walls are so fine that long lists cost more to look through than to take over from the next node.
@@ -90,7 +90,7 @@ void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vecto
   length += reach;
   begin = slid < 0.0 ? Eigen::Vector3d(a - reach * along) : a;
   listed_at = a;
-  const bool snaps = limit >= 0.0 && moved > kSnap;
+  const bool snaps = limit >= 0.0 && moved - room > kSnap;
   const double usual = snaps ? (was_long ? 0.5 : 1.0) * kRoomToSnap : kRoom;
   room = limit < 0.0 ? kFirstRoom : usual;
   limit = limit < 0.0 || wanted == limit ? wanted : wanted + 0.5 * kLimitSlack;

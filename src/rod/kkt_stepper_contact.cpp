@@ -190,10 +190,10 @@ double KktStepper::move(State& state, double factor, StepReport& report)
     state.position[i] += factor * motion_[i];
   if (!contacts_.present())
     return factor;
-  const double before = contacts_.tooDeep();
+  contacts_.noteDepths();
   double moved = factor;
   contacts_.detect(state, report);
-  for (int halving = 0; !contacts_.set().stale && contacts_.tooDeep() > before && moved > 0.0; ++halving)
+  for (int halving = 0; !contacts_.set().stale && contacts_.isDeeper() && moved > 0.0; ++halving)
   {
     const double shorter = halving < kMaxDepthHalvings ? 0.5 * moved : 0.0;
     for (int i = first_; i < rod_.nodes(); ++i)

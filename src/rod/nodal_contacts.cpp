@@ -117,7 +117,9 @@ void NodalContacts::addBacking()
     const bool soft = std::isfinite(backing.stiffness);
     backing.gap += soft ? softWallTravel(radiusAt(backing)) : kBackingDepth;
     // A rigid wall's is of use only where its spring is pressed in already.
-    if (backing.gap > (soft ? settings_.contact_margin : 0.5 * kBackingDepth))
+    const int next = std::min(backing.edge + 1, rod_.nodes() - 1);
+    const double reach = std::max({settings_.contact_margin, marginOf(backing.edge), marginOf(next)});
+    if (backing.gap > (soft ? reach : 0.5 * kBackingDepth))
       continue;
     backing.id = -1 - backing.id;
     contacts_.features.push_back(backing);
@@ -154,16 +156,41 @@ void NodalContacts::setRadii(const std::vector<double>& radii)
   radii_ = radii;
 }
 
-double NodalContacts::tooDeep() const
+/** By how much a contact is deeper than is tolerated, where the wall does not give way; else 0 [m]. */
+double NodalContacts::excessDepth(const contact::Feature& feature) const
 {
-  double depth = 0.0;
+  const bool rigid = isBacking(feature) || !std::isfinite(feature.stiffness);
+  return rigid ? std::max(0.0, -feature.gap - toleratedDepth(feature)) : 0.0;
+}
+
+void NodalContacts::noteDepths()
+{
+  depths_.assign(static_cast<std::size_t>(rod_.nodes()), 0.0);
   for (std::size_t f = 0; f + kept_ < contacts_.features.size(); ++f)
   {
     const contact::Feature& feature = contacts_.features[f];
-    if (isBacking(feature) || !std::isfinite(feature.stiffness))
-      depth = std::max(depth, -feature.gap - toleratedDepth(feature));
+    const double depth = excessDepth(feature);
+    const bool in_mouth = feature.edge == mouth_edge_ && feature.parameter <= mouth_;
+    if (feature.parameter < 1.0)
+      depths_[feature.edge] = std::max(depths_[feature.edge], depth);
+    if (feature.parameter > 0.0 && !in_mouth)
+      depths_[feature.edge + 1] = std::max(depths_[feature.edge + 1], depth);
   }
-  return depth;
+}
+
+/** Node by node: what is pressed in at one place, in the introducer's mouth for instance, is no leave for others. */
+bool NodalContacts::isDeeper() const
+{
+  for (std::size_t f = 0; f + kept_ < contacts_.features.size(); ++f)
+  {
+    const contact::Feature& feature = contacts_.features[f];
+    const double excess = excessDepth(feature);
+    const double first = feature.parameter < 1.0 ? depths_[feature.edge] : 0.0;
+    const double second = feature.parameter > 0.0 ? depths_[feature.edge + 1] : 0.0;
+    if (excess > std::max(first, second))
+      return true;
+  }
+  return false;
 }
 
 double NodalContacts::toleratedDepth(const contact::Feature& feature) const
@@ -449,18 +476,19 @@ void NodalContacts::ask(const State& state, contact::ContactSet& answer, StepRep
   const HeldWire held(rod_, boundary_);
   held.describe(state, query_);
   widen();
-  const double mouth = held.describeMouth(state, query_);
+  mouth_ = held.describeMouth(state, query_);
+  mouth_edge_ = mouth_ > 0.0 ? query_.first_node : -1;
   query_.wide_margin = wantedWideMargin();
   askFurtherForFastNodes();
   send(answer, report);
   if (answer.stale)
     return;
-  keepMargins();
-  keepReaches();
   // The first point stood inside of its edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)
-      feature.parameter = mouth + (1.0 - mouth) * feature.parameter;
+      feature.parameter = mouth_ + (1.0 - mouth_) * feature.parameter;
+  keepMargins();
+  keepReaches();
 }
 
 void NodalContacts::send(contact::ContactSet& answer, StepReport& report)

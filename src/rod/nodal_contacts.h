@@ -64,7 +64,12 @@ public:
 
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
-  void invalidate() { valid_ = false; }
+  /** The state was taken back to before the present contacts were found. */
+  void invalidate()
+  {
+    valid_ = false;
+    stale_budget_ = 0.0;
+  }
 
   /** Asks for the state's contacts. */
   void detect(const State& state, StepReport& report);
@@ -72,9 +77,12 @@ public:
   /** Once more for a state that was moved back; the last solve's contacts are kept. */
   void detectAgain(const State& state, StepReport& report);
 
-  /** By how much the present contacts are deeper in walls that do not give way than is tolerated, at most; 0 where none
-   *  is [m]. Tolerated is less than would take the wire's axis to the wall. */
-  double tooDeep() const;
+  /** Before a motion: notes by how much the present contacts are deeper in walls that do not give way than is
+   * tolerated. Tolerated is less than would take the wire's axis to the wall. */
+  void noteDepths();
+
+  /** Whether a present contact is deeper than is tolerated, and than any was then at that node. */
+  bool isDeeper() const;
 
   /** Detects where the last answer is missing or old. */
   void refresh(const State& state, StepReport& report);
@@ -160,6 +168,7 @@ private:
   double radiusOf(int node) const;
   double radiusAt(const contact::Feature& feature) const;
   double toleratedDepth(const contact::Feature& feature) const;
+  double excessDepth(const contact::Feature& feature) const;
   double usualMargin(int node) const;
   double listedMargin(int node) const;
   bool isWideAt(int node) const;
@@ -200,6 +209,7 @@ private:
   std::size_t kept_ = 0;                ///< at the end of contacts_: not found by the last detection
   std::size_t kept_before_ = 0;         ///< the same of previous_contacts_
   int first_changed_ = 0;
+  std::vector<double> depths_;    ///< of every node's contacts before a motion, beyond what is tolerated [m]
   std::vector<Carried> carried_;  ///< from a change of nodes to the next step
   std::vector<bool> fresh_;       ///< nodes whose edges have changed
   std::vector<int> crossings_;    ///< compliant contacts between nodes, along the wire
@@ -215,6 +225,8 @@ private:
   double wide_motion_ = std::numeric_limits<double>::infinity();  ///< of the wide body that moved most of late [m]
   double stale_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;
+  double mouth_ = 0.0;   ///< share of an edge at which the introducer's mouth stands, where the last set begins
+  int mouth_edge_ = -1;  ///< that edge, or −1
   contact::ContactSource* source_ = nullptr;
   PhaseTimer* timer_ = nullptr;
   std::uint32_t* pass_ = nullptr;

@@ -25,7 +25,8 @@ void NodalContacts::archive(Archive& archive)
 {
   archive(contacts_, previous_contacts_, springs_, previous_springs_, carried_, radii_);
   archive(valid_, moved_on_, step_is_stale_, stale_budget_, margins_, reaches_, any_wide_, fast_, fast_before_,
-          wide_motion_, step_, substep_, vessel_version_, query_.first_node);
+          wide_motion_, step_, substep_, vessel_version_, query_.first_node, query_.wide_margin, query_.fast_margin,
+          query_.fast_begin, query_.fast_end, mouth_, mouth_edge_);
 }
 
 }  // namespace endovascular_sim::rod

@@ -77,20 +77,23 @@ void NodalContacts::askFurtherForFastNodes()
   query_.fast_margin = fast.empty() ? 0.0 : kFastMargin * settings_.contact_margin;
 }
 
-/** How far the axis of every node's edges is from the wall: where a contact is listed, by it, else at least by the
- *  margin. The distance to the wall is least at a contact or at a node [m]. */
+/** How far the axis of every node's edges is at least from the wall: the distance from an edge's surface to the wall is
+ *  least at a contact or at a node, and the axis lies by the edge's least radius deeper in the lumen [m]. */
 void NodalContacts::findClearances()
 {
   clearances_.clear();
   for (int i = 0; i < rod_.nodes(); ++i)
-    clearances_.push_back(radiusOf(i) + listedMargin(i));
+    clearances_.push_back(leastAround(i, &NodalContacts::radiusOf) + leastAround(i, &NodalContacts::listedMargin));
   for (const contact::Feature& feature : contacts_.features)
   {
-    const double clearance = std::max(0.0, feature.gap + radiusAt(feature));
-    const int from = std::max(0, feature.edge - (feature.parameter <= 0.0 ? 1 : 0));
-    const int to = std::min(rod_.nodes() - 1, feature.edge + (feature.parameter >= 1.0 ? 2 : 1));
-    for (int i = from; i <= to; ++i)
-      clearances_[i] = std::min(clearances_[i], clearance);
+    const int first = std::max(0, feature.edge - (feature.parameter <= 0.0 ? 1 : 0));
+    const int last = std::min(rod_.nodes() - 2, feature.edge + (feature.parameter >= 1.0 ? 1 : 0));
+    for (int edge = first; edge <= last; ++edge)
+    {
+      const double clearance = std::max(0.0, feature.gap + std::min(rod_.radius[edge], rod_.radius[edge + 1]));
+      clearances_[edge] = std::min(clearances_[edge], clearance);
+      clearances_[edge + 1] = std::min(clearances_[edge + 1], clearance);
+    }
   }
 }
 

@@ -204,13 +204,13 @@ TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhatever
           ids.push_back(feature.id);
       return ids;
     };
-    const std::vector<std::int64_t> usual = ofFastNodes(query);
+    const std::vector<std::int64_t> listed = ofFastNodes(query);
     if (query.fast_end > 0)
     {
-      EXPECT_EQ(usual, ofFastNodes(wide)) << step;
+      EXPECT_EQ(listed, ofFastNodes(wide)) << step;
     }
     else
-      more += ofFastNodes(wide).size() - usual.size();
+      more += ofFastNodes(wide).size() - listed.size();
   }
   EXPECT_GT(more, 100U);
 }

@@ -526,6 +526,79 @@ TEST_F(TruncationOverAFloor, NoFastNodeMovesFartherThanItsAxisIsFromTheWallNorTh
     }
 }
 
+/** A wall that touches one edge between its nodes. */
+class OneCrossing : public contact::ContactSource
+{
+public:
+  void detect(const contact::Query& query, contact::ContactSet& set) override
+  {
+    set.stale = false;
+    set.first_edge = query.first_node;
+    set.free_distance.assign(query.nodes.size() - 1, 0.0);
+    contact::Feature feature;
+    feature.edge = kEdge;
+    feature.parameter = 0.4;
+    feature.point = Vector3d(0.0, 0.0, -1.0);
+    feature.normal = Vector3d::UnitZ();
+    feature.gap = gap;
+    feature.id = 4;
+    set.features.assign(1, feature);
+  }
+
+  static constexpr int kEdge = 8;
+  double gap = 0.0;  ///< [m]
+};
+
+TEST_F(TruncationOverAFloor, ACrossingOnATaperBoundsFastNodesByItsGapAndTheEdgesLeastRadius)
+{
+  Discretisation tapered = rod_;
+  for (int i = OneCrossing::kEdge + 1; i < kNodes; ++i)
+    tapered.radius[i] = 0.4 * kRadius;
+  NodalContacts contacts(tapered, boundary_, settings_);
+  OneCrossing wall;
+  const double usual = settings_.contact_margin;
+  for (const double gap : {0.0, 0.2e-3, 0.4e-3})
+  {
+    wall.gap = gap;
+    contacts.beginStep(StepInput(), &wall, passes_, timer_);
+    contacts.invalidate();
+    contacts.refresh(state_, report_);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[OneCrossing::kEdge] = Vector3d(3e-3, 0.0, 0.0);
+    contacts.truncation(state_, motion, 1.0, report_);
+    contacts.detect(state_, report_);
+    const double clear = gap + 0.4 * kRadius;
+    for (const int node : {OneCrossing::kEdge, OneCrossing::kEdge + 1})
+    {
+      EXPECT_LE(contacts.marginOf(node), std::max(usual, clear)) << gap;
+      EXPECT_GE(contacts.marginOf(node), std::max(usual, 0.9 * clear) - 1e-12) << gap;
+    }
+  }
+}
+
+TEST_F(TruncationOverAFloor, WhatIsPressedInAtOneNodeIsNoLeaveForAnother)
+{
+  constexpr double kTolerated = 80e-6;  // m
+  const auto pressIn = [&](double at_three, double at_nine)
+  {
+    place(1e-3, 1e-3);
+    state_.position[3].z() = kRadius - at_three;
+    state_.position[9].z() = kRadius - at_nine;
+    contacts_.detect(state_, report_);
+  };
+  ASSERT_GT(kRadius, 1.3 * kTolerated);
+  pressIn(1.2 * kTolerated, 0.0);
+  contacts_.noteDepths();
+  pressIn(1.2 * kTolerated, 0.9 * kTolerated);
+  EXPECT_FALSE(contacts_.isDeeper());
+  pressIn(1.2 * kTolerated, 1.1 * kTolerated);
+  EXPECT_TRUE(contacts_.isDeeper());
+  pressIn(1.1 * kTolerated, 0.0);
+  EXPECT_FALSE(contacts_.isDeeper());
+  pressIn(1.3 * kTolerated, 0.0);
+  EXPECT_TRUE(contacts_.isDeeper());
+}
+
 TEST_F(TruncationOverAFloor, FastNodesKeepWhatTheyMayMoveWhereTheNextSetFailsToCome)
 {
   place(0.2e-3, 0.2e-3);
