@@ -96,10 +96,10 @@ private:
    */
   struct Neighbourhood
   {
-    /** m by which the distance that is wanted may fall short of the one that was listed, where it changes (a balloon
-     * does). */
+    /** m of which half is listed beyond the distance that is wanted, where that changes (a balloon's does). */
     static constexpr double kLimitSlack = 0.1e-3;
-    /** The same where less is wanted: more than a wire that moved fast, and does no more, was asked about beyond it. */
+    /** m by which what is wanted may fall short of what was listed: more than a wire that moved fast, and does no more,
+     * was asked about beyond it. */
     static constexpr double kLimitKept = 0.6e-3;
 
     Eigen::Vector3d begin = Eigen::Vector3d::Zero();      ///< of the segment on which the edge may lie

@@ -40,6 +40,17 @@ protected:
   /** A step in which nothing moves. */
   void rest() { contacts_.beginStep(StepInput(), &floor_, passes_, timer_); }
 
+  /** A solve that would take a node of a wire at a height far aside, after which it is fast. */
+  void snap(int node, double height)
+  {
+    place(height, height);
+    NodalContacts::Motion motion(kNodes, Vector3d::Zero());
+    motion[node] = Vector3d(3e-3, 0.0, 0.0);
+    contacts_.truncation(state_, motion, 1.0, report_);
+    contacts_.detect(state_, report_);
+    ASSERT_GT(contacts_.marginOf(node), settings_.contact_margin);
+  }
+
   double radius(int node) const { return std::max(kRadius, radii_[node]); }
   double gap(int node) const { return state_.position[node].z() - radius(node); }
 
@@ -308,13 +319,9 @@ TEST_F(TruncationOverAFloor, WhatIsPressedInAtOneNodeIsNoLeaveForAnother)
 
 TEST_F(TruncationOverAFloor, FastNodesKeepWhatTheyMayMoveWhereTheNextSetFailsToCome)
 {
-  place(0.2e-3, 0.2e-3);
-  NodalContacts::Motion motion(kNodes, Vector3d::Zero());
-  motion[8] = Vector3d(3e-3, 0.0, 0.0);
-  contacts_.truncation(state_, motion, 1.0, report_);
-  contacts_.detect(state_, report_);
+  snap(8, 0.2e-3);
   const double free = contacts_.marginOf(8);
-  ASSERT_GT(free, settings_.contact_margin);
+  NodalContacts::Motion motion(kNodes, Vector3d::Zero());
   motion[8] = Vector3d(0.25 * free, 0.0, 0.0);
   EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
   floor_.stale = true;
@@ -326,20 +333,11 @@ TEST_F(TruncationOverAFloor, FastNodesKeepWhatTheyMayMoveWhereTheNextSetFailsToC
 
 TEST_F(TruncationOverAFloor, FastNodesGoWithTheirNumbersWhenNodesComeBeforeThem)
 {
-  place(0.1e-3, 0.1e-3);
-  NodalContacts::Motion motion(kNodes, Vector3d::Zero());
-  motion[9] = Vector3d(1e-3, 0.0, 0.0);
-  contacts_.truncation(state_, motion, 1.0, report_);
-  contacts_.detect(state_, report_);
+  snap(9, 0.1e-3);
   const double before = contacts_.marginOf(9);
-  ASSERT_GT(before, settings_.contact_margin);
   ASSERT_EQ(contacts_.marginOf(12), settings_.contact_margin);
   Discretisation longer = rod_;
-  for (const int node : {0, 0})
-  {
-    longer.position.insert(longer.position.begin(), -1.0 - node);
-    longer.mass.insert(longer.mass.begin(), longer.mass.front());
-  }
+  longer.position.insert(longer.position.begin(), 2, -1.0);
   contacts_.resample(longer);
   EXPECT_EQ(contacts_.marginOf(11), before);
   EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
