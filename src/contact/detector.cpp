@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "contact/segment_pair.h"
-#include "vessel/triangle_point.h"
+#include "geometry/closest_point_on_triangle.h"
+#include "geometry/closest_points_on_segments.h"
 
 namespace endovascular_sim::contact
 {
@@ -60,7 +60,7 @@ double WallLaw::frictionAt(const Eigen::Vector3d& place) const
   return friction;
 }
 
-Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
+Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
   : wall_(mesh), bvh_(wall_), law_(std::move(law)), vessel_version_(vessel_version)
 {
   prisms_.resize(wall_.triangles.size());
@@ -78,7 +78,7 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   near_.resize(kUsualNodes);
   left_.resize(kUsualNodes);
   trails_.resize(kUsualNodes + 1);
-  const auto prepare = [](Neighbourhood& near)
+  const auto prepare = [](NeighbourList& near)
   {
     const auto reserve = [](auto& list, std::size_t count)
     {
@@ -94,7 +94,7 @@ Detector::Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t 
   std::for_each(left_.begin(), left_.end(), prepare);
 }
 
-EdgeBall Detector::ballOf(const WallEdge& edge) const
+EdgeBounds Detector::ballOf(const WallEdge& edge) const
 {
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
@@ -114,7 +114,7 @@ double Detector::leanOf(const WallEdge& edge) const
 
 void Detector::makePrism(int triangle)
 {
-  Prism& prism = prisms_[triangle];
+  TriangleSlab& prism = prisms_[triangle];
   setSlopes(triangle, prism);
   const auto set = [&prism](int lane, const Eigen::Vector3d& normal, double offset)
   {
@@ -138,7 +138,7 @@ void Detector::makePrism(int triangle)
  *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle: corners of any angle will do.
  *  Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the wall
  *  folds there by more than a right angle. What belongs to another triangle is seen there. */
-void Detector::setSlopes(int triangle, Prism& prism) const
+void Detector::setSlopes(int triangle, TriangleSlab& prism) const
 {
   double widest_edge = 0.0;    // rad
   double widest_corner = 0.0;  // rad
@@ -173,7 +173,7 @@ bool Detector::foldsAt(int vertex, int triangle) const
 
 Bvh::Cone Detector::coneOf(int triangle) const
 {
-  const Prism& prism = prisms_[triangle];
+  const TriangleSlab& prism = prisms_[triangle];
   Bvh::Cone cone{prism.bulge(), -1.0};
   for (int e : prism.own_edges)
     if (e >= 0)
@@ -191,7 +191,7 @@ double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nea
   if (nearest != nullptr)
     *nearest = found.triangle;
   const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
-  const vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+  const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
@@ -273,7 +273,7 @@ void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first,
 
 void Detector::detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const
 {
-  const Neighbourhood& near = neighbourhood(query, index);
+  const NeighbourList& near = neighbourhood(query, index);
   if (near.triangles.empty())
     return;
   const Eigen::Vector3d& point = query.nodes[index];
@@ -301,7 +301,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
       outside_feature = feature;
     }
   };
-  forEachInSight(near.prisms, PrismQuad::Place(point, near.begin, limit, near.moved), look);
+  forEachInSight(near.prisms, TrianglePacket::Place(point, near.begin, limit, near.moved), look);
   if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point, limit) + 1e-12 &&
       signedDistance(point, outside_feature.triangle) < 0.0)
     features.push_back(outside_feature);
@@ -314,7 +314,7 @@ void Detector::detectNode(const Query& query, std::size_t index, std::vector<Fea
 bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                            bool& outside) const
 {
-  const Prism& prism = prisms_[triangle];
+  const TriangleSlab& prism = prisms_[triangle];
   const Eigen::Array4d above = prism.heights(point);
   const double height = above[0];
   if (height * height > limit * limit)
@@ -322,7 +322,7 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
   const Eigen::Vector3d normal = prism.normal();
   feature.triangle = triangle;
   feature.stiffness = law_.stiffness;
-  if (Prism::outsideOf(above) < -kOffTriangle)
+  if (TriangleSlab::outsideOf(above) < -kOffTriangle)
   {
     distance = std::abs(height);
     outside = height < 0.0;
@@ -333,7 +333,7 @@ bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double li
     return true;
   }
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
-  vessel::TrianglePoint closest = vessel::closestPointOnTriangle(
+  geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   if (closest.edge >= 0)
     closest.point = placeOnEdge(point, wall_.triangle_edges[triangle][closest.edge]);
@@ -388,7 +388,7 @@ Eigen::Vector3d Detector::placeOnEdge(const Eigen::Vector3d& point, int wall_edg
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - begin;
-  return begin + clampedShare((point - begin).dot(along) / along.squaredNorm()) * along;
+  return begin + geometry::clampedShare((point - begin).dot(along) / along.squaredNorm()) * along;
 }
 
 bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
@@ -415,23 +415,23 @@ Detector::AxisSegment::AxisSegment(const Eigen::Vector3d& from, const Eigen::Vec
 
 /** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment. A segment whose ends are
  *  both higher than the limit above the mesh edge is higher all along. */
-bool Detector::canMeet(const AxisSegment& segment, int wall_edge, double limit) const
+bool Detector::mayContact(const AxisSegment& segment, int wall_edge, double limit) const
 {
-  const EdgeBall& ball = edge_balls_[wall_edge];
+  const EdgeBounds& ball = edge_balls_[wall_edge];
   if (!ball.reflex)
     return false;
   const Eigen::Vector3d from_begin = segment.begin - ball.middle;
   const Eigen::Vector3d from_end = segment.end - ball.middle;
   if (from_begin.dot(ball.normal) > limit && from_end.dot(ball.normal) > limit)
     return false;
-  const double t = clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
+  const double t = geometry::clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
   const double far = limit + ball.half_length;
   return (from_begin + t * segment.along).squaredNorm() <= far * far;
 }
 
 void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const
 {
-  const Neighbourhood& near = neighbourhood(query, index);
+  const NeighbourList& near = neighbourhood(query, index);
   if (near.ridges.empty())
     return;
   const Eigen::Vector3d& a = query.nodes[index];
@@ -441,7 +441,7 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
   const double limit_end = limitAt(query, index + 1);
   Feature feature;
   const double taper = query.radius[index + 1] - query.radius[index];
-  std::optional<TaperedSegment> cone;
+  std::optional<geometry::TaperedSegment> cone;
   if (taper != 0.0)
     cone.emplace(a, b, taper);
   const double limit = std::max(limit_begin, limit_end);
@@ -461,18 +461,20 @@ void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Fea
         std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
       features.push_back(feature);
   };
-  forEachInSight(near.ridges, RidgeQuad::Place(a, b, taper, near.begin, limit, near.moved), look);
+  forEachInSight(near.ridges, EdgePacket::Place(a, b, taper, near.begin, limit, near.moved), look);
 }
 
 /** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local
  *  minimum. @param cone the wire's edge where it tapers */
-bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<TaperedSegment>& cone,
-                        int wall_edge, double limit, Feature& feature, double& distance) const
+bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const std::optional<geometry::TaperedSegment>& cone, int wall_edge, double limit,
+                        Feature& feature, double& distance) const
 {
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
-  const SegmentPair pair = cone ? closestPointsOfCone(*cone, end0, end1) : closestPointsOfSegments(a, b, end0, end1);
+  const geometry::SegmentPair pair =
+      cone ? geometry::closestPointsOfCone(*cone, end0, end1) : geometry::closestPointsOfSegments(a, b, end0, end1);
   if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
     return false;
   feature.point = end0 + pair.second * (end1 - end0);

@@ -11,15 +11,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "contact/bvh.h"
-#include "contact/contact_set.h"
-#include "contact/edge_ball.h"
-#include "contact/helper_thread.h"
-#include "contact/prism.h"
-#include "contact/prism_quad.h"
-#include "contact/ridge_quad.h"
-#include "contact/segment_pair.h"
-#include "contact/wall.h"
+#include "common/helper_thread.h"
+#include "contact/broad_phase/bvh.h"
+#include "contact/broad_phase/edge_packet.h"
+#include "contact/broad_phase/triangle_packet.h"
+#include "contact/contract/contact_set.h"
+#include "contact/narrow_phase/edge_bounds.h"
+#include "contact/narrow_phase/triangle_slab.h"
+#include "contact/wall/wall.h"
+#include "geometry/closest_points_on_segments.h"
 
 namespace endovascular_sim::contact
 {
@@ -56,7 +56,7 @@ class Detector : public ContactSource
 public:
   /** @param mesh watertight, oriented
    *  @param vessel_version goes into every set */
-  Detector(const vessel::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
+  Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
 
   void detect(const Query& query, ContactSet& set) override;
 
@@ -94,7 +94,7 @@ private:
   /** What a node of the wire and the edge from it to the next node may meet: of all places that they have while the
    * wire slides along itself a little, and until wire and wall have come closer by more than the lists have room for.
    */
-  struct Neighbourhood
+  struct NeighbourList
   {
     /** m of which half is listed beyond the distance that is wanted, where that changes (a balloon's does). */
     static constexpr double kLimitSlack = 0.1e-3;
@@ -107,17 +107,17 @@ private:
     Eigen::Vector3d listed_at = Eigen::Vector3d::Zero();  ///< where the node was then
     double length = 0.0;                                  ///< of the segment [m]
     double reach = 0.0;                                   ///< of it from its begin: where the node may lie [m]
-    double limit = -1.0;            ///< distance up to which features are wanted [m]; negative: not listed yet
-    double room = 0.0;              ///< by which wire and wall may come closer and the lists still hold [m]
-    double moved = 0.0;             ///< by which wire and wall have come closer since, at most [m]
-    double wall_moved = 0.0;        ///< the wall's share of it [m]
-    std::vector<Near> triangles;    ///< that the node may meet, ascending
-    std::vector<Near> edges;        ///< reflex ones that the wire's edge may meet, ascending
-    std::vector<PrismQuad> prisms;  ///< of the triangles, as seen from begin
-    std::vector<RidgeQuad> ridges;  ///< of the edges
-    bool holds = false;             ///< whether the lists hold all that the wire may meet where it is now
-    bool wall_differs = false;      ///< from what they hold
-    bool was_long = false;          ///< when they were made
+    double limit = -1.0;                 ///< distance up to which features are wanted [m]; negative: not listed yet
+    double room = 0.0;                   ///< by which wire and wall may come closer and the lists still hold [m]
+    double moved = 0.0;                  ///< by which wire and wall have come closer since, at most [m]
+    double wall_moved = 0.0;             ///< the wall's share of it [m]
+    std::vector<Near> triangles;         ///< that the node may meet, ascending
+    std::vector<Near> edges;             ///< reflex ones that the wire's edge may meet, ascending
+    std::vector<TrianglePacket> prisms;  ///< of the triangles, as seen from begin
+    std::vector<EdgePacket> ridges;      ///< of the edges
+    bool holds = false;                  ///< whether the lists hold all that the wire may meet where it is now
+    bool wall_differs = false;           ///< from what they hold
+    bool was_long = false;               ///< when they were made
 
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
@@ -129,7 +129,7 @@ private:
     /** Has nothing listed any more. */
     void forget();
     /** Has nothing listed, but knows of the last lists what new ones depend on. */
-    void comeAfter(const Neighbourhood& last);
+    void comeAfter(const NeighbourList& last);
     /** How far a node has come along the wire since it was where the lists begin [m]. */
     double past(const Eigen::Vector3d& node) const { return (node - begin).dot(along); }
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
@@ -150,14 +150,14 @@ private:
     };
 
     bool empty() const { return count_ == 0; }
-    Neighbourhood& at(End end) { return ring_[end == End::kRear ? first_ : (first_ + count_ - 1) % ring_.size()]; }
+    NeighbourList& at(End end) { return ring_[end == End::kRear ? first_ : (first_ + count_ - 1) % ring_.size()]; }
     void drop(End end);
     /** A place at an end to leave lists in; where there is no room, the other end's are lost. */
-    Neighbourhood& extend(End end);
+    NeighbourList& extend(End end);
     void clear() { count_ = 0; }
 
   private:
-    std::array<Neighbourhood, 8> ring_;
+    std::array<NeighbourList, 8> ring_;
     std::size_t first_ = 0;
     std::size_t count_ = 0;
   };
@@ -204,43 +204,43 @@ private:
   {
     return std::max(limitAt(query, index), limitAt(query, nextNode(query, index)));
   }
-  const Neighbourhood& neighbourhood(const Query& query, std::size_t index) const
+  const NeighbourList& neighbourhood(const Query& query, std::size_t index) const
   {
     return near_[placeFromTip(query, index)];
   }
   void followWire(const Query& query);
-  static void followNode(const Query& query, std::size_t index, Neighbourhood& near);
+  static void followNode(const Query& query, std::size_t index, NeighbourList& near);
   void handOver(const Query& query);
   void slideOn(const Query& query, std::size_t place);
-  static bool takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, Neighbourhood& near);
+  static bool takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, NeighbourList& near);
   void renewLists(const Query& query);
   void renewList(const Query& query, std::size_t index, Collected& collected);
-  void list(Neighbourhood& near, Collected& collected) const;
-  void pack(Neighbourhood& near) const;
-  void listTriangle(int triangle, Neighbourhood& near) const;
-  void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const;
+  void list(NeighbourList& near, Collected& collected) const;
+  void pack(NeighbourList& near) const;
+  void listTriangle(int triangle, NeighbourList& near) const;
+  void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, NeighbourList& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
-  static double ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit);
+  static double ridgeClearance(const EdgeBounds& ball, const AxisSegment& segment, double limit);
   bool cutIntoParts(const Query& query);
   void detectParts(const Query& query, std::vector<Feature>& features);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
   void makePrism(int triangle);
-  void setSlopes(int triangle, Prism& prism) const;
+  void setSlopes(int triangle, TriangleSlab& prism) const;
   bool foldsAt(int vertex, int triangle) const;
   Bvh::Cone coneOf(int triangle) const;
-  EdgeBall ballOf(const WallEdge& edge) const;
+  EdgeBounds ballOf(const WallEdge& edge) const;
   double leanOf(const WallEdge& edge) const;
   void renewEdges(const std::vector<int>& changed);
   void renewPrisms(const std::vector<int>& changed);
   void keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew);
-  double nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const;
+  double nearestListed(const NeighbourList& near, const Eigen::Vector3d& point, double limit) const;
   bool faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
                    bool& outside) const;
   Eigen::Vector3d placeOnEdge(const Eigen::Vector3d& point, int wall_edge) const;
-  bool canMeet(const AxisSegment& segment, int wall_edge, double limit) const;
-  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<TaperedSegment>& cone,
+  bool mayContact(const AxisSegment& segment, int wall_edge, double limit) const;
+  bool crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::optional<geometry::TaperedSegment>& cone,
                 int wall_edge, double limit, Feature& feature, double& distance) const;
   bool vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const;
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
@@ -252,8 +252,8 @@ private:
   Bvh bvh_;
   WallLaw law_;
   std::uint64_t vessel_version_;
-  std::vector<Neighbourhood> near_;  ///< by the node's index from the tip
-  std::vector<Neighbourhood> left_;  ///< while they are handed over; else nothing is listed in them
+  std::vector<NeighbourList> near_;  ///< by the node's index from the tip
+  std::vector<NeighbourList> left_;  ///< while they are handed over; else nothing is listed in them
   std::vector<Trail> trails_;        ///< before each node and behind the last, by their indices from the tip
   std::uint64_t lists_renewed_ = 0;
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
@@ -261,8 +261,8 @@ private:
   HelperThread* helper_ = nullptr;
   std::vector<Part> parts_;
   std::vector<int> now_reflex_, now_moving_;
-  std::vector<Prism> prisms_;
-  std::vector<EdgeBall> edge_balls_;
+  std::vector<TriangleSlab> prisms_;
+  std::vector<EdgeBounds> edge_balls_;
 };
 
 }  // namespace endovascular_sim::contact

@@ -19,20 +19,20 @@ constexpr int kNearby = 3;                // numbers by which a node's may have 
 }  // namespace
 
 /** From a place of the segment no farther than that from its begin [m²]. */
-inline double Detector::Neighbourhood::squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const
+inline double Detector::NeighbourList::squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const
 {
   const Eigen::Vector3d from = point - begin;
   return (from - std::max(0.0, std::min(farthest, from.dot(along))) * along).squaredNorm();
 }
 
-inline void Detector::Neighbourhood::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
+inline void Detector::NeighbourList::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
   // The distance to a segment is convex: between the edge's ends it is no larger than at them.
   moved = std::sqrt(std::max(squaredDistanceTo(a, reach), squaredDistanceTo(b, length))) + wall_moved;
   holds = moved < room && wanted <= limit && wanted >= limit - kLimitKept;
 }
 
-inline void Detector::followNode(const Query& query, std::size_t index, Neighbourhood& near)
+inline void Detector::followNode(const Query& query, std::size_t index, NeighbourList& near)
 {
   near.follow(query.nodes[index], query.nodes[nextNode(query, index)], listedLimit(query, index));
 }
@@ -43,7 +43,7 @@ void Detector::followWire(const Query& query)
   std::size_t elsewhere = 0;
   for (std::size_t index = 0; index < query.nodes.size(); ++index)
   {
-    Neighbourhood& near = near_[placeFromTip(query, index)];
+    NeighbourList& near = near_[placeFromTip(query, index)];
     followNode(query, index, near);
     elsewhere += near.isHere() ? 0 : 1;
   }
@@ -63,7 +63,7 @@ void Detector::Trail::drop(End end)
   --count_;
 }
 
-Detector::Neighbourhood& Detector::Trail::extend(End end)
+Detector::NeighbourList& Detector::Trail::extend(End end)
 {
   if (count_ == ring_.size())
     drop(end == End::kRear ? End::kFront : End::kRear);
@@ -76,7 +76,7 @@ Detector::Neighbourhood& Detector::Trail::extend(End end)
  *  where it is now. */
 void Detector::slideOn(const Query& query, std::size_t place)
 {
-  Neighbourhood& near = near_[place];
+  NeighbourList& near = near_[place];
   const std::size_t index = query.nodes.size() - 1 - place;
   const double past = near.past(query.nodes[index]);
   if (near.reach == 0.0 || !near.isHere() || (past >= 0.0 && past <= near.reach))
@@ -84,7 +84,7 @@ void Detector::slideOn(const Query& query, std::size_t place)
   const bool forwards = past > 0.0;
   Trail& before = trails_[place];
   Trail& behind = trails_[place + 1];
-  Neighbourhood& left = forwards ? behind.extend(Trail::End::kFront) : before.extend(Trail::End::kRear);
+  NeighbourList& left = forwards ? behind.extend(Trail::End::kFront) : before.extend(Trail::End::kRear);
   std::swap(near, left);
   const bool taken = forwards ? takeOver(query, index, before, Trail::End::kRear, near)
                               : takeOver(query, index, behind, Trail::End::kFront, near);
@@ -93,11 +93,11 @@ void Detector::slideOn(const Query& query, std::size_t place)
 }
 
 /** Lists of a trail that hold where a node is now, if there are any; what it has passed by is lost. */
-bool Detector::takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, Neighbourhood& near)
+bool Detector::takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, NeighbourList& near)
 {
   for (; !trail.empty(); trail.drop(end))
   {
-    Neighbourhood& there = trail.at(end);
+    NeighbourList& there = trail.at(end);
     const double past = there.past(query.nodes[index]);
     const double entered = end == Trail::End::kRear ? past : there.reach - past;
     if (entered < -there.room)
@@ -128,7 +128,7 @@ void Detector::handOver(const Query& query)
       const int from = place + shift + step;
       if (from < 0 || from >= static_cast<int>(left_.size()))
         continue;
-      Neighbourhood& left = left_[from];
+      NeighbourList& left = left_[from];
       followNode(query, index, left);
       if (!left.isHere())
         continue;
@@ -144,7 +144,7 @@ void Detector::handOver(const Query& query)
       std::swap(near_[place], left_[place]);
       near_[place].holds = false;
     }
-  for (Neighbourhood& left : left_)
+  for (NeighbourList& left : left_)
     left.forget();
 }
 

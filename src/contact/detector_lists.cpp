@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/detector.h"
-#include "contact/segment_pair.h"
+#include "geometry/closest_points_on_segments.h"
 
 // What the wire may meet soon: lists of what is near, made anew when wire or wall have moved.
 
@@ -38,7 +38,7 @@ float lower(double clearance)
  *  @param anew something moves for the first time, which lists may have left out because of how it was turned */
 void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool anew)
 {
-  const auto touches = [&moved](const Neighbourhood& near)
+  const auto touches = [&moved](const NeighbourList& near)
   {
     const double half = 0.5 * near.length;
     const double room = near.room - near.wall_moved;
@@ -47,7 +47,7 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
   };
   for (Trail& trail : trails_)
     trail.clear();
-  for (Neighbourhood& near : near_)
+  for (NeighbourList& near : near_)
     if (touches(near))
     {
       near.wall_differs = true;
@@ -62,7 +62,7 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
     }
 }
 
-void Detector::Neighbourhood::forget()
+void Detector::NeighbourList::forget()
 {
   limit = -1.0;
   holds = false;
@@ -72,7 +72,7 @@ void Detector::Neighbourhood::forget()
   ridges.clear();
 }
 
-void Detector::Neighbourhood::comeAfter(const Neighbourhood& last)
+void Detector::NeighbourList::comeAfter(const NeighbourList& last)
 {
   forget();
   was_long = last.was_long;
@@ -81,7 +81,7 @@ void Detector::Neighbourhood::comeAfter(const Neighbourhood& last)
   moved = 0.0;
 }
 
-void Detector::Neighbourhood::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
+void Detector::NeighbourList::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)
 {
   length = (b - a).norm();
   along = length > 0.0 ? Eigen::Vector3d((b - a) / length) : Eigen::Vector3d::Zero();
@@ -109,7 +109,7 @@ void Detector::renewLists(const Query& query)
 /** Lists anew what can be met where wire or wall have moved by more than the lists have room for. */
 void Detector::renewList(const Query& query, std::size_t index, Collected& collected)
 {
-  Neighbourhood& near = near_[placeFromTip(query, index)];
+  NeighbourList& near = near_[placeFromTip(query, index)];
   if (!near.holds)
   {
     near.start(query.nodes[index], query.nodes[nextNode(query, index)], listedLimit(query, index));
@@ -119,7 +119,7 @@ void Detector::renewList(const Query& query, std::size_t index, Collected& colle
     pack(near);
 }
 
-void Detector::list(Neighbourhood& near, Collected& collected) const
+void Detector::list(NeighbourList& near, Collected& collected) const
 {
   const double wide = near.limit + near.room + kListGuard;
   const AxisSegment segment(near.begin, near.end());
@@ -142,7 +142,7 @@ void Detector::list(Neighbourhood& near, Collected& collected) const
 }
 
 /** Lays side by side what is listed. */
-void Detector::pack(Neighbourhood& near) const
+void Detector::pack(NeighbourList& near) const
 {
   const auto lay = [&near](auto& quads, const std::vector<Near>& listed, const auto& shapes)
   {
@@ -160,15 +160,15 @@ void Detector::pack(Neighbourhood& near) const
 }
 
 /** A triangle that the node may meet. */
-void Detector::listTriangle(int triangle, Neighbourhood& near) const
+void Detector::listTriangle(int triangle, NeighbourList& near) const
 {
-  const Prism& prism = prisms_[triangle];
+  const TriangleSlab& prism = prisms_[triangle];
   const Eigen::Array4d first = prism.heights(near.begin);
   const Eigen::Array4d last = near.reach > 0.0 ? prism.heights(near.begin + near.reach * near.along) : first;
   const double low = std::min(first[0], last[0]);
   const double high = std::max(first[0], last[0]);
   // Of the places that the node may have, no more than their distance from the triangle.
-  const double beside = std::max(0.0, Prism::outsideOf(first.max(last)));
+  const double beside = std::max(0.0, TriangleSlab::outsideOf(first.max(last)));
   const double height = std::max({0.0, low, -high});
   double clear = std::sqrt(height * height + beside * beside) - near.limit;
   if (!prism.has_moved)
@@ -179,17 +179,17 @@ void Detector::listTriangle(int triangle, Neighbourhood& near) const
 
 /** A ridge that the wire's edge may meet. @param has_moved of the triangle that it belongs to; whatever turns the
  *  ridge's normal cone counts for that */
-void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, Neighbourhood& near) const
+void Detector::listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, NeighbourList& near) const
 {
   const double wide = near.limit + near.room + kListGuard;
-  if (!canMeet(segment, wall_edge, wide))
+  if (!mayContact(segment, wall_edge, wide))
     return;
-  const EdgeBall& ball = edge_balls_[wall_edge];
+  const EdgeBounds& ball = edge_balls_[wall_edge];
   double clear = has_moved ? 0.0 : ridgeClearance(ball, segment, near.limit);
   if (clear >= near.room + kListGuard)
     return;
-  const SegmentPair pair =
-      closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
+  const geometry::SegmentPair pair =
+      geometry::closestPointsOfSegments(segment.begin, segment.end, ball.middle - ball.half, ball.middle + ball.half);
   const Eigen::Vector3d apart =
       segment.begin + pair.first * segment.along - ball.middle - (2.0 * pair.second - 1.0) * ball.half;
   clear = std::max(clear, apart.norm() - near.limit);
@@ -212,7 +212,7 @@ double Detector::coneClearance(double low, double high, double beside, double sl
 }
 
 /** coneClearance of a segment's places and a mesh edge. */
-double Detector::ridgeClearance(const EdgeBall& ball, const AxisSegment& segment, double limit)
+double Detector::ridgeClearance(const EdgeBounds& ball, const AxisSegment& segment, double limit)
 {
   const Eigen::Vector3d from_begin = segment.begin - ball.middle;
   const Eigen::Vector3d from_end = segment.end - ball.middle;
@@ -228,10 +228,10 @@ double Detector::ridgeClearance(const EdgeBall& ball, const AxisSegment& segment
 }
 
 /** Distance to what a point may touch within a limit, infinite or beyond it where that is nothing [m]. */
-double Detector::nearestListed(const Neighbourhood& near, const Eigen::Vector3d& point, double limit) const
+double Detector::nearestListed(const NeighbourList& near, const Eigen::Vector3d& point, double limit) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  const PrismQuad::Place place(point, near.begin, limit, near.moved);
+  const TrianglePacket::Place place(point, near.begin, limit, near.moved);
   forEachInSight(near.prisms, place, [&](int t) { nearest = std::min(nearest, bvh_.distanceTo(t, point)); });
   return nearest;
 }

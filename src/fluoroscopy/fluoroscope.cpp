@@ -26,7 +26,7 @@ void Fluoroscope::setPose(const CArmPose& pose)
   background_valid_ = false;
 }
 
-void Fluoroscope::setVessel(vessel::TriangleMesh mesh)
+void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
 {
   requireVesselBeforeSource(geometry_, mesh);
   vessel_ = std::move(mesh);

@@ -43,7 +43,7 @@ public:
 
   /** Replaces the vessel; an empty mesh is no vessel.
    *  @throws InputError when it reaches the source, and then keeps the old one */
-  void setVessel(vessel::TriangleMesh mesh);
+  void setVessel(geometry::TriangleMesh mesh);
 
   const XRayGeometry& geometry() const { return geometry_; }
   const XRayScene& scene() const { return scene_; }
@@ -57,7 +57,7 @@ private:
 
   XRayGeometry geometry_;
   XRayScene scene_;
-  vessel::TriangleMesh vessel_;
+  geometry::TriangleMesh vessel_;
   bool background_valid_ = false;
   std::vector<double> background_;  // relative intensity without the wire [1]
   Frame background_frame_;

@@ -103,7 +103,7 @@ void addTriangle(Corner a, Corner b, Corner c, double detector_depth, int pixels
   }
 }
 
-std::vector<Corner> projectCorners(const XRayGeometry& geometry, const vessel::TriangleMesh& mesh)
+std::vector<Corner> projectCorners(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh)
 {
   std::vector<Corner> corners;
   corners.reserve(mesh.vertices.size());
@@ -114,13 +114,13 @@ std::vector<Corner> projectCorners(const XRayGeometry& geometry, const vessel::T
 
 }  // namespace
 
-void requireVesselBeforeSource(const XRayGeometry& geometry, const vessel::TriangleMesh& mesh)
+void requireVesselBeforeSource(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh)
 {
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     projectCorner(geometry, vertex);
 }
 
-std::vector<double> vesselPathLength(const XRayGeometry& geometry, const vessel::TriangleMesh& mesh)
+std::vector<double> vesselPathLength(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh)
 {
   const int n = geometry.pixels();
   std::vector<double> sum(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fluoroscopy/x_ray_geometry.h"
-#include "vessel/mesh.h"
+#include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -18,9 +18,9 @@ namespace endovascular_sim::fluoroscopy
  *  inside a mesh whose corners have moved by less than 1/5000 pixel.
  *
  *  @throws InputError when the mesh reaches the source: move the isocentre or the source */
-std::vector<double> vesselPathLength(const XRayGeometry& geometry, const vessel::TriangleMesh& mesh);
+std::vector<double> vesselPathLength(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh);
 
 /** Throws the InputError that vesselPathLength() would throw, at the price of one pass over the corners. */
-void requireVesselBeforeSource(const XRayGeometry& geometry, const vessel::TriangleMesh& mesh);
+void requireVesselBeforeSource(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh);
 
 }  // namespace endovascular_sim::fluoroscopy

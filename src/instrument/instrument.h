@@ -6,7 +6,7 @@
 
 #include "instrument/balloon.h"
 #include "instrument/stent.h"
-#include "rod/wire.h"
+#include "rod/model/wire.h"
 
 namespace endovascular_sim::instrument
 {

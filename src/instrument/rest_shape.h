@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "rod/wire.h"
+#include "rod/model/wire.h"
 
 namespace endovascular_sim::instrument
 {

@@ -11,7 +11,7 @@ void archive(Archive& archive, RoundBody& body)
   archive(body.axis, body.radii);
 }
 
-void archive(Archive& archive, Pressing& pressing)
+void archive(Archive& archive, BalloonLoad& pressing)
 {
   archive(pressing.balloon, pressing.pressure, pressing.sleeve);
 }

@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include "vessel/lumen_section.h"
-#include "vessel/mesh_distance.h"
-#include "vessel/polyline.h"
+#include "geometry/mesh_distance.h"
+#include "geometry/polyline.h"
+#include "vessel/centreline/lumen_section.h"
 
 namespace endovascular_sim::intervention
 {
@@ -23,9 +23,9 @@ constexpr double kApposed = 0.1e-3;  // m
 constexpr double kHair = 1e-6;       // m: struts may stand in the wall by rounding
 
 /** Share of the stent's surface that lies against the wall. */
-double apposition(const vessel::MeshDistance& wall, const RoundBody& stent)
+double apposition(const geometry::MeshDistance& wall, const RoundBody& stent)
 {
-  const vessel::Polyline axis(stent.axis);
+  const geometry::Polyline axis(stent.axis);
   int apposed = 0;
   for (int k = 0; k < kStentSections; ++k)
   {
@@ -46,15 +46,15 @@ double apposition(const vessel::MeshDistance& wall, const RoundBody& stent)
 
 }  // namespace
 
-LesionReport reportLesion(const vessel::TriangleMesh& mesh, const vessel::CentrelineTree& centreline,
+LesionReport reportLesion(const geometry::TriangleMesh& mesh, const vessel::CentrelineTree& centreline,
                           const vessel::PlacedLesion& lesion, const RoundBody* stent)
 {
   const vessel::CentrelineBranch& branch = centreline.branches[static_cast<std::size_t>(lesion.branch)];
-  const vessel::Polyline axis(branch.points, kSectionReach);
-  const vessel::MeshDistance wall(mesh);
+  const geometry::Polyline axis(branch.points, kSectionReach);
+  const geometry::MeshDistance wall(mesh);
   const auto diameterAt = [&](double arc)
   {
-    const vessel::Polyline::Foot place = axis.section(axis.at(arc));
+    const geometry::Polyline::Foot place = axis.section(axis.at(arc));
     return vessel::lumenDiameter(wall, place.point, place.tangent);
   };
   const double before = std::max(0.0, lesion.begin - lesion.healthy_diameter);

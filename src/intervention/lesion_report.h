@@ -1,9 +1,9 @@
 #pragma once
 
+#include "geometry/triangle_mesh.h"
 #include "intervention/vessel_opening.h"
-#include "vessel/centreline.h"
-#include "vessel/lesion.h"
-#include "vessel/mesh.h"
+#include "vessel/centreline/centreline.h"
+#include "vessel/model/lesion.h"
 
 namespace endovascular_sim::intervention
 {
@@ -26,7 +26,7 @@ struct LesionReport
  *  @param mesh of the wall now
  *  @param centreline in which the lesion was placed
  *  @param stent the placed sleeve, or null */
-LesionReport reportLesion(const vessel::TriangleMesh& mesh, const vessel::CentrelineTree& centreline,
+LesionReport reportLesion(const geometry::TriangleMesh& mesh, const vessel::CentrelineTree& centreline,
                           const vessel::PlacedLesion& lesion, const RoundBody* stent = nullptr);
 
 }  // namespace endovascular_sim::intervention

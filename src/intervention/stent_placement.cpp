@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "vessel/polyline.h"
+#include "geometry/polyline.h"
 
 namespace endovascular_sim::intervention
 {
@@ -73,7 +73,7 @@ std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int 
   std::vector<std::vector<Eigen::Vector3d>> rings;
   if (sleeve.axis.size() < 2)
     return rings;
-  const vessel::Polyline axis(sleeve.axis);
+  const geometry::Polyline axis(sleeve.axis);
   const int count = std::max(1, static_cast<int>(std::lround(axis.length() / ring_length)));
   const double spacing = axis.length() / count;
   const double radius = sleeve.radii.front();

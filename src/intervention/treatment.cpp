@@ -83,7 +83,7 @@ void Treatment::followStent(const ShaftLine* shaft)
   events_.stent_placed = state == StentPlacement::State::kPlaced;
 }
 
-const Pressing& Treatment::step(double dt, double commanded, const ShaftLine* shaft, double covered_from)
+const BalloonLoad& Treatment::step(double dt, double commanded, const ShaftLine* shaft, double covered_from)
 {
   events_ = TreatmentEvents{};
   if (stripped_)

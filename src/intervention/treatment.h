@@ -5,9 +5,9 @@
 
 #include "instrument/instrument.h"
 #include "intervention/balloon_inflation.h"
+#include "intervention/deformable_wall.h"
 #include "intervention/shaft_line.h"
 #include "intervention/stent_placement.h"
-#include "intervention/wall_mover.h"
 
 namespace endovascular_sim
 {
@@ -28,7 +28,7 @@ struct TreatmentEvents
 };
 
 /** One balloon catheter, with or without a stent, at work in a vessel: the instrument's side. What it does to the wall
- *  is a WallMover's matter. */
+ *  is a DeformableWall's matter. */
 class Treatment
 {
 public:
@@ -41,13 +41,13 @@ public:
    *  @param shaft as it lies now, as far as it is in the vessel; null: the balloon is outside
    *  @param covered_from distance from the tip from which on another instrument covers it [m]
    *  @return what the wall is to be told; valid until the next step */
-  const Pressing& step(double dt, double commanded, const ShaftLine* shaft,
-                       double covered_from = std::numeric_limits<double>::infinity());
+  const BalloonLoad& step(double dt, double commanded, const ShaftLine* shaft,
+                          double covered_from = std::numeric_limits<double>::infinity());
 
   const TreatmentEvents& events() const { return events_; }  ///< of the last step
   const BalloonInflation& inflation() const { return inflation_; }
   const std::optional<StentPlacement>& stent() const { return stent_; }
-  const Pressing& pressing() const { return pressing_; }  ///< of the last step
+  const BalloonLoad& pressing() const { return pressing_; }  ///< of the last step
 
   /** The stent is held back: it comes off its balloon where it is. Tells its event with the next step's. */
   void stripStent();
@@ -75,7 +75,7 @@ private:
   std::optional<StentPlacement> stent_;
   bool stripped_ = false;  ///< since the last step
   TreatmentEvents events_;
-  Pressing pressing_;
+  BalloonLoad pressing_;
 };
 
 }  // namespace endovascular_sim::intervention

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "vessel/branch_finder.h"
-#include "vessel/vertex_normals.h"
+#include "geometry/vertex_normals.h"
+#include "vessel/centreline/branch_finder.h"
 
 namespace endovascular_sim::intervention
 {
@@ -18,7 +18,7 @@ constexpr double kStill = 1e-6;  // m: less movement is not told
 constexpr double kOwnWall = 0.2;
 
 /** Radius of the vessel without its lesions at each point of a branch: across a lesion between its ends'. */
-std::vector<double> healthyRadii(const vessel::Vessel& vessel, int branch, const vessel::Polyline& axis)
+std::vector<double> healthyRadii(const vessel::Vessel& vessel, int branch, const geometry::Polyline& axis)
 {
   const std::vector<double> narrowed = vessel.centreline.branches[static_cast<std::size_t>(branch)].radii;
   std::vector<double> radii = narrowed;
@@ -38,13 +38,13 @@ VesselOpening::VesselOpening(const vessel::Vessel& vessel, const OpeningLaw& law
   : law_(law),
     mesh_(vessel.mesh),
     first_(vessel.mesh.vertices),
-    normals_(vessel::vertexNormals(vessel.mesh)),
+    normals_(geometry::vertexNormals(vessel.mesh)),
     tree_(first_),
     walls_(first_.size()),
     segment_of_(first_.size(), 0),
     marked_(first_.size(), 0)
 {
-  std::vector<vessel::Polyline> axes;
+  std::vector<geometry::Polyline> axes;
   std::vector<std::vector<double>> radii;
   for (const vessel::CentrelineBranch& branch : vessel.centreline.branches)
   {
@@ -64,11 +64,11 @@ VesselOpening::VesselOpening(const vessel::Vessel& vessel, const OpeningLaw& law
 }
 
 /** Seen from where the vertex stood when the balloon was empty. */
-VesselOpening::Reach VesselOpening::reachOf(const vessel::Polyline& axis, const std::vector<double>& radii,
+VesselOpening::Reach VesselOpening::reachOf(const geometry::Polyline& axis, const std::vector<double>& radii,
                                             int vertex) const
 {
   const Eigen::Vector3d& base = walls_[static_cast<std::size_t>(vertex)].base;
-  const vessel::Polyline::Foot foot = axis.section(base, segment_of_[static_cast<std::size_t>(vertex)]);
+  const geometry::Polyline::Foot foot = axis.section(base, segment_of_[static_cast<std::size_t>(vertex)]);
   Reach reach;
   const Eigen::Vector3d way = base - foot.point;
   const Eigen::Vector3d across = way - way.dot(foot.tangent) * foot.tangent;
@@ -85,7 +85,7 @@ VesselOpening::Reach VesselOpening::reachOf(const vessel::Polyline& axis, const 
 }
 
 /** Lists the vertices that a body may reach or that have to be looked after. */
-void VesselOpening::findNear(const vessel::Polyline& axis, double widest)
+void VesselOpening::findNear(const geometry::Polyline& axis, double widest)
 {
   near_ = active_;
   for (int v : near_)
@@ -146,7 +146,7 @@ void VesselOpening::startAnew()
   empty_ = true;
 }
 
-const MovedVertices& VesselOpening::press(const RoundBody& balloon, double pressure, std::size_t most)
+const WallDisplacement& VesselOpening::press(const RoundBody& balloon, double pressure, std::size_t most)
 {
   moved_.indices.clear();
   moved_.positions.clear();
@@ -167,7 +167,7 @@ const MovedVertices& VesselOpening::press(const RoundBody& balloon, double press
   peak_pressure_ = std::max(peak_pressure_, pressure);
   const double share =
       std::clamp((peak_pressure_ - law_.first_pressure) / (law_.full_pressure - law_.first_pressure), 0.0, 1.0);
-  const vessel::Polyline axis(balloon.axis);
+  const geometry::Polyline axis(balloon.axis);
   findNear(axis, *std::max_element(balloon.radii.begin(), balloon.radii.end()));
   // Those that had to wait come first.
   const auto first = std::lower_bound(near_.begin(), near_.end(), next_,
@@ -201,7 +201,7 @@ const MovedVertices& VesselOpening::press(const RoundBody& balloon, double press
   return moved_;
 }
 
-const MovedVertices& VesselOpening::press(const Pressing& pressing, std::size_t most)
+const WallDisplacement& VesselOpening::press(const BalloonLoad& pressing, std::size_t most)
 {
   if (pressing.sleeve)
     hold(*pressing.sleeve);
@@ -210,7 +210,7 @@ const MovedVertices& VesselOpening::press(const Pressing& pressing, std::size_t 
 
 void VesselOpening::hold(const RoundBody& sleeve)
 {
-  const vessel::Polyline axis(sleeve.axis);
+  const geometry::Polyline axis(sleeve.axis);
   findNear(axis, *std::max_element(sleeve.radii.begin(), sleeve.radii.end()));
   for (int v : near_)
   {

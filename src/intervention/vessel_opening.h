@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "vessel/point_tree.h"
-#include "vessel/polyline.h"
-#include "vessel/vessel.h"
+#include "geometry/kd_tree.h"
+#include "geometry/polyline.h"
+#include "vessel/model/vessel.h"
 
 namespace endovascular_sim
 {
@@ -39,7 +39,7 @@ struct RoundBody
 };
 
 /** What the wall is told of one step: all that the vessel needs to know of an instrument. */
-struct Pressing
+struct BalloonLoad
 {
   RoundBody balloon;                ///< with a stent that is still on it; empty where nothing is in the vessel
   double pressure = 0.0;            ///< [Pa]; not positive: the balloon presses no longer
@@ -48,10 +48,10 @@ struct Pressing
 
 /** Saves or loads them. */
 void archive(Archive& archive, RoundBody& body);
-void archive(Archive& archive, Pressing& pressing);
+void archive(Archive& archive, BalloonLoad& pressing);
 
 /** Vertices of the vessel's mesh that have moved, and where they are now. */
-struct MovedVertices
+struct WallDisplacement
 {
   std::vector<int> indices;
   std::vector<Eigen::Vector3d> positions;  ///< [m]
@@ -80,11 +80,12 @@ public:
    *         much to do at once
    *  @return the vertices that moved by more than a micrometre since they were last returned; valid until the next
    *          call */
-  const MovedVertices& press(const RoundBody& balloon, double pressure,
-                             std::size_t most = std::numeric_limits<std::size_t>::max());
+  const WallDisplacement& press(const RoundBody& balloon, double pressure,
+                                std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /** The same of all that an instrument does to the wall in a step. */
-  const MovedVertices& press(const Pressing& pressing, std::size_t most = std::numeric_limits<std::size_t>::max());
+  const WallDisplacement& press(const BalloonLoad& pressing,
+                                std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /** From now on the wall is at no place narrower than this sleeve. Moved vertices come with the next press(). */
   void hold(const RoundBody& sleeve);
@@ -93,7 +94,7 @@ public:
   double largestStretch() const { return largest_stretch_; }
   bool atRisk() const { return largest_stretch_ > law_.risky_stretch; }
 
-  const vessel::TriangleMesh& mesh() const { return mesh_; }  ///< as it is now
+  const geometry::TriangleMesh& mesh() const { return mesh_; }  ///< as it is now
 
   const std::vector<Eigen::Vector3d>& firstVertices() const { return first_; }  ///< of the mesh at the beginning [m]
 
@@ -124,16 +125,16 @@ private:
   using Place = std::pair<std::size_t, int>;
   Place placeOf(int vertex) const { return {segment_of_[static_cast<std::size_t>(vertex)], vertex}; }
 
-  Reach reachOf(const vessel::Polyline& axis, const std::vector<double>& radii, int vertex) const;
-  void findNear(const vessel::Polyline& axis, double widest);
+  Reach reachOf(const geometry::Polyline& axis, const std::vector<double>& radii, int vertex) const;
+  void findNear(const geometry::Polyline& axis, double widest);
   bool settle(int vertex, const Eigen::Vector3d& position, std::size_t most);
   void startAnew();
 
   OpeningLaw law_;
-  vessel::TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::vector<Eigen::Vector3d> first_;    ///< vertices at the beginning: what the tree holds [m]
   std::vector<Eigen::Vector3d> normals_;  ///< at the vertices at the beginning, out of the lumen
-  vessel::PointTree tree_;
+  geometry::PointTree tree_;
   std::vector<Wall> walls_;
   std::vector<int> near_, active_;
   std::vector<std::size_t> segment_of_;  ///< of a body's axis, per vertex in near_
@@ -143,7 +144,7 @@ private:
   double farthest_ = 0.0;       ///< of any vertex from where it was at the beginning [m]
   double peak_pressure_ = 0.0;  ///< since the balloon was last empty [Pa]
   double largest_stretch_ = 1.0;
-  MovedVertices moved_;
+  WallDisplacement moved_;
 };
 
 }  // namespace endovascular_sim::intervention

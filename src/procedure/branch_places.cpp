@@ -13,7 +13,7 @@ constexpr double kWider = 1.25;         // times as wide as a branch is what it 
 
 /** Whether a place on a branch's centreline lies within the lumen of a wider branch that it comes from. One that it
  *  continues is not wider. */
-bool isInParents(const vessel::CentrelineTree& tree, const std::vector<vessel::Polyline>& lines, std::size_t branch,
+bool isInParents(const vessel::CentrelineTree& tree, const std::vector<geometry::Polyline>& lines, std::size_t branch,
                  double arc)
 {
   const Eigen::Vector3d point = lines[branch].at(arc);
@@ -22,7 +22,7 @@ bool isInParents(const vessel::CentrelineTree& tree, const std::vector<vessel::P
   for (std::size_t above = 0; parent >= 0 && above < lines.size(); ++above)
   {
     const auto p = static_cast<std::size_t>(parent);
-    const vessel::Polyline::Foot foot = lines[p].nearest(point);
+    const geometry::Polyline::Foot foot = lines[p].nearest(point);
     const double radius = lines[p].interpolate(tree.branches[p].radii, foot.arc);
     if (foot.distance < radius && radius > kWider * own)
       return true;
@@ -33,7 +33,7 @@ bool isInParents(const vessel::CentrelineTree& tree, const std::vector<vessel::P
 
 }  // namespace
 
-BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<session::NamedBranch>& names)
+BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<scene::NamedBranch>& names)
   : finder_(tree)
 {
   for (const vessel::CentrelineBranch& branch : tree.branches)
@@ -43,7 +43,7 @@ BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector
     names_.push_back(branch.name);
   }
   own_names_ = names_;
-  for (const session::NamedBranch& named : names)
+  for (const scene::NamedBranch& named : names)
     if (const int branch = finder_.nearest(named.at); branch >= 0)
       names_[static_cast<std::size_t>(branch)] = named.name;
   for (std::size_t b = 0; b < lines_.size(); ++b)

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "session/scene_procedure.h"
-#include "vessel/branch_finder.h"
-#include "vessel/centreline.h"
-#include "vessel/polyline.h"
+#include "geometry/polyline.h"
+#include "scene/model/scene_procedure.h"
+#include "vessel/centreline/branch_finder.h"
+#include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::procedure
 {
@@ -26,7 +26,7 @@ class BranchPlaces
 public:
   /** @param tree of the vessel
    *  @param names that the procedure gives to branches, besides their own */
-  explicit BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<session::NamedBranch>& names = {});
+  explicit BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<scene::NamedBranch>& names = {});
 
   /** @param point patient frame [m] */
   BranchPlace at(const Eigen::Vector3d& point) const;
@@ -46,12 +46,12 @@ public:
   /** Whether every branch lies on the way from one branch to another, both included. Without a goal (−1) all do. */
   std::vector<bool> wayBetween(int from, int to) const;
 
-  const vessel::Polyline& line(int branch) const { return lines_[static_cast<std::size_t>(branch)]; }
+  const geometry::Polyline& line(int branch) const { return lines_[static_cast<std::size_t>(branch)]; }
 
   int branches() const { return static_cast<int>(names_.size()); }
 
 private:
-  std::vector<vessel::Polyline> lines_;
+  std::vector<geometry::Polyline> lines_;
   std::vector<double> ostium_;  ///< arc length at which a branch leaves the wider ones it comes from [m]
   std::vector<int> parent_;
   std::vector<std::string> names_;      ///< shown

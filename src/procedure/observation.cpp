@@ -5,7 +5,7 @@
 namespace endovascular_sim::procedure
 {
 
-Eigen::Vector3d pointAt(const session::Simulation& simulation, double inserted)
+Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted)
 {
   const rod::State& state = simulation.state();
   const std::vector<double>& arc = simulation.discretisation().position;
@@ -29,7 +29,7 @@ void markCovered(Observation& seen)
           seen.instruments[k].covered || seen.instruments[outer].hand.insertion > seen.instruments[k].hand.insertion;
 }
 
-Observation observe(const session::Scene& scene, const session::Simulation& simulation, const BranchPlaces& places)
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchPlaces& places)
 {
   Observation seen;
   seen.time = simulation.time();

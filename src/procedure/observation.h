@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "procedure/branch_places.h"
-#include "session/scene.h"
-#include "session/simulation.h"
+#include "scene/model/scene.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim::procedure
 {
@@ -15,7 +15,7 @@ namespace endovascular_sim::procedure
 /** What a person sees and feels of one instrument. */
 struct InstrumentView
 {
-  session::HandState hand;
+  simulation::HandState hand;
   bool outside = false;                           ///< it has left the introducer
   bool covered = false;                           ///< its tip lies inside of another instrument
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< patient frame; of an instrument outside, the introducer [m]
@@ -31,12 +31,12 @@ struct Observation
 };
 
 /** A point of the instruments' common line at a length beyond the introducer, in front of it for negative ones [m]. */
-Eigen::Vector3d pointAt(const session::Simulation& simulation, double inserted);
+Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted);
 
 /** Tells which tips lie inside of another instrument, from the insertions. */
 void markCovered(Observation& seen);
 
 /** Looks at a simulation. */
-Observation observe(const session::Scene& scene, const session::Simulation& simulation, const BranchPlaces& places);
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchPlaces& places);
 
 }  // namespace endovascular_sim::procedure

@@ -14,10 +14,10 @@ namespace
 constexpr double kNoticed = 3e-3;  // m beyond its ostium where a tip is seen to be in a wrong branch
 constexpr double kSlowFrom = 0.6;  // of the force at which he stops: from here he pushes more slowly
 
-using session::StepAction;
-using session::StepScene;
+using scene::StepAction;
+using scene::StepScene;
 
-int instrumentOf(const session::Scene& scene, const std::string& name)
+int instrumentOf(const scene::Scene& scene, const std::string& name)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].instrument.name == name)
@@ -47,7 +47,7 @@ double towards(double from, double to, double most)
 
 }  // namespace
 
-Operator::Operator(const session::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry)
+Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry)
   : scene_(scene),
     hand_(scene.procedure->hand),
     places_(tree, scene.procedure->branches),
@@ -56,12 +56,12 @@ Operator::Operator(const session::Scene& scene, const vessel::CentrelineTree& tr
 {
   expand();
   checkBranches();
-  for (const session::DrivenInstrument& driven : scene.instruments)
+  for (const scene::DrivenInstrument& driven : scene.instruments)
   {
     Hand hand;
     hand.insertion = driven.drive.insertionAt(0.0);
     hand.rotation = driven.drive.rotationAt(0.0);
-    hand.scripted = driven.drive.source == session::DriveSource::kProcedure;
+    hand.scripted = driven.drive.source == scene::DriveSource::kProcedure;
     hands_.push_back(hand);
   }
   commands_.resize(hands_.size());
@@ -76,7 +76,7 @@ void Operator::expand()
     if (step.action != StepAction::kExchange)
       continue;
     steps_.back().action = StepAction::kWithdraw;
-    steps_.back().until = session::GoalScene();
+    steps_.back().until = scene::GoalScene();
     steps_.back().until.outside = true;
     steps_.push_back(step);
     steps_.back().action = StepAction::kAdvance;
@@ -139,20 +139,20 @@ std::string Operator::nameOf(const StepScene& step) const
   return written("wait %.1f s", step.duration);
 }
 
-const std::vector<session::HandCommand>& Operator::next(const session::Simulation& simulation)
+const std::vector<simulation::HandCommand>& Operator::next(const simulation::Simulation& simulation)
 {
   if (looksBefore(simulation.steps()))
     see(observe(scene_, simulation, places_));
   return move(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
 }
 
-const std::vector<session::HandCommand>& Operator::move(double end_time)
+const std::vector<simulation::HandCommand>& Operator::move(double end_time)
 {
   const double dt = scene_.solver.time_step;
   for (std::size_t k = 0; k < hands_.size(); ++k)
   {
     Hand& hand = hands_[k];
-    const session::DriveScene& drive = scene_.instruments[k].drive;
+    const scene::DriveScene& drive = scene_.instruments[k].drive;
     if (!hand.scripted)
     {
       commands_[k] = {drive.insertionAt(end_time), drive.rotationAt(end_time), drive.pressureAt(end_time)};
@@ -256,7 +256,7 @@ bool Operator::isReached(const Observation& seen) const
   if (step().action == StepAction::kWait || step().action == StepAction::kInflate)
     return seen.time - begin_time_ >= step().duration - 1e-9;
   const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
-  const session::GoalScene& goal = step().until;
+  const scene::GoalScene& goal = step().until;
   const double forward = step().action == StepAction::kWithdraw ? -1.0 : 1.0;
   if (goal.outside && !view.outside)
     return false;

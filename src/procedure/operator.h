@@ -7,8 +7,8 @@
 #include "common/archive.h"
 #include "procedure/branch_places.h"
 #include "procedure/observation.h"
-#include "session/scene.h"
-#include "session/simulation.h"
+#include "scene/model/scene.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim::procedure
 {
@@ -47,16 +47,16 @@ public:
    *  @param tree the centreline of its vessel
    *  @param entry the introducer
    *  @throws InputError for a branch that the vessel does not have, naming those that it has */
-  Operator(const session::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
+  Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
 
   /** Commands for the simulation's next step, one per instrument; those that the procedure does not drive follow their
    *  drives. To be called once before every step. */
-  const std::vector<session::HandCommand>& next(const session::Simulation& simulation);
+  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
 
   /** Parts of next(), for observations from elsewhere. @{ */
   bool looksBefore(std::uint64_t step) const { return step % look_every_ == 0; }
   void see(const Observation& seen);
-  const std::vector<session::HandCommand>& move(double end_time);
+  const std::vector<simulation::HandCommand>& move(double end_time);
   /** @} */
 
   Progress progress() const { return progress_; }
@@ -109,17 +109,17 @@ private:
   void finishStep(double time);
   void rest();
   double pushed(const InstrumentView& view, double speed) const;
-  const session::StepScene& step() const { return steps_[current_]; }
-  std::string nameOf(const session::StepScene& step) const;
+  const scene::StepScene& step() const { return steps_[current_]; }
+  std::string nameOf(const scene::StepScene& step) const;
 
-  session::Scene scene_;
-  session::HandScene hand_;
+  scene::Scene scene_;
+  scene::HandScene hand_;
   BranchPlaces places_;
   int entered_ = -1;
   std::uint64_t look_every_ = 1;
-  std::vector<session::StepScene> steps_;  ///< with every exchange as two
+  std::vector<scene::StepScene> steps_;  ///< with every exchange as two
   std::vector<Hand> hands_;
-  std::vector<session::HandCommand> commands_;
+  std::vector<simulation::HandCommand> commands_;
   std::vector<StepRecord> records_;
   std::size_t current_ = 0;
   bool begun_ = false;

@@ -51,7 +51,7 @@ void Operator::manoeuvre(const InstrumentView& view, double time)
 {
   Hand& hand = hands_[static_cast<std::size_t>(active_)];
   const bool late = time - mode_time_ > kManoeuvreLimit;
-  const session::RetryScene& retry = step().retry;
+  const scene::RetryScene& retry = step().retry;
   const auto enter = [this, &view, time](Mode mode)
   {
     mode_ = mode;
@@ -128,7 +128,7 @@ void Operator::comeBack(const Observation& seen)
   begun_ = false;
   const auto again =
       std::find_if(steps_.begin(), steps_.end(),
-                   [this](const session::StepScene& one) { return one.phase == step().support.again_from; });
+                   [this](const scene::StepScene& one) { return one.phase == step().support.again_from; });
   current_ = static_cast<std::size_t>(again - steps_.begin());
 }
 

@@ -19,12 +19,12 @@ double even(std::mt19937_64& generator)
 
 }  // namespace
 
-session::Scene perturbed(session::Scene scene, const Spread& spread, std::uint64_t seed)
+scene::Scene perturbed(scene::Scene scene, const Spread& spread, std::uint64_t seed)
 {
   if (seed == 0)
     return scene;
   std::mt19937_64 generator(seed);
-  for (session::DrivenInstrument& driven : scene.instruments)
+  for (scene::DrivenInstrument& driven : scene.instruments)
   {
     const double insertion = driven.drive.initial_insertion + spread.insertion * even(generator);
     // One that is in the introducer at the start stays there, one before it stays outside.
@@ -37,15 +37,15 @@ session::Scene perturbed(session::Scene scene, const Spread& spread, std::uint64
   if (!scene.procedure)
     return scene;
   scene.procedure->hand.speed_scale *= 1.0 + spread.speed * even(generator);
-  for (session::StepScene& step : scene.procedure->steps)
+  for (scene::StepScene& step : scene.procedure->steps)
     for (double* length : {&step.until.insertion, &step.until.by})
       *length += spread.insertion * even(generator);
   return scene;
 }
 
-session::Scene endingWith(session::Scene scene, const std::string& phase)
+scene::Scene endingWith(scene::Scene scene, const std::string& phase)
 {
-  std::vector<session::StepScene>& steps = scene.procedure->steps;
+  std::vector<scene::StepScene>& steps = scene.procedure->steps;
   std::string current;
   std::string phases;
   std::size_t end = 0;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "session/scene.h"
+#include "scene/model/scene.h"
 
 namespace endovascular_sim::procedure
 {
@@ -18,10 +18,10 @@ struct Spread
 
 /** The scene with a start, and an operator, that differ a little: evenly distributed within ± the spread.
  *  @param seed the same one gives the same scene everywhere; 0 leaves it as it is */
-session::Scene perturbed(session::Scene scene, const Spread& spread, std::uint64_t seed);
+scene::Scene perturbed(scene::Scene scene, const Spread& spread, std::uint64_t seed);
 
 /** The scene whose procedure ends with the last step of a phase.
  *  @throws InputError when the procedure has no such phase, naming those that it has */
-session::Scene endingWith(session::Scene scene, const std::string& phase);
+scene::Scene endingWith(scene::Scene scene, const std::string& phase);
 
 }  // namespace endovascular_sim::procedure

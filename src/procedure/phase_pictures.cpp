@@ -6,13 +6,13 @@
 
 #include "common/error.h"
 #include "fluoroscopy/png_writer.h"
-#include "session/scene_paths.h"
+#include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::procedure
 {
 
-PhasePictures::PhasePictures(const session::Scene& scene, const std::string& folder)
-  : room_(scene, fluoroscopy::AttenuationTable::load(session::configFolder() + "/xray/attenuation.yaml")),
+PhasePictures::PhasePictures(const scene::Scene& scene, const std::string& folder)
+  : room_(scene, fluoroscopy::AttenuationTable::load(scene::configFolder() + "/xray/attenuation.yaml")),
     folder_(folder + "/fluoroscopy")
 {
   std::error_code refused;
@@ -21,8 +21,8 @@ PhasePictures::PhasePictures(const session::Scene& scene, const std::string& fol
     throw InputError(folder_, "", "cannot be made; choose a folder that can be written to");
 }
 
-void PhasePictures::look(const session::Simulation& simulation, const Operator& person,
-                         const vessel::TriangleMesh& wall)
+void PhasePictures::look(const simulation::Simulation& simulation, const Operator& person,
+                         const geometry::TriangleMesh& wall)
 {
   if (over_ || person.records().empty())
     return;
@@ -33,7 +33,7 @@ void PhasePictures::look(const session::Simulation& simulation, const Operator& 
   phase_ = phase;
 }
 
-void PhasePictures::take(const session::Simulation& simulation, const vessel::TriangleMesh& wall)
+void PhasePictures::take(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
 {
   fluoroscopy::CArmPose pose = room_.fluoroscope().geometry().pose();
   pose.isocentre = simulation.state().position.back();

@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "geometry/triangle_mesh.h"
 #include "procedure/operator.h"
-#include "session/simulation.h"
-#include "session/x_ray_room.h"
-#include "vessel/mesh.h"
+#include "simulation/fluoroscopy_system.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim::procedure
 {
@@ -17,15 +17,15 @@ public:
   /** @param scene with fluoroscopy; must outlive this
    *  @param folder of the results
    *  @throws InputError when the scene has no fluoroscopy or the folder cannot be made */
-  PhasePictures(const session::Scene& scene, const std::string& folder);
+  PhasePictures(const scene::Scene& scene, const std::string& folder);
 
   /** After every step, and once after the last one. @param wall as it is now */
-  void look(const session::Simulation& simulation, const Operator& person, const vessel::TriangleMesh& wall);
+  void look(const simulation::Simulation& simulation, const Operator& person, const geometry::TriangleMesh& wall);
 
 private:
-  void take(const session::Simulation& simulation, const vessel::TriangleMesh& wall);
+  void take(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall);
 
-  session::XRayRoom room_;
+  simulation::FluoroscopySystem room_;
   std::string folder_;
   std::string phase_;
   int taken_ = 0;

@@ -9,13 +9,13 @@
 #include <iostream>
 #include <new>
 
-#include "benchmark/accuracy.h"
-#include "benchmark/contact_study.h"
-#include "benchmark/hand_force_study.h"
-#include "benchmark/sampling_sections.h"
-#include "benchmark/speed.h"
-#include "benchmark/stability.h"
-#include "benchmark/work_precision.h"
+#include "benchmark/studies/accuracy.h"
+#include "benchmark/studies/contact_study.h"
+#include "benchmark/studies/hand_force_study.h"
+#include "benchmark/studies/sampling_sections.h"
+#include "benchmark/studies/speed.h"
+#include "benchmark/studies/stability.h"
+#include "benchmark/studies/work_precision.h"
 #include "common/error.h"
 
 namespace

@@ -21,12 +21,13 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
-#include "haptics/device_simulator.h"
-#include "haptics/motion_script.h"
-#include "haptics/serial_port.h"
-#include "nodes/support/haptic_topics.h"
-#include "nodes/support/real_time.h"
-#include "session/scene.h"
+#include "haptics/device/device_simulator.h"
+#include "haptics/device/motion_script.h"
+#include "haptics/serial/serial_port.h"
+#include "nodes/haptic_device/haptic_topics.h"
+#include "nodes/runtime/real_time.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
 
 namespace
 {
@@ -274,7 +275,7 @@ SimulatorOptions simulatorOptions(const Arguments& arguments, KeyboardOperator* 
   }
   else
   {
-    const auto scene = endovascular_sim::session::loadScene(arguments.scene, arguments.overrides);
+    const auto scene = endovascular_sim::scene::loadScene(arguments.scene, arguments.overrides);
     const auto drive = scene.instruments.front().drive;
     options.duration = scene.duration;
     // The device counts from where it starts; where the wire starts is the scene's and the host's business.

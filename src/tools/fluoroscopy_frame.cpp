@@ -13,7 +13,7 @@
 #include "fluoroscopy/attenuation.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/png_writer.h"
-#include "vessel/mesh_reader.h"
+#include "vessel/io/mesh_reader.h"
 
 namespace endovascular_sim
 {
@@ -163,9 +163,9 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Attenu
   return wire;
 }
 
-vessel::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
+geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
-  vessel::TriangleMesh mesh = vessel::readMesh(options.text("--mesh"), options.number("--unit"));
+  geometry::TriangleMesh mesh = vessel::readMesh(options.text("--mesh"), options.number("--unit"));
   for (Eigen::Vector3d& vertex : mesh.vertices)
     vertex = patient_from_mesh * vertex;
   if (mesh.signedVolume() < 0.0)
@@ -174,7 +174,7 @@ vessel::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& p
   return mesh;
 }
 
-fluoroscopy::CArmPose makePose(const Options& options, const vessel::TriangleMesh& mesh,
+fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleMesh& mesh,
                                const fluoroscopy::XRayWire& wire)
 {
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -199,7 +199,7 @@ void run(const Options& options)
   const auto table = fluoroscopy::AttenuationTable::load(options.text("--table"));
   const Eigen::Matrix3d patient_from_mesh = patientFromMesh(options);
   const fluoroscopy::XRayWire wire = makeWire(options, table, patient_from_mesh);
-  const vessel::TriangleMesh mesh = readVessel(options, patient_from_mesh);
+  const geometry::TriangleMesh mesh = readVessel(options, patient_from_mesh);
   const double energy = options.number("--energy");
   fluoroscopy::XRayScene scene;
   scene.tissue_attenuation = table.linear("soft_tissue", energy);

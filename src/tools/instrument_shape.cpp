@@ -10,7 +10,7 @@
 
 #include "common/error.h"
 #include "instrument/rest_shape.h"
-#include "session/instrument_library.h"
+#include "scene/instrument_library.h"
 
 namespace
 {
@@ -178,14 +178,14 @@ std::vector<Drawn> readAll(const Options& options)
   std::vector<std::string> files;
   for (const std::string& word : options.instruments)
     if (word == "all")
-      for (const std::string& name : session::libraryNames())
-        files.push_back(session::libraryInstrument(name));
+      for (const std::string& name : scene::libraryNames())
+        files.push_back(scene::libraryInstrument(name));
     else
       files.push_back(fs::is_regular_file(word) || fs::path(word).has_extension() ? word
-                                                                                  : session::libraryInstrument(word));
+                                                                                  : scene::libraryInstrument(word));
   std::vector<Drawn> all;
   for (const std::string& file : files)
-    all.push_back({fs::path(file).stem().string(), session::loadInstrument(file, options.overrides)});
+    all.push_back({fs::path(file).stem().string(), scene::loadInstrument(file, options.overrides)});
   return all;
 }
 

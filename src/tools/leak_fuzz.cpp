@@ -10,7 +10,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "benchmark/fuzz_record.h"
+#include "benchmark/fuzz/fuzz_record.h"
 #include "common/error.h"
 
 namespace
@@ -31,7 +31,7 @@ usage: leak_fuzz --out DIR [--steps N] [--seed S] [--resume] [--episode K] [--me
   --resume              goes on from DIR/leak_fuzz.json
   --episode K           runs this episode alone, tells what became of it and writes nothing
   --mesh FILE           a mesh to fuzz in [mm or m], may be repeated; default: all of ENDOVASCULAR_DATA_DIR that load
-  --set key.path=value  replaces a value of every scene, e.g. --set solver.max_newton=2
+  --set key.path=value  replaces a value of every scene, e.g. --set solver.max_iterations=2
   --help                prints this
 
 Channels, bifurcations and the generated anatomy are always fuzzed. docs/CONTACT.md tells what is checked.

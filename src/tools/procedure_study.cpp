@@ -9,11 +9,12 @@
 #include "common/error.h"
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
-#include "procedure/session_run.h"
-#include "session/moving_wall.h"
-#include "session/scene.h"
-#include "session/scene_vessel.h"
-#include "session/simulation.h"
+#include "results/session_run.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+#include "scene/scene_vessel.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/simulation.h"
 
 namespace
 {
@@ -100,19 +101,20 @@ int parse(int argc, char** argv, Options& options)
 }
 
 /** One run. @return what became of it; empty: success */
-std::string run(const session::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
+std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
 {
-  const session::EntryPose entry = session::resolveStart(scene, vessel);
-  contact::Detector wall(vessel.mesh, session::wallLaw(*scene.vessel));
-  procedure::SessionRun session(scene, vessel, entry.position);
-  const std::unique_ptr<session::MovingWall> moving_wall = session::makeMovingWall(scene, vessel, wall);
-  session::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
-  std::vector<session::WallContact> contacts;
+  const scene::EntryPose entry = scene::resolveStart(scene, vessel);
+  contact::Detector wall(vessel.mesh, scene::wallLaw(*scene.vessel));
+  results::SessionRun session(scene, vessel, entry.position);
+  const std::unique_ptr<simulation::LocalDeformableWall> moving_wall =
+      simulation::makeLocalDeformableWall(scene, vessel, wall);
+  simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
+  std::vector<simulation::WallContact> contacts;
   const auto steps = static_cast<std::uint64_t>(scene.duration / scene.solver.time_step);
   while (simulation.steps() < steps && !session.isOver())
   {
     simulation.stepAll(session.commands(simulation));
-    session::wallContacts(simulation, contacts);
+    simulation::wallContacts(simulation, contacts);
     session.addStep(simulation, contacts);
   }
   seconds = simulation.time();
@@ -126,13 +128,13 @@ std::string run(const session::Scene& scene, const vessel::Vessel& vessel, const
 
 int study(const Options& options)
 {
-  session::Scene scene = session::loadScene(options.scene, options.overrides);
+  scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   if (!scene.procedure)
     throw InputError(scene.file, "procedure", "missing; give procedure: FILE");
   if (!options.through.empty())
     scene = procedure::endingWith(std::move(scene), options.through);
   const vessel::Vessel vessel =
-      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
   std::filesystem::create_directories(options.out);
   std::ofstream table(options.out + "/study.csv");
   table << "seed,success,time,why\n";

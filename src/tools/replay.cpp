@@ -14,12 +14,13 @@
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "nodes/support/names.h"
-#include "nodes/support/vessel_conversions.h"
-#include "session/moving_wall.h"
-#include "session/replay_source.h"
-#include "session/simulation.h"
-#include "session/step_costs_file.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "results/step_costs_csv.h"
+#include "scene/scene_file.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/replay_source.h"
+#include "simulation/simulation.h"
 
 namespace
 {
@@ -88,15 +89,15 @@ Recording read(const std::string& file)
 
 int replay(const std::string& file, bool keep_going, const std::string& costs_file)
 {
-  std::optional<session::StepCostsFile> costs;
+  std::optional<results::StepCostsFile> costs;
   if (!costs_file.empty())
     costs.emplace(costs_file);
   const Recording recording = read(file);
-  const session::Scene scene = session::parseRecordedScene(recording.info->scene_yaml, file);
+  const scene::Scene scene = scene::parseRecordedScene(recording.info->scene_yaml, file);
   std::unique_ptr<contact::Detector> detector;
-  std::unique_ptr<session::ReplayContactSource> contacts;
-  std::unique_ptr<session::MovingWall> wall;
-  session::EntryPose entry;
+  std::unique_ptr<simulation::ReplayContactSource> contacts;
+  std::unique_ptr<simulation::LocalDeformableWall> wall;
+  scene::EntryPose entry;
   vessel::CentrelineTree centreline;
   if (scene.vessel)
   {
@@ -107,16 +108,16 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
     vessel.centreline = nodes::fromMessage(*recording.centreline);
     if (vessel.mesh.hash() != recording.mesh->content_hash)
       throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
-    entry = session::resolveEntry(scene.entry, vessel, file);
+    entry = scene::resolveEntry(scene.entry, vessel, file);
     centreline = vessel.centreline;
-    detector = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
-    wall = session::makeMovingWall(scene, vessel, *detector);
-    contacts = std::make_unique<session::ReplayContactSource>(*detector);
+    detector = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
+    wall = simulation::makeLocalDeformableWall(scene, vessel, *detector);
+    contacts = std::make_unique<simulation::ReplayContactSource>(*detector);
   }
   else
-    entry = session::resolveEntry(scene.entry, file);
-  session::Simulation simulation(scene, entry, contacts.get(), &centreline, wall.get());
-  std::vector<session::HandCommand> commands;
+    entry = scene::resolveEntry(scene.entry, file);
+  simulation::Simulation simulation(scene, entry, contacts.get(), &centreline, wall.get());
+  std::vector<simulation::HandCommand> commands;
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
   for (const auto& [step, applied] : recording.steps)

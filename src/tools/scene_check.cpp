@@ -5,9 +5,10 @@
 
 #include "common/error.h"
 #include "common/hash.h"
-#include "procedure/session_run.h"
-#include "session/scene.h"
-#include "session/scene_vessel.h"
+#include "results/session_run.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+#include "scene/scene_vessel.h"
 
 namespace
 {
@@ -32,17 +33,16 @@ enum class Output
   kHash,
 };
 
-void checkVessel(const endovascular_sim::session::Scene& scene)
+void checkVessel(const endovascular_sim::scene::Scene& scene)
 {
   using namespace endovascular_sim;  // NOLINT: inside of one function
   if (!scene.vessel)
     return;
-  const vessel::Vessel vessel =
-      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
+  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
-  const session::EntryPose entry = session::resolveStart(scene, vessel);
-  const procedure::SessionRun goals(scene, vessel, entry.position);
+  const scene::EntryPose entry = scene::resolveStart(scene, vessel);
+  const results::SessionRun goals(scene, vessel, entry.position);
 }
 
 int wrongUse(const std::string& reason)
@@ -51,7 +51,7 @@ int wrongUse(const std::string& reason)
   return 2;
 }
 
-void print(const endovascular_sim::session::Scene& scene, Output output)
+void print(const endovascular_sim::scene::Scene& scene, Output output)
 {
   switch (output)
   {
@@ -59,7 +59,7 @@ void print(const endovascular_sim::session::Scene& scene, Output output)
       std::cout << scene.resolved_yaml;
       break;
     case Output::kNodes:
-      for (const std::string& node : endovascular_sim::session::requiredNodes(scene))
+      for (const std::string& node : endovascular_sim::scene::requiredNodes(scene))
         std::cout << node << "\n";
       break;
     case Output::kHash:
@@ -105,7 +105,7 @@ int main(int argc, char** argv)
     return wrongUse("needs a scene file");
   try
   {
-    const endovascular_sim::session::Scene scene = endovascular_sim::session::loadScene(file, overrides);
+    const endovascular_sim::scene::Scene scene = endovascular_sim::scene::loadScene(file, overrides);
     if (with_vessel)
       checkVessel(scene);
     print(scene, output);

@@ -13,16 +13,17 @@
 #include "common/error.h"
 #include "contact/detector.h"
 #include "procedure/phase_pictures.h"
-#include "procedure/session_run.h"
-#include "session/moving_wall.h"
-#include "session/run_result.h"
-#include "session/scene.h"
-#include "session/scene_vessel.h"
-#include "session/simulation.h"
-#include "session/step_costs_file.h"
-#include "session/trajectory_file.h"
-#include "session/wall_force_map.h"
-#include "session/wall_force_report.h"
+#include "results/run_result.h"
+#include "results/session_run.h"
+#include "results/step_costs_csv.h"
+#include "results/trajectory_csv.h"
+#include "results/wall_force_map.h"
+#include "results/wall_force_report.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+#include "scene/scene_vessel.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/simulation.h"
 
 namespace
 {
@@ -167,10 +168,10 @@ void drawProgress(double done, double factor)
                std::string(kWidth - filled, '.').c_str(), 100.0 * done, factor);
 }
 
-void writeNodes(std::ofstream& file, const session::Simulation& simulation)
+void writeNodes(std::ofstream& file, const simulation::Simulation& simulation)
 {
   char line[200];
-  for (int i = session::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+  for (int i = results::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
   {
     const Eigen::Vector3d& x = simulation.state().position[i];
     std::snprintf(line, sizeof line, "%.17g,%d,%.17g,%.17g,%.17g\n", simulation.time(), i, x.x(), x.y(), x.z());
@@ -178,10 +179,10 @@ void writeNodes(std::ofstream& file, const session::Simulation& simulation)
   }
 }
 
-session::TrajectoryRow rowOf(const session::Simulation& simulation)
+results::TrajectoryRow rowOf(const simulation::Simulation& simulation)
 {
   const rod::State& state = simulation.state();
-  session::TrajectoryRow row;
+  results::TrajectoryRow row;
   row.time = simulation.time();
   row.insertion = state.inserted_length;
   row.rotation = state.rotation;
@@ -190,11 +191,11 @@ session::TrajectoryRow rowOf(const session::Simulation& simulation)
   row.tip = state.position.back();
   for (int k = 0; k < simulation.instruments(); ++k)
     row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
-  row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - session::firstInsertedNode(simulation));
+  row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - results::firstInsertedNode(simulation));
   return row;
 }
 
-void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
+void writeHandForce(std::ofstream& file, const simulation::Simulation& simulation)
 {
   const rod::State& state = simulation.state();
   const rod::HandForceParts& parts = state.hand_parts;
@@ -209,40 +210,39 @@ void writeHandForce(std::ofstream& file, const session::Simulation& simulation)
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
-  std::unique_ptr<session::MovingWall> moving_wall;  ///< null without a balloon
-  std::unique_ptr<session::WallForceMap> wall_forces;
-  std::unique_ptr<procedure::SessionRun> session;      ///< null without a vessel
+  std::unique_ptr<simulation::LocalDeformableWall> moving_wall;  ///< null without a balloon
+  std::unique_ptr<results::WallForceMap> wall_forces;
+  std::unique_ptr<results::SessionRun> session;        ///< null without a vessel
   std::unique_ptr<procedure::PhasePictures> pictures;  ///< null where none are wanted
-  session::EntryPose entry;
+  scene::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
   std::uint64_t mesh_hash = 0;
 };
 
-Surroundings build(const session::Scene& scene)
+Surroundings build(const scene::Scene& scene)
 {
   Surroundings made;
   if (!scene.vessel)
   {
-    made.entry = session::resolveEntry(scene.entry, scene.file);
+    made.entry = scene::resolveEntry(scene.entry, scene.file);
     return made;
   }
-  const vessel::Vessel vessel =
-      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene));
+  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
-  made.entry = session::resolveStart(scene, vessel);
+  made.entry = scene::resolveStart(scene, vessel);
   made.centreline = vessel.centreline;
   made.wall_points = vessel.mesh.vertices;
-  made.wall_forces = std::make_unique<session::WallForceMap>(scene.record.wall_force_threshold, vessel);
+  made.wall_forces = std::make_unique<results::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
-  made.wall = std::make_unique<contact::Detector>(vessel.mesh, session::wallLaw(*scene.vessel));
-  made.moving_wall = session::makeMovingWall(scene, vessel, *made.wall);
-  made.session = std::make_unique<procedure::SessionRun>(scene, vessel, made.entry.position);
+  made.wall = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
+  made.moving_wall = simulation::makeLocalDeformableWall(scene, vessel, *made.wall);
+  made.session = std::make_unique<results::SessionRun>(scene, vessel, made.entry.position);
   return made;
 }
 
-std::uint64_t stepsIn(double seconds, const session::Scene& scene)
+std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
 {
   return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
 }
@@ -250,7 +250,7 @@ std::uint64_t stepsIn(double seconds, const session::Scene& scene)
 /** The scripted operator's part of a saved state. */
 std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
 {
-  procedure::SessionRun* session = surroundings.session.get();
+  results::SessionRun* session = surroundings.session.get();
   return [session](Archive& archive)
   {
     if (session != nullptr)
@@ -258,7 +258,7 @@ std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
   };
 }
 
-void saveState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+void saveState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
 {
   std::ofstream stream(path, std::ios::binary);
   if (stream)
@@ -267,7 +267,7 @@ void saveState(const std::string& path, session::Simulation& simulation, const S
     throw InputError(path, "", "cannot be written; choose a folder that exists and has room");
 }
 
-void loadState(const std::string& path, session::Simulation& simulation, const Surroundings& surroundings)
+void loadState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
 {
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
@@ -276,7 +276,7 @@ void loadState(const std::string& path, session::Simulation& simulation, const S
 }
 
 /** Steps until the end, those before a loaded state included. */
-std::uint64_t lastStep(const session::Scene& scene, const Options& options, const session::Simulation& simulation)
+std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const simulation::Simulation& simulation)
 {
   const std::uint64_t last = std::isfinite(options.seconds) ? simulation.steps() + stepsIn(options.seconds, scene)
                                                             : stepsIn(scene.duration, scene);
@@ -290,7 +290,7 @@ std::uint64_t lastStep(const session::Scene& scene, const Options& options, cons
   return last;
 }
 
-void takePicture(const Surroundings& surroundings, const session::Simulation& simulation)
+void takePicture(const Surroundings& surroundings, const simulation::Simulation& simulation)
 {
   if (surroundings.pictures)
     surroundings.pictures->look(
@@ -298,10 +298,10 @@ void takePicture(const Surroundings& surroundings, const session::Simulation& si
         surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
 }
 
-void run(const session::Scene& scene, const Options& options, session::Simulation& simulation,
-         const Surroundings& surroundings, session::RunResult& result, std::uint64_t steps)
+void run(const scene::Scene& scene, const Options& options, simulation::Simulation& simulation,
+         const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
 {
-  session::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
+  results::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
   std::ofstream hand_force = openFile(options.out + "/hand_force.csv");
   hand_force << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
   std::ofstream nodes;
@@ -310,13 +310,13 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
     nodes = openFile(options.out + "/nodes.csv");
     nodes << "time,node,x,y,z\n";
   }
-  std::optional<session::StepCostsFile> costs;
+  std::optional<results::StepCostsFile> costs;
   if (options.record_costs)
     costs.emplace(options.out + "/costs.csv");
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
-  std::vector<session::WallContact> contacts;
+  std::vector<simulation::WallContact> contacts;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
   const std::uint64_t first = simulation.steps() + 1;
@@ -324,9 +324,9 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
   {
     if (surroundings.session && surroundings.session->isOver())
       break;
-    const std::vector<session::HandCommand> commands =
+    const std::vector<simulation::HandCommand> commands =
         surroundings.session ? surroundings.session->commands(simulation)
-                             : session::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
+                             : simulation::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     const double took = std::chrono::duration<double>(Clock::now() - before).count();
@@ -337,7 +337,7 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
       saveState(options.save_state, simulation, surroundings);
     if (surroundings.wall_forces)
     {
-      session::wallContacts(simulation, contacts);
+      simulation::wallContacts(simulation, contacts);
       surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
       surroundings.session->addStep(simulation, contacts);
     }
@@ -371,18 +371,18 @@ void run(const session::Scene& scene, const Options& options, session::Simulatio
 
 void writeWallForces(const std::string& folder, const Surroundings& surroundings)
 {
-  const session::WallForceMap& map = *surroundings.wall_forces;
-  std::vector<session::WallForceRow> rows;
-  for (const session::WallForce& force : map.touched())
+  const results::WallForceMap& map = *surroundings.wall_forces;
+  std::vector<results::WallForceRow> rows;
+  for (const results::WallForce& force : map.touched())
     rows.push_back({force, map.centre(force.triangle), map.regionName(force.region)});
-  writeFile(folder + "/wall_forces.csv", session::wallForcesCsv(std::move(rows)));
-  writeFile(folder + "/vessel_points.csv", session::vesselPointsCsv(surroundings.wall_points));
+  writeFile(folder + "/wall_forces.csv", results::wallForcesCsv(std::move(rows)));
+  writeFile(folder + "/vessel_points.csv", results::vesselPointsCsv(surroundings.wall_points));
 }
 
-void finishSession(const session::Simulation& simulation, const Surroundings& surroundings)
+void finishSession(const simulation::Simulation& simulation, const Surroundings& surroundings)
 {
   surroundings.session->metrics().setWallForces(surroundings.wall_forces->summary());
-  const session::MovingWall* wall = surroundings.moving_wall.get();
+  const simulation::LocalDeformableWall* wall = surroundings.moving_wall.get();
   surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
 }
 
@@ -411,7 +411,7 @@ void plot(const Options& options)
 
 int simulate(const Options& options)
 {
-  const session::Scene scene = session::loadScene(options.scene, options.overrides);
+  const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
   Surroundings surroundings = build(scene);
   if (options.pictures)
@@ -420,19 +420,19 @@ int simulate(const Options& options)
       throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
     surroundings.pictures = std::make_unique<procedure::PhasePictures>(scene, options.out);
   }
-  session::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
-                                 surroundings.moving_wall.get());
+  simulation::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
+                                    surroundings.moving_wall.get());
   if (!options.from_state.empty())
     loadState(options.from_state, simulation, surroundings);
   const std::uint64_t steps = lastStep(scene, options, simulation);
-  session::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
+  results::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
   if (surroundings.session)
     finishSession(simulation, surroundings);
-  if (session::hasBalloon(scene))
+  if (simulation::hasBalloon(scene))
     result.setTreatment(
         scene, simulation,
-        surroundings.session ? surroundings.session->metrics().lesions() : std::vector<session::LesionOutcome>());
+        surroundings.session ? surroundings.session->metrics().lesions() : std::vector<results::LesionOutcome>());
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
   writeFile(options.out + "/result.json", text);
   writeFile(options.out + "/scene.yaml", scene.resolved_yaml);

@@ -8,16 +8,17 @@
 #include <vector>
 
 #include "common/error.h"
-#include "vessel/anatomy_mesh.h"
-#include "vessel/centreline_file.h"
-#include "vessel/mesh_check.h"
-#include "vessel/mesh_reader.h"
-#include "vessel_prepare/prepare.h"
+#include "vessel/anatomy/anatomy_mesh.h"
+#include "vessel/centreline/centreline_file.h"
+#include "vessel/io/mesh_reader.h"
+#include "vessel/prepare/prepare.h"
+#include "vessel/repair/mesh_check.h"
 
 namespace
 {
 
 using endovascular_sim::InputError;
+namespace geometry = endovascular_sim::geometry;
 namespace vessel = endovascular_sim::vessel;
 
 constexpr auto kUsage =
@@ -176,7 +177,7 @@ void writeText(const std::string& text, const std::string& path)
 
 int prepare(const Arguments& a)
 {
-  vessel::TriangleMesh input = vessel::readMesh(a.in, a.unit);
+  geometry::TriangleMesh input = vessel::readMesh(a.in, a.unit);
   vessel::requirePlausibleSize(vessel::checkMesh(input), a.unit, a.in);
   std::string source = a.in;
   for (const std::string& anatomy : a.joins)

@@ -1,17 +1,17 @@
-#include "rod/hand_force.h"
+#include "rod/boundary/hand_force_parts.h"
 
 #include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "../rod/rod_fixtures.h"
-#include "benchmark/smooth_walls.h"
-#include "rod/held_wire.h"
-#include "rod/kkt_stepper.h"
-#include "rod/wall_friction.h"
+#include "benchmark/reference/smooth_walls.h"
+#include "rod/boundary/boundary_conditions.h"
+#include "rod/contact/wall_friction.h"
+#include "rod/kkt/kkt_stepper.h"
+#include "test/rod/rod_fixtures.h"
 
-namespace endovascular_sim::rod
+namespace endovascular_sim::benchmark
 {
 namespace
 {
@@ -46,9 +46,9 @@ private:
 /** A wire that is pushed through an introducer at the origin, along x. */
 struct PushedWire
 {
-  PushedWire(double length, int nodes, const Environment& environment, double inserted)
-    : stepper(discretiseUniformly(uniformWire(length, kStiffness, kRadius, kDensity), nodes), Boundary(), environment,
-              StepperSettings()),
+  PushedWire(double length, int nodes, const rod::Environment& environment, double inserted)
+    : stepper(rod::discretiseUniformly(uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
+              environment, rod::StepperSettings()),
       state(stepper.initialState(inserted, 0.0))
   {
     input.inserted_length = inserted;
@@ -63,28 +63,28 @@ struct PushedWire
     ++input.step;
   }
 
-  KktStepper stepper;
-  State state;
-  State before;
-  StepInput input;
+  rod::KktStepper stepper;
+  rod::State state;
+  rod::State before;
+  rod::StepInput input;
   PhaseTimer timer;
 };
 
 /** The parts from what a step left behind: energy gradient, forces of wall, friction and guide, velocities. */
-HandForceParts partsAnew(PushedWire& wire)
+rod::HandForceParts partsAnew(PushedWire& wire)
 {
-  const State& state = wire.state;
-  const Discretisation& rod = wire.stepper.discretisation();
-  const Boundary boundary;
-  const HeldWire held(rod, boundary);
+  const rod::State& state = wire.state;
+  const rod::Discretisation& rod = wire.stepper.discretisation();
+  const rod::Boundary boundary;
+  const rod::BoundaryConditions held(rod, boundary);
   int last_held = state.first_node - 1;
   while (held.isPrescribed(last_held + 1, state))
     ++last_held;
   std::vector<Vector3d> slide;
-  slideAlongItself(state.position, std::vector<Vector3d>(state.position.size(), Vector3d::Zero()), state.first_node,
-                   last_held, boundary.direction, slide);
+  rod::slideAlongItself(state.position, std::vector<Vector3d>(state.position.size(), Vector3d::Zero()),
+                        state.first_node, last_held, boundary.direction, slide);
   const std::vector<Vector3d> gradient = wire.stepper.elasticGradient(state, wire.input);
-  HandForceParts parts;
+  rod::HandForceParts parts;
   parts.bending = parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
   for (int i = state.first_node; i < rod.nodes(); ++i)
   {
@@ -92,7 +92,7 @@ HandForceParts partsAnew(PushedWire& wire)
     lateral.x() = 0.0;
     const Vector3d stiff = gradient[i] - state.wall_force[i] + held.guideStiffness(i, state) * lateral;
     parts.bending += slide[i].dot(stiff);
-    parts.friction -= slide[i].dot(frictionForce(state, i, StepperSettings().friction_slip));
+    parts.friction -= slide[i].dot(rod::frictionForce(state, i, rod::StepperSettings().friction_slip));
     if (i > last_held)
       parts.inertia += rod.mass[i] * slide[i].dot(state.velocity[i] - wire.before.velocity[i]) / kDt;
   }
@@ -106,24 +106,24 @@ TEST(SlideAlongItself, KeepsTheLengthOfEveryEdge)
   std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {1.9, 0.2, 0.1}, {2.5, 0.9, -0.3}, {2.4, 1.8, 0.1}};
   const std::vector<Vector3d> none(x.size(), Vector3d::Zero());
   std::vector<Vector3d> slide;
-  slideAlongItself(x, none, 0, 1, Vector3d::UnitX(), slide);
+  rod::slideAlongItself(x, none, 0, 1, Vector3d::UnitX(), slide);
   EXPECT_EQ(slide[0], Vector3d::UnitX());
   EXPECT_EQ(slide[1], Vector3d::UnitX());
   for (std::size_t j = 0; j + 1 < x.size(); ++j)
     EXPECT_NEAR((x[j + 1] - x[j]).dot(slide[j + 1] - slide[j]), 0.0, 1e-14) << j;
 }
 
-TEST(HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStepLeft)
+TEST(rod::HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStepLeft)
 {
-  benchmark::BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
+  BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
   RoughWall wall(tube, 0.2);
-  PushedWire wire(0.16, 161, Environment(), 0.02);
+  PushedWire wire(0.16, 161, rod::Environment(), 0.02);
   double whole = 0.0, difference = 0.0, bending = 0.0, friction = 0.0;
   for (int k = 0; k < 2000; ++k)
   {
     wire.push(0.04e-3, &wall);
-    const HandForceParts anew = partsAnew(wire);
-    const HandForceParts& parts = wire.state.hand_parts;
+    const rod::HandForceParts anew = partsAnew(wire);
+    const rod::HandForceParts& parts = wire.state.hand_parts;
     EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
     whole += wire.state.hand_force;
     difference += anew.sum() - wire.state.hand_force;
@@ -138,11 +138,11 @@ TEST(HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStepLeft)
 }
 
 // References 13: ½EIκ² while the bend fills.
-TEST(HandForceParts, AreAllBendingWithoutFrictionWhichIsTheEnergyThatEntersTheBend)
+TEST(rod::HandForceParts, AreAllBendingWithoutFrictionWhichIsTheEnergyThatEntersTheBend)
 {
   constexpr double kBend = 0.03;
-  benchmark::BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
-  PushedWire wire(0.16, 161, Environment(), 0.03);
+  BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
+  PushedWire wire(0.16, 161, rod::Environment(), 0.03);
   while (wire.input.inserted_length < 0.05)
     wire.push(0.05e-3, &tube);
   const double before = wire.stepper.energy(wire.state).bending;
@@ -159,26 +159,26 @@ TEST(HandForceParts, AreAllBendingWithoutFrictionWhichIsTheEnergyThatEntersTheBe
   EXPECT_LT(others, 0.02 * work);
 }
 
-TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
+TEST(rod::HandForceParts, AreFrictionAndWeightOnAStraightRamp)
 {
   constexpr double kSlope = 0.4;  // rad
   constexpr double kFriction = 0.3;
-  Environment environment;
+  rod::Environment environment;
   environment.gravity = kGravity * Vector3d(-std::sin(kSlope), -std::cos(kSlope), 0.0);
-  benchmark::FlatChannel floor(0.01);
+  FlatChannel floor(0.01);
   RoughWall wall(floor, kFriction);
   PushedWire wire(0.16, 161, environment, 0.06);
   for (int k = 0; k < 300; ++k)
     wire.push(0.02e-3, &wall);
-  const HandForceParts& parts = wire.state.hand_parts;
+  const rod::HandForceParts& parts = wire.state.hand_parts;
   const double weight = kLineDensity * kGravity * wire.state.inserted_length;
-  const State& state = wire.state;
+  const rod::State& state = wire.state;
   double pressed = 0.0;
   for (const Vector3d& force : state.wall_force)
     pressed += force.norm();
   EXPECT_NEAR(parts.friction, kFriction * pressed, 0.01 * parts.friction);
   EXPECT_GT(pressed, 0.99 * std::cos(kSlope) * weight);  // the soft end of the guide leaves it some of its own
-  EXPECT_LT(pressed, std::cos(kSlope) * weight * (1.0 + Boundary().guide_length / state.inserted_length));
+  EXPECT_LT(pressed, std::cos(kSlope) * weight * (1.0 + rod::Boundary().guide_length / state.inserted_length));
   double heavy = 0.0;
   for (int i = state.first_node; i < 161; ++i)
     heavy += wire.stepper.discretisation().mass[i] * kGravity;
@@ -187,29 +187,29 @@ TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
   EXPECT_NEAR(parts.inertia, 0.0, 0.01 * wire.state.hand_force);
 }
 
-TEST(HandForceParts, AreAllInertiaOfAFreeWireThatIsAccelerated)
+TEST(rod::HandForceParts, AreAllInertiaOfAFreeWireThatIsAccelerated)
 {
   constexpr double kAcceleration = 2.0;  // m/s²
-  PushedWire wire(0.16, 161, Environment(), 0.06);
+  PushedWire wire(0.16, 161, rod::Environment(), 0.06);
   double speed = 0.0;
   for (int k = 0; k < 50; ++k)
   {
     speed += kAcceleration * kDt;
     wire.push(speed * kDt, nullptr);
   }
-  const double mass = kLineDensity * (wire.state.inserted_length + Boundary().guide_length);
+  const double mass = kLineDensity * (wire.state.inserted_length + rod::Boundary().guide_length);
   EXPECT_NEAR(wire.state.hand_parts.inertia, mass * kAcceleration, 0.02 * mass * kAcceleration);
   EXPECT_NEAR(wire.state.hand_force, wire.state.hand_parts.inertia, 1e-6 * wire.state.hand_force);
 }
 
-TEST(HandForceParts, AreAllDragOfAFreeWireInAFluidAtConstantSpeed)
+TEST(rod::HandForceParts, AreAllDragOfAFreeWireInAFluidAtConstantSpeed)
 {
-  Environment environment;
+  rod::Environment environment;
   environment.damping = 5.0;
   PushedWire wire(0.16, 161, environment, 0.06);
   for (int k = 0; k < 400; ++k)
     wire.push(0.05e-3, nullptr);
-  const HandForceParts& parts = wire.state.hand_parts;
+  const rod::HandForceParts& parts = wire.state.hand_parts;
   double mass = 0.0;
   for (int i = wire.state.first_node; i < 161; ++i)
     mass += wire.stepper.discretisation().mass[i];
@@ -217,4 +217,4 @@ TEST(HandForceParts, AreAllDragOfAFreeWireInAFluidAtConstantSpeed)
   EXPECT_NEAR(parts.drag, wire.state.hand_force, 1e-3 * parts.drag);
 }
 
-}  // namespace endovascular_sim::rod
+}  // namespace endovascular_sim::benchmark

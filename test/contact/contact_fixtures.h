@@ -8,17 +8,17 @@
 #include <gtest/gtest.h>
 
 #include "contact/detector.h"
-#include "vessel/mesh_reader.h"
-#include "vessel/mesh_repair.h"
-#include "vessel/subdivision.h"
-#include "vessel/triangle_point.h"
-#include "vessel/tube.h"
+#include "geometry/closest_point_on_triangle.h"
+#include "geometry/loop_subdivision.h"
+#include "vessel/anatomy/tube.h"
+#include "vessel/io/mesh_reader.h"
+#include "vessel/repair/mesh_repair.h"
 
 namespace endovascular_sim::contact
 {
 
 /** A bent channel of 4 mm radius, coarsely facetted so that its facets matter. */
-inline vessel::TriangleMesh bentTube()
+inline geometry::TriangleMesh bentTube()
 {
   vessel::TubeShape shape;
   shape.radius = 4e-3;
@@ -29,7 +29,7 @@ inline vessel::TriangleMesh bentTube()
 }
 
 /** A wall whose facets' corners are moved in and out by a share of their size. */
-inline vessel::TriangleMesh bumpy(vessel::TriangleMesh mesh, double bump)
+inline geometry::TriangleMesh bumpy(geometry::TriangleMesh mesh, double bump)
 {
   const Wall smooth(mesh);
   std::mt19937 random(3);
@@ -43,9 +43,9 @@ inline vessel::TriangleMesh bumpy(vessel::TriangleMesh mesh, double bump)
   return mesh;
 }
 
-inline vessel::TriangleMesh bumpyTube(double bump)
+inline geometry::TriangleMesh bumpyTube(double bump)
 {
-  return bumpy(vessel::flatSubdivision(bentTube(), 2), bump);
+  return bumpy(geometry::flatSubdivision(bentTube(), 2), bump);
 }
 
 /** Path of a mesh of ENDOVASCULAR_DATA_DIR, empty when it is not there. */
@@ -55,7 +55,7 @@ inline std::string dataFile(const std::string& name)
   return folder == nullptr ? "" : std::string(folder) + "/" + name;
 }
 
-inline vessel::TriangleMesh realMesh(const std::string& file)
+inline geometry::TriangleMesh realMesh(const std::string& file)
 {
   return vessel::repairMesh(vessel::readMesh(file, 1e-3), file).mesh;
 }
@@ -68,7 +68,7 @@ inline double bruteDistance(const Wall& wall, const Eigen::Vector3d& p, int& tri
   {
     const Eigen::Vector3i& c = wall.triangles[t];
     const double distance =
-        (vessel::closestPointOnTriangle(p, wall.vertices[c[0]], wall.vertices[c[1]], wall.vertices[c[2]]).point - p)
+        (geometry::closestPointOnTriangle(p, wall.vertices[c[0]], wall.vertices[c[1]], wall.vertices[c[2]]).point - p)
             .norm();
     if (distance < best)
     {
@@ -134,7 +134,7 @@ struct Movement
   std::vector<Eigen::Vector3d> positions;
 };
 
-inline Movement pushOut(const vessel::TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius, double share)
+inline Movement pushOut(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius, double share)
 {
   Movement movement;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -149,7 +149,7 @@ inline Movement pushOut(const vessel::TriangleMesh& mesh, const Eigen::Vector3d&
   return movement;
 }
 
-inline void apply(const Movement& movement, vessel::TriangleMesh& mesh)
+inline void apply(const Movement& movement, geometry::TriangleMesh& mesh)
 {
   for (std::size_t k = 0; k < movement.indices.size(); ++k)
     mesh.vertices[static_cast<std::size_t>(movement.indices[k])] = movement.positions[k];

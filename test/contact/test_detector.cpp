@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "contact_fixtures.h"
-#include "vessel/mesh_distance.h"
-#include "vessel/subdivision.h"
+#include "geometry/loop_subdivision.h"
+#include "geometry/mesh_distance.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
@@ -22,7 +22,7 @@ bool same(const Feature& a, const Feature& b)
 }
 
 /** Expects of a detector that has seen other queries what a new one answers. @return number of features */
-std::size_t expectSameAsFresh(Detector& warm, const vessel::TriangleMesh& mesh, const Query& query)
+std::size_t expectSameAsFresh(Detector& warm, const geometry::TriangleMesh& mesh, const Query& query)
 {
   ContactSet from_warm;
   warm.detect(query, from_warm);
@@ -45,7 +45,7 @@ double smallestGap(const ContactSet& set, int node)
   return gap;
 }
 
-void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
+void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
 {
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(21);
@@ -66,7 +66,7 @@ void checkAgainstBruteForce(const vessel::TriangleMesh& mesh, int wires)
     {
       int triangle = -1;
       const double distance = bruteDistance(detector.wall(), query.nodes[i], triangle);
-      const double sign = vessel::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
+      const double sign = geometry::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
       EXPECT_NEAR(detector.signedDistance(query.nodes[i]), sign * distance, 1e-12);
       const double gap = sign * distance - query.radius[i];
       if (sign > 0.0 && gap < query.marginAt(i) - 1e-9)
@@ -99,7 +99,7 @@ TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
   std::normal_distribution<double> normal;
   for (double bump : {0.05, 0.2})
   {
-    const vessel::TriangleMesh mesh = bumpyTube(bump);
+    const geometry::TriangleMesh mesh = bumpyTube(bump);
     Detector detector(mesh, WallLaw{});
     std::uniform_int_distribution<std::size_t> any_vertex(0, mesh.vertices.size() - 1);
     int contacts = 0;
@@ -117,7 +117,7 @@ TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
       detector.detect(query, set);
       int triangle = -1;
       const double gap = bruteDistance(detector.wall(), query.nodes[0], triangle) - query.radius[0];
-      if (vessel::windingNumber(mesh, query.nodes[0]) < 0.5)
+      if (geometry::windingNumber(mesh, query.nodes[0]) < 0.5)
         continue;
       EXPECT_NEAR(smallestGap(set, query.first_node), gap, 1e-12);
       ++contacts;
@@ -136,7 +136,7 @@ TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInARealAorta)
 
 TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
 {
-  const vessel::TriangleMesh mesh = bentTube();
+  const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
   std::mt19937 random(8);
   Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.01), random, 30);
@@ -150,7 +150,7 @@ TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
 
 TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
 {
-  const vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 2);
+  const geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 2);
   Detector warm(mesh, WallLaw{});
   std::mt19937 random(12);
   const Query wire = randomWire(Eigen::Vector3d(0.0, 0.0, 0.012), random, 40);
@@ -174,7 +174,7 @@ TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
 
 TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhateverItWasAskedBefore)
 {
-  const vessel::TriangleMesh mesh = bentTube();
+  const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
   Query query;
   query.margin = 0.3e-3;
@@ -217,9 +217,9 @@ TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhatever
 
 TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
 {
-  const vessel::TriangleMesh mesh = bentTube();
+  const geometry::TriangleMesh mesh = bentTube();
   Detector coarse(mesh, WallLaw{});
-  Detector fine(vessel::flatSubdivision(mesh, 2), WallLaw{});
+  Detector fine(geometry::flatSubdivision(mesh, 2), WallLaw{});
   std::mt19937 random(9);
   for (int trial = 0; trial < 30; ++trial)
   {
@@ -248,7 +248,7 @@ TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
   shape.facet_length = 5e-3;
   shape.facets_around = 8;
   shape.pieces = {{0.03, 0.0, 0.0}};
-  const vessel::TriangleMesh mesh = vessel::flatSubdivision(vessel::tubeMesh(shape), 1);
+  const geometry::TriangleMesh mesh = geometry::flatSubdivision(vessel::tubeMesh(shape), 1);
   Detector detector(mesh, WallLaw{});
   const Eigen::Vector3d above(0.0, 0.0, 0.03 - 0.6e-3);  // the cap's centre is a vertex
   Query query;
@@ -346,7 +346,7 @@ TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
 
 TEST(Detector, FreeDistancesNeverReachTheWallAndAreAsLongAsWanted)
 {
-  const vessel::TriangleMesh mesh = bentTube();
+  const geometry::TriangleMesh mesh = bentTube();
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(31);
   for (int trial = 0; trial < 20; ++trial)

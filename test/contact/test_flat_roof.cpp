@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/detector.h"
-#include "contact_fixtures.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
@@ -13,13 +13,13 @@ namespace
 
 /** A duct along y whose floor rises to a roof that is nearly flat: two ridges 2 mm apart, and between them a third one
  *  of a fraction of a degree. */
-vessel::TriangleMesh roofedDuct(double rise)
+geometry::TriangleMesh roofedDuct(double rise)
 {
   const std::vector<Eigen::Vector2d> section = {{-6e-3, 0.0}, {-1e-3, 1.3e-3}, {0.0, 1.3e-3 + rise}, {1e-3, 1.3e-3},
                                                 {6e-3, 0.0},  {6e-3, 6e-3},    {0.0, 6e-3},          {-6e-3, 6e-3}};
   const int corners = static_cast<int>(section.size());
   constexpr int kLayers = 10;
-  vessel::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int layer = 0; layer <= kLayers; ++layer)
     for (const Eigen::Vector2d& corner : section)
       mesh.vertices.emplace_back(corner.x(), 1e-3 * layer, corner.y());
@@ -52,7 +52,7 @@ TEST(FlatRoof, IsMetByTheMiddleOfAnEdgeAtAnyTilt)
   std::uniform_real_distribution<double> askew(-0.5, 0.5);
   for (double rise : {0.0, 0.3e-6, 3.6e-6, 15e-6})
   {
-    const vessel::TriangleMesh mesh = roofedDuct(rise);
+    const geometry::TriangleMesh mesh = roofedDuct(rise);
     Detector detector(mesh, WallLaw{});
     for (int trial = 0; trial < 60; ++trial)
     {

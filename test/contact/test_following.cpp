@@ -8,17 +8,17 @@
 #include <Eigen/Core>
 
 #include "contact/detector.h"
-#include "contact_fixtures.h"
-#include "vessel/subdivision.h"
+#include "geometry/loop_subdivision.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
 
-vessel::TriangleMesh fineTube()
+geometry::TriangleMesh fineTube()
 {
-  return vessel::flatSubdivision(bentTube(), 2);
+  return geometry::flatSubdivision(bentTube(), 2);
 }
 
 /** A wire along the tube's wall. @param slid from where it begins [m] */
@@ -63,7 +63,7 @@ void removeNode(Query& wire, std::size_t index)
 
 TEST(WireWhoseNodesComeAndGo, KeepsWhatIsListedAboutTheOthers)
 {
-  const vessel::TriangleMesh mesh = fineTube();
+  const geometry::TriangleMesh mesh = fineTube();
   Detector detector(mesh, WallLaw{});
   Query wire = wireAlongTheWall(60);
   ContactSet set;
@@ -86,7 +86,7 @@ TEST(WireWhoseNodesComeAndGo, KeepsWhatIsListedAboutTheOthers)
 
 TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
 {
-  vessel::TriangleMesh mesh = fineTube();
+  geometry::TriangleMesh mesh = fineTube();
   Detector warm(mesh, WallLaw{});
   std::mt19937 random(21);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -121,7 +121,7 @@ TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
 
 TEST(WireThatSlides, TakesOverWhatWasListedForTheNodesBeforeIt)
 {
-  const vessel::TriangleMesh mesh = vessel::flatSubdivision(fineTube(), 1);
+  const geometry::TriangleMesh mesh = geometry::flatSubdivision(fineTube(), 1);
   constexpr std::uint64_t kNodes = 20;
   const auto renewed = [&mesh](const std::vector<double>& places)
   {
@@ -140,7 +140,7 @@ TEST(WireThatSlides, TakesOverWhatWasListedForTheNodesBeforeIt)
 
 TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)
 {
-  vessel::TriangleMesh mesh = fineTube();
+  geometry::TriangleMesh mesh = fineTube();
   Detector warm(mesh, WallLaw{});
   std::mt19937 random(22);
   std::uniform_real_distribution<double> share(-1.0, 1.0);

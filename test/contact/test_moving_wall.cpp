@@ -6,22 +6,22 @@
 #include <Eigen/Geometry>
 
 #include "contact/detector.h"
-#include "contact_fixtures.h"
-#include "vessel/subdivision.h"
+#include "geometry/loop_subdivision.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
 
-vessel::TriangleMesh fineTube()
+geometry::TriangleMesh fineTube()
 {
-  return vessel::flatSubdivision(bentTube(), 2);
+  return geometry::flatSubdivision(bentTube(), 2);
 }
 
-TEST(MovingWall, IsBitForBitTheWallOfTheMovedMesh)
+TEST(LocalDeformableWall, IsBitForBitTheWallOfTheMovedMesh)
 {
-  vessel::TriangleMesh mesh = fineTube();
+  geometry::TriangleMesh mesh = fineTube();
   Wall wall(mesh);
   for (double place : {0.01, 0.02, 0.022})
   {
@@ -34,9 +34,9 @@ TEST(MovingWall, IsBitForBitTheWallOfTheMovedMesh)
   }
 }
 
-TEST(MovingWall, GivesTheAnswersOfADetectorThatIsMadeAnew)
+TEST(LocalDeformableWall, GivesTheAnswersOfADetectorThatIsMadeAnew)
 {
-  vessel::TriangleMesh mesh = fineTube();
+  geometry::TriangleMesh mesh = fineTube();
   Detector moving(mesh, WallLaw{});
   std::mt19937 random(7);
   std::vector<Query> wires;
@@ -80,7 +80,7 @@ TEST(MovingWall, GivesTheAnswersOfADetectorThatIsMadeAnew)
 }
 
 /** Moves a wall and expects the answer of a detector that is made anew. @return it */
-ContactSet answerAfter(const Movement& movement, std::uint64_t version, const Query& wire, vessel::TriangleMesh& mesh,
+ContactSet answerAfter(const Movement& movement, std::uint64_t version, const Query& wire, geometry::TriangleMesh& mesh,
                        Detector& moving)
 {
   ContactSet after, fresh;
@@ -93,9 +93,9 @@ ContactSet answerAfter(const Movement& movement, std::uint64_t version, const Qu
   return after;
 }
 
-TEST(MovingWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
+TEST(LocalDeformableWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
 {
-  vessel::TriangleMesh mesh = fineTube();
+  geometry::TriangleMesh mesh = fineTube();
   Detector moving(mesh, WallLaw{});
   Query wire;
   wire.margin = 0.25e-3;
@@ -113,14 +113,14 @@ TEST(MovingWall, GivesTheAnswersOfAWallThatWasPushedAwayFromTheWireInSmallSteps)
   EXPECT_LT(after.features.size(), touching);
 }
 
-TEST(MovingWall, GivesTheAnswersOfAWallWhoseFacetsTiltWhileTheyHardlyMove)
+TEST(LocalDeformableWall, GivesTheAnswersOfAWallWhoseFacetsTiltWhileTheyHardlyMove)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> off(-0.14e-3, 0.14e-3);  // lists have room for 0.15 mm
   std::size_t changed = 0;
   for (int trial = 0; trial < 4; ++trial)
   {
-    vessel::TriangleMesh mesh = vessel::flatSubdivision(bentTube(), 3);
+    geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 3);
     const Wall start(mesh);
     Detector moving(mesh, WallLaw{});
     Query wire;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/detector.h"
-#include "contact/segment_pair.h"
-#include "contact_fixtures.h"
+#include "geometry/closest_points_on_segments.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
@@ -19,7 +19,8 @@ bool crosses(const Wall& wall, const WallEdge& ridge, const Query& query)
   const Eigen::Vector3d& b = query.nodes[1];
   const Eigen::Vector3d& begin = wall.vertices[ridge.vertices[0]];
   const Eigen::Vector3d& end = wall.vertices[ridge.vertices[1]];
-  const SegmentPair pair = closestPointsOfCone({a, b, query.radius[1] - query.radius[0]}, begin, end);
+  const geometry::SegmentPair pair =
+      geometry::closestPointsOfCone({a, b, query.radius[1] - query.radius[0]}, begin, end);
   if (pair.first < 0.01 || pair.first > 0.99 || pair.second < 1e-6 || pair.second > 1.0 - 1e-6)
     return false;
   const Eigen::Vector3d offset = a + pair.first * (b - a) - begin - pair.second * (end - begin);
@@ -36,7 +37,7 @@ class RidgeCrossings : public testing::TestWithParam<double>
 
 TEST_P(RidgeCrossings, AreAllListedThatALookAtEveryRidgeFinds)
 {
-  const vessel::TriangleMesh mesh = bumpyTube(GetParam());
+  const geometry::TriangleMesh mesh = bumpyTube(GetParam());
   Detector detector(mesh, WallLaw{});
   const Wall& wall = detector.wall();
   std::mt19937 random(17);

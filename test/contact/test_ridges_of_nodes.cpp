@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/detector.h"
-#include "contact_fixtures.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {

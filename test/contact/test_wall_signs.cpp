@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/detector.h"
-#include "contact_fixtures.h"
-#include "vessel/mesh_distance.h"
+#include "geometry/mesh_distance.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {
@@ -13,7 +13,7 @@ namespace
 
 /** A straight duct whose cross-section is a star with random radii: ridges bulge into the lumen, sharp ones too.
  *  @param layer height of its quads [m]; @param open without its flat ends */
-vessel::TriangleMesh starDuct(unsigned seed, double layer, bool open)
+geometry::TriangleMesh starDuct(unsigned seed, double layer, bool open)
 {
   constexpr int kCorners = 10;
   constexpr double kHeight = 0.02;
@@ -23,7 +23,7 @@ vessel::TriangleMesh starDuct(unsigned seed, double layer, bool open)
   std::vector<double> radii;
   for (int k = 0; k < kCorners; ++k)
     radii.push_back(radius(random));
-  vessel::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int z = 0; z <= layers; ++z)
     for (int k = 0; k < kCorners; ++k)
     {
@@ -52,7 +52,7 @@ vessel::TriangleMesh starDuct(unsigned seed, double layer, bool open)
   return mesh;
 }
 
-void expectSignsOfTheWindingNumber(const vessel::TriangleMesh& mesh, unsigned seed, const std::string& what)
+void expectSignsOfTheWindingNumber(const geometry::TriangleMesh& mesh, unsigned seed, const std::string& what)
 {
   const Detector detector(mesh, WallLaw{});
   std::mt19937 random(seed);
@@ -62,7 +62,7 @@ void expectSignsOfTheWindingNumber(const vessel::TriangleMesh& mesh, unsigned se
   for (int trial = 0; trial < 300; ++trial)
   {
     const Eigen::Vector3d p(across(random), across(random), along(random));
-    const double winding = vessel::windingNumber(mesh, p);
+    const double winding = geometry::windingNumber(mesh, p);
     int triangle = -1;
     const double distance = bruteDistance(detector.wall(), p, triangle);
     EXPECT_NEAR(detector.signedDistance(p), winding > 0.5 ? distance : -distance, 1e-12)

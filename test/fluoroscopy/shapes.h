@@ -5,15 +5,15 @@
 
 #include <Eigen/Geometry>
 
-#include "vessel/mesh.h"
+#include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 
 /** A sphere of @p rows rings with @p columns facets, normals outward [m]. */
-inline vessel::TriangleMesh sphere(const Eigen::Vector3d& centre, double radius, int rows, int columns)
+inline geometry::TriangleMesh sphere(const Eigen::Vector3d& centre, double radius, int rows, int columns)
 {
-  vessel::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   mesh.vertices.emplace_back(centre + radius * Eigen::Vector3d::UnitZ());
   for (int i = 1; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
@@ -39,10 +39,10 @@ inline vessel::TriangleMesh sphere(const Eigen::Vector3d& centre, double radius,
 }
 
 /** A closed cylinder from @p a to @p b with @p columns facets, normals outward [m]. */
-inline vessel::TriangleMesh cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, int columns)
+inline geometry::TriangleMesh cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, int columns)
 {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b - a);
-  vessel::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   mesh.vertices = {a, b};
   for (int j = 0; j < columns; ++j)
   {

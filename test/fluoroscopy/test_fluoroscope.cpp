@@ -6,7 +6,7 @@
 
 #include "common/error.h"
 #include "fluoroscopy/detector.h"
-#include "shapes.h"
+#include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -112,8 +112,8 @@ TEST(Fluoroscope, RendersMovesAndNewVesselsAsAFreshOneWould)
 {
   CArmPose lao;
   lao.primary_angle = 0.7;
-  const vessel::TriangleMesh first = sphere({0.0, 0.0, 0.0}, 0.01, 20, 20);
-  const vessel::TriangleMesh second = sphere({0.01, 0.0, 0.02}, 0.012, 20, 20);
+  const geometry::TriangleMesh first = sphere({0.0, 0.0, 0.0}, 0.01, 20, 20);
+  const geometry::TriangleMesh second = sphere({0.01, 0.0, 0.02}, 0.012, 20, 20);
   Fluoroscope used(CArmPose{}, scene());
   used.setVessel(first);
   used.render({});

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/error.h"
-#include "shapes.h"
+#include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -24,7 +24,7 @@ CArmPose smallPose(int pixels)
 }
 
 /** Length of a ray inside a mesh by testing every triangle (Möller–Trumbore). */
-double castRay(const Eigen::Vector3d& s, const Eigen::Vector3d& d, const vessel::TriangleMesh& mesh)
+double castRay(const Eigen::Vector3d& s, const Eigen::Vector3d& d, const geometry::TriangleMesh& mesh)
 {
   double sum = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles)
@@ -49,7 +49,7 @@ double at(const std::vector<double>& map, int pixels, int row, int column)
 
 /** The rounding of the corners to 1/4096 pixel (here 0.1 µm at the isocentre) is magnified where facets graze the ray:
  * a bound on the worst pixel, and a tight one on the mean. */
-void expectBruteForce(const vessel::TriangleMesh& mesh, const CArmPose& pose)
+void expectBruteForce(const geometry::TriangleMesh& mesh, const CArmPose& pose)
 {
   const XRayGeometry geometry(pose);
   const std::vector<double> map = vesselPathLength(geometry, mesh);
@@ -74,8 +74,8 @@ TEST(VesselPathLength, EqualsBruteForceRayCastingOnASphere)
 
 TEST(VesselPathLength, EqualsBruteForceRayCastingOnOverlappingFoldedShapes)
 {
-  vessel::TriangleMesh mesh = cylinder({-0.02, 0.001, -0.015}, {0.021, 0.003, 0.017}, 0.004, 23);
-  const vessel::TriangleMesh other = cylinder({-0.018, -0.03, 0.013}, {0.023, 0.04, -0.019}, 0.003, 19);
+  geometry::TriangleMesh mesh = cylinder({-0.02, 0.001, -0.015}, {0.021, 0.003, 0.017}, 0.004, 23);
+  const geometry::TriangleMesh other = cylinder({-0.018, -0.03, 0.013}, {0.023, 0.04, -0.019}, 0.003, 19);
   const int offset = static_cast<int>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const Eigen::Vector3i& t : other.triangles)
@@ -121,7 +121,7 @@ TEST(VesselPathLength, CountsNoPixelTwiceOrNeverWhenCornersAndEdgesLieOnPixelCen
   pose.pixels = 65;
   const XRayGeometry geometry(pose);
   const double near = 0.74, far = 0.75, pixel = 1.0 / geometry.focalLength();
-  vessel::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (const double depth : {near, far})
     for (const auto& corner : {Eigen::Vector2d(-8, -8), Eigen::Vector2d(8, -8), Eigen::Vector2d(8, 8),
                                Eigen::Vector2d(-8, 8), Eigen::Vector2d(0, 0)})

@@ -10,7 +10,7 @@
 
 #include "common/error.h"
 #include "fluoroscopy/vessel_projection.h"
-#include "shapes.h"
+#include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy
 {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "haptics/rosserial_device.h"
-#include "haptics/rosserial_host.h"
+#include "haptics/device/rosserial_device.h"
+#include "haptics/host/rosserial_host.h"
 
 namespace endovascular_sim::haptics::test
 {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/rosserial_protocol.h"
+#include "haptics/rosserial/rosserial_protocol.h"
 
 /** Recordings of the original rosserial client and server over raw ptys: lines of seconds, H or D, hexadecimal. */
 namespace endovascular_sim::haptics::test

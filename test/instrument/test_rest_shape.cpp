@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "benchmark/reference/equilibrium.h"
 #include "instrument/tip_shape.h"
-#include "rod/equilibrium.h"
 
 namespace endovascular_sim::instrument
 {
@@ -86,11 +86,11 @@ TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
   // by steps. The discrete rod's clamp acts at the middle of its first edge.
   const rod::Wire wire = hook();
   constexpr int kNodes = 400;
-  rod::EquilibriumProblem problem;
+  benchmark::EquilibriumProblem problem;
   problem.rod = rod::discretiseUniformly(wire, kNodes);
   problem.held.assign(kNodes, false);
   problem.held[0] = problem.held[1] = true;
-  rod::Equilibrium shape;
+  benchmark::Equilibrium shape;
   for (const double s : problem.rod.position)
     shape.position.push_back(s * Eigen::Vector3d::UnitZ());
   for (int step = 1; step <= 20; ++step)
@@ -99,7 +99,7 @@ TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
     problem.rest_binormal.clear();
     for (const Eigen::Vector2d& curvature : problem.rod.rest_curvature)
       problem.rest_binormal.push_back(-curvature[1] * step / 20.0 * Eigen::Vector3d::UnitX());
-    ASSERT_TRUE(rod::EquilibriumSolver(problem).solve(shape)) << step;
+    ASSERT_TRUE(benchmark::EquilibriumSolver(problem).solve(shape)) << step;
   }
   const auto drawn = restShape(wire, 1e-5);
   double distance = 0.0;

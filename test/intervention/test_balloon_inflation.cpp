@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "treated_tube.h"
+#include "test/intervention/treated_tube.h"
 
 namespace endovascular_sim::intervention
 {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "treated_tube.h"
-#include "vessel/polyline.h"
+#include "geometry/polyline.h"
+#include "test/intervention/treated_tube.h"
 
 namespace endovascular_sim::intervention
 {
@@ -32,7 +32,7 @@ TEST(StentPlacement, OpensWithTheBalloonShortensRecoilsAndStays)
   EXPECT_EQ(placement.state(), StentPlacement::State::kExpanding);
   EXPECT_NEAR(placement.innerDiameter(), 3.0e-3, 1e-12);
   EXPECT_NEAR(placement.length(), 14.0e-3, 1e-12);
-  EXPECT_NEAR(vessel::Polyline(placement.sleeve().axis).length(), 14.0e-3, 1e-9);
+  EXPECT_NEAR(geometry::Polyline(placement.sleeve().axis).length(), 14.0e-3, 1e-9);
   placement.follow(shaftAt(0.03), 4.0 * kAtmosphere, 2.9e-3);
   EXPECT_EQ(placement.state(), StentPlacement::State::kExpanding) << "the balloon still fills it";
   EXPECT_EQ(placement.follow(shaftAt(0.03), 1.0 * kAtmosphere, 1.6e-3), StentPlacement::State::kPlaced);

@@ -4,7 +4,7 @@
 
 #include "common/error.h"
 #include "intervention/lesion_report.h"
-#include "treated_tube.h"
+#include "test/intervention/treated_tube.h"
 
 namespace endovascular_sim::intervention
 {

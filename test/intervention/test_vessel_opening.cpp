@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "treated_tube.h"
-#include "vessel/mesh_check.h"
+#include "test/intervention/treated_tube.h"
+#include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::intervention
 {
@@ -72,10 +72,10 @@ TEST(VesselOpening, DoesNotDependOnHowOftenItIsAsked)
   VesselOpening once(vessel, OpeningLaw{});
   once.press(cylinder(1.5e-3), kFull);
   VesselOpening often(vessel, OpeningLaw{});
-  vessel::TriangleMesh followed = vessel.mesh;
+  geometry::TriangleMesh followed = vessel.mesh;
   for (int k = 1; k <= 100; ++k)
   {
-    const MovedVertices& moved = often.press(cylinder(0.015e-3 * k), 0.01 * k * kFull);
+    const WallDisplacement& moved = often.press(cylinder(0.015e-3 * k), 0.01 * k * kFull);
     for (std::size_t i = 0; i < moved.indices.size(); ++i)
       followed.vertices[static_cast<std::size_t>(moved.indices[i])] = moved.positions[i];
   }

@@ -8,9 +8,9 @@
 #include "instrument/instrument.h"
 #include "intervention/shaft_line.h"
 #include "intervention/vessel_opening.h"
-#include "vessel/lesion.h"
-#include "vessel/tube.h"
-#include "vessel/vessel.h"
+#include "vessel/anatomy/tube.h"
+#include "vessel/lesion/add_lesions.h"
+#include "vessel/model/vessel.h"
 
 namespace endovascular_sim::intervention
 {
@@ -82,7 +82,7 @@ inline ShaftLine shaftAt(double middle, double aside = 0.0)
 }
 
 /** Least and largest distance of the wall from the tube's axis between two places [m]. */
-inline std::pair<double, double> wallBetween(const vessel::TriangleMesh& mesh, double begin, double end)
+inline std::pair<double, double> wallBetween(const geometry::TriangleMesh& mesh, double begin, double end)
 {
   std::pair<double, double> radii{1.0, 0.0};
   for (const Eigen::Vector3d& v : mesh.vertices)

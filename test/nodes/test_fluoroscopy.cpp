@@ -17,9 +17,9 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "nodes/support/image_conversions.h"
-#include "nodes/support/names.h"
-#include "session/scene.h"
+#include "nodes/conversions/image_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes
 {

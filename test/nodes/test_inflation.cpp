@@ -13,13 +13,13 @@
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "endovascular_sim/VesselMoved.h"
-#include "nodes/support/names.h"
-#include "nodes/support/scene_parameters.h"
-#include "nodes/support/vessel_conversions.h"
-#include "session/moving_wall.h"
-#include "session/replay_source.h"
-#include "session/simulation.h"
+#include "endovascular_sim/WallDisplacement.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/replay_source.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim
 {
@@ -34,8 +34,9 @@ public:
   {
     applied_ = listen<DriveApplied>(nodes::names::kDriveApplied, 20000,
                                     [this](const DriveApplied& message) { steps_[message.step] = message; });
-    moved_ = listen<VesselMoved>(nodes::names::kVesselMoved, 5000,
-                                 [this](const VesselMoved& message) { moved_vertices_ += message.index.size(); });
+    moved_ =
+        listen<WallDisplacement>(nodes::names::kWallDisplacement, 5000,
+                                 [this](const WallDisplacement& message) { moved_vertices_ += message.index.size(); });
     mesh_ = listen<VesselMesh>(nodes::names::kVesselMesh, 10,
                                [this](const VesselMesh& message) { newest_mesh_ = message; });
     state_ = listen<OperatingState>(nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
@@ -112,7 +113,7 @@ protected:
     ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 100; })) << "the graph does not step";
   }
 
-  session::Scene scene_;
+  scene::Scene scene_;
   std::unique_ptr<Listener> listener_;
 };
 
@@ -122,19 +123,19 @@ TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
   EXPECT_GT(listener_->movedVertices(), 500U);
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
   const vessel::Vessel vessel =
-      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::CentrelineUse::kRequired);
-  contact::Detector detector(vessel.mesh, session::wallLaw(*scene_.vessel));
-  session::MovingWall wall(vessel, detector);
-  session::ReplayContactSource source(detector);
-  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source,
-                                 &vessel.centreline, &wall);
+      scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, scene::wallLaw(*scene_.vessel));
+  simulation::LocalDeformableWall wall(vessel, detector);
+  simulation::ReplayContactSource source(detector);
+  simulation::Simulation simulation(scene_, scene::resolveEntry(scene_.entry, vessel, scene_.file), &source,
+                                    &vessel.centreline, &wall);
   // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
   std::uint64_t compared = 0;
   while (simulation.steps() <= steps.rbegin()->first)
   {
     const auto known = steps.find(simulation.steps());
     const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    const std::vector<session::HandCommand> commands = session::commandsAt(scene_, end);
+    const std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, end);
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
     {

@@ -17,11 +17,11 @@
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/OperatingState.h"
-#include "nodes/support/names.h"
-#include "nodes/support/scene_parameters.h"
-#include "session/replay_source.h"
-#include "session/simulation.h"
-#include "session/wall_force_map.h"
+#include "nodes/runtime/ros_names.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "results/wall_force_map.h"
+#include "simulation/replay_source.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim
 {
@@ -160,7 +160,7 @@ protected:
     ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 500; })) << "the graph does not step";
   }
 
-  session::Scene scene_;
+  scene::Scene scene_;
   std::unique_ptr<Listener> listener_;
 };
 
@@ -177,21 +177,21 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
                          }));
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
   const vessel::Vessel vessel =
-      session::buildVessel(*scene_.vessel, scene_.entry, scene_.file, session::CentrelineUse::kRequired);
-  contact::Detector detector(vessel.mesh, session::wallLaw(*scene_.vessel));
-  session::ReplayContactSource source(detector);
-  session::Simulation simulation(scene_, session::resolveEntry(scene_.entry, vessel, scene_.file), &source,
-                                 &vessel.centreline);
+      scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, scene::wallLaw(*scene_.vessel));
+  simulation::ReplayContactSource source(detector);
+  simulation::Simulation simulation(scene_, scene::resolveEntry(scene_.entry, vessel, scene_.file), &source,
+                                    &vessel.centreline);
   // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
   std::uint64_t compared = 0;
-  session::WallForceMap wall_forces(scene_.record.wall_force_threshold, vessel);
+  results::WallForceMap wall_forces(scene_.record.wall_force_threshold, vessel);
   bool maps_compared = false;
   while (simulation.steps() <= steps.rbegin()->first)
   {
     const auto known = steps.find(simulation.steps());
     const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    session::HandCommand command{scene_.instruments.front().drive.insertionAt(end),
-                                 scene_.instruments.front().drive.rotationAt(end)};
+    simulation::HandCommand command{scene_.instruments.front().drive.insertionAt(end),
+                                    scene_.instruments.front().drive.rotationAt(end)};
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
     {
@@ -199,11 +199,11 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
       EXPECT_EQ(known->second.rotation.at(0), command.rotation);
     }
     simulation.step(command);
-    wall_forces.add(session::wallContacts(simulation), simulation.time(), scene_.solver.time_step);
+    wall_forces.add(simulation::wallContacts(simulation), simulation.time(), scene_.solver.time_step);
     if (simulation.steps() - 1 == map->step)
     {
       maps_compared = true;
-      const session::WallForceTotals whole = wall_forces.summary().whole;
+      const results::WallForceTotals whole = wall_forces.summary().whole;
       EXPECT_EQ(map->whole.integral, whole.integral);
       EXPECT_EQ(map->whole.peak, whole.peak);
       EXPECT_EQ(map->triangles.size(), wall_forces.touched().size());

@@ -9,11 +9,11 @@
 #include <visualization_msgs/Marker.h>
 
 #include "endovascular_sim/GetVessel.h"
-#include "nodes/support/names.h"
-#include "nodes/support/scene_parameters.h"
-#include "nodes/support/vessel_conversions.h"
-#include "session/scene_vessel.h"
-#include "vessel/mesh_check.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "scene/scene_vessel.h"
+#include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::nodes
 {
@@ -32,8 +32,8 @@ boost::shared_ptr<const Message> latched(const std::string& topic)
 /** The same vessel, made without a graph. */
 vessel::Vessel expectedVessel()
 {
-  const session::Scene scene = sceneFromParameters(ros::NodeHandle());
-  return session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
+  const scene::Scene scene = sceneFromParameters(ros::NodeHandle());
+  return scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
 }
 
 TEST(VesselConversions, RoundTripBitForBit)
@@ -94,8 +94,8 @@ TEST(VesselServer, ShowsTheWallTranslucentInRviz)
 
 TEST(VesselServer, PutsTheIntroducerAtTheEntry)
 {
-  const session::Scene scene = sceneFromParameters(ros::NodeHandle());
-  const session::EntryPose entry = session::resolveEntry(scene.entry, expectedVessel(), scene.file);
+  const scene::Scene scene = sceneFromParameters(ros::NodeHandle());
+  const scene::EntryPose entry = scene::resolveEntry(scene.entry, expectedVessel(), scene.file);
   const auto frames = latched<tf2_msgs::TFMessage>("/tf_static");
   ASSERT_TRUE(frames);
   ASSERT_EQ(frames->transforms.size(), 1U);

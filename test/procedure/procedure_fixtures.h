@@ -6,8 +6,9 @@
 
 #include "procedure/observation.h"
 #include "procedure/operator.h"
-#include "session/scene.h"
-#include "vessel/centreline.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+#include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::procedure
 {
@@ -36,9 +37,9 @@ inline vessel::CentrelineTree forkedTree()
 }
 
 /** A scene with a wire and a catheter that the operator drives. @param steps YAML of the procedure's steps */
-inline session::Scene sceneWith(const std::string& steps, const std::string& hand = "{}")
+inline scene::Scene sceneWith(const std::string& steps, const std::string& hand = "{}")
 {
-  return session::parseScene(
+  return scene::parseScene(
       "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
       "instruments:\n"
       "  - {instrument: {use: guidewire_035_j, name: wire}, drive: {source: procedure}}\n"
@@ -55,7 +56,7 @@ public:
   using Tip = std::function<Eigen::Vector3d(double insertion, double rotation)>;
 
   explicit PlainWorld(
-      const session::Scene& scene,
+      const scene::Scene& scene,
       Tip tip = [](double insertion, double /*rotation*/) { return Eigen::Vector3d(0.0, 0.0, insertion); })
     : person(scene, forkedTree(), {0, 0, 0.001}), tip_(std::move(tip)), hands_(scene.instruments.size())
   {
@@ -68,7 +69,7 @@ public:
       if (person.looksBefore(steps_))
         person.see(seen());
       time = static_cast<double>(steps_ + 1) * 1e-3;
-      const std::vector<session::HandCommand> commands = person.move(time);
+      const std::vector<simulation::HandCommand> commands = person.move(time);
       for (std::size_t k = 0; k < hands_.size(); ++k)
       {
         hands_[k].insertion = commands[k].insertion;
@@ -83,7 +84,7 @@ public:
   {
     Observation observation;
     observation.time = time;
-    for (const session::HandState& hand : hands_)
+    for (const simulation::HandState& hand : hands_)
     {
       InstrumentView view;
       view.hand = hand;
@@ -102,13 +103,13 @@ public:
   double time = 0.0;
   double force = 0.0;                              ///< on every hand [N]
   std::function<void(Observation& seen)> happens;  ///< changes what the operator sees
-  std::vector<std::vector<session::HandCommand>> history;
-  const session::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
+  std::vector<std::vector<simulation::HandCommand>> history;
+  const simulation::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
 
 private:
   Tip tip_;
   std::uint64_t steps_ = 0;
-  std::vector<session::HandState> hands_;
+  std::vector<simulation::HandState> hands_;
 };
 
 }  // namespace endovascular_sim::procedure

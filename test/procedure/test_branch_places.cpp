@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "procedure_fixtures.h"
+#include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::procedure
 {

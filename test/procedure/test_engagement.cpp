@@ -2,11 +2,12 @@
 
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
-#include "procedure/session_run.h"
-#include "session/moving_wall.h"
-#include "session/scene.h"
-#include "session/scene_vessel.h"
-#include "session/simulation.h"
+#include "results/session_run.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+#include "scene/scene_vessel.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/simulation.h"
 
 namespace endovascular_sim::procedure
 {
@@ -14,9 +15,9 @@ namespace
 {
 
 /** pci.yaml through the engagement, with the wire and the catheter alone. */
-session::Scene engagement()
+scene::Scene engagement()
 {
-  session::Scene scene = session::loadScene(PROJECT_DIR "/config/scenes/pci.yaml");
+  scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/pci.yaml");
   scene = endingWith(std::move(scene), "Engagement");
   scene.instruments.erase(scene.instruments.begin(), scene.instruments.begin() + 2);
   return scene;
@@ -25,18 +26,18 @@ session::Scene engagement()
 // `procedure_study --through Engagement` does it from ten starts; this is one of them.
 TEST(Engagement, TheGuidingCatheterFindsTheLeftMainArteryFromAPerturbedStart)
 {
-  const session::Scene scene = perturbed(engagement(), Spread(), 3);
+  const scene::Scene scene = perturbed(engagement(), Spread(), 3);
   const vessel::Vessel vessel =
-      session::buildVessel(*scene.vessel, scene.entry, scene.file, session::CentrelineUse::kRequired);
-  const session::EntryPose entry = session::resolveEntry(scene.entry, vessel, scene.file);
-  contact::Detector wall(vessel.mesh, session::wallLaw(*scene.vessel));
-  SessionRun run(scene, vessel, entry.position);
-  session::Simulation simulation(scene, entry, &wall, &vessel.centreline);
-  std::vector<session::WallContact> contacts;
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  const scene::EntryPose entry = scene::resolveEntry(scene.entry, vessel, scene.file);
+  contact::Detector wall(vessel.mesh, scene::wallLaw(*scene.vessel));
+  results::SessionRun run(scene, vessel, entry.position);
+  simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline);
+  std::vector<simulation::WallContact> contacts;
   while (simulation.time() < 120.0 && !run.isOver())
   {
     simulation.stepAll(run.commands(simulation));
-    session::wallContacts(simulation, contacts);
+    simulation::wallContacts(simulation, contacts);
     run.addStep(simulation, contacts);
   }
   EXPECT_EQ(run.person()->progress(), Progress::kDone) << run.person()->failure();

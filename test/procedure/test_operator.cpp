@@ -1,11 +1,12 @@
 #include "procedure/operator.h"
+#include "scene/scene_file.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "procedure_fixtures.h"
+#include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::procedure
 {
@@ -314,7 +315,7 @@ TEST(Operator, ExchangeDrawsOneOutBeforeTheOtherGoesIn)
                 "    - {exchange: wire, for: catheter, until: {insertion: 0.03}, speed: 0.05}\n"));
   world.run(10.0);
   EXPECT_EQ(world.person.progress(), Progress::kDone);
-  for (const std::vector<session::HandCommand>& commands : world.history)
+  for (const std::vector<simulation::HandCommand>& commands : world.history)
     EXPECT_TRUE(commands[1].insertion <= 0.0 || commands[0].insertion <= -0.02)
         << commands[0].insertion << " " << commands[1].insertion;
   EXPECT_GT(world.hand(1).insertion, 0.03);
@@ -344,7 +345,7 @@ TEST(Operator, RefusesABranchThatTheVesselDoesNotHave)
 
 TEST(Operator, KnowsBranchesByTheProceduresNames)
 {
-  const session::Scene scene = session::parseScene(
+  const scene::Scene scene = scene::parseScene(
       "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
       "instrument: {use: guidewire_035_j}\ndrive: {source: procedure}\n"
       "procedure:\n  branches: [{name: left_main, at: [-0.04, 0, 0.15]}]\n"
@@ -357,7 +358,7 @@ TEST(Operator, KnowsBranchesByTheProceduresNames)
 
 TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
 {
-  const session::Scene scene = sceneWith(
+  const scene::Scene scene = sceneWith(
       "    - {advance: wire, until: {tip_in: trunk, beyond: 0.05}, speed: 0.02, turn_speed: 1}\n"
       "    - {rotate: wire, until: {turned: 3}}\n"
       "    - {withdraw: wire, until: {insertion: 0.02}}\n");

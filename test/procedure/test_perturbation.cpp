@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "procedure_fixtures.h"
+#include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::procedure
 {
@@ -17,20 +17,20 @@ const std::string kSteps =
 
 TEST(Perturbation, OfSeedZeroIsTheSceneItself)
 {
-  const session::Scene scene = sceneWith(kSteps);
-  const session::Scene same = perturbed(scene, Spread(), 0);
+  const scene::Scene scene = sceneWith(kSteps);
+  const scene::Scene same = perturbed(scene, Spread(), 0);
   EXPECT_EQ(same.instruments[0].drive.initial_rotation, scene.instruments[0].drive.initial_rotation);
   EXPECT_EQ(same.procedure->hand.speed_scale, 1.0);
 }
 
 TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
 {
-  const session::Scene scene = sceneWith(kSteps);
+  const scene::Scene scene = sceneWith(kSteps);
   double least = 1e9;
   double most = -1e9;
   for (std::uint64_t seed = 1; seed <= 200; ++seed)
   {
-    const session::Scene other = perturbed(scene, Spread(), seed);
+    const scene::Scene other = perturbed(scene, Spread(), seed);
     const double rotation = other.instruments[1].drive.initial_rotation;
     least = std::min(least, rotation);
     most = std::max(most, rotation);
@@ -46,7 +46,7 @@ TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
 
 TEST(Perturbation, OfTheSameSeedIsTheSame)
 {
-  const session::Scene scene = sceneWith(kSteps);
+  const scene::Scene scene = sceneWith(kSteps);
   EXPECT_EQ(perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation,
             perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation);
   EXPECT_NE(perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation,

@@ -1,4 +1,5 @@
 #include "procedure/phase_pictures.h"
+#include "scene/scene_file.h"
 
 #include <unistd.h>
 
@@ -9,17 +10,17 @@
 
 #include "common/error.h"
 #include "contact/detector.h"
-#include "procedure/session_run.h"
-#include "session/scene_vessel.h"
+#include "results/session_run.h"
+#include "scene/scene_vessel.h"
 
 namespace endovascular_sim::procedure
 {
 namespace
 {
 
-session::Scene twoPhases(const std::string& fluoroscopy)
+scene::Scene twoPhases(const std::string& fluoroscopy)
 {
-  return session::parseScene(
+  return scene::parseScene(
       "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.2}]}}\n"
       "entry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n"
       "instruments:\n"
@@ -36,18 +37,18 @@ session::Scene twoPhases(const std::string& fluoroscopy)
 /** A wire in a tube with its scripted operator. */
 struct World
 {
-  session::Scene scene;
+  scene::Scene scene;
   vessel::Vessel vessel;
   contact::Detector wall;
-  session::EntryPose entry;
-  session::Simulation simulation;
-  SessionRun session;
+  scene::EntryPose entry;
+  simulation::Simulation simulation;
+  results::SessionRun session;
 
-  explicit World(const session::Scene& the_scene)
+  explicit World(const scene::Scene& the_scene)
     : scene(the_scene),
-      vessel(session::buildVessel(*scene.vessel, scene.entry, scene.file, session::centrelineUse(scene))),
-      wall(vessel.mesh, session::wallLaw(*scene.vessel)),
-      entry(session::resolveEntry(scene.entry, vessel, scene.file)),
+      vessel(scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene))),
+      wall(vessel.mesh, scene::wallLaw(*scene.vessel)),
+      entry(scene::resolveEntry(scene.entry, vessel, scene.file)),
       simulation(scene, entry, &wall, &vessel.centreline),
       session(scene, vessel, entry.position)
   {
@@ -75,7 +76,7 @@ TEST(PhasePictures, AreTakenAtTheEndOfEveryPhase)
 TEST(PhasePictures, ShowTheInstrumentsThatAreInside)
 {
   World world(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n"));
-  session::XRayRoom room(
+  simulation::FluoroscopySystem room(
       world.scene, fluoroscopy::AttenuationTable::load(std::string(PROJECT_DIR) + "/config/xray/attenuation.yaml"));
   room.fluoroscope().setVessel(world.vessel.mesh);
   const std::vector<std::uint16_t> empty = room.fluoroscope().render({}).raw;
@@ -94,7 +95,7 @@ TEST(PhasePictures, ShowTheInstrumentsThatAreInside)
 
 TEST(PhasePictures, AreRefusedForASceneWithoutFluoroscopy)
 {
-  const session::Scene scene = twoPhases("");
+  const scene::Scene scene = twoPhases("");
   EXPECT_THROW(PhasePictures(scene, testing::TempDir()), InputError);
 }
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_set.h"
+#include "contact/contract/contact_set.h"
 
 namespace endovascular_sim::rod
 {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "rod/kkt_stepper.h"
+#include "rod/kkt/kkt_stepper.h"
 
 namespace endovascular_sim::rod
 {

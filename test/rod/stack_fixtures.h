@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "rod/stack_stepper.h"
-#include "rod_fixtures.h"
+#include "rod/kkt/stack_layers.h"
+#include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
 {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "rod_fixtures.h"
+#include "test/rod/rod_fixtures.h"
 
 // What internal forces cannot do: push or turn the wire as a whole.
 
@@ -110,7 +110,7 @@ TEST(Conservation, ElasticEnergyDoesNotChangeWhenTheWireIsMovedAndTurned)
 Momentum lostInFreeFlight(double dt)
 {
   StepperSettings settings;
-  settings.max_solves = 40;
+  settings.max_iterations = 40;
   settings.strain_tolerance = 1e-10;
   KktStepper stepper(discretiseUniformly(uniformWire(kLength, kEi, 1.8e-4, 7900.0), kNodes), freeBoundary(),
                      Environment(), settings);

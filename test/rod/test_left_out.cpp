@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "rod_fixtures.h"
+#include "test/rod/rod_fixtures.h"
 
 // What a scene does not have is not computed. Two witnesses: the count of entries into a phase, and values that are not
 // a number and would spread to every node if a term that needs them were computed.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rod_fixtures.h"
+#include "test/rod/rod_fixtures.h"
 
 // Motion against the continuum and against backward Euler's own numbers (references 10), momentum (11), and the order
 // in the time step.
@@ -148,7 +148,7 @@ Eigen::Vector3d fallenTip(double dt, double time)
   environment.gravity.y() = -9.81;
   StepperSettings settings;
   settings.strain_tolerance = 1e-10;
-  settings.max_solves = 40;
+  settings.max_iterations = 40;
   KktStepper stepper(discretiseUniformly(uniformWire(clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes),
                      clampAtOrigin(kLength, nodes), environment, settings);
   State state = stepper.initialState(0.0, 0.0);
@@ -179,7 +179,7 @@ TEST(ReferencesDynamics, InnerForcesOfAFreeWireChangeNeitherMomentumNorMomentOfM
   const int nodes = 31;
   StepperSettings settings;
   settings.strain_tolerance = 1e-13;
-  settings.max_solves = 12;
+  settings.max_iterations = 12;
   Wire wire = uniformWire(kLength, kEi, kRadius, kDensity);
   KktStepper stepper(discretiseUniformly(wire, nodes), freeWire(), Environment(), settings);
   State state = stepper.initialState(0.0, 0.0);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rod_fixtures.h"
+#include "test/rod/rod_fixtures.h"
 
 // Static shapes against the continuum (references 01, 02, 03, 06, 11) and against an independent solution of the same
 // discrete equilibrium. L is the free length: a clamp acts at the middle of the clamped edge.
@@ -21,7 +21,7 @@ constexpr double kLongStep = 0.1;  // s; the wire's lowest frequency is 6 rad/s
 StepperSettings exactSettings()
 {
   StepperSettings settings;
-  settings.max_solves = 40;
+  settings.max_iterations = 40;
   settings.strain_tolerance = 1e-6;  // steps from rest reach their own accuracy by themselves
   return settings;
 }

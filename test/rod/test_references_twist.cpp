@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "rod/twist.h"
-#include "rod_fixtures.h"
+#include "rod/twist/twist.h"
+#include "test/rod/rod_fixtures.h"
 
 // Torque transmission on a prescribed planar centreline (References 07): GJ φ″ = EI κ κ0 sin φ, φ between the wire's
 // natural bend and the centreline's; φ_in is the hand's angle, φ_out the tip's.

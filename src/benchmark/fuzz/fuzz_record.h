@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "benchmark/fuzz/leak_fuzz.h"
+
+namespace endovascular_sim::benchmark
+{
+
+/** What a leak fuzz has found so far: enough to go on with later. */
+class FuzzRecord
+{
+public:
+  FuzzRecord(FuzzSettings settings, std::vector<std::string> kinds);
+
+  void add(const FuzzEpisode& episode);
+
+  std::uint64_t nextEpisode() const { return next_; }
+  std::uint64_t steps() const { return steps_; }
+  std::uint64_t escapes() const { return escapes_; }
+  std::uint64_t notFinite() const { return not_finite_; }
+  double depth() const { return worst_.empty() ? 0.0 : worst_.front().depth; }  ///< largest [m]
+
+  /** No escape, no NaN, no depth beyond kFuzzDepth. */
+  bool good() const { return escapes_ == 0 && not_finite_ == 0 && too_deep_ == 0; }
+
+  /** All of it as JSON: the result, and the state from which the fuzz can be resumed. */
+  std::string json() const;
+
+  /** Goes on from what json() gave.
+   *  @throws InputError when the text is damaged, or is of another seed, episode length, overrides or list of vessels
+   */
+  void resume(const std::string& json, const std::string& origin);
+
+  std::string csv() const;  ///< of the worst episodes
+
+  /** A short report. @param command that reproduces an episode, without its number */
+  std::string markdown(const std::string& command, const std::vector<std::string>& skipped) const;
+
+private:
+  /** Over all episodes in one vessel. */
+  struct VesselTotal
+  {
+    std::uint64_t episodes = 0;
+    std::uint64_t steps = 0;
+    std::uint64_t escapes = 0;
+    double depth = 0.0;  ///< largest [m]
+  };
+
+  bool isWorse(const FuzzEpisode& a, const FuzzEpisode& b) const;
+
+  FuzzSettings settings_;
+  std::vector<std::string> kinds_;
+  std::uint64_t next_ = 0, steps_ = 0, looks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0;
+  std::uint64_t refused_ = 0, hit_iteration_limit_ = 0;
+  std::map<std::string, VesselTotal> vessels_;
+  std::vector<FuzzEpisode> worst_;  ///< worst first
+};
+
+}  // namespace endovascular_sim::benchmark

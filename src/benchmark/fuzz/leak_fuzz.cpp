@@ -1,0 +1,267 @@
+#include "benchmark/fuzz/leak_fuzz.h"
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmark/harness/table.h"
+#include "contact/detector.h"
+#include "results/run_result.h"
+#include "rod/kkt/kkt_stepper.h"
+#include "simulation/simulation.h"
+#include "vessel/centreline/centreline.h"
+
+namespace endovascular_sim::benchmark
+{
+namespace
+{
+
+constexpr double kInitialInsertion = 4e-3;  // m
+constexpr double kFastestHand = 0.5;        // m/s
+constexpr double kFastestTurn = 59.0;       // rad/s
+constexpr double kLargestTipMoment = 0.02;  // N·m that straighten a pre-curved tip; the stiff J of peer_wire has 0.0165
+constexpr double kSuspicious = 50e-6;       // m of depth that the solver sees: the wire is looked at
+constexpr int kLookEvery = 10;              // steps
+constexpr int kControlEvery = 10;           // looks: then one node is looked at by brute force too
+constexpr int kDetectorLife = 200;          // episodes
+constexpr double kDisagreement = 1e-9;      // m
+
+/** The random choices of an episode that make its scene. */
+struct Setup
+{
+  double length, radius, tip_length, tip_radius, bending, tip_bending;  // tip_radius 0: straight
+  double time_step;
+  double stiffness;  // of the wall; infinite: rigid
+  double friction, force_limit;
+  std::string sampling;
+  double tip_width;  // of the tip's surface, as a share of the body's
+};
+
+/** Of a wire that is to enter [m]. In trees, it meets branches that are too narrow for it. */
+double largestRadius(const FuzzVessel& vessel)
+{
+  if (vessel.name == "channel")
+    return 0.4 * vessel.narrowest;
+  double widest_end = 0.0;
+  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel.centreline))
+    widest_end = std::max(widest_end, end.radius);
+  return 0.5 * widest_end;
+}
+
+Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
+{
+  Setup setup;
+  setup.length = random.between(0.1, 0.3);
+  setup.radius = random.between(0.17e-3, 0.45e-3);
+  setup.tip_length = random.between(4e-3, 20e-3);
+  setup.tip_radius = random.chance(0.3) ? 0.0 : std::max(random.logBetween(3e-3, 20e-3), setup.tip_length / 4.0);
+  setup.bending = random.logBetween(1.6e-6, 5e-3);
+  setup.tip_bending = std::max(1.6e-6, setup.bending / random.logBetween(1.0, 100.0));
+  if (setup.tip_radius > 0.0)
+    setup.tip_bending = std::min(setup.tip_bending, kLargestTipMoment * setup.tip_radius);
+  setup.time_step = random.logBetween(1e-4, 1e-2);
+  setup.stiffness = random.chance(0.25) ? random.logBetween(5e5, 5e6) : std::numeric_limits<double>::infinity();
+  setup.friction = random.chance(0.3) ? 0.0 : random.between(0.0, 0.3);
+  setup.force_limit = random.logBetween(1.0, 5.0);
+  // At least two edges per radius of the tightest bend: coarser ones cannot follow it.
+  const double longest = std::min(2.5e-3, 0.5 * vessel.tightest);
+  std::ostringstream sampling;
+  if (random.chance(0.5))
+    sampling << "{kind: uniform, nodes: "
+             << static_cast<int>(setup.length / random.between(std::min(0.6e-3, longest), longest)) + 1 << "}";
+  else
+    sampling << "{kind: adaptive, min_edge: " << random.between(0.3e-3, 0.6e-3)
+             << ", max_edge: " << random.between(0.4, 1.0) * longest + 0.6e-3
+             << ", turn_per_edge: " << random.between(0.03, 0.1) << "}";
+  setup.sampling = sampling.str();
+  if (random.chance(0.2))
+    setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
+  setup.radius = std::min(setup.radius, largestRadius(vessel));
+  setup.tip_width = random.chance(0.3) ? random.between(0.3, 1.0) : 1.0;
+  return setup;
+}
+
+std::string sceneText(const Setup& setup)
+{
+  std::ostringstream out;
+  out.precision(12);
+  out << "name: fuzz\nduration: 1.0e6\nvessel: none\ninstrument:\n  name: wire\n  sections:\n"
+      << "    - {length: " << setup.length - setup.tip_length << ", radius: " << setup.radius
+      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.bending << ", poisson_ratio: 0.3}\n"
+      << "    - {length: " << setup.tip_length << ", radius: " << setup.tip_width * setup.radius
+      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.tip_bending << ", poisson_ratio: 0.3";
+  if (setup.tip_radius > 0.0)
+    out << ", rest_curvature: {radius: " << setup.tip_radius << ", direction: 0}";
+  out << "}\ndrive:\n  source: script\n  initial_insertion: " << kInitialInsertion
+      << "\n  insertion: {points: [[0, 0]]}\n  rotation: {points: [[0, 0]]}\n  force_limit: " << setup.force_limit
+      << "\nsampling: " << setup.sampling << "\nsolver: {time_step: " << setup.time_step << "}\n";
+  return out.str();
+}
+
+std::string described(const Setup& setup, const FuzzVessel& vessel)
+{
+  return (vessel.detail.empty() ? "" : vessel.detail + "; ") + "EI " + number(1e6 * setup.bending) + " and " +
+         number(1e6 * setup.tip_bending) + " N·mm², radius " + number(1e3 * setup.radius) + " and " +
+         number(1e3 * setup.tip_width * setup.radius) + " mm, tip " +
+         (setup.tip_radius > 0.0 ? "of " + number(1e3 * setup.tip_radius) + " mm" : std::string("straight")) + ", " +
+         setup.sampling + ", Δt " + number(1e3 * setup.time_step) + " ms, wall " +
+         (std::isfinite(setup.stiffness) ? number(1e-6 * setup.stiffness) + " N/mm per mm" : std::string("rigid")) +
+         ", μ " + number(setup.friction) + ", slips at " + number(setup.force_limit) + " N";
+}
+
+/** A hand that pushes, pulls and turns in jerks. */
+class RandomHand
+{
+public:
+  RandomHand(FuzzRandom& random, double time_step, double most) : random_(random), time_step_(time_step), most_(most) {}
+
+  simulation::HandCommand next()
+  {
+    if (left_-- <= 0)
+      choose();
+    insertion_ = std::clamp(insertion_ + time_step_ * speed_, 0.0, most_);
+    rotation_ += time_step_ * turn_;
+    return {insertion_, rotation_};
+  }
+
+private:
+  void choose()
+  {
+    left_ = random_.integer(2, 80);
+    const bool reverse = random_.chance(0.25);
+    speed_ = reverse ? -speed_ : kFastestHand * std::pow(random_.unit(), 2.0) * (random_.chance(0.7) ? 1.0 : -1.0);
+    turn_ = random_.chance(0.4) ? 0.0 : kFastestTurn * std::pow(random_.between(-1.0, 1.0), 3.0);
+  }
+
+  FuzzRandom& random_;
+  double time_step_;
+  double most_;
+  int left_ = 0;
+  double insertion_ = kInitialInsertion;
+  double rotation_ = 0.0;
+  double speed_ = 0.0;
+  double turn_ = 0.0;
+};
+
+/** A vessel's detector with another law of the wall. */
+class WallSource : public contact::ContactSource
+{
+public:
+  WallSource(contact::Detector& detector, double stiffness, double friction)
+    : detector_(detector), stiffness_(stiffness), friction_(friction)
+  {
+  }
+
+  void detect(const contact::Query& query, contact::ContactSet& set) override
+  {
+    detector_.detect(query, set);
+    for (contact::Feature& feature : set.features)
+    {
+      feature.stiffness = stiffness_;
+      feature.friction = friction_;
+    }
+  }
+
+private:
+  contact::Detector& detector_;
+  double stiffness_;
+  double friction_;
+};
+
+/** The vessel's detector: what it remembers changes no result, but takes memory. */
+contact::Detector& detectorOf(FuzzVessel& vessel)
+{
+  if (!vessel.detector || ++vessel.uses % kDetectorLife == 0)
+    vessel.detector = std::make_unique<contact::Detector>(vessel.vessel.mesh, contact::WallLaw{});
+  return *vessel.detector;
+}
+
+/** The wire from the introducer to the tip. A soft wall is a spring without memory: up to its travel, every depth is
+ * its compliance. */
+void insertedWire(const simulation::Simulation& simulation, double stiffness, std::vector<CheckedNode>& nodes)
+{
+  const rod::State& state = simulation.state();
+  const rod::Discretisation& wire = simulation.discretisation();
+  const int first = results::firstInsertedNode(simulation);
+  const auto add = [&](const Eigen::Vector3d& place, double radius) {
+    nodes.push_back({place, radius, std::isfinite(stiffness) ? rod::softWallTravel(radius) : 0.0});
+  };
+  nodes.clear();
+  if (first > state.first_node && first < wire.nodes())
+  {
+    // Where the wire leaves the introducer, inside of an edge.
+    const double t = (wire.length() - state.inserted_length - wire.position[first - 1]) / wire.rest_length[first - 1];
+    add((1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first]);
+  }
+  for (int i = first; i < wire.nodes(); ++i)
+    add(state.position[i], wire.radius[i]);
+}
+
+/** Looks at the whole wire; one node of it is looked at by brute force too. */
+void look(const simulation::Simulation& simulation, double stiffness, WireCheck& check, FuzzEpisode& episode,
+          std::vector<CheckedNode>& nodes)
+{
+  insertedWire(simulation, stiffness, nodes);
+  const WireFinding finding = check.look(nodes);
+  ++episode.looks;
+  episode.finite = finding.finite && std::isfinite(simulation.state().hand_force);
+  episode.escaped = finding.outside;
+  if (!finding.finite || nodes.empty())
+    return;
+  if (finding.depth > episode.depth)
+  {
+    episode.depth = finding.depth;
+    episode.depth_step = episode.steps;
+    episode.depth_place = 0.0;
+    for (int i = 0; i < finding.edge; ++i)
+      episode.depth_place += (nodes[i + 1].position - nodes[i].position).norm();
+    if (finding.edge + 1 < static_cast<int>(nodes.size()))
+      episode.depth_place +=
+          finding.parameter * (nodes[finding.edge + 1].position - nodes[finding.edge].position).norm();
+  }
+  if (episode.looks % kControlEvery != 1)
+    return;
+  const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.looks) * 7 % nodes.size()].position;
+  if (std::abs(check.signedDistance(one) - check.bruteSignedDistance(one)) > kDisagreement)
+    throw std::logic_error("the check's tree of boxes and all triangles give different distances");
+}
+
+}  // namespace
+
+FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number)
+{
+  FuzzRandom random(settings.seed, number);
+  FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
+  const Setup setup = randomSetup(vessel, random);
+  const scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
+  const scene::EntryPose entry = randomEntry(vessel, random, setup.radius, 1.5 * kInitialInsertion);
+  WallSource wall(detectorOf(vessel), setup.stiffness, setup.friction);
+  simulation::Simulation simulation(scene, entry, &wall, &vessel.vessel.centreline);
+
+  FuzzEpisode episode;
+  episode.number = number;
+  episode.vessel = vessel.name;
+  episode.description = described(setup, vessel);
+  std::vector<CheckedNode> nodes;
+  RandomHand hand(random, setup.time_step, setup.length);
+  while (episode.steps < settings.steps_per_episode && episode.finite && !episode.escaped)
+  {
+    simulation.step(hand.next());
+    ++episode.steps;
+    const rod::StepReport& report = simulation.report();
+    episode.refused += !report.solved;
+    episode.hit_iteration_limit += report.hit_iteration_limit;
+    episode.max_strain = std::max(episode.max_strain, report.max_strain);
+    episode.force = std::max(episode.force, std::abs(simulation.state().hand_force));
+    const bool suspicious = simulation.surfacePenetration() > kSuspicious || !report.solved;
+    if (suspicious || episode.steps % kLookEvery == 0)
+      look(simulation, setup.stiffness, *vessel.check, episode, nodes);
+  }
+  if (episode.escaped || !episode.finite)
+    episode.bad_step = episode.steps;
+  return episode;
+}
+
+}  // namespace endovascular_sim::benchmark

@@ -1,0 +1,57 @@
+#include "benchmark/harness/table.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace endovascular_sim::benchmark
+{
+namespace
+{
+
+std::string joined(const std::vector<std::string>& cells, const std::string& separator)
+{
+  std::string line;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    line += (k > 0 ? separator : "") + cells[k];
+  return line;
+}
+
+/** Cells with commas between quotes, as CSV has them. */
+std::vector<std::string> quoted(std::vector<std::string> cells)
+{
+  for (std::string& cell : cells)
+    if (cell.find(',') != std::string::npos)
+      cell = '"' + cell + '"';
+  return cells;
+}
+
+}  // namespace
+
+std::string Table::csv() const
+{
+  std::string text = joined(quoted(columns_), ",") + "\n";
+  for (const std::vector<std::string>& row : rows_)
+    text += joined(quoted(row), ",") + "\n";
+  return text;
+}
+
+std::string Table::markdown() const
+{
+  std::string text =
+      "| " + joined(columns_, " | ") + " |\n|" + joined(std::vector<std::string>(columns_.size(), "---"), "|") + "|\n";
+  for (const std::vector<std::string>& row : rows_)
+    text += "| " + joined(row, " | ") + " |\n";
+  return text;
+}
+
+std::string number(double value, int digits)
+{
+  if (std::isnan(value))
+    return "";
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+}  // namespace endovascular_sim::benchmark

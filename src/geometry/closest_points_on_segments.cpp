@@ -1,0 +1,103 @@
+#include "geometry/closest_points_on_segments.h"
+
+#include <cmath>
+#include <limits>
+
+namespace endovascular_sim::geometry
+{
+namespace
+{
+
+constexpr double kParallel = 1e-12;  // squared sine
+
+/** How far beyond the foot of a perpendicular on its axis a cone's surface is closest to the perpendicular's other end.
+ *  @param height of the perpendicular [m]
+ *  @param squared_sine of the angle between the axis and the line of which the other end is the closest point; 1 for a
+ *  point
+ *  @param slope of the radius along the axis, flatter than that angle */
+double shift(double height, double squared_sine, double slope)
+{
+  return slope * height / std::sqrt(squared_sine * (squared_sine - slope * slope));
+}
+
+}  // namespace
+
+SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, const Eigen::Vector3d& p2,
+                                    const Eigen::Vector3d& q2)
+{
+  const Eigen::Vector3d d1 = q1 - p1;
+  const Eigen::Vector3d d2 = q2 - p2;
+  const Eigen::Vector3d r = p1 - p2;
+  const double a = d1.squaredNorm();
+  const double e = d2.squaredNorm();
+  const double f = d2.dot(r);
+  const double c = d1.dot(r);
+  const double b = d1.dot(d2);
+  const double determinant = a * e - b * b;
+  SegmentPair pair;
+  pair.first = determinant > 1e-12 * a * e ? clampedShare((b * f - c * e) / determinant) : 0.5;
+  pair.second = (b * pair.first + f) / e;
+  if (pair.second < 0.0)
+  {
+    pair.second = 0.0;
+    pair.first = clampedShare(-c / a);
+  }
+  else if (pair.second > 1.0)
+  {
+    pair.second = 1.0;
+    pair.first = clampedShare((b - c) / a);
+  }
+  return pair;
+}
+
+TaperedSegment::TaperedSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double taper)
+  : begin(p), length((q - p).norm()), direction((q - p) / length), slope(taper / length)
+{
+}
+
+SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3d& p2, const Eigen::Vector3d& q2)
+{
+  const Eigen::Vector3d& p1 = cone.begin;
+  const Eigen::Vector3d& u = cone.direction;
+  const double length = cone.length;
+  const double slope = cone.slope;
+  const double length2 = (q2 - p2).norm();
+  const Eigen::Vector3d v = (q2 - p2) / length2;
+  const Eigen::Vector3d from = p1 - p2;
+  const double cosine = u.dot(v);
+  const double squared_sine = 1.0 - cosine * cosine;
+  const auto nearestOnSecond = [&](double along) { return clampedShare((from + along * u).dot(v) / length2); };
+  const auto placeFor = [&](const Eigen::Vector3d& point)  // on the axis, for a point
+  {
+    const double foot = (point - p1).dot(u);
+    const double height = (p1 + foot * u - point).norm();
+    return std::abs(slope) < 1.0 ? foot + shift(height, 1.0, slope) : (slope > 0.0 ? length : 0.0);
+  };
+  double along = 0.0;
+  if (squared_sine > std::max(kParallel, slope * slope * (1.0 + kParallel)))
+  {
+    const double foot = (cosine * from.dot(v) - from.dot(u)) / squared_sine;
+    const double foot2 = (from + foot * u).dot(v);
+    along = foot + shift((from + foot * u - foot2 * v).norm(), squared_sine, slope);
+    const double share = (foot2 + (along - foot) * cosine) / length2;
+    if (share < 0.0 || share > 1.0)
+      along = placeFor(share < 0.0 ? p2 : q2);
+  }
+  else
+  {
+    // Steeper than the lines cross: at an end of one of them.
+    double least = std::numeric_limits<double>::infinity();
+    for (const double end : {placeFor(p2), placeFor(q2), slope > 0.0 ? length : 0.0})
+    {
+      const double place = std::max(0.0, std::min(length, end));
+      const double reached = (from + place * u - nearestOnSecond(place) * (q2 - p2)).norm() - slope * place;
+      if (reached < least)
+        along = place;
+      least = std::min(least, reached);
+    }
+  }
+  along = std::max(0.0, std::min(length, along));
+  return {along / length, nearestOnSecond(along)};
+}
+
+}  // namespace endovascular_sim::geometry

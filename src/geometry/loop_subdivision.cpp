@@ -1,0 +1,103 @@
+#include "geometry/loop_subdivision.h"
+
+#include <cmath>
+
+#include "geometry/mesh_topology.h"
+
+namespace endovascular_sim::geometry
+{
+namespace
+{
+
+/** Index of the new vertex on each side of each triangle, in the order of the sorted edges. */
+std::vector<Eigen::Vector3i> edgeVertices(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses)
+{
+  std::vector<Eigen::Vector3i> on_side(mesh.triangles.size());
+  int next = static_cast<int>(mesh.vertices.size());
+  for (std::size_t begin = 0; begin < uses.size(); begin = endOfEdge(uses, begin), ++next)
+    for (std::size_t k = begin; k < endOfEdge(uses, begin); ++k)
+      on_side[static_cast<std::size_t>(uses[k].triangle)][uses[k].side] = next;
+  return on_side;
+}
+
+std::vector<Eigen::Vector3i> cutInFour(const TriangleMesh& mesh, const std::vector<Eigen::Vector3i>& on_side)
+{
+  std::vector<Eigen::Vector3i> triangles;
+  triangles.reserve(4 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Eigen::Vector3i& corner = mesh.triangles[t];
+    const Eigen::Vector3i& side = on_side[t];
+    triangles.emplace_back(corner[0], side[0], side[2]);
+    triangles.emplace_back(side[0], corner[1], side[1]);
+    triangles.emplace_back(side[2], side[1], corner[2]);
+    triangles.push_back(side);
+  }
+  return triangles;
+}
+
+const Eigen::Vector3d& opposite(const TriangleMesh& mesh, const EdgeUse& use)
+{
+  const int vertex = mesh.triangles[static_cast<std::size_t>(use.triangle)][(use.side + 2) % 3];
+  return mesh.vertices[static_cast<std::size_t>(vertex)];
+}
+
+/** Loop's weight of each of the n neighbours. */
+double neighbourWeight(int n)
+{
+  const double c = 0.375 + 0.25 * std::cos(2.0 * M_PI / n);
+  return (0.625 - c * c) / n;
+}
+
+TriangleMesh subdivideOnce(const TriangleMesh& mesh, bool smooth)
+{
+  const std::vector<EdgeUse> uses = sortedEdgeUses(mesh);
+  TriangleMesh fine;
+  fine.vertices = mesh.vertices;
+  std::vector<Eigen::Vector3d> neighbour_sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  std::vector<int> degree(mesh.vertices.size(), 0);
+  for (std::size_t begin = 0; begin < uses.size(); begin = endOfEdge(uses, begin))
+  {
+    const auto low = static_cast<std::size_t>(uses[begin].low);
+    const auto high = static_cast<std::size_t>(uses[begin].high);
+    const Eigen::Vector3d sum = mesh.vertices[low] + mesh.vertices[high];
+    const bool inner = endOfEdge(uses, begin) - begin == 2;
+    fine.vertices.emplace_back(0.5 * sum);
+    if (smooth && inner)
+      fine.vertices.back() = 0.375 * sum + 0.125 * (opposite(mesh, uses[begin]) + opposite(mesh, uses[begin + 1]));
+    neighbour_sum[low] += mesh.vertices[high];
+    neighbour_sum[high] += mesh.vertices[low];
+    ++degree[low];
+    ++degree[high];
+  }
+  if (smooth)
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      if (degree[v] >= 3)
+      {
+        const double weight = neighbourWeight(degree[v]);
+        fine.vertices[v] = (1.0 - degree[v] * weight) * mesh.vertices[v] + weight * neighbour_sum[v];
+      }
+  fine.triangles = cutInFour(mesh, edgeVertices(mesh, uses));
+  return fine;
+}
+
+TriangleMesh subdivide(TriangleMesh mesh, int levels, bool smooth)
+{
+  for (int level = 0; level < levels; ++level)
+    mesh = subdivideOnce(mesh, smooth);
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh loopSubdivision(TriangleMesh mesh, int levels)
+{
+  return subdivide(std::move(mesh), levels, true);
+}
+
+TriangleMesh flatSubdivision(TriangleMesh mesh, int levels)
+{
+  return subdivide(std::move(mesh), levels, false);
+}
+
+}  // namespace endovascular_sim::geometry

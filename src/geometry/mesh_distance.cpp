@@ -1,0 +1,186 @@
+#include "geometry/mesh_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "geometry/closest_point_on_triangle.h"
+
+namespace endovascular_sim::geometry
+{
+namespace
+{
+
+constexpr int kLeafSize = 4;
+
+const Eigen::Vector3d& corner(const TriangleMesh& mesh, int t, int k)
+{
+  return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])];
+}
+
+/** Distance along the ray to the triangle, −1 without a hit. T. Möller, B. Trumbore, 1997. */
+double rayTriangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Eigen::Vector3d& a,
+                   const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  const Eigen::Vector3d ab = b - a;
+  const Eigen::Vector3d ac = c - a;
+  const Eigen::Vector3d across = direction.cross(ac);
+  const double determinant = ab.dot(across);
+  if (determinant == 0.0)
+    return -1.0;
+  const Eigen::Vector3d from = origin - a;
+  const double u = from.dot(across) / determinant;
+  const Eigen::Vector3d q = from.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0)
+    return -1.0;
+  return ac.dot(q) / determinant;
+}
+
+/** Where the ray enters the box, or infinity. */
+double rayBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse, const Eigen::AlignedBox3d& box)
+{
+  const Eigen::Array3d t0 = (box.min() - origin).array() * inverse.array();
+  const Eigen::Array3d t1 = (box.max() - origin).array() * inverse.array();
+  const double enter = t0.min(t1).maxCoeff();
+  const double leave = t0.max(t1).minCoeff();
+  return leave >= std::max(enter, 0.0) ? std::max(enter, 0.0) : 1e300;
+}
+
+}  // namespace
+
+MeshDistance::MeshDistance(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size())
+{
+  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(order_.size());
+  for (int t : order_)
+    centres.emplace_back((corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0);
+  nodes_.reserve(order_.size());
+  if (!order_.empty())
+    build(0, static_cast<int>(order_.size()), centres);
+}
+
+int MeshDistance::build(int begin, int end, const std::vector<Eigen::Vector3d>& centres)
+{
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d spread;
+  for (int k = begin; k < end; ++k)
+  {
+    const int t = order_[static_cast<std::size_t>(k)];
+    for (int i = 0; i < 3; ++i)
+      box.extend(corner(mesh_, t, i));
+    spread.extend(centres[static_cast<std::size_t>(t)]);
+  }
+  int right = -1;
+  if (end - begin > kLeafSize)
+  {
+    int axis = 0;
+    spread.sizes().maxCoeff(&axis);
+    const int middle = begin + (end - begin) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](int a, int b)
+                     {
+                       const double x = centres[static_cast<std::size_t>(a)][axis];
+                       const double y = centres[static_cast<std::size_t>(b)][axis];
+                       return x < y || (x == y && a < b);
+                     });
+    build(begin, middle, centres);
+    right = build(middle, end, centres);
+  }
+  nodes_[static_cast<std::size_t>(index)] = {box, begin, end, right};
+  return index;
+}
+
+ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
+{
+  ClosestPoint best;
+  double best_squared = limit < 1e150 ? limit * limit : 1e300;
+  std::array<std::pair<double, int>, 96> stack;
+  std::size_t depth = 0;
+  if (!nodes_.empty())
+    stack[depth++] = {nodes_[0].box.squaredExteriorDistance(p), 0};
+  while (depth > 0)
+  {
+    const auto [nearest, index] = stack[--depth];
+    if (nearest >= best_squared)
+      continue;
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (node.right >= 0)
+    {
+      // The nearer child is looked at first.
+      const double left = nodes_[static_cast<std::size_t>(index) + 1].box.squaredExteriorDistance(p);
+      const double right = nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(p);
+      const bool left_first = left <= right;
+      stack[depth++] = left_first ? std::pair(right, node.right) : std::pair(left, index + 1);
+      stack[depth++] = left_first ? std::pair(left, index + 1) : std::pair(right, node.right);
+      continue;
+    }
+    for (int k = node.begin; k < node.end; ++k)
+    {
+      const int t = order_[static_cast<std::size_t>(k)];
+      const Eigen::Vector3d q =
+          closestPointOnTriangle(p, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2)).point;
+      const double squared = (q - p).squaredNorm();
+      if (squared < best_squared)
+      {
+        best_squared = squared;
+        best = {q, std::sqrt(squared), t};
+      }
+    }
+  }
+  return best;
+}
+
+double MeshDistance::rayHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const
+{
+  double best = 1e299;
+  const Eigen::Vector3d inverse = direction.cwiseInverse();
+  std::array<int, 96> stack;
+  int depth = 0;
+  if (!nodes_.empty())
+    stack[static_cast<std::size_t>(depth++)] = 0;
+  while (depth > 0)
+  {
+    const int index = stack[static_cast<std::size_t>(--depth)];
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (rayBox(origin, inverse, node.box) > best)
+      continue;
+    if (node.right >= 0)
+    {
+      stack[static_cast<std::size_t>(depth++)] = node.right;
+      stack[static_cast<std::size_t>(depth++)] = index + 1;
+      continue;
+    }
+    for (int k = node.begin; k < node.end; ++k)
+    {
+      const int t = order_[static_cast<std::size_t>(k)];
+      const double hit = rayTriangle(origin, direction, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2));
+      if (hit >= 0.0 && hit < best)
+        best = hit;
+    }
+  }
+  return best < 1e299 ? best : -1.0;
+}
+
+double windingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& p)
+{
+  double half_angles = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const Eigen::Vector3d a = corner(mesh, static_cast<int>(t), 0) - p;
+    const Eigen::Vector3d b = corner(mesh, static_cast<int>(t), 1) - p;
+    const Eigen::Vector3d c = corner(mesh, static_cast<int>(t), 2) - p;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return half_angles / (2.0 * M_PI);
+}
+
+}  // namespace endovascular_sim::geometry

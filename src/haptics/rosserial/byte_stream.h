@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "haptics/rosserial/rosserial_protocol.h"
+
+/** ROS 1 serialisation: little-endian scalars, strings and arrays behind a uint32 count. */
+namespace endovascular_sim::haptics
+{
+
+/** A payload that does not hold what its type announces. */
+class PayloadError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+class ByteWriter
+{
+public:
+  template <typename Scalar>
+  void put(Scalar value)
+  {
+    static_assert(std::is_arithmetic_v<Scalar>, "scalars only");
+    std::uint8_t raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    bytes_.insert(bytes_.end(), std::make_reverse_iterator(raw + sizeof value), std::make_reverse_iterator(raw));
+#else
+    bytes_.insert(bytes_.end(), raw, raw + sizeof value);
+#endif
+  }
+
+  void putString(const std::string& text)
+  {
+    put(static_cast<std::uint32_t>(text.size()));
+    bytes_.insert(bytes_.end(), text.begin(), text.end());
+  }
+
+  Bytes take()
+  {
+    return std::move(bytes_);
+  }
+
+private:
+  Bytes bytes_;
+};
+
+/** Reads scalars and strings; every read past the end throws PayloadError. */
+class ByteReader
+{
+public:
+  explicit ByteReader(const Bytes& bytes) : bytes_(bytes) {}
+
+  template <typename Scalar>
+  Scalar get()
+  {
+    static_assert(std::is_arithmetic_v<Scalar>, "scalars only");
+    need(sizeof(Scalar));
+    std::uint8_t raw[sizeof(Scalar)];
+    for (std::size_t i = 0; i < sizeof raw; ++i)
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+      raw[sizeof raw - 1 - i] = bytes_[position_ + i];
+#else
+      raw[i] = bytes_[position_ + i];
+#endif
+    position_ += sizeof raw;
+    Scalar value;
+    std::memcpy(&value, raw, sizeof value);
+    return value;
+  }
+
+  std::string getString()
+  {
+    const std::size_t size = get<std::uint32_t>();
+    need(size);
+    const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+    position_ += size;
+    return {first, first + static_cast<std::ptrdiff_t>(size)};
+  }
+
+  /** A uint32 count, checked against the bytes that are left. */
+  std::size_t getCount(std::size_t smallest_element)
+  {
+    const std::size_t count = get<std::uint32_t>();
+    if (count > (bytes_.size() - position_) / smallest_element)
+      throw PayloadError("an array announces " + std::to_string(count) + " elements, more than the payload holds");
+    return count;
+  }
+
+  /** Throws unless everything was read. */
+  void finish() const
+  {
+    if (position_ != bytes_.size())
+      throw PayloadError(std::to_string(bytes_.size() - position_) + " bytes behind the end of the message");
+  }
+
+private:
+  void need(std::size_t size) const
+  {
+    if (size > bytes_.size() - position_)
+      throw PayloadError("payload of " + std::to_string(bytes_.size()) + " bytes ends inside a field");
+  }
+
+  const Bytes& bytes_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace endovascular_sim::haptics

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** What one hand commands and is told, as CRTK's joints.
+ *  @param insertion, rotation, pressure in use [m], [rad], [Pa]
+ *  @param force, torque on the hand [N], [N·m] */
+inline void toMessage(bool has_balloon, double insertion, double rotation, double pressure, double force, double torque,
+                      sensor_msgs::JointState& message)
+{
+  message.name = {names::kInsertionJoint, names::kRotationJoint};
+  message.position = {insertion, rotation};
+  message.effort = {force, torque};
+  if (!has_balloon)
+    return;
+  message.name.emplace_back(names::kPressureJoint);
+  message.position.push_back(pressure);
+  message.effort.push_back(0.0);
+}
+
+}  // namespace endovascular_sim::nodes

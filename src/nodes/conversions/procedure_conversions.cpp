@@ -1,0 +1,19 @@
+#include "nodes/conversions/procedure_conversions.h"
+
+namespace endovascular_sim::nodes
+{
+
+procedure::StepRecord fromMessage(const ProcedureStep& message)
+{
+  procedure::StepRecord record;
+  record.name = message.name;
+  record.phase = message.phase;
+  record.begin = message.begin;
+  record.end = message.time;
+  record.retries = static_cast<int>(message.new_tries);
+  record.wrong_branches = static_cast<int>(message.wrong_branches);
+  record.outcome = static_cast<procedure::Progress>(message.outcome);
+  return record;
+}
+
+}  // namespace endovascular_sim::nodes

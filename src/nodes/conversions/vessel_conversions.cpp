@@ -1,0 +1,173 @@
+#include "nodes/conversions/vessel_conversions.h"
+
+#include "common/error.h"
+#include "nodes/conversions/contact_conversions.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+
+void toMessage(const geometry::TriangleMesh& mesh, VesselMesh& message)
+{
+  message.mesh.vertices.resize(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    message.mesh.vertices[v] = toPoint(mesh.vertices[v]);
+  message.mesh.triangles.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int corner = 0; corner < 3; ++corner)
+      message.mesh.triangles[t].vertex_indices[corner] = static_cast<std::uint32_t>(mesh.triangles[t][corner]);
+}
+
+geometry::TriangleMesh fromMessage(const VesselMesh& message)
+{
+  geometry::TriangleMesh mesh;
+  for (const geometry_msgs::Point& vertex : message.mesh.vertices)
+    mesh.vertices.push_back(fromMessage(vertex));
+  for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles)
+  {
+    for (std::uint32_t index : triangle.vertex_indices)
+      if (index >= mesh.vertices.size())
+        throw InputError(names::kVesselMesh, message.source, "a triangle names a vertex that is not there");
+    mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
+                                static_cast<int>(triangle.vertex_indices[1]),
+                                static_cast<int>(triangle.vertex_indices[2]));
+  }
+  return mesh;
+}
+
+void toMessage(const vessel::CentrelineTree& tree, VesselCentreline& message)
+{
+  message.branches.clear();
+  for (const vessel::CentrelineBranch& branch : tree.branches)
+  {
+    VesselCentrelineBranch to;
+    to.name = branch.name;
+    to.parent = branch.parent;
+    for (const Eigen::Vector3d& point : branch.points)
+      to.points.push_back(toPoint(point));
+    to.radii = branch.radii;
+    message.branches.push_back(to);
+  }
+}
+
+void toMessage(const std::vector<vessel::PlacedLesion>& lesions, VesselCentreline& message)
+{
+  message.lesions.clear();
+  for (const vessel::PlacedLesion& lesion : lesions)
+  {
+    VesselLesion to;
+    to.branch = static_cast<std::uint32_t>(lesion.branch);
+    to.begin = lesion.begin;
+    to.middle = lesion.middle;
+    to.end = lesion.end;
+    to.healthy_diameter = lesion.healthy_diameter;
+    to.narrowed_diameter = lesion.narrowed_diameter;
+    message.lesions.push_back(to);
+  }
+}
+
+std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& message)
+{
+  std::vector<vessel::PlacedLesion> lesions;
+  for (const VesselLesion& from : message.lesions)
+  {
+    if (from.branch >= message.branches.size())
+      throw InputError(names::kVesselCentreline, "lesions", "one is on a branch that is not there");
+    vessel::PlacedLesion lesion;
+    lesion.branch = static_cast<int>(from.branch);
+    lesion.begin = from.begin;
+    lesion.middle = from.middle;
+    lesion.end = from.end;
+    lesion.healthy_diameter = from.healthy_diameter;
+    lesion.narrowed_diameter = from.narrowed_diameter;
+    lesions.push_back(lesion);
+  }
+  return lesions;
+}
+
+vessel::CentrelineTree fromMessage(const VesselCentreline& message)
+{
+  vessel::CentrelineTree tree;
+  for (const VesselCentrelineBranch& from : message.branches)
+  {
+    vessel::CentrelineBranch branch;
+    branch.name = from.name;
+    branch.parent = from.parent;
+    for (const geometry_msgs::Point& point : from.points)
+      branch.points.push_back(fromMessage(point));
+    branch.radii = from.radii;
+    tree.branches.push_back(branch);
+  }
+  return tree;
+}
+
+namespace
+{
+
+void toMessage(const intervention::RoundBody& body, std::vector<geometry_msgs::Point>& axis,
+               std::vector<double>& radius)
+{
+  axis.clear();
+  for (const Eigen::Vector3d& point : body.axis)
+    axis.push_back(toPoint(point));
+  radius = body.radii;
+}
+
+intervention::RoundBody bodyOf(const std::vector<geometry_msgs::Point>& axis, const std::vector<double>& radius)
+{
+  if (axis.size() != radius.size() || axis.size() == 1)
+    throw InputError(names::kBalloonLoad, "axis, radius", "must be as long as each other, and not of one point");
+  intervention::RoundBody body;
+  for (const geometry_msgs::Point& point : axis)
+    body.axis.push_back(fromMessage(point));
+  body.radii = radius;
+  return body;
+}
+
+}  // namespace
+
+void toMessage(const intervention::BalloonLoad& pressing, BalloonLoad& message)
+{
+  message.pressure = pressing.pressure;
+  toMessage(pressing.balloon, message.axis, message.radius);
+  toMessage(pressing.sleeve.value_or(intervention::RoundBody()), message.stent_axis, message.stent_radius);
+}
+
+intervention::BalloonLoad pressingFromMessage(const BalloonLoad& message)
+{
+  intervention::BalloonLoad pressing;
+  pressing.pressure = message.pressure;
+  pressing.balloon = bodyOf(message.axis, message.radius);
+  if (!message.stent_axis.empty())
+    pressing.sleeve = bodyOf(message.stent_axis, message.stent_radius);
+  return pressing;
+}
+
+void toMessage(const intervention::WallDisplacement& moved, WallDisplacement& message)
+{
+  message.index.assign(moved.indices.begin(), moved.indices.end());
+  message.position.clear();
+  for (const Eigen::Vector3d& position : moved.positions)
+    message.position.push_back(toPoint(position));
+}
+
+intervention::WallDisplacement fromMessage(const WallDisplacement& message, std::size_t vertices)
+{
+  if (message.index.size() != message.position.size())
+    throw InputError(names::kWallDisplacement, "index, position", "must be as long as each other");
+  for (const std::uint32_t index : message.index)
+    if (index >= vertices)
+      throw InputError(names::kWallDisplacement, "index",
+                       "vertex " + std::to_string(index) + " does not exist: the mesh has " + std::to_string(vertices));
+  intervention::WallDisplacement moved;
+  moved.indices.assign(message.index.begin(), message.index.end());
+  for (const geometry_msgs::Point& position : message.position)
+  {
+    moved.positions.push_back(fromMessage(position));
+    if (!moved.positions.back().allFinite())
+      throw InputError(names::kWallDisplacement, "position", "must hold numbers only");
+  }
+  return moved;
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,78 @@
+#include "nodes/rod_dynamics/contact_force_publisher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/contact_force_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "simulation/contact_forces.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kForcesRate = 60.0;  // Hz
+constexpr double kMapRate = 2.0;      // Hz
+
+std::uint64_t stepsBetween(double rate, double time_step)
+{
+  return static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (rate * time_step))));
+}
+
+}  // namespace
+
+ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene::Scene& scene,
+                                             const vessel::Vessel& vessel, std::uint64_t content_hash)
+  : time_step_(scene.solver.time_step),
+    forces_every_(stepsBetween(kForcesRate, time_step_)),
+    map_every_(stepsBetween(kMapRate, time_step_)),
+    last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / time_step_))),
+    map_(scene.record.wall_force_threshold, vessel),
+    forces_publisher_(node.advertise<ContactForces>(names::kContactForces, 2)),
+    map_publisher_(node.advertise<ContactForceMap>(names::kContactForceMap, 1, true))
+{
+  forces_message_.header.frame_id = map_message_.header.frame_id = names::kPatientFrame;
+  map_message_.content_hash = content_hash;
+}
+
+void ContactForcePublisher::publishStep(const simulation::Simulation& simulation)
+{
+  simulation::wallContacts(simulation, contacts_);
+  map_.add(contacts_, simulation.time(), time_step_);
+  if (simulation.steps() % forces_every_ == 0 && forces_publisher_.getNumSubscribers() > 0)
+    publishForces(simulation);
+  // The scene's last step is told at once: a session that ends with it would miss the next one.
+  if (simulation.steps() == last_step_ ||
+      (simulation.steps() % map_every_ == 0 && map_publisher_.getNumSubscribers() > 0))
+    publishMap(simulation);
+}
+
+void ContactForcePublisher::publishForces(const simulation::Simulation& simulation)
+{
+  forces_message_.header.stamp = ros::Time::now();
+  forces_message_.step = simulation.steps() - 1;
+  forces_message_.contacts.clear();
+  for (const simulation::WallContact& contact : contacts_)
+  {
+    ContactForce force;
+    force.position = toPoint(contact.position);
+    force.normal_force = toVector(contact.normal_force);
+    force.friction_force = toVector(contact.friction_force);
+    force.triangle = contact.triangle;
+    force.region = regionToMessage(map_.regionOf(contact));
+    forces_message_.contacts.push_back(force);
+  }
+  forces_publisher_.publish(forces_message_);
+}
+
+void ContactForcePublisher::publishMap(const simulation::Simulation& simulation)
+{
+  map_message_.header.stamp = ros::Time::now();
+  map_message_.step = simulation.steps() > 0 ? simulation.steps() - 1 : 0;
+  toMessage(map_.summary(), map_.touched(), map_message_);
+  map_publisher_.publish(map_message_);
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,134 @@
+#include "nodes/rod_dynamics/remote_contact_source.h"
+
+#include <utility>
+
+#include <boost/make_shared.hpp>
+
+#include "contact/contract/contact_set_validation.h"
+#include "nodes/conversions/contact_conversions.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+constexpr int kQueue = 4;
+
+}  // namespace
+
+RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double patience) : node_(node), patience_(patience)
+{
+  node_.setCallbackQueue(&queue_);
+  publisher_ = node_.advertise<RodState>(names::kRodState, kQueue);
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const boost::shared_ptr<StampedContactSet>&>(
+      names::kContactSet, kQueue, [this](const boost::shared_ptr<StampedContactSet>& message) { receive(message); },
+      [this] { return emptyMessage(); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscriber_ = node_.subscribe(options);
+  query_.header.frame_id = names::kPatientFrame;
+}
+
+void RemoteContactSource::publish()
+{
+  // Only this thread writes the query, so it may read it without the lock.
+  query_.header.stamp = ros::Time::now();
+  publisher_.publish(query_);
+}
+
+/** One whose memory has held a set already: that of a thousand features costs time to get anew. */
+boost::shared_ptr<StampedContactSet> RemoteContactSource::emptyMessage()
+{
+  if (!message_ || !message_.unique())
+    message_ = boost::make_shared<StampedContactSet>();
+  return message_;
+}
+
+/** An answer counts only when it is the first to the asked state and makes sense; anything else is dropped and counted.
+ */
+void RemoteContactSource::receive(const boost::shared_ptr<StampedContactSet>& message)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!has_answer_)
+    {
+      std::swap(answer_, message->set);
+      has_answer_ = contact::isValidAnswer(asked_, answer_);
+      heard_ = heard_ || has_answer_;
+      odd_sets_ += !has_answer_;
+      if (!has_answer_)
+        patience_.heardLate();
+    }
+    else
+      ++odd_sets_;
+    if (!has_answer_)
+      return;
+  }
+  answered_.notify_one();
+}
+
+void RemoteContactSource::ask(const contact::Query& query)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    toMessage(query, query_);
+    asked_ = query;
+    has_answer_ = false;
+  }
+  publish();
+}
+
+bool RemoteContactSource::waitForAnswer(double seconds)
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  return answered_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return has_answer_; });
+}
+
+void RemoteContactSource::detect(const contact::Query& query, contact::ContactSet& set)
+{
+  ask(query);
+  if (waitForAnswer(patience_.next()))
+  {
+    patience_.answered();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::swap(set, answer_);  // what it gets for it may be overwritten: the next answer is to another query
+    set.stale = false;
+    return;
+  }
+  if (!patience_.silent())
+    silent_since_ = Clock::now();
+  patience_.missed();
+  ++stale_sets_;
+  set.stale = true;
+}
+
+bool RemoteContactSource::probe()
+{
+  if (heard_.exchange(false))
+  {
+    patience_.answered();
+    return true;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_answer_ = false;
+  }
+  publish();
+  return false;
+}
+
+bool RemoteContactSource::waitForNode(const contact::Query& query)
+{
+  while (ros::ok())
+  {
+    if (publisher_.getNumSubscribers() > 0)
+      ask(query);
+    if (waitForAnswer(0.2))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,50 @@
+#include "nodes/rod_dynamics/remote_deformable_wall.h"
+
+#include <stdexcept>
+
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr int kQueue = 100;  // pressings may not be lost while vessel_server is busy
+
+}  // namespace
+
+RemoteDeformableWall::RemoteDeformableWall(ros::NodeHandle node, std::uint64_t version) : version_(version)
+{
+  publisher_ = node.advertise<BalloonLoad>(names::kBalloonLoad, kQueue);
+  message_.header.frame_id = names::kPatientFrame;
+  node.setCallbackQueue(&queue_);
+  const boost::function<void(const WallDisplacementConstPtr&)> receive = [this](const WallDisplacementConstPtr& message)
+  { at_risk_ = message->at_risk; };
+  subscriber_ = node.subscribe<WallDisplacement>(names::kWallDisplacement, kQueue, receive, ros::VoidConstPtr(),
+                                                 ros::TransportHints().tcpNoDelay());
+}
+
+bool RemoteDeformableWall::waitForServer() const
+{
+  while (ros::ok() && publisher_.getNumSubscribers() == 0)
+    ros::WallDuration(0.01).sleep();
+  return ros::ok();
+}
+
+std::uint64_t RemoteDeformableWall::press(std::uint64_t step, const intervention::BalloonLoad& pressing)
+{
+  toMessage(pressing, message_);
+  message_.header.stamp = ros::Time::now();
+  message_.step = step;
+  message_.version = ++version_;
+  publisher_.publish(message_);
+  return version_;
+}
+
+void RemoteDeformableWall::archive(Archive& /*archive*/)
+{
+  throw std::logic_error("RemoteWall: the wall is vessel_server's; states are saved by simulate");
+}
+
+}  // namespace endovascular_sim::nodes

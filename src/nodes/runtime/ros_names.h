@@ -1,0 +1,58 @@
+#pragma once
+
+/** Names of topics, services, frames and parameters: the whole interface in one place (docs/ROS_INTERFACE.md). */
+namespace endovascular_sim::nodes::names
+{
+
+// Parameters that every node reads from the graph's namespace.
+constexpr auto kSceneParameter = "scene";          ///< path of the scene file
+constexpr auto kOverridesParameter = "overrides";  ///< "key.path=value" texts, separated by blanks
+
+// Frames (REP-103). The patient frame is DICOM's: x to the patient's left, y posterior, z to the head.
+constexpr auto kPatientFrame = "patient";
+constexpr auto kIntroducerFrame = "introducer";
+constexpr auto kTipFrame = "wire_tip";
+constexpr auto kXRaySourceFrame = "x_ray_source_optical";
+
+constexpr auto kVesselMesh = "vessel/mesh";
+constexpr auto kVesselCentreline = "vessel/centreline";
+constexpr auto kGetVessel = "vessel/get";
+constexpr auto kBalloonLoad = "vessel/pressing";
+constexpr auto kWallDisplacement = "vessel/moved";
+constexpr auto kVesselMarker = "vessel/marker";
+
+constexpr auto kRodState = "rod/state";
+constexpr auto kRodStateVisual = "rod/state_visual";
+constexpr auto kWireMarker = "wire/marker";
+constexpr auto kTipPathMarker = "wire/tip_path";
+constexpr auto kTreatmentVisual = "treatment/state_visual";
+constexpr auto kBalloonMarker = "treatment/balloon_marker";
+constexpr auto kStentMarker = "treatment/stent_marker";
+constexpr auto kContactSet = "contact/set";
+constexpr auto kContactForces = "contact/forces";
+constexpr auto kContactForceMap = "contact/force_map";
+constexpr auto kContactForceMarker = "contact/force_marker";
+
+constexpr auto kDriveApplied = "drive/applied";
+constexpr auto kProcedureStep = "procedure/step";
+constexpr auto kSessionInfo = "session/info";
+constexpr auto kSessionStop = "session/stop";
+
+constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";
+constexpr auto kFluoroscopyImage = "fluoroscopy/image";
+constexpr auto kFluoroscopyCameraInfo = "fluoroscopy/camera_info";
+constexpr auto kCArmCommand = "fluoroscopy/c_arm";
+
+constexpr auto kDiagnostics = "/diagnostics";
+
+// CRTK names below "instruments/<name>/" and "haptic/<channel>/".
+constexpr auto kInstruments = "instruments/";
+constexpr auto kHaptic = "haptic/";
+constexpr auto kMeasuredJs = "/measured_js";
+constexpr auto kServoJp = "/servo_jp";
+constexpr auto kOperatingState = "/operating_state";
+constexpr auto kInsertionJoint = "insertion";
+constexpr auto kRotationJoint = "rotation";
+constexpr auto kPressureJoint = "pressure";  ///< of instruments with a balloon
+
+}  // namespace endovascular_sim::nodes::names

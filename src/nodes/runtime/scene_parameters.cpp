@@ -1,0 +1,23 @@
+#include "nodes/runtime/scene_parameters.h"
+#include "scene/scene_file.h"
+
+#include <iterator>
+#include <sstream>
+
+#include "common/error.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+
+scene::Scene sceneFromParameters(const ros::NodeHandle& node)
+{
+  std::string file;
+  if (!node.getParam(names::kSceneParameter, file))
+    throw InputError("parameter server", node.resolveName(names::kSceneParameter),
+                     "missing; set it to the path of a scene file, e.g. with roslaunch endovascular_sim sim.launch");
+  std::istringstream words(node.param<std::string>(names::kOverridesParameter, ""));
+  return scene::loadScene(file, {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()});
+}
+
+}  // namespace endovascular_sim::nodes

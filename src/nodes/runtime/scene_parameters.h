@@ -1,0 +1,14 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include "scene/model/scene.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Reads the scene named by the parameters `scene` and `overrides` in the node handle's namespace.
+ *  @throws InputError when the parameter is missing or the scene is refused */
+scene::Scene sceneFromParameters(const ros::NodeHandle& node);
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,206 @@
+#include "nodes/session/bag_writer.h"
+
+#include <chrono>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include <ros/console.h>
+
+#include "common/error.h"
+
+namespace endovascular_sim::nodes
+{
+
+namespace
+{
+
+/** Messages that may wait for the disk: 20 s of every topic that the session records. */
+constexpr std::size_t kQueueCapacity = 40000;
+/** How many wait before the thread is woken, and how long they wait at most: not a wake-up per message. */
+constexpr std::size_t kBatch = 256;
+constexpr std::chrono::milliseconds kLongestWait{100};
+/** Room that must be left on the disk, enough for the bag's index and the report [bytes]. */
+constexpr std::uintmax_t kReserve = 64U << 20U;
+/** How much is written between two looks at the room that is left [bytes]. */
+constexpr std::uint64_t kCheckInterval = 8U << 20U;
+
+}  // namespace
+
+BagWriter::BagWriter(const std::string& file) : file_(file)
+{
+  checkRoom();
+  if (!error_.empty())
+    throw InputError(file_, "recording", error_);
+  try
+  {
+    bag_.open(file_, rosbag::bagmode::Write);
+  }
+  catch (const rosbag::BagException& exception)
+  {
+    throw InputError(file_, "recording",
+                     std::string(exception.what()) + "; choose a folder that exists, can be written and has room");
+  }
+  thread_ = std::thread([this] { loop(); });
+}
+
+BagWriter::~BagWriter()
+{
+  close();
+}
+
+void BagWriter::push(Work work)
+{
+  enqueue({std::move(work), true});
+}
+
+void BagWriter::run(std::function<void()> work)
+{
+  enqueue({[work = std::move(work)](rosbag::Bag&) { work(); }, false});
+}
+
+void BagWriter::enqueue(Item item)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (ending_ || queue_.size() >= kQueueCapacity || (item.is_message && !error_.empty()))
+    {
+      ++dropped_;
+      return;
+    }
+    queue_.push_back(std::move(item));
+    if (queue_.size() != kBatch)
+      return;
+  }
+  wake_.notify_one();
+}
+
+void BagWriter::loop()
+{
+  std::vector<Item> batch;
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true)
+  {
+    wake_.wait_for(lock, kLongestWait, [this] { return ending_ || queue_.size() >= kBatch; });
+    for (std::size_t k = 0; k < kBatch && !queue_.empty(); ++k)
+    {
+      batch.push_back(std::move(queue_.front()));
+      queue_.pop_front();
+    }
+    const bool last = ending_ && queue_.empty();
+    lock.unlock();
+    for (const Item& item : batch)
+      process(item);
+    batch.clear();  // while nobody waits for it
+    if (last)
+      return;
+    lock.lock();
+  }
+}
+
+void BagWriter::process(const Item& item)
+{
+  if (item.is_message && !bag_open_)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++dropped_;
+    return;
+  }
+  try
+  {
+    item.work(bag_);
+    if (item.is_message)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++messages_;
+    }
+  }
+  catch (const std::exception& exception)
+  {
+    fail(exception.what());
+    closeBag();
+    return;
+  }
+  if (bag_open_ && bag_.getSize() >= bytes_at_check_ + kCheckInterval)
+  {
+    bytes_at_check_ = bag_.getSize();
+    checkRoom();
+    if (!error().empty())
+      closeBag();
+  }
+}
+
+void BagWriter::checkRoom()
+{
+  std::error_code ignored;
+  const auto folder = std::filesystem::absolute(file_).parent_path();
+  const std::filesystem::space_info space = std::filesystem::space(folder, ignored);
+  if (!ignored && space.available < kReserve)
+    fail("less than 64 MB are left on the disk of " + folder.string() + "; make room or record elsewhere");
+}
+
+void BagWriter::fail(const std::string& reason)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!error_.empty())
+      return;
+    error_ = reason;
+  }
+  ROS_ERROR("the recording %s has ended early: %s", file_.c_str(), reason.c_str());
+}
+
+void BagWriter::closeBag()
+{
+  if (!bag_open_)
+    return;
+  bag_open_ = false;
+  try
+  {
+    bag_.close();
+  }
+  catch (const std::exception& exception)
+  {
+    fail(std::string("the bag's index could not be written (") + exception.what() +
+         "); rosbag reindex recovers what is there");
+  }
+}
+
+void BagWriter::close()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable())
+    thread_.join();
+  closeBag();
+}
+
+std::uint64_t BagWriter::bytes() const
+{
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(file_, ignored);
+  return ignored ? 0 : size;
+}
+
+std::uint64_t BagWriter::messages() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return messages_;
+}
+
+std::uint64_t BagWriter::dropped() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return dropped_;
+}
+
+std::string BagWriter::error() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return error_;
+}
+
+}  // namespace endovascular_sim::nodes

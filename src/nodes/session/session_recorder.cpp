@@ -1,0 +1,494 @@
+#include "nodes/session/session_recorder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/image_encodings.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "common/error.h"
+#include "common/hash.h"
+#include "contact/contract/contact_set.h"
+#include "endovascular_sim/OperatingState.h"
+#include "endovascular_sim/TreatmentVisual.h"
+#include "endovascular_sim/VesselCentreline.h"
+#include "fluoroscopy/png_writer.h"
+#include "nodes/conversions/contact_force_conversions.h"
+#include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "results/wall_force_report.h"
+
+namespace endovascular_sim::nodes
+{
+
+namespace
+{
+
+constexpr double kJointRate = 100.0;   ///< of measured_js in the bag [Hz]
+constexpr double kContactRate = 30.0;  ///< of contact/forces in the bag [Hz]
+/** Queues of what comes at the step rate: 10 s of it. */
+constexpr std::uint32_t kStepQueue = 10000;
+constexpr std::uint32_t kQueue = 100;
+
+results::SessionIdentity identityOf(const scene::Scene& scene)
+{
+  results::SessionIdentity identity;
+  identity.scene_name = scene.name;
+  identity.scene_file = scene.file;
+  identity.scene_hash = scene.hash();
+  identity.seed = scene.seed;
+  identity.time_step = scene.solver.time_step;
+  identity.duration = scene.duration;
+  identity.software_version = ENDOVASCULAR_SIM_VERSION;
+  return identity;
+}
+
+SessionInfo infoOf(const scene::Scene& scene)
+{
+  SessionInfo info;
+  info.scene_name = scene.name;
+  info.scene_yaml = scene.resolved_yaml;
+  info.scene_hash = scene.hash();
+  info.seed = scene.seed;
+  info.time_step = scene.solver.time_step;
+  info.software_version = ENDOVASCULAR_SIM_VERSION;
+  return info;
+}
+
+/** Makes the folder for a session, which must not hold one already. */
+std::string madeFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder + "/fluoroscopy", error);
+  if (error)
+    throw InputError(folder, "results", "the folder cannot be made (" + error.message() + "); choose another one");
+  for (const char* name : {"/session.bag", "/report.json"})
+    if (std::filesystem::exists(folder + name))
+      throw InputError(folder, "results", "the folder already holds a session; choose another one");
+  return folder;
+}
+
+/** "rod_dynamics" of "rod_dynamics: loop" and of "/rod_dynamics: loop". */
+std::string nodeOf(const std::string& status_name)
+{
+  const std::string node = status_name.substr(0, status_name.find(':'));
+  return !node.empty() && node.front() == '/' ? node.substr(1) : node;
+}
+
+double magnitude(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b)
+{
+  return std::hypot(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+}  // namespace
+
+bool Throttle::passes(double time)
+{
+  const double slot = std::floor(time * rate_ + 1e-6);
+  if (slot == last_slot_)
+    return false;
+  last_slot_ = slot;
+  return true;
+}
+
+SessionRecorder::SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings)
+  : node_(std::move(node)),
+    scene_(std::move(scene)),
+    settings_(std::move(settings)),
+    info_(infoOf(scene_)),
+    report_(identityOf(scene_)),
+    trajectory_(madeFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
+    metrics_(scene_),
+    bag_(settings_.folder + "/session.bag"),
+    pose_(scene_.record.pose_rate),
+    joints_(kJointRate),
+    contacts_(kContactRate),
+    last_step_(ros::SteadyTime::now())
+{
+  std::ofstream(path("scene.yaml")) << scene_.resolved_yaml;
+  info_publisher_ = node_.advertise<SessionInfo>(names::kSessionInfo, 1, true);
+  if (!scene_.vessel)
+    publishInfo();
+  subscribeToWire();
+  if (scene_.vessel)
+    subscribeToVessel();
+  if (scene_.fluoroscopy)
+    subscribeToFluoroscopy();
+  subscribeToGraph();
+  stop_ = node_.advertiseService(names::kSessionStop, &SessionRecorder::onStop, this);
+  timer_ = node_.createSteadyTimer(ros::WallDuration(0.1), &SessionRecorder::onTimer, this);
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("recording",
+                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fillDiagnostics(status); });
+}
+
+SessionRecorder::~SessionRecorder()
+{
+  finish();
+}
+
+template <typename Message>
+void SessionRecorder::listen(const std::string& topic, std::uint32_t queue,
+                             std::function<void(const ros::MessageEvent<Message const>&)> callback)
+{
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(
+      topic, queue,
+      [callback = std::move(callback)](const ros::MessageEvent<Message const>& event) { callback(event); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(node_.subscribe(options));
+}
+
+template <typename Message>
+void SessionRecorder::record(const std::string& topic, std::uint32_t queue)
+{
+  const std::string resolved = node_.resolveName(topic);
+  listen<Message>(topic, queue,
+                  [this, resolved](const ros::MessageEvent<Message const>& event) { bag_.write(resolved, event); });
+}
+
+template <typename Message>
+void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
+{
+  const std::string resolved = node_.resolveName(topic);
+  listen<Message>(topic, queue,
+                  [this, resolved](const ros::MessageEvent<Message const>& event)
+                  {
+                    bag_.write(resolved, event);
+                    try
+                    {
+                      metrics_.add(*event.getMessage());
+                    }
+                    catch (const InputError& error)
+                    {
+                      ROS_WARN_THROTTLE(10.0, "session: left out of the metrics: %s", error.what());
+                    }
+                  });
+}
+
+void SessionRecorder::subscribeToWire()
+{
+  listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
+  listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
+  measure<TreatmentVisual>(names::kTreatmentVisual, kQueue);
+  for (const scene::DrivenInstrument& driven : scene_.instruments)
+    record<OperatingState>(names::kInstruments + driven.instrument.name + names::kOperatingState, kQueue);
+}
+
+void SessionRecorder::subscribeToVessel()
+{
+  listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
+  measure<VesselCentreline>(names::kVesselCentreline, 1);
+  measure<WallDisplacement>(names::kWallDisplacement, kStepQueue);
+  if (scene_.procedure)
+    measure<ProcedureStep>(names::kProcedureStep, kStepQueue);
+  listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
+  listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
+}
+
+void SessionRecorder::subscribeToFluoroscopy()
+{
+  listen<sensor_msgs::Image>(names::kFluoroscopyImage, 10, [this](const auto& event) { onImage(event); });
+  record<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 10);
+}
+
+void SessionRecorder::subscribeToGraph()
+{
+  listen<diagnostic_msgs::DiagnosticArray>(names::kDiagnostics, kQueue,
+                                           [this](const auto& event) { onDiagnostics(event); });
+  record<tf2_msgs::TFMessage>("/tf", kStepQueue);
+  record<tf2_msgs::TFMessage>("/tf_static", kQueue);
+}
+
+void SessionRecorder::publishInfo()
+{
+  if (info_published_)
+    return;
+  info_published_ = true;
+  info_.header.stamp = ros::Time::now();
+  info_publisher_.publish(info_);
+  bag_.writeLatched(node_.resolveName(names::kSessionInfo), info_);
+}
+
+void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)
+{
+  if (finished_ || durationIsOver())
+    return;
+  const DriveApplied& drive = *event.getMessage();
+  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
+                  drive.state_hash);
+  last_step_ = ros::SteadyTime::now();
+  metrics_.setPressures(drive.pressure);
+  bag_.write(node_.resolveName(names::kDriveApplied), event);
+  recordHands(drive, event.getReceiptTime());
+}
+
+/** measured_js of all instruments, made of drive/applied: nobody has to send thousands of messages a second for it. */
+void SessionRecorder::recordHands(const DriveApplied& drive, ros::Time time)
+{
+  const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
+                                      drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
+  for (std::size_t k = 0; k < hands; ++k)
+    report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
+  if (!joints_.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
+    return;
+  for (std::size_t k = 0; k < hands; ++k)
+  {
+    const auto joints = boost::make_shared<sensor_msgs::JointState>();
+    joints->header.stamp = drive.header.stamp;
+    const instrument::Instrument& instrument = scene_.instruments[k].instrument;
+    toMessage(instrument.balloon.has_value(), drive.insertion[k], drive.rotation[k], drive.pressure[k],
+              drive.hand_force[k], drive.hand_torque[k], *joints);
+    bag_.write(node_.resolveName(names::kInstruments + instrument.name + names::kMeasuredJs), time, joints);
+  }
+}
+
+void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event)
+{
+  if (finished_)
+    return;
+  const RodStateVisual& rod = *event.getMessage();
+  metrics_.add(rod);
+  if (!rod.nodes.empty())
+  {
+    const geometry_msgs::Point& tip = rod.nodes.back();
+    results::TrajectoryRow row;
+    row.time = rod.time;
+    const auto furthest =
+        static_cast<std::size_t>(std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
+    row.insertion = rod.insertion.at(furthest);
+    row.rotation = rod.rotation.at(furthest);
+    row.hand_force = rod.hand_force.at(furthest);
+    row.hand_torque = rod.hand_torque.at(furthest);
+    row.tip = {tip.x, tip.y, tip.z};
+    row.nodes = rod.nodes.size();
+    for (double pressure : rod.pressure)
+      row.pressure = std::max(row.pressure, pressure);
+    report_.addTip(row.tip, row.insertion, row.nodes);
+    if (!trajectory_.add(row) && error_.empty())
+    {
+      error_ = path("trajectory.csv") + " cannot be written any more: is the disk full?";
+      ROS_ERROR("%s", error_.c_str());
+    }
+  }
+  if (pose_.passes(rod.time))
+    bag_.write(node_.resolveName(names::kRodStateVisual), event);
+}
+
+void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)
+{
+  if (finished_)
+    return;
+  const ContactForces& forces = *event.getMessage();
+  metrics_.add(forces);
+  double largest = 0.0;
+  for (const ContactForce& contact : forces.contacts)
+    largest = std::max(largest, magnitude(contact.normal_force, contact.friction_force));
+  report_.addContacts(largest, forces.contacts.size());
+  if (contacts_.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
+    bag_.write(node_.resolveName(names::kContactForces), event);
+}
+
+void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>& event)
+{
+  if (finished_)
+    return;
+  force_map_ = event.getConstMessage();
+  report_.setWallForces(summaryFromMessage(*force_map_), force_map_->triangles.size());
+  bag_.write(node_.resolveName(names::kContactForceMap), event);
+}
+
+void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
+{
+  if (info_published_)
+    return;  // the wall has moved: vessel/moved says where
+  vessel_ = event.getConstMessage();
+  metrics_.add(*vessel_);
+  info_.mesh_hash = vessel_->content_hash;
+  report_.setMeshHash(info_.mesh_hash);
+  for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
+    report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+  publishInfo();
+  bag_.write(node_.resolveName(names::kVesselMesh), event);
+}
+
+void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>& event)
+{
+  if (finished_)
+    return;
+  report_.addFluoroscopyFrame();
+  bag_.write(node_.resolveName(names::kFluoroscopyImage), event);
+  if (settings_.picture_interval > 0 && frames_++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
+    savePicture(event.getMessage());
+}
+
+void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
+{
+  if (image->encoding != sensor_msgs::image_encodings::MONO8 || image->step != image->width)
+    return;
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "frame_%06llu.png", static_cast<unsigned long long>(frames_ - 1));
+  report_.addFluoroscopyPicture();
+  const std::string file = path("fluoroscopy/") + name.data();
+  bag_.run(
+      [image, file]
+      { fluoroscopy::writePng(file, static_cast<int>(image->width), static_cast<int>(image->height), image->data); });
+}
+
+void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event)
+{
+  for (const diagnostic_msgs::DiagnosticStatus& status : event.getMessage()->status)
+    for (const diagnostic_msgs::KeyValue& value : status.values)
+      report_.addDiagnostic(nodeOf(status.name), value.key, value.value);
+  bag_.write(node_.resolveName(names::kDiagnostics), event);
+}
+
+bool SessionRecorder::durationIsOver() const
+{
+  // Half a step of tolerance: time is steps times their length.
+  return settings_.stop_at_duration && report_.simulatedTime() > scene_.duration - 0.5 * scene_.solver.time_step;
+}
+
+void SessionRecorder::tellProgress()
+{
+  const double now = report_.simulatedTime();
+  if (now < told_ + 1.0)
+    return;
+  told_ = std::floor(now);
+  ROS_INFO("[session] %.0f of %.0f s simulated, %.1f mm inside, force at the hand %.3f N", now, scene_.duration,
+           1e3 * report_.insertedLength(), report_.handForce().final());
+}
+
+void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
+{
+  diagnostics_.update();
+  if (finished_)
+    return;
+  tellProgress();
+  if (!settings_.stop_at_duration)
+    return;
+  const double silence = (ros::SteadyTime::now() - last_step_).toSec();
+  const double patience = report_.steps() == 0 ? settings_.start_patience : settings_.patience;
+  if (durationIsOver())
+    endWith("");
+  else if (silence > patience)
+    endWith("no step of the simulation for " + std::to_string(static_cast<int>(silence)) +
+            " s: see the diagnostics of rod_dynamics and contact for the reason");
+}
+
+bool SessionRecorder::onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
+{
+  response.success = finish();
+  response.message = path("report.json");
+  return true;
+}
+
+void SessionRecorder::endWith(const std::string& error)
+{
+  if (!error.empty())
+  {
+    error_ = error;
+    ROS_ERROR("[session] %s", error.c_str());
+  }
+  finish();
+  ros::requestShutdown();
+}
+
+void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const
+{
+  const std::string bag_error = bag_.error();
+  if (!bag_error.empty())
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "recording ended early: " + bag_error);
+  else if (!error_.empty())
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, error_);
+  else if (bag_.dropped() > 0)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "the disk is too slow: messages were dropped");
+  else
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, finished_ ? "finished" : "recording");
+  status.add("steps recorded", report_.steps());
+  status.add("messages recorded", bag_.messages());
+  status.add("messages dropped", bag_.dropped());
+  status.add("recording [bytes]", bag_.bytes());
+}
+
+bool SessionRecorder::writeWallForces() const
+{
+  if (!force_map_ || !vessel_ || force_map_->content_hash != vessel_->content_hash)
+    return true;
+  const geometry::TriangleMesh mesh = fromMessage(*vessel_);
+  std::vector<std::string> names(static_cast<std::size_t>(std::numeric_limits<std::uint16_t>::max()) + 1);
+  for (const ContactForceTotals& region : force_map_->regions)
+    names[region.region] = region.name;
+  std::vector<results::WallForceRow> rows;
+  for (const results::WallForce& force : touchedFromMessage(*force_map_))
+  {
+    if (force.triangle < 0 || force.triangle >= static_cast<int>(mesh.triangles.size()))
+      continue;
+    const Eigen::Vector3i& corners = mesh.triangles[static_cast<std::size_t>(force.triangle)];
+    const Eigen::Vector3d centre =
+        (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
+    rows.push_back({force, centre, names[regionToMessage(force.region)]});
+  }
+  std::ofstream forces(path("wall_forces.csv"));
+  std::ofstream points(path("vessel_points.csv"));
+  forces << results::wallForcesCsv(std::move(rows));
+  points << results::vesselPointsCsv(mesh.vertices);
+  return forces.flush() && points.flush();
+}
+
+bool SessionRecorder::writeMetrics()
+{
+  results::WallForceSummary forces;
+  if (force_map_)
+    forces = summaryFromMessage(*force_map_);
+  try
+  {
+    metrics_.write(settings_.folder, force_map_ ? &forces : nullptr);
+  }
+  catch (const InputError& error)
+  {
+    ROS_ERROR("[session] %s", error.what());
+    return false;
+  }
+  return true;
+}
+
+bool SessionRecorder::finish()
+{
+  if (finished_)
+    return complete_;
+  finished_ = true;
+  subscribers_.clear();
+  bag_.close();
+  const bool rows_written = trajectory_.flush();
+  results::RecordingOutcome outcome;
+  outcome.file = bag_.file();
+  outcome.bytes = bag_.bytes();
+  outcome.messages = bag_.messages();
+  outcome.dropped = bag_.dropped();
+  outcome.error = bag_.error();
+  std::ofstream file(path("report.json"));
+  file << report_.json(outcome, error_);
+  file.close();
+  const bool metrics_written = writeMetrics();
+  const bool map_written = writeWallForces();
+  if (!map_written)
+    ROS_ERROR("[session] %s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
+  if (!file)
+    ROS_ERROR("[session] %s cannot be written: is the disk full?", path("report.json").c_str());
+  complete_ = static_cast<bool>(file) && rows_written && map_written && metrics_written && outcome.error.empty() &&
+              error_.empty();
+  ROS_INFO("[session] recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()),
+           settings_.folder.c_str());
+  return complete_;
+}
+
+}  // namespace endovascular_sim::nodes

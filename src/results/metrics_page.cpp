@@ -1,0 +1,250 @@
+#include "results/metrics_page.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
+#include "results/svg_plot.h"
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Session</title><style>
+body { font-family: sans-serif; max-width: 920px; margin: 2em auto; color: #222; }
+table { border-collapse: collapse; margin: 0.6em 0 1.6em; font-size: 14px; }
+th, td { text-align: left; padding: 3px 12px 3px 0; border-bottom: 1px solid #ddd; }
+td.n { text-align: right; }
+h1 { font-size: 22px; } h2 { font-size: 17px; margin-top: 1.6em; }
+.bad { color: #b00020; } .good { color: #1b7a2f; }
+</style></head><body>
+)";
+
+std::string number(const char* format, double value)
+{
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+/** A table; cells that begin with a digit or a minus are numbers. */
+class Table
+{
+public:
+  explicit Table(const std::vector<std::string>& head)
+  {
+    html_ = "<table><tr>";
+    for (const std::string& cell : head)
+      html_ += "<th>" + escaped(cell) + "</th>";
+    html_ += "</tr>\n";
+  }
+
+  void add(const std::vector<std::string>& cells)
+  {
+    html_ += "<tr>";
+    for (const std::string& cell : cells)
+    {
+      const bool is_number = !cell.empty() && (cell[0] == '-' || (cell[0] >= '0' && cell[0] <= '9'));
+      html_ += (is_number ? "<td class=\"n\">" : "<td>") + escaped(cell) + "</td>";
+    }
+    html_ += "</tr>\n";
+  }
+
+  std::string text() const { return html_ + "</table>\n"; }
+
+private:
+  std::string html_;
+};
+
+std::string summary(const Json& json)
+{
+  std::string html = "<h1>Session: " + escaped(json["scene"].get<std::string>()) + "</h1>\n";
+  if (json.contains("outcome"))
+  {
+    const std::string outcome = json["outcome"];
+    html += "<p class=\"" + std::string(outcome == "done" ? "good" : "bad") + "\">Procedure: " + outcome;
+    if (!json["failure"].is_null())
+      html += ". " + escaped(json["failure"].get<std::string>());
+    html += "</p>\n";
+  }
+  Table table({"", ""});
+  table.add({"procedure time", number("%.1f s", json["procedure_time"])});
+  table.add({"fluoroscopy time (while a hand moves)", number("%.1f s", json["fluoroscopy_time"])});
+  table.add({"instrument exchanges", number("%.0f", json["instrument_exchanges"])});
+  const Json& forces = json["wall_forces"];
+  if (!forces.is_null())
+  {
+    const Json region = forces.value("peak_region", Json(nullptr));  // null: the vessel's branches have no names
+    table.add({"largest force of one contact",
+               number("%.2f N", forces["peak"]) + number(" at %.1f s", forces["peak_time"]) +
+                   (region.is_string() ? " in " + region.get<std::string>() : std::string())});
+    table.add({"integral of the wall's forces", number("%.1f N·s", forces["integral"])});
+  }
+  return html + table.text();
+}
+
+std::string stepsTable(const Json& json)
+{
+  if (json["steps"].empty())
+    return "";
+  Table table({"phase", "step", "begin [s]", "end [s]", "new tries", "wrong branches", "outcome"});
+  for (const Json& step : json["steps"])
+    table.add({step["phase"], step["step"], number("%.1f", step["begin"]), number("%.1f", step["end"]),
+               number("%.0f", step["new_tries"]), number("%.0f", step["wrong_branches"]), step["outcome"]});
+  return "<h2>Steps</h2>\n" + table.text();
+}
+
+std::string instrumentsTable(const Json& json)
+{
+  Table table({"instrument", "insertions", "tip path [mm]", "smoothness (SPARC)", "wrong branches", "time in them [s]",
+               "ahead of its wire [s]", "peak hand force [N]"});
+  for (const Json& one : json["instruments"])
+    table.add({one["name"], number("%.0f", one["insertions"]), number("%.0f", 1e3 * one["tip_path"].get<double>()),
+               number("%.2f", one["spectral_arc_length"]), number("%.0f", one["wrong_branch_entries"]),
+               number("%.1f", one["wrong_branch_time"]), number("%.1f", one["time_ahead_of_wire"]),
+               number("%.2f", one["peak_hand_force"])});
+  return "<h2>Instruments</h2>\n" + table.text();
+}
+
+std::string lesionsTable(const Json& json)
+{
+  if (json["lesions"].empty())
+    return "";
+  Table table(
+      {"lesion in", "stenosis before", "after", "covered by the stent", "placed off the middle [mm]", "apposition"});
+  for (const Json& one : json["lesions"])
+  {
+    const Json& after = one["after"];
+    const bool stented = after.contains("coverage");
+    const auto percent = [](const Json& share) { return number("%.0f %%", 100.0 * share.get<double>()); };
+    table.add({one["branch"], percent(one["before"]["stenosis"]), percent(after["stenosis"]),
+               stented ? percent(after["coverage"]) : "no stent",
+               stented ? number("%.1f", 1e3 * after["placement_error"].get<double>()) : "",
+               stented ? percent(after["apposition"]) : ""});
+  }
+  return "<h2>Lesions</h2>\n" + table.text();
+}
+
+std::string troubles(const Json& json)
+{
+  std::string html = "<h2>Wrong branches</h2>\n";
+  Table wrong({"instrument", "branch", "from [s]", "to [s]", "deepest [mm]"});
+  for (const Json& one : json["wrong_branches"])
+    wrong.add({one["instrument"], one["branch"], number("%.1f", one["begin"]), number("%.1f", one["end"]),
+               number("%.1f", 1e3 * one["deepest"].get<double>())});
+  html += json["wrong_branches"].empty() ? "<p class=\"good\">None.</p>\n" : wrong.text();
+  html += "<h2>Errors</h2>\n";
+  Table errors({"error", "instrument", "at [s]", "value"});
+  for (const Json& one : json["errors"])
+    errors.add({one["error"], one["instrument"], number("%.1f", one["time"]),
+                one.contains("value") ? number("%.3g", one["value"]) : ""});
+  return html + (json["errors"].empty() ? "<p class=\"good\">None.</p>\n" : errors.text());
+}
+
+using Quantity = std::function<double(const procedure::InstrumentView&)>;
+
+std::vector<PlotLine> overTime(const SessionMetrics& metrics, const Quantity& quantity)
+{
+  std::vector<PlotLine> lines;
+  for (std::size_t k = 0; k < metrics.scene().instruments.size(); ++k)
+  {
+    PlotLine line{metrics.scene().instruments[k].instrument.name, colour(k), {}};
+    for (const Sample& sample : metrics.samples())
+      line.points.emplace_back(sample.seen.time, quantity(sample.seen.instruments[k]));
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/** One band per phase: steps without a phase of their own belong to the one before. */
+std::vector<PlotBand> phaseBands(const SessionMetrics& metrics)
+{
+  std::vector<PlotBand> bands;
+  for (const procedure::StepRecord& step : metrics.steps())
+    if (!bands.empty() && bands.back().name == step.phase)
+      bands.back().end = step.end;
+    else
+      bands.push_back({step.phase, step.begin, step.end});
+  return bands;
+}
+
+std::string timePlots(const SessionMetrics& metrics)
+{
+  const auto plot = [&metrics](const std::string& title, const std::string& ordinate, std::vector<PlotLine> lines)
+  {
+    SvgPlot svg;
+    svg.title = title;
+    svg.abscissa = "time [s]";
+    svg.ordinate = ordinate;
+    svg.lines = std::move(lines);
+    svg.bands = phaseBands(metrics);
+    return svg.text();
+  };
+  std::string html = "<h2>Over time</h2>\n<p>Shaded: the phases; their names appear under the pointer.</p>\n";
+  html += plot("Insertion", "[mm]",
+               overTime(metrics, [](const procedure::InstrumentView& v) { return 1e3 * v.hand.insertion; }));
+  html += plot("Rotation of the handles", "[rad]",
+               overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.rotation; }));
+  html += plot("Force on the hands", "[N]",
+               overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.force; }));
+  PlotLine sum{"sum", colour(0), {}};
+  PlotLine largest{"largest of one contact", colour(1), {}};
+  bool inflated = false;
+  for (const Sample& sample : metrics.samples())
+  {
+    sum.points.emplace_back(sample.seen.time, sample.wall_force);
+    largest.points.emplace_back(sample.seen.time, sample.largest);
+    for (const procedure::InstrumentView& view : sample.seen.instruments)
+      inflated = inflated || view.hand.pressure != 0.0;
+  }
+  html += plot("Force on the wall", "[N]", {sum, largest});
+  if (inflated)
+    html += plot("Pressure at the inflator", "[atm]",
+                 overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.pressure / 101325.0; }));
+  return html;
+}
+
+/** The ways of the tips over the vessel's centreline, from the front. */
+std::string tipMap(const SessionMetrics& metrics)
+{
+  SvgPlot svg;
+  svg.title = "Ways of the tips, from the front";
+  svg.abscissa = "to the patient's left [mm]";
+  svg.ordinate = "to the head [mm]";
+  svg.equal_scales = true;
+  svg.height = 700.0;
+  for (int b = 0; b < metrics.places().branches(); ++b)
+  {
+    PlotLine line{"", "#cccccc", {}};
+    for (const Eigen::Vector3d& point : metrics.places().line(b).points())
+      line.points.emplace_back(1e3 * point.x(), 1e3 * point.z());
+    svg.lines.push_back(std::move(line));
+  }
+  for (std::size_t k = 0; k < metrics.scene().instruments.size(); ++k)
+  {
+    PlotLine line{metrics.scene().instruments[k].instrument.name, colour(k), {}};
+    for (const Sample& sample : metrics.samples())
+      if (sample.seen.instruments[k].hand.insertion > 0.0)
+        line.points.emplace_back(1e3 * sample.seen.instruments[k].tip.x(), 1e3 * sample.seen.instruments[k].tip.z());
+    svg.lines.push_back(std::move(line));
+  }
+  return "<h2>Where</h2>\n" + svg.text();
+}
+
+}  // namespace
+
+std::string metricsPage(const SessionMetrics& metrics)
+{
+  const Json json = metrics.json();
+  return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + troubles(json) +
+         timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
+}
+
+}  // namespace endovascular_sim::results

@@ -1,0 +1,92 @@
+#include "results/session_run.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "common/error.h"
+#include "results/metrics_page.h"
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+void writeFile(const std::string& path, const std::string& text)
+{
+  std::ofstream stream(path);
+  if (!(stream << text) || !stream.flush())
+    throw InputError(path, "", "the disk refused it; free some space");
+}
+
+}  // namespace
+
+SessionRun::SessionRun(const scene::Scene& scene, vessel::Vessel vessel, const Eigen::Vector3d& entry)
+  : scene_(scene), vessel_(std::move(vessel)), metrics_(scene, vessel_.centreline, entry)
+{
+  if (scene_.procedure)
+    operator_.emplace(scene_, vessel_.centreline, entry);
+}
+
+const std::vector<simulation::HandCommand>& SessionRun::commands(const simulation::Simulation& simulation)
+{
+  if (operator_)
+    return operator_->next(simulation);
+  commands_ = simulation::commandsAt(scene_, static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
+  return commands_;
+}
+
+void SessionRun::addStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts)
+{
+  if (!metrics_.wants(simulation.time()))
+    return;
+  Sample sample;
+  sample.seen = procedure::observe(scene_, simulation, metrics_.places());
+  for (const simulation::WallContact& contact : contacts)
+    sample.addContact(contact.position, contact.normal_force.norm());
+  metrics_.add(std::move(sample));
+}
+
+void SessionRun::finish(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall)
+{
+  if (operator_)
+    metrics_.setSteps(operator_->records(), operator_->failure());
+  for (const simulation::TimedEvent& event : simulation.events())
+    metrics_.addEvent(simulation::nameOf(event.event), event.instrument, event.time);
+  metrics_.setLesions(lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, openedStents(simulation)));
+}
+
+void SessionRun::write(const std::string& folder) const
+{
+  writeMetrics(metrics_, folder);
+}
+
+std::string instrumentsCsv(const SessionMetrics& metrics)
+{
+  std::string text =
+      "time,instrument,insertion,rotation,pressure,hand_force,hand_torque,tip_x,tip_y,tip_z,branch,depth\n";
+  std::array<char, 400> row{};
+  for (const Sample& sample : metrics.samples())
+    for (std::size_t k = 0; k < sample.seen.instruments.size(); ++k)
+    {
+      const procedure::InstrumentView& view = sample.seen.instruments[k];
+      std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g\n",
+                    sample.seen.time, metrics.scene().instruments[k].instrument.name.c_str(), view.hand.insertion,
+                    view.hand.rotation, view.hand.pressure, view.hand.force, view.hand.torque, view.tip.x(),
+                    view.tip.y(), view.tip.z(), metrics.places().name(view.place.branch).c_str(), view.place.depth);
+      text += row.data();
+    }
+  return text;
+}
+
+void writeMetrics(const SessionMetrics& metrics, const std::string& folder)
+{
+  writeFile(folder + "/metrics.json", metrics.json().dump(2) + "\n");
+  writeFile(folder + "/metrics.html", metricsPage(metrics));
+  writeFile(folder + "/instruments.csv", instrumentsCsv(metrics));
+}
+
+}  // namespace endovascular_sim::results

@@ -1,0 +1,43 @@
+#include "results/trajectory_csv.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "common/error.h"
+
+namespace endovascular_sim::results
+{
+
+std::string toCsv(const TrajectoryRow& row)
+{
+  std::array<char, 360> text{};
+  const int length = std::snprintf(text.data(), text.size(), "%.9g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu,%.17g",
+                                   row.time, row.insertion, row.rotation, row.hand_force, row.hand_torque, row.tip.x(),
+                                   row.tip.y(), row.tip.z(), row.nodes, row.pressure);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+TrajectoryFile::TrajectoryFile(const std::string& file, double rate) : stream_(file), rate_(rate)
+{
+  if (!(stream_ << kTrajectoryColumns << '\n'))
+    throw InputError(file, "trajectory", "cannot be written; choose a folder that exists and has room");
+}
+
+bool TrajectoryFile::add(const TrajectoryRow& row)
+{
+  // Slots of simulated time: the rows do not depend on when messages arrive. The small term keeps a time that is a
+  // whole number of slots in its own one.
+  const double slot = std::floor(row.time * rate_ + 1e-6);
+  if (slot <= last_slot_)
+    return true;
+  last_slot_ = slot;
+  return static_cast<bool>(stream_ << toCsv(row) << '\n');
+}
+
+bool TrajectoryFile::flush()
+{
+  return static_cast<bool>(stream_.flush());
+}
+
+}  // namespace endovascular_sim::results

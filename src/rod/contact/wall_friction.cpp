@@ -1,0 +1,201 @@
+#include "rod/contact/wall_friction.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kLeastForce = 1e-9;     // N: a wall force below it has no friction
+constexpr double kLeastArm = 1e-9;       // m/rad: below it, where a wire stands on the wall, nothing holds the twist
+constexpr double kTolerance = 0.1;       // of the sum of all limits, by which friction may be wrong
+constexpr double kNodeTolerance = 0.01;  // of a node's limit: the node is left as it is
+// Inertia so many times over may outweigh a node's friction and is still enough to keep the first pass near the mark.
+constexpr double kInertiaWeight = 16.0;
+constexpr int kSecantFromPass = 1;  // secants only take energy
+constexpr int kLastPass = 3;
+
+Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
+{
+  return vector - normal.dot(vector) * normal;
+}
+
+/** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
+Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, double radius)
+{
+  const int before = std::max(node - 1, state.first_node);
+  const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
+  return radius * normal.cross((state.position[after] - state.position[before]).normalized());
+}
+
+}  // namespace
+
+double nodeAngle(const std::vector<double>& twist_angle, int node, int first_node)
+{
+  const int last = static_cast<int>(twist_angle.size()) - 1;
+  return 0.5 * (twist_angle[std::max(node - 1, first_node)] + twist_angle[std::min(node, last)]);
+}
+
+void WallFriction::collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt,
+                           bool first_solve, const SurfaceMotion* surface)
+{
+  contacts_.clear();
+  contacts_.reserve(state.position.size());
+  for (int i = state.first_node; i < static_cast<int>(state.position.size()); ++i)
+  {
+    if (state.wall_force[i].isZero(0.0) || state.friction_coefficient[i] <= 0.0)
+      continue;
+    const double normal_force = state.wall_force[i].norm();
+    if (normal_force < kLeastForce)
+      continue;
+    Contact contact;
+    contact.node = i;
+    contact.limit = state.friction_coefficient[i] * normal_force;
+    contact.normal = state.wall_force[i] / normal_force;
+    Vector3d dragged = state.friction_stretch[i];
+    if (surface != nullptr && surface->slide != nullptr)
+      dragged += (*surface->slide)[i];
+    const Vector3d travel = state.position[i] - begin[i];
+    contact.stretch = tangential(dragged + travel, contact.normal);
+    contact.guess = contact.stretch;
+    if (first_solve)
+      contact.guess = tangential(dragged + dt * state.velocity[i], contact.normal);
+    contact.inertia = mass != nullptr ? (*mass)[i] / (dt * dt) : 0.0;
+    if (surface != nullptr)
+    {
+      contact.around = motionPerTurn(state, i, contact.normal, surface->radius[i]);
+      contact.begin_angle = surface->begin_angle[i];
+    }
+    contacts_.push_back(contact);
+  }
+}
+
+const std::vector<TwistFriction>& WallFriction::aboutAxis()
+{
+  about_axis_.clear();
+  about_axis_.reserve(contacts_.capacity());
+  for (const Contact& contact : contacts_)
+  {
+    TwistFriction friction;
+    friction.arm = contact.around.norm();
+    if (friction.arm <= kLeastArm)
+      continue;
+    friction.node = contact.node;
+    friction.limit = contact.limit;
+    friction.slip = slip_;
+    // Sideways the motion follows the turn (rolling): if the twist relied on what is expected of it, neither would meet
+    // the other's force. At the first solve that is no motion yet.
+    friction.along = contact.stretch.dot(contact.around) / friction.arm;
+    const double guessed = contact.guess.dot(contact.around) / friction.arm;
+    friction.across_squared = std::max(0.0, contact.guess.squaredNorm() - guessed * guessed);
+    friction.begin_angle = contact.begin_angle;
+    about_axis_.push_back(friction);
+  }
+  return about_axis_;
+}
+
+void WallFriction::linearise(const SurfaceMotion* surface)
+{
+  terms_.resize(contacts_.size());
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+  {
+    Contact& contact = contacts_[k];
+    Vector3d turned = Vector3d::Zero();
+    if (!contact.around.isZero(0.0))
+      turned = (surface->angle[contact.node] - contact.begin_angle) * contact.around;
+    contact.stretch += turned;
+    terms_[k].node = contact.node;
+    linearise(k, contact.guess + turned, kInertiaWeight);
+  }
+}
+
+void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double inertia_weight)
+{
+  const Contact& contact = contacts_[index];
+  Term& term = terms_[index];
+  const double length = stretch.norm();
+  const double secant = contact.limit / std::max(length, slip_);
+  term.stiffness = secant * (Matrix3d::Identity() - contact.normal * contact.normal.transpose());
+  term.pull = secant * contact.stretch;
+  if (length <= slip_)
+    return;
+  const Vector3d direction = stretch / length;
+  const double lowered = std::min(secant, inertia_weight * contact.inertia);
+  term.stiffness -= lowered * direction * direction.transpose();
+  term.pull += (lowered * direction.dot(stretch - contact.stretch)) * direction;
+}
+
+/** Coulomb's law at a stretch. */
+Vector3d WallFriction::force(std::size_t index, const Vector3d& stretch) const
+{
+  return (contacts_[index].limit / std::max(stretch.norm(), slip_)) * stretch;
+}
+
+bool WallFriction::update(const Motion& motion, int pass)
+{
+  if (pass > kLastPass)
+    return false;
+  double whole = 0.0;
+  double wrong = 0.0;
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+  {
+    const Term& term = terms_[k];
+    const Vector3d stretch = contacts_[k].stretch + tangential(motion[term.node], contacts_[k].normal);
+    whole += contacts_[k].limit;
+    wrong += (term.pull + term.stiffness * motion[term.node] - force(k, stretch)).norm();
+  }
+  if (wrong <= kTolerance * whole)
+    return false;
+  first_changed_ = std::numeric_limits<int>::max();
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+  {
+    const Term& term = terms_[k];
+    const Vector3d stretch = contacts_[k].stretch + tangential(motion[term.node], contacts_[k].normal);
+    const Vector3d error = term.pull + term.stiffness * motion[term.node] - force(k, stretch);
+    if (error.norm() <= kNodeTolerance * contacts_[k].limit)
+      continue;
+    linearise(k, stretch, pass < kSecantFromPass ? kInertiaWeight : 0.0);
+    first_changed_ = std::min(first_changed_, term.node);
+  }
+  return true;
+}
+
+void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion* surface) const
+{
+  for (int i = state.first_node; i < static_cast<int>(state.position.size()); ++i)
+  {
+    Vector3d& stretch = state.friction_stretch[i];
+    if (state.wall_force[i].isZero(0.0))
+    {
+      stretch.setZero();
+      continue;
+    }
+    const Vector3d normal = state.wall_force[i].normalized();
+    if (surface != nullptr && surface->slide != nullptr)
+      stretch += (*surface->slide)[i];
+    stretch = tangential(stretch + state.position[i] - begin[i], normal);
+    if (surface != nullptr)
+    {
+      const double angle = surface->angle[i] - surface->begin_angle[i];
+      if (angle != 0.0)
+        stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
+    }
+    const double length = stretch.norm();
+    if (length > slip_)
+      stretch *= slip_ / length;
+  }
+}
+
+Vector3d frictionForce(const State& state, int node, double slip)
+{
+  return -(state.friction_coefficient[node] * state.wall_force[node].norm() / slip) * state.friction_stretch[node];
+}
+
+}  // namespace endovascular_sim::rod

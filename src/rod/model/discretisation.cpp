@@ -1,0 +1,121 @@
+#include "rod/model/discretisation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+/** Integrals of a section property over a stretch of wire. */
+struct StretchIntegrals
+{
+  double bending_compliance = 0.0;
+  double torsional_compliance = 0.0;
+  double axial_compliance = 0.0;
+  double mass = 0.0;
+  Eigen::Vector2d rest_angle = Eigen::Vector2d::Zero();
+};
+
+StretchIntegrals integrate(const Wire& wire, double begin, double end)
+{
+  StretchIntegrals sum;
+  double section_begin = 0.0;
+  for (const Section& section : wire.sections)
+  {
+    const double section_end = section_begin + section.length;
+    const double overlap = std::min(end, section_end) - std::max(begin, section_begin);
+    if (overlap > 0.0)
+    {
+      sum.bending_compliance += overlap / section.bending_stiffness;
+      sum.torsional_compliance += overlap / section.torsional_stiffness;
+      sum.axial_compliance += overlap / section.axial_stiffness;
+      sum.mass += overlap * section.density * M_PI * section.radius * section.radius;
+      sum.rest_angle += overlap * section.rest_curvature;
+    }
+    section_begin = section_end;
+  }
+  return sum;
+}
+
+const Section& sectionAt(const Wire& wire, double position)
+{
+  double end = 0.0;
+  for (const Section& section : wire.sections)
+  {
+    end += section.length;
+    if (position <= end)
+      return section;
+  }
+  return wire.sections.back();
+}
+
+}  // namespace
+
+Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle)
+{
+  const double magnitude = angle.norm();
+  return magnitude > 0.0 ? Eigen::Vector2d(angle * (2.0 * std::tan(0.5 * magnitude) / magnitude))
+                         : Eigen::Vector2d(Eigen::Vector2d::Zero());
+}
+
+void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& d)
+{
+  const int n = static_cast<int>(position.size());
+  const std::size_t nodes = position.size();
+  d.position = position;
+  d.first_curved = n;
+  d.rest_length.resize(nodes - 1);
+  d.axial_stiffness.resize(nodes - 1);
+  d.cell_length.resize(nodes);
+  d.bending_stiffness.resize(nodes);
+  d.torsional_stiffness.resize(nodes);
+  d.mass.resize(nodes);
+  d.radius.resize(nodes);
+  d.friction.resize(nodes);
+  d.rest_curvature.resize(nodes);
+  for (int j = 0; j + 1 < n; ++j)
+  {
+    d.rest_length[j] = position[j + 1] - position[j];
+    d.axial_stiffness[j] = d.rest_length[j] / integrate(wire, position[j], position[j + 1]).axial_compliance;
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    const double begin = i > 0 ? 0.5 * (position[i - 1] + position[i]) : position[i];
+    const double end = i + 1 < n ? 0.5 * (position[i] + position[i + 1]) : position[i];
+    const StretchIntegrals cell = integrate(wire, begin, end);
+    const Section& section = sectionAt(wire, position[i]);
+    d.cell_length[i] = end - begin;
+    d.bending_stiffness[i] = (end - begin) / cell.bending_compliance;
+    d.torsional_stiffness[i] = (end - begin) / cell.torsional_compliance;
+    d.mass[i] = cell.mass;
+    d.radius[i] = section.radius;
+    d.friction[i] = section.friction;
+    d.rest_curvature[i] = integratedCurvature(cell.rest_angle);
+    if (d.first_curved == n && cell.rest_angle.squaredNorm() > 0.0)
+      d.first_curved = i;
+  }
+}
+
+Discretisation discretise(const Wire& wire, const std::vector<double>& position)
+{
+  Discretisation rod;
+  discretise(wire, position, rod);
+  return rod;
+}
+
+double massBetween(const Wire& wire, double begin, double end)
+{
+  return integrate(wire, begin, end).mass;
+}
+
+Discretisation discretiseUniformly(const Wire& wire, int nodes)
+{
+  std::vector<double> position(static_cast<std::size_t>(nodes));
+  for (int i = 0; i < nodes; ++i)
+    position[i] = wire.length() * i / (nodes - 1);
+  return discretise(wire, position);
+}
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,396 @@
+#include "rod/twist/twist.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "rod/model/node_curvature.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr int kMaxIterations = 200;
+constexpr double kMaxTurn = 0.3;      // rad per iteration: a snap-through is followed, not jumped over
+constexpr double kConverged = 1e-12;  // rad
+// With friction: a ten-thousandth of the turn in which it sticks, before a last step that squares it.
+constexpr double kConvergedInFriction = 1e-7;  // rad
+constexpr double kBalanced = 1e-7;             // of all friction's torque, that may be left over
+// Newton for so many iterations, then secants for as many, which always go downhill.
+constexpr int kNewtonIterations = 6;
+// Share of the Hessian's concave part that is left out: the first with which it is positive definite.
+constexpr std::array<double, 5> kLeftOut = {0.0, 1e-3, 1e-2, 0.1, 1.0};
+constexpr double kMinLength = 1e-9;  // of the body's compliance, in edges: keeps the spring finite
+
+double edgeMiddle(const Discretisation& rod, int edge)
+{
+  return 0.5 * (rod.position[edge] + rod.position[edge + 1]);
+}
+
+/** ∫ds/GJ between two arc lengths [1/(N·m)]. */
+double torsionalCompliance(const Discretisation& rod, double begin, double end, int from_node)
+{
+  double sum = 0.0;
+  for (int i = from_node; i < rod.nodes(); ++i)
+  {
+    const double cell_begin = i > 0 ? edgeMiddle(rod, i - 1) : rod.position[i];
+    const double cell_end = i + 1 < rod.nodes() ? edgeMiddle(rod, i) : rod.position[i];
+    if (cell_begin >= end)
+      break;
+    sum += std::max(0.0, std::min(end, cell_end) - std::max(begin, cell_begin)) / rod.torsional_stiffness[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& boundary)
+{
+  return rod.first_curved < rod.nodes() || boundary.tip_torque != 0.0 || boundary.hasEdgeTorque() ||
+         boundary.hasFriction() || (boundary.held && boundary.tip_held);
+}
+
+void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state,
+                             bool same_centreline)
+{
+  const int n = rod.nodes();
+  first_edge_ = state.first_node;
+  while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
+    ++first_edge_;
+  first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
+  if (first_curved_ > n - 2)
+    first_curved_ = n;
+  first_own_ = first_curved_;
+  if (boundary.hasFriction() && first_edge_ + 1 <= n - 2)
+    first_own_ = std::min(first_own_, std::clamp(boundary.friction->front().node, first_edge_ + 1, n - 2));
+  held_friction_ = 0.0;
+  last_body_ = std::min(first_own_ - 1, n - 2);
+  bishop_.resize(n);
+  bishop_normal_.resize(n);
+  binormal_.resize(n);
+  rest_binormal_.resize(n);
+  cosine_.resize(n);
+  sine_.resize(n);
+  torque_.assign(n, 0.0);
+  gradient_.resize(n);
+  diagonal_.resize(n);
+  upper_.resize(n);
+  concave_.resize(n);
+  pivot_.resize(n);
+  step_.resize(n);
+  prepareBody(rod, boundary);
+  if (!same_centreline && (first_curved_ < n || boundary.tip_held))
+    transportBishopFrame(rod, boundary, state);
+  if (boundary.tip_held)
+    placeTip(rod, boundary, state);
+  if (first_own_ < n)
+    relax(rod, boundary, state);
+  evaluate(rod, boundary, state);
+}
+
+/** The straight body as a spring between the held place and its last edge, turned by the torques along it. */
+void QuasiStaticTwist::prepareBody(const Discretisation& rod, const TwistBoundary& boundary)
+{
+  body_stiffness_ = 0.0;
+  if (boundary.held)
+  {
+    const double compliance = torsionalCompliance(rod, boundary.position, edgeMiddle(rod, last_body_), first_edge_);
+    body_stiffness_ =
+        1.0 / std::max(compliance, kMinLength * rod.rest_length[last_body_] / rod.torsional_stiffness[last_body_]);
+  }
+  body_load_ = body_load_angle_ = 0.0;
+  if (!boundary.hasEdgeTorque())
+    return;
+  double compliance = 0.0;
+  double reached = boundary.position;
+  for (int j = first_edge_; j < last_body_; ++j)
+  {
+    compliance += std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+    reached = std::max(reached, edgeMiddle(rod, j));
+    body_load_ += boundary.edgeTorque(j);
+    body_load_angle_ += compliance * boundary.edgeTorque(j);
+  }
+}
+
+/** Torque at the body's last node, just before its last edge, when that edge has turned by @p angle [N·m]. */
+double QuasiStaticTwist::bodyTorque(const TwistBoundary& boundary, double angle) const
+{
+  return boundary.held ? body_stiffness_ * (angle - boundary.rotation - body_load_angle_) : -body_load_;
+}
+
+/** Angle of a held last edge: from the transported frame to its director, on the branch nearest to the last one. */
+void QuasiStaticTwist::placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const
+{
+  const double angle = std::atan2(boundary.tip_director.dot(tip_normal_), boundary.tip_director.dot(tip_bishop_));
+  state.tip_transport = angle + 2.0 * M_PI * std::round((state.tip_transport - angle) / (2.0 * M_PI));
+  state.twist_angle[rod.nodes() - 2] = state.tip_transport + boundary.tip_rotation;
+}
+
+void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary,
+                                            const State& state)
+{
+  Eigen::Vector3d tangent = boundary.tangent;
+  Eigen::Vector3d director = boundary.director;
+  for (int j = first_edge_; j + 1 < rod.nodes(); ++j)
+  {
+    const Eigen::Vector3d next = (state.position[j + 1] - state.position[j]).normalized();
+    // Parallel transport: the rotation about tangent × next that takes one to the other.
+    director -= (director.dot(next) / (1.0 + tangent.dot(next))) * (tangent + next);
+    tangent = next;
+    if (j + 1 >= first_curved_)
+    {
+      bishop_[j] = director;
+      bishop_normal_[j] = tangent.cross(director);
+    }
+  }
+  tip_bishop_ = director;
+  tip_normal_ = tangent.cross(director);
+  for (int i = first_curved_; i + 1 < rod.nodes(); ++i)
+    binormal_[i] = binormalAt(rod, state, i).value;
+}
+
+/** Gradient and Hessian by the twist angles of the edges first_own_−1 … n−2, and apart what of the Hessian's diagonal
+ *  curves down; returns the largest |gradient|. */
+double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state,
+                                  bool secants)
+{
+  const int n = rod.nodes();
+  const int first = first_own_ - 1;
+  for (int j = first; j + 1 < n; ++j)
+    gradient_[j] = diagonal_[j] = upper_[j] = concave_[j] = 0.0;
+  turnFrames(state);
+  gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
+  for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
+    gradient_[j] -= boundary.edgeTorque(j);
+  // The tiny second term keeps the matrix regular where nothing holds the twist.
+  diagonal_[first] = body_stiffness_ + 1e-9 * rod.torsional_stiffness[first_own_] / rod.cell_length[first_own_];
+  gradient_[n - 2] -= boundary.tip_torque;
+  for (int i = first_own_; i + 1 < n; ++i)
+  {
+    const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
+    const double m = state.twist_angle[i] - state.twist_angle[i - 1];
+    gradient_[i] += k * m;
+    gradient_[i - 1] -= k * m;
+    diagonal_[i] += k;
+    diagonal_[i - 1] += k;
+    upper_[i - 1] -= k;
+    if (i >= first_curved_)
+      addRestCurvature(rod, i);
+  }
+  if (boundary.hasFriction())
+    addFriction(boundary, state, secants);
+  tip_gradient_ = gradient_[n - 2];
+  if (boundary.tip_held)
+  {
+    gradient_[n - 2] = upper_[n - 3] = 0.0;
+    diagonal_[n - 2] = 1.0;
+  }
+  double largest = 0.0;
+  for (int j = first; j + 1 < n; ++j)
+    largest = std::max(largest, std::abs(gradient_[j]));
+  return largest;
+}
+
+/** Angles of the curved tip's edges, each of which two nodes ask for. */
+void QuasiStaticTwist::turnFrames(const State& state)
+{
+  for (int j = first_curved_ - 1; j + 1 < static_cast<int>(cosine_.size()); ++j)
+  {
+    cosine_[j] = std::cos(state.twist_angle[j]);
+    sine_[j] = std::sin(state.twist_angle[j]);
+  }
+}
+
+/** Bending of a node of the curved tip. */
+void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
+{
+  const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
+  const Eigen::Vector2d& rest = rod.rest_curvature[node];
+  for (int j = node - 1; j <= node; ++j)
+  {
+    const double c = cosine_[j];
+    const double s = sine_[j];
+    const double along1 = binormal_[node].dot(bishop_[j]);
+    const double along2 = binormal_[node].dot(bishop_normal_[j]);
+    const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
+    gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
+    diagonal_[j] += b * rest.dot(omega);
+    concave_[j] += b * std::max(0.0, -rest.dot(omega));
+  }
+}
+
+/** A node turns by the mean of its edges; one before the held place turns with the hand, which takes its share. */
+void QuasiStaticTwist::addFriction(const TwistBoundary& boundary, const State& state, bool secants)
+{
+  const int last = static_cast<int>(state.twist_angle.size()) - 1;
+  const auto angle = [&](int edge) { return edge < first_edge_ ? boundary.rotation : state.twist_angle[edge]; };
+  held_friction_ = 0.0;
+  for (const TwistFriction& friction : *boundary.friction)
+  {
+    const int before = std::max(friction.node - 1, state.first_node);
+    const int after = std::min(friction.node, last);
+    const double turn = 0.5 * (angle(before) + angle(after)) - friction.begin_angle;
+    const double pull = 0.5 * friction.pull(turn);
+    const double stiffness = 0.25 * (secants ? friction.secant(turn) : friction.stiffness(turn));
+    for (const int edge : {before, after})
+    {
+      if (edge < first_edge_)
+      {
+        held_friction_ += pull;
+        continue;
+      }
+      gradient_[edge] += pull;
+      diagonal_[edge] += stiffness;
+    }
+    if (before == after)
+      diagonal_[before] += 2.0 * stiffness;
+    else if (before >= first_edge_)
+      upper_[before] += stiffness;
+  }
+}
+
+/** Torque on an edge that may be left over [N·m]. */
+double QuasiStaticTwist::balanced(const TwistBoundary& boundary) const
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; boundary.hasFriction() && k < boundary.friction->size(); ++k)
+    sum += (*boundary.friction)[k].limit * (*boundary.friction)[k].arm;
+  return kBalanced * sum;
+}
+
+/** Solves the tridiagonal system for the Newton step, with a share of the concave part left out of the matrix.
+ *  @return the largest step, or a negative number when the matrix is not positive definite */
+double QuasiStaticTwist::solveForStep(int first, int last, double left_out)
+{
+  for (int j = first; j <= last; ++j)
+  {
+    pivot_[j] = diagonal_[j] + left_out * concave_[j];
+    step_[j] = gradient_[j];
+    if (j > first)
+    {
+      const double factor = upper_[j - 1] / pivot_[j - 1];
+      pivot_[j] -= factor * upper_[j - 1];
+      step_[j] -= factor * step_[j - 1];
+    }
+    if (!(pivot_[j] > 0.0))
+      return -1.0;
+  }
+  double largest = 0.0;
+  for (int j = last; j >= first; --j)
+  {
+    step_[j] = (step_[j] - (j < last ? upper_[j] * step_[j + 1] : 0.0)) / pivot_[j];
+    largest = std::max(largest, std::abs(step_[j]));
+  }
+  return largest;
+}
+
+/** Newton's method with the exact Hessian where that is positive definite. Beyond a snap-through it is not: there as
+ *  little as needed of what curves down is left out, and the angles run downhill to the next minimum. */
+void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const int first = first_own_ - 1;
+  const int last = rod.nodes() - 2;
+  const double left_over = balanced(boundary);
+  const double converged = boundary.hasFriction() ? kConvergedInFriction : kConverged;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration)
+  {
+    const bool secants = iteration / kNewtonIterations % 2 == 1;
+    if (assemble(rod, boundary, state, secants) <= left_over)
+      return;
+    double largest = -1.0;
+    for (std::size_t k = 0; k < kLeftOut.size() && largest < 0.0; ++k)
+      largest = solveForStep(first, last, kLeftOut[k]);
+    const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
+    for (int j = first; j <= last; ++j)
+      state.twist_angle[j] -= scale * step_[j];
+    if (largest < converged)
+      return;
+  }
+}
+
+void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  energy_ = 0.0;
+  evaluateBody(rod, boundary, state);
+  evaluateTip(rod, state);
+  state.distal_torque = 0.0;
+  if (!boundary.tip_held)
+    return;
+  // With angles of its own the last assembly knows it; a straight wire's last edge hands on the body's torque.
+  state.distal_torque = tip_gradient_;
+  if (first_own_ == rod.nodes())
+    state.distal_torque = torque_[last_body_] - boundary.edgeTorque(last_body_) - boundary.tip_torque;
+}
+
+/** Torques, energy and angles of the straight body. */
+void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  const bool given = first_own_ < rod.nodes() || boundary.tip_held;  // the angle of the last edge is known
+  const double end_angle = state.twist_angle[last_body_];
+  double torque = given ? bodyTorque(boundary, end_angle) : boundary.tip_torque + boundary.edgeTorque(last_body_);
+  torque += body_load_;
+  state.hand_torque = boundary.held ? held_friction_ - torque : 0.0;
+  double angle = boundary.rotation;
+  double reached = boundary.position;
+  for (int j = state.first_node; j <= last_body_; ++j)
+  {
+    if (j > first_edge_)
+      torque -= boundary.edgeTorque(j - 1);
+    if (j > first_edge_ || edgeMiddle(rod, j) > boundary.position)
+    {
+      const double turn = torque * std::max(0.0, edgeMiddle(rod, j) - reached) / rod.torsional_stiffness[j];
+      angle += turn;
+      energy_ += 0.5 * torque * turn;
+      reached = edgeMiddle(rod, j);
+      torque_[j] = torque;
+    }
+    if (j < last_body_ || !given)
+      state.twist_angle[j] = angle;
+  }
+  if (boundary.held || !given)
+    return;
+  // Nothing holds the proximal end: the body turns with its last edge.
+  for (int j = state.first_node; j < last_body_; ++j)
+    state.twist_angle[j] += end_angle - angle;
+}
+
+/** Torques, energy and rest curvature beyond the body. */
+void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
+{
+  const int n = rod.nodes();
+  turnFrames(state);
+  for (int i = first_own_; i + 1 < n; ++i)
+  {
+    const double m = state.twist_angle[i] - state.twist_angle[i - 1];
+    const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
+    torque_[i] = k * m;
+    energy_ += 0.5 * k * m * m;
+    if (i >= first_curved_)
+    {
+      rest_binormal_[i].setZero();
+      for (int j = i - 1; j <= i; ++j)
+        rest_binormal_[i] += binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
+    }
+  }
+}
+
+/** A node's binormal as one of its two edges has it, times a half. */
+Eigen::Vector3d QuasiStaticTwist::binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine,
+                                                 double sine) const
+{
+  const Eigen::Vector3d m1 = cosine * bishop_[edge] + sine * bishop_normal_[edge];
+  const Eigen::Vector3d m2 = cosine * bishop_normal_[edge] - sine * bishop_[edge];
+  return 0.5 * (rest_curvature.x() * m2 - rest_curvature.y() * m1);
+}
+
+Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvature, int node,
+                                             const std::vector<double>& twist_angle) const
+{
+  Eigen::Vector3d binormal = Eigen::Vector3d::Zero();
+  for (int j = node - 1; j <= node; ++j)
+    binormal += binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
+  return binormal;
+}
+
+}  // namespace endovascular_sim::rod

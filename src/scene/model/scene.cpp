@@ -1,0 +1,74 @@
+#include "scene/model/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/hash.h"
+
+namespace endovascular_sim::scene
+{
+
+double DriveProfile::at(double t) const
+{
+  const double sine = amplitude == 0.0 ? 0.0 : amplitude * std::sin(2.0 * M_PI * frequency * t + phase);
+  if (points.empty())
+    return sine;
+  const auto after = std::upper_bound(points.begin(), points.end(), t,
+                                      [](double time, const Point& point) { return time < point.time; });
+  if (after == points.begin())
+    return points.front().value + sine;
+  const Point& a = *(after - 1);
+  if (after == points.end())
+    return a.value + sine;
+  return a.value + (after->value - a.value) * ((t - a.time) / (after->time - a.time)) + sine;
+}
+
+double DriveScene::insertionAt(double t) const
+{
+  if (source == DriveSource::kNone)
+    return initial_insertion;
+  return initial_insertion + (std::isnan(speed) ? insertion.at(t) : std::min(speed * t, travel));
+}
+
+double DriveScene::rotationAt(double t) const
+{
+  return source == DriveSource::kNone ? initial_rotation : initial_rotation + rotation.at(t);
+}
+
+double DriveScene::pressureAt(double t) const
+{
+  return source == DriveSource::kNone ? 0.0 : pressure.at(t);
+}
+
+double Scene::longest() const
+{
+  double length = 0.0;
+  for (const DrivenInstrument& driven : instruments)
+    length = std::max(length, driven.instrument.wire.length());
+  return length;
+}
+
+std::uint64_t Scene::hash() const
+{
+  Hash64 hash;
+  hash.add(resolved_yaml);
+  return hash.value();
+}
+
+std::vector<std::string> requiredNodes(const Scene& scene)
+{
+  std::vector<std::string> nodes;
+  if (scene.vessel)
+    nodes.emplace_back("vessel_server");
+  nodes.emplace_back("rod_dynamics");
+  if (scene.vessel)
+    nodes.emplace_back("contact");
+  if (scene.haptic_device)
+    nodes.emplace_back("haptic_device");
+  if (scene.fluoroscopy)
+    nodes.emplace_back("fluoroscopy");
+  nodes.emplace_back("session");
+  return nodes;
+}
+
+}  // namespace endovascular_sim::scene

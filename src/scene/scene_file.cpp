@@ -1,0 +1,110 @@
+#include "scene/scene_file.h"
+
+#include <filesystem>
+
+#include "common/error.h"
+#include "scene/instrument_library.h"
+#include "scene/schema/scene_schema.h"
+#include "scene/yaml/file_search.h"
+#include "scene/yaml/yaml_reader.h"
+#include "scene/yaml/yaml_writer.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+SceneNode* fieldOf(SceneNode& map, const std::string& key)
+{
+  for (auto& field : map.fields)
+    if (field.first == key)
+      return &field.second;
+  return nullptr;
+}
+
+/** Replaces the path of a procedure by the file's content. */
+void expandProcedure(SceneNode& procedure, const std::string& file)
+{
+  if (procedure.kind == SceneNode::Kind::kScalar)
+    procedure = readSceneTree(findSceneFile(procedure, "procedure", file));
+}
+
+/** Replaces the names of instruments and procedures by their files' content, and `vessel: none` by nothing. */
+void normalise(SceneNode& root, const std::string& file)
+{
+  if (SceneNode* instrument = fieldOf(root, "instrument"))
+    expandInstrument(*instrument, "instrument", file);
+  if (SceneNode* instruments = fieldOf(root, "instruments"))
+    for (std::size_t k = 0; k < instruments->items.size(); ++k)
+      if (SceneNode* instrument = fieldOf(instruments->items[k], "instrument"))
+        expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
+  if (SceneNode* procedure = fieldOf(root, "procedure"))
+    expandProcedure(*procedure, file);
+  for (const char* key : {"vessel", "fluoroscopy"})
+  {
+    SceneNode* part = fieldOf(root, key);
+    if (part != nullptr && part->kind == SceneNode::Kind::kScalar && part->text == "none")
+      part->kind = SceneNode::Kind::kNull;
+  }
+}
+
+/** Files named by the vessel, as absolute paths. The resolved text keeps what was written, so that the scene's hash
+ *  does not depend on the machine. */
+void resolveVesselPaths(Scene& scene, const SceneNode& root)
+{
+  const SceneNode* vessel = root.find("vessel");
+  if (vessel == nullptr)
+    return;
+  if (const SceneNode* mesh = vessel->find("mesh"))
+    scene.vessel->mesh = findSceneFile(*mesh, "vessel.mesh", scene.file);
+  if (const SceneNode* anatomy = vessel->find("anatomy"))
+    scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
+}
+
+enum class VesselFiles
+{
+  kSought,
+  kNotNeeded,
+};
+
+Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides,
+                 VesselFiles files = VesselFiles::kSought)
+{
+  normalise(root, file);
+  for (const std::string& override_text : overrides)
+  {
+    overrideSceneTree(root, override_text, file);
+    normalise(root, file);
+  }
+  Scene scene;
+  scene.file = file;
+  scene.name = std::filesystem::path(file).stem().string();
+  SceneReader reader(&root, root, "");
+  visitScene(reader, scene);
+  reader.finish();
+  SceneWriter writer;
+  visitScene(writer, scene);
+  scene.resolved_yaml = writer.yaml();
+  if (files == VesselFiles::kSought)
+    resolveVesselPaths(scene, root);
+  return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::string& file, const std::vector<std::string>& overrides)
+{
+  return buildScene(readSceneTree(file), file, overrides);
+}
+
+Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides)
+{
+  return buildScene(parseSceneTree(yaml, origin), origin, overrides);
+}
+
+Scene parseRecordedScene(const std::string& yaml, const std::string& origin)
+{
+  return buildScene(parseSceneTree(yaml, origin), origin, {}, VesselFiles::kNotNeeded);
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,246 @@
+#include "scene/scene_vessel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "geometry/closest_point_on_triangle.h"
+#include "geometry/loop_subdivision.h"
+#include "geometry/mesh_distance.h"
+#include "scene/schema/scene_schema.h"
+#include "vessel/anatomy/anatomy_mesh.h"
+#include "vessel/anatomy/tube.h"
+#include "vessel/centreline/centreline_extraction.h"
+#include "vessel/io/mesh_reader.h"
+#include "vessel/lesion/add_lesions.h"
+#include "vessel/repair/mesh_check.h"
+#include "vessel/repair/mesh_repair.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+vessel::TubeShape tubeShape(const VesselScene::Tube& tube, const EntryPose& start)
+{
+  vessel::TubeShape shape;
+  shape.radius = tube.radius;
+  shape.facet_length = tube.facet_length;
+  shape.facets_around = tube.facets_around;
+  for (const VesselScene::TubePiece& piece : tube.pieces)
+    shape.pieces.push_back({piece.length, piece.curvature, piece.plane_angle});
+  shape.position = start.position;
+  shape.direction = start.direction;
+  shape.up = start.d1;
+  return shape;
+}
+
+vessel::Vessel vesselFromMeshFile(const VesselScene& scene)
+{
+  vessel::Vessel vessel;
+  vessel.source = scene.mesh;
+  vessel.mesh = vessel::readMesh(scene.mesh, scene.unit);
+  const vessel::MeshReport report = vessel::checkMesh(vessel.mesh);
+  vessel::requirePlausibleSize(report, scene.unit, scene.mesh);
+  if (!scene.repair)
+    vessel::requireClean(report, scene.mesh);
+  else if (!report.clean())
+  {
+    vessel::RepairedMesh repaired = vessel::repairMesh(std::move(vessel.mesh), scene.mesh);
+    vessel.mesh = std::move(repaired.mesh);
+    vessel.notes = std::move(repaired.notes);
+  }
+  for (Eigen::Vector3d& v : vessel.mesh.vertices)
+    v = scene.transform * v;
+  return vessel;
+}
+
+bool needsCentreline(const EntryScene& entry)
+{
+  return entry.nearest_centreline_end || !entry.centreline_end.empty();
+}
+
+EntryPose poseWithUp(const Eigen::Vector3d& position, const Eigen::Vector3d& direction, const Eigen::Vector3d& up,
+                     const std::string& origin)
+{
+  const Eigen::Vector3d across = up - up.dot(direction) / direction.squaredNorm() * direction;
+  if (!(across.norm() > 1e-6 * up.norm()))
+    throw InputError(origin, "entry.up", "must not be parallel to the entry's direction; give a direction across it");
+  // A unit vector stays as it is, to the last bit.
+  const bool is_unit = std::abs(direction.squaredNorm() - 1.0) < 1e-12;
+  return {position, is_unit ? direction : Eigen::Vector3d(direction.normalized()), across.normalized()};
+}
+
+const vessel::CentrelineEnd& nearestEnd(const std::vector<vessel::CentrelineEnd>& ends, const Eigen::Vector3d& place)
+{
+  const vessel::CentrelineEnd* nearest = &ends.front();
+  for (const vessel::CentrelineEnd& end : ends)
+    if ((end.position - place).norm() < (nearest->position - place).norm())
+      nearest = &end;
+  return *nearest;
+}
+
+const vessel::CentrelineEnd& namedEnd(const std::vector<vessel::CentrelineEnd>& ends, const vessel::Vessel& vessel,
+                                      const std::string& name, const std::string& origin)
+{
+  const vessel::CentrelineEnd* found = nullptr;
+  std::string names;
+  for (const vessel::CentrelineEnd& end : ends)
+  {
+    const std::string& branch = vessel.centreline.branches[static_cast<std::size_t>(end.branch)].name;
+    names += (names.empty() ? "" : ", ") + branch;
+    if (branch == name)
+      found = &end;  // the root has two ends: its tip stands last
+  }
+  if (found == nullptr)
+    throw InputError(origin, "entry.centreline_end",
+                     "no end \"" + name + "\" in " + vessel.source + "; it has " + names);
+  return *found;
+}
+
+/** Point and inward tangent of the centreline at a distance from one of its ends. */
+EntryPose poseAtEnd(const vessel::CentrelineEnd& end, const vessel::CentrelineTree& tree, const EntryScene& entry,
+                    const std::string& origin)
+{
+  const vessel::CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(end.branch)];
+  const std::size_t n = branch.points.size();
+  const bool at_front = end.position == branch.points.front();
+  const auto at = [&](std::size_t k) { return branch.points[at_front ? k : n - 1 - k]; };
+  double left = entry.offset;
+  std::size_t k = 0;
+  while (k + 1 < n && left >= (at(k + 1) - at(k)).norm())
+    left -= (at(k + 1) - at(k)).norm(), ++k;
+  if (k + 1 >= n)
+    throw InputError(origin, "entry.offset", "is longer than the branch \"" + branch.name + "\"; give a smaller one");
+  Eigen::Vector3d direction = end.inward;
+  if (entry.offset > 0.0)
+    direction = (at(k + 1) - at(k)).normalized();
+  const Eigen::Vector3d position = at(k) + left * (at(k + 1) - at(k)).normalized();
+
+  // The default `up` may happen to lie along a centreline that nobody has chosen by hand.
+  Eigen::Vector3d up = entry.up;
+  if (up.normalized().cross(direction).norm() < 1e-3)
+    up = direction.unitOrthogonal();
+  return poseWithUp(position, direction, up, origin);
+}
+
+void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const std::string& origin)
+{
+  if (geometry::windingNumber(vessel.mesh, pose.position) > 0.5)
+    return;
+  const geometry::ClosestPoint wall = geometry::MeshDistance(vessel.mesh).closest(pose.position);
+  char distance[32];
+  std::snprintf(distance, sizeof distance, "%.3g mm", 1e3 * wall.distance);
+  throw InputError(origin, "entry.position",
+                   vessel::formatPlace(pose.position) + " is not inside of the vessel: it lies " + distance +
+                       " outside of its wall, whose nearest point is " + vessel::formatPlace(wall.point) +
+                       "; move it inward, or use nearest_centreline_end: true");
+}
+
+}  // namespace
+
+CentrelineUse centrelineUse(const Scene& scene)
+{
+  return scene.sampling.kind == SamplingKind::kAdaptive ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
+}
+
+contact::WallLaw wallLaw(const VesselScene& scene)
+{
+  contact::WallLaw law;
+  law.stiffness = scene.stiffness;
+  law.friction = scene.friction;
+  for (const VesselScene::FrictionRegion& region : scene.friction_regions)
+    law.regions.push_back({region.centre, region.radius, region.friction});
+  return law;
+}
+
+vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
+                           CentrelineUse centreline)
+{
+  vessel::Vessel vessel;
+  if (scene.tube)
+  {
+    const vessel::TubeShape shape = tubeShape(*scene.tube, resolveEntry(entry, origin));
+    vessel.source = "tube";
+    vessel.mesh = vessel::tubeMesh(shape);
+    vessel.centreline = vessel::tubeCentreline(shape);
+  }
+  else if (!scene.anatomy.empty())
+    vessel = vessel::loadAnatomy(scene.anatomy);
+  else
+    vessel = vesselFromMeshFile(scene);
+
+  if (scene.smoothing > 0)
+  {
+    vessel.mesh = geometry::loopSubdivision(std::move(vessel.mesh), scene.smoothing);
+    vessel.notes.push_back("smoothed by " + std::to_string(scene.smoothing) + " Loop subdivisions");
+  }
+  const bool wanted = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
+  if (wanted && vessel.centreline.branches.empty())
+    vessel.centreline = vessel::extractCentreline(vessel.mesh);
+  vessel::addLesions(vessel, scene.lesions, origin);
+  return vessel;
+}
+
+double roomAround(const Eigen::Vector3d& place, const geometry::TriangleMesh& mesh)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    nearest = std::min(
+        nearest,
+        (geometry::closestPointOnTriangle(place, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).point -
+         place)
+            .norm());
+  return nearest;
+}
+
+EntryPose resolveEntry(const EntryScene& entry, const std::string& origin)
+{
+  return poseWithUp(entry.position, entry.direction, entry.up, origin);
+}
+
+EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, const std::string& origin)
+{
+  EntryPose pose;
+  if (needsCentreline(entry))
+  {
+    const std::vector<vessel::CentrelineEnd> ends = vessel::centrelineEnds(vessel.centreline);
+    if (ends.empty())
+      throw InputError(origin, "entry", "the vessel's centreline has no ends; give position and direction");
+    const vessel::CentrelineEnd& end = entry.nearest_centreline_end
+                                           ? nearestEnd(ends, entry.position)
+                                           : namedEnd(ends, vessel, entry.centreline_end, origin);
+    pose = poseAtEnd(end, vessel.centreline, entry, origin);
+  }
+  else
+    pose = resolveEntry(entry, origin);
+  requireInside(pose, vessel, origin);
+  pose.room = roomAround(pose.position, vessel.mesh);
+  return pose;
+}
+
+EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel)
+{
+  EntryPose pose = resolveEntry(scene.entry, vessel, scene.file);
+  if (!scene.introducer)
+    return pose;
+  const geometry::MeshDistance wall(vessel.mesh);
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    const double inserted = scene.instruments[k].drive.insertionAt(0.0);
+    const double free = inserted > pose.room ? wall.rayHit(pose.position, pose.direction) : -1.0;
+    if (free < 0.0 || inserted < free)
+      continue;
+    char most[32];
+    std::snprintf(most, sizeof most, "%.3g m", free);
+    throw InputError(scene.file, drivePath(scene, k) + "drive.initial_insertion",
+                     "puts the instrument, which begins straight, through the vessel's wall; must be less than " +
+                         std::string(most) + " along entry.direction from entry.position");
+  }
+  return pose;
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,151 @@
+#include <cstdio>
+#include <string>
+
+#include "scene/schema/scene_schema.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+std::string inMillimetres(double length)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4ge-3 m", 1e3 * length);
+  return text;
+}
+
+/** A table of two columns, kept as a vector of structs with two numbers. */
+template <typename Row>
+void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& table, double Row::*x, double Row::*y,
+                const std::string& unit)
+{
+  std::vector<std::vector<double>> rows;
+  for (const Row& row : table)
+    rows.push_back({row.*x, row.*y});
+  fields.rows(key, rows, 2, unit, Need::kRequired);
+  if (!fields.reading())
+    return;
+  table.clear();
+  for (const std::vector<double>& row : rows)
+  {
+    Row entry;
+    entry.*x = row[0];
+    entry.*y = row[1];
+    table.push_back(entry);
+  }
+}
+
+void checkCompliance(const SceneFields& fields, const instrument::Balloon& balloon)
+{
+  if (balloon.compliance.size() < 2)
+    fields.refuse("compliance", "needs two rows or more of [pressure in Pa, diameter in m]");
+  instrument::Balloon::Compliance below{0.0, balloon.folded_diameter};
+  for (std::size_t k = 0; k < balloon.compliance.size(); ++k)
+  {
+    const instrument::Balloon::Compliance& row = balloon.compliance[k];
+    const std::string key = "compliance." + std::to_string(k);
+    if (row.pressure <= below.pressure)
+      fields.refuse(key, k == 0 ? "the pressure must be positive, in Pa above that of the blood"
+                                : "pressures must increase from row to row; sort the rows");
+    if (row.diameter <= below.diameter)
+      fields.refuse(
+          key, k == 0 ? "the diameter must be greater than folded_diameter, " + inMillimetres(balloon.folded_diameter)
+                      : "a balloon does not shrink under pressure: diameters must increase from row to row");
+    below = row;
+  }
+}
+
+void checkPressures(const SceneFields& fields, const instrument::Balloon& balloon)
+{
+  if (balloon.nominal_pressure < balloon.compliance.front().pressure ||
+      balloon.nominal_pressure > balloon.compliance.back().pressure)
+    fields.refuse("nominal_pressure", "lies outside the chart; must be between its first and last pressure");
+  if (balloon.rated_burst_pressure < balloon.nominal_pressure)
+    fields.refuse("rated_burst_pressure", "must be at least nominal_pressure");
+  if (balloon.burst_pressure < balloon.rated_burst_pressure)
+    fields.refuse("burst_pressure", "must be at least rated_burst_pressure");
+}
+
+void checkStent(const SceneFields& fields, const instrument::Stent& stent)
+{
+  for (std::size_t k = 0; k < stent.expansion.size(); ++k)
+  {
+    const auto& row = stent.expansion[k];
+    const std::string key = "expansion." + std::to_string(k);
+    if (row.diameter <= 0.0 || row.length <= 0.0)
+      fields.refuse(key, "diameter and length must be positive, in m");
+    if (k > 0 && row.diameter <= stent.expansion[k - 1].diameter)
+      fields.refuse(key, "diameters must increase from row to row; sort the rows");
+    if (k > 0 && row.length > stent.expansion[k - 1].length)
+      fields.refuse(key, "a stent does not grow longer as it opens: lengths must not increase from row to row");
+  }
+  if (stent.expansion.size() < 2)
+    fields.refuse("expansion", "needs two rows or more of [inner diameter in m, length in m]");
+  if (stent.nominal_diameter <= stent.expansion.front().diameter || stent.nominal_diameter > stent.largestDiameter())
+    fields.refuse("nominal_diameter",
+                  "lies outside the table; must be greater than the first and at most the last "
+                  "diameter of expansion");
+  if (stent.crimped_diameter >= stent.nominal_diameter)
+    fields.refuse("crimped_diameter", "must be less than nominal_diameter, " + inMillimetres(stent.nominal_diameter));
+  if (2.0 * stent.strut_thickness >= stent.crimped_diameter)
+    fields.refuse("strut_thickness", "must be less than half of crimped_diameter");
+}
+
+}  // namespace
+
+void visitBalloon(SceneFields& fields, instrument::Instrument& instrument)
+{
+  if (!instrument.balloon)
+    instrument.balloon.emplace();
+  instrument::Balloon& balloon = *instrument.balloon;
+  const double shaft = instrument.wire.length();
+  const auto visit = [&balloon, shaft](SceneFields& keys)
+  {
+    const Range positive = Range::positive();
+    keys.number("from_tip", balloon.from_tip, "m", Range::nonNegative(), Need::kRequired);
+    keys.number("length", balloon.length, "m", positive, Need::kRequired);
+    keys.number("folded_diameter", balloon.folded_diameter, "m", positive, Need::kRequired);
+    visitTable(keys, "compliance", balloon.compliance, &instrument::Balloon::Compliance::pressure,
+               &instrument::Balloon::Compliance::diameter, "Pa and m");
+    keys.number("nominal_pressure", balloon.nominal_pressure, "Pa", positive, Need::kRequired);
+    keys.number("rated_burst_pressure", balloon.rated_burst_pressure, "Pa", positive, Need::kRequired);
+    keys.number("burst_pressure", balloon.burst_pressure, "Pa", positive, Need::kRequired);
+    keys.number("inflation_time", balloon.inflation_time, "s", positive, Need::kRequired);
+    keys.number("deflation_time", balloon.deflation_time, "s", positive, Need::kRequired);
+    if (!keys.reading())
+      return;
+    if (balloon.from_tip + balloon.length > shaft)
+      keys.refuse("from_tip", "the balloon lies beyond the shaft; from_tip + length must be at most its length, " +
+                                  std::to_string(shaft) + " m");
+    checkCompliance(keys, balloon);
+    checkPressures(keys, balloon);
+  };
+  fields.map("balloon", visit);
+}
+
+void visitStent(SceneFields& fields, instrument::Instrument& instrument)
+{
+  if (!instrument.stent)
+    instrument.stent.emplace();
+  instrument::Stent& stent = *instrument.stent;
+  const auto visit = [&instrument, &stent](SceneFields& keys)
+  {
+    const Range positive = Range::positive();
+    keys.number("crimped_diameter", stent.crimped_diameter, "m", positive, Need::kRequired);
+    keys.number("nominal_diameter", stent.nominal_diameter, "m", positive, Need::kRequired);
+    keys.number("strut_thickness", stent.strut_thickness, "m", positive, Need::kRequired);
+    keys.number("recoil", stent.recoil, "1", Range::between(0.0, 0.5), Need::kRequired);
+    visitTable(keys, "expansion", stent.expansion, &instrument::Stent::Expansion::diameter,
+               &instrument::Stent::Expansion::length, "m");
+    if (!keys.reading())
+      return;
+    checkStent(keys, stent);
+    if (instrument.balloon && stent.crimpedLength() > instrument.balloon->length)
+      keys.refuse("", "the stent is longer than its balloon, " + inMillimetres(instrument.balloon->length) +
+                          "; give a longer balloon or a shorter stent");
+  };
+  fields.map("stent", visit);
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,125 @@
+#include <cmath>
+
+#include "scene/schema/scene_schema.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+// Numbers of EndCondition, and of whether a twist is held.
+const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
+const std::vector<std::string> kTwists = {"free", "held"};
+
+/** Whether the distal end needs more words than the name of its hold. */
+bool isPlain(const DistalScene& distal)
+{
+  return !distal.twist_held && isTrivial(distal.displacement) && isTrivial(distal.tilt) && isTrivial(distal.rotation);
+}
+
+/** The wire begins straight, so what moves its end begins at zero. */
+void refuseMovedStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
+{
+  if (profile.at(0.0) != 0.0)
+    fields.refuse(key, "is not 0 at time 0, but the wire begins straight; let the profile begin at [0, 0]");
+}
+
+void checkDistalEnd(SceneFields& fields, const Scene& scene)
+{
+  const DistalScene& distal = scene.distal;
+  const bool clamped = scene.distal_end == EndCondition::kClamped;
+  if (distal.twist_held && !clamped)
+    fields.refuse("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
+  if (!isTrivial(distal.displacement) && scene.distal_end == EndCondition::kFree)
+    fields.refuse("displacement", "moves an end that nothing holds; set hold: pinned or hold: clamped");
+  if (!isTrivial(distal.tilt) && !clamped)
+    fields.refuse("tilt", "turns a direction that nothing holds; set hold: clamped");
+  if (!isTrivial(distal.rotation) && !distal.twist_held)
+    fields.refuse("rotation", "turns a twist that nothing holds; set hold: clamped and twist: held");
+  if (!isTrivial(distal.tilt) && distal.tilt_axis.isZero())
+    fields.refuse("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
+  refuseMovedStart(fields, "displacement", distal.displacement);
+  refuseMovedStart(fields, "tilt", distal.tilt);
+}
+
+void visitDistalEnd(SceneFields& fields, Scene& scene)
+{
+  DistalScene& distal = scene.distal;
+  fields.option("hold", scene.distal_end, kEndConditions, Need::kRequired);
+  int twist = distal.twist_held ? 1 : 0;
+  fields.choice("twist", twist, kTwists);
+  distal.twist_held = twist == 1;
+  fields.map("displacement",
+             [&distal](SceneFields& motion)
+             {
+               visitProfile(motion, distal.displacement, "m");
+               motion.vector3("direction", distal.direction, "1");
+             });
+  fields.map("tilt",
+             [&distal](SceneFields& motion)
+             {
+               visitProfile(motion, distal.tilt, "rad");
+               motion.vector3("axis", distal.tilt_axis, "1");
+             });
+  fields.map("rotation", [&distal](SceneFields& motion) { visitProfile(motion, distal.rotation, "rad"); });
+  if (fields.reading())
+    checkDistalEnd(fields, scene);
+}
+
+/** Whether anything turns a straight bench wire out of its line. */
+bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
+{
+  bool bent = scene.vessel.has_value() || !isTrivial(scene.distal.tilt) ||
+              scene.instruments.front().instrument.wire.curvedTipLength() > 0.0 ||
+              !scene.loads.gravity.cross(along).isZero(0.0);
+  for (const PointLoad& load : scene.loads.point_loads)
+    bent = bent || !load.force.cross(along).isZero(0.0);
+  return bent;
+}
+
+/** A bench wire does not stretch, and one that is exactly straight does not know which way to buckle. */
+void checkDisplacement(const SceneFields& fields, const Scene& scene)
+{
+  const double length = scene.longest();
+  const Eigen::Vector3d along = scene.entry.direction.normalized();
+  const Eigen::Vector3d direction = scene.distal.direction.isZero() ? along : scene.distal.direction.normalized();
+  const auto [low, high] = bounds(scene.distal.displacement);
+  for (const double value : {low, high})
+    if ((length * along + value * direction).norm() > length + 1e-9)
+      fields.refuse("distal_end.displacement",
+                    "would stretch the wire; keep its ends no further apart than its length, " +
+                        std::to_string(length) + " m: negative values bring them together");
+  if (direction.cross(along).isZero(1e-9) && !isBentByAnything(scene, along))
+    fields.refuse("distal_end.displacement",
+                  "shortens a straight wire that nothing bends, so that it cannot buckle to any side; add "
+                  "loads.gravity, or a small force in loads.point_loads");
+}
+
+}  // namespace
+
+void visitEnds(SceneFields& fields, Scene& scene)
+{
+  fields.option("proximal_end", scene.proximal_end, kEndConditions);
+  if (fields.reading() ? fields.hasMap("distal_end") : !isPlain(scene.distal))
+    fields.map("distal_end", [&scene](SceneFields& end) { visitDistalEnd(end, scene); });
+  else
+    fields.option("distal_end", scene.distal_end, kEndConditions);
+}
+
+void checkEnds(const SceneFields& fields, const Scene& scene)
+{
+  if (scene.introducer && scene.distal_end != EndCondition::kFree && scene.solver.scheme != "kkt")
+    fields.refuse("distal_end", "scheme '" + scene.solver.scheme +
+                                    "' does not hold a far end behind an introducer; set distal_end: free, or "
+                                    "solver.scheme: kkt");
+  if (scene.distal.twist_held)
+    for (std::size_t k = 0; k < scene.loads.point_loads.size(); ++k)
+      if (scene.loads.point_loads[k].torque != 0.0)
+        fields.refuse("loads.point_loads." + std::to_string(k) + ".torque",
+                      "acts on a tip whose twist is held; remove it, or set distal_end.twist: free");
+  const bool entry_known = scene.entry.centreline_end.empty() && !scene.entry.nearest_centreline_end;
+  if (!scene.introducer && entry_known && !isTrivial(scene.distal.displacement))
+    checkDisplacement(fields, scene);
+}
+
+}  // namespace endovascular_sim::scene

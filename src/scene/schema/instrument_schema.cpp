@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "instrument/stiffness.h"
+#include "instrument/tip_shape.h"
+#include "scene/schema/scene_schema.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+// Beyond these a length was meant in millimetres and an angle in degrees.
+constexpr double kLongest = 10.0;    // m
+constexpr double kThickest = 20e-3;  // m
+constexpr double kFullTurn = 6.284;  // rad
+
+// Numbers of instrument::Material.
+const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer", "filled_polymer"};
+// Numbers of instrument::Kind.
+const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
+
+/** EI, GJ and EA, each given directly or derived as for a cylinder with this lumen. */
+void readStiffness(SceneFields& fields, rod::Section& section, double inner_radius)
+{
+  const auto exactly_one = [&fields](const std::vector<std::string>& keys)
+  {
+    const auto given =
+        std::count_if(keys.begin(), keys.end(), [&fields](const std::string& key) { return fields.has(key); });
+    std::string words;
+    for (const std::string& key : keys)
+      words += (words.empty() ? "" : " or ") + key;
+    if (given != 1)
+      fields.refuse(given == 0 ? keys.front() : keys.back(),
+                    given == 0 ? "missing; give " + words : "given twice over; keep one of " + words);
+  };
+  exactly_one({"bending_stiffness", "young_modulus"});
+  exactly_one({"torsional_stiffness", "shear_modulus", "poisson_ratio"});
+
+  double young = 0.0;
+  fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
+  fields.number("young_modulus", young, "Pa", Range::positive());
+  if (fields.has("bending_stiffness"))
+    young = instrument::equivalentYoungModulus(section.bending_stiffness, section.radius, inner_radius);
+  double poisson = 0.0;
+  fields.number("poisson_ratio", poisson, "1", {-1.0, 0.5, true, false});
+  double shear = instrument::shearModulus(young, poisson);
+  fields.number("shear_modulus", shear, "Pa", Range::positive());
+
+  const instrument::Stiffness derived = instrument::hollowSection(young, shear, section.radius, inner_radius);
+  if (!fields.has("bending_stiffness"))
+    section.bending_stiffness = derived.bending;
+  section.torsional_stiffness = derived.torsional;
+  section.axial_stiffness = derived.axial;
+  fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
+  fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
+}
+
+void visitRestCurvature(SceneFields& fields, rod::Section& section)
+{
+  const std::string key = "rest_curvature";
+  if (!fields.hasMap(key))
+    fields.numbers(key, section.rest_curvature.data(), 2, "1/m");
+  else
+    fields.map(key,
+               [&section](SceneFields& arc)
+               {
+                 double radius = 0.0;
+                 double direction = 0.0;
+                 arc.number("radius", radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+                 arc.number("direction", direction, "rad", Range::between(-kFullTurn, kFullTurn));
+                 section.rest_curvature = instrument::arcCurvature(radius, direction);
+               });
+  if (fields.reading() && section.rest_curvature.norm() * section.radius >= 1.0)
+    fields.refuse(key, "bends more tightly than the wire's own radius; must be less than 1/radius in 1/m");
+}
+
+void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
+{
+  fields.number("length", section.length, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+  fields.number("radius", section.radius, "m", Range::positiveUpTo(kThickest), Need::kRequired);
+  if (fields.reading() && section.radius <= inner_radius)
+    fields.refuse("radius", "the lumen leaves no wall; must be greater than inner_radius, " +
+                                std::to_string(1e3 * inner_radius) + "e-3 m");
+  fields.option("material", material, kMaterials, Need::kRequired);
+  fields.number("density", section.density, "kg/m³", Range::positive(), Need::kRequired);
+  if (fields.reading())
+    readStiffness(fields, section, inner_radius);
+  else
+  {
+    fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
+    fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
+    fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
+  }
+  visitFriction(fields, section.friction, Need::kOptional);
+  visitRestCurvature(fields, section);
+}
+
+/** The tip's shape exists only in what the user writes: reading turns it into rest curvature of the last sections. */
+void readTip(SceneFields& fields, instrument::Instrument& instrument)
+{
+  const std::vector<std::string> shapes = {"straight", "angled", "semicircle", "j"};
+  int shape = 0;
+  fields.choice("shape", shape, shapes, Need::kRequired);
+  const bool straight = shape == 0;
+  const bool semicircle = shape == 2;
+  if (straight || semicircle)
+    for (const char* key : {"angle", "radius", "straight", "direction"})
+      if (fields.has(key) && (straight || std::string(key) == "angle"))
+        fields.refuse(key, "a " + shapes[static_cast<std::size_t>(shape)] + " tip has none; remove it");
+  if (straight)
+    return;
+  instrument::TipShape tip;
+  tip.angle = M_PI;
+  fields.number("radius", tip.radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+  if (!semicircle)
+    fields.number("angle", tip.angle, "rad", {0.0, 2.0 * M_PI, true, false}, Need::kRequired);
+  fields.number("straight", tip.straight, "m", Range::nonNegative());
+  fields.number("direction", tip.direction, "rad", Range::between(-kFullTurn, kFullTurn));
+  if (tip.length() > instrument.wire.length())
+    fields.refuse("", "the tip is longer than the wire: radius·angle + straight = " + std::to_string(tip.length()) +
+                          " m, wire " + std::to_string(instrument.wire.length()) + " m; shorten the tip");
+  try
+  {
+    instrument::applyTipShape(instrument, tip);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    fields.refuse("", std::string(error.what()) + "; give either tip or the sections' rest_curvature");
+  }
+}
+
+void visitMarkers(SceneFields& fields, instrument::Instrument& instrument)
+{
+  auto& markers = instrument.markers;
+  if (!fields.reading() && markers.empty())
+    return;
+  fields.list(
+      "markers", markers.size(), [&markers](std::size_t size) { markers.resize(size); },
+      [&](SceneFields& ring, std::size_t k)
+      {
+        instrument::Marker& marker = markers[k];
+        ring.number("from_tip", marker.from_tip, "m", Range::nonNegative(), Need::kRequired);
+        ring.number("length", marker.length, "m", Range::positive(), Need::kRequired);
+        ring.option("material", marker.material, kMaterials);
+        if (ring.reading() && marker.from_tip + marker.length > instrument.wire.length())
+          ring.refuse("from_tip", "the marker lies beyond the shaft; from_tip + length must be at most its length, " +
+                                      std::to_string(instrument.wire.length()) + " m");
+      });
+}
+
+bool isTopicName(const std::string& name)
+{
+  return std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
+}
+
+void visitShaft(SceneFields& fields, instrument::Instrument& instrument)
+{
+  const bool solid = instrument.kind == instrument::Kind::kGuidewire;
+  if (!solid)
+    fields.number("inner_radius", instrument.inner_radius, "m", Range::positive(), Need::kRequired);
+  else if (fields.has("inner_radius"))
+    fields.refuse("inner_radius", "a guidewire has no lumen; remove it, or set kind: catheter");
+  auto& wire = instrument.wire;
+  fields.list(
+      "sections", wire.sections.size(),
+      [&](std::size_t size)
+      {
+        wire.sections.resize(size);
+        instrument.materials.resize(size);
+      },
+      [&](SceneFields& section, std::size_t k)
+      { visitSection(section, wire.sections[k], instrument.materials[k], instrument.inner_radius); },
+      Need::kRequired);
+  if (fields.has("tip"))
+    fields.map("tip", [&instrument](SceneFields& tip) { readTip(tip, instrument); });
+  visitMarkers(fields, instrument);
+}
+
+}  // namespace
+
+void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
+{
+  fields.text("name", instrument.name, Need::kRequired);
+  if (fields.reading() && !isTopicName(instrument.name))
+    fields.refuse("name", "names topics, so it must be letters, digits and _ with a letter first");
+  fields.option("kind", instrument.kind, kKinds);
+  const bool is_stent = instrument.kind == instrument::Kind::kStent;
+  const bool is_balloon = instrument.kind == instrument::Kind::kBalloonCatheter;
+  if (!is_stent)
+    visitShaft(fields, instrument);
+  if (is_balloon)
+    visitBalloon(fields, instrument);
+  else if (fields.has("balloon"))
+    fields.refuse("balloon", "belongs to another kind; remove it, or set kind: balloon_catheter");
+  if (is_stent || (is_balloon && (fields.reading() ? fields.has("stent") : instrument.stent.has_value())))
+    visitStent(fields, instrument);
+  else if (!is_balloon && fields.has("stent"))
+    fields.refuse("stent", "needs a balloon that carries it; set kind: balloon_catheter, or stent");
+}
+
+void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument)
+{
+  visitInstrument(fields, instrument);
+  if (fields.reading() && instrument.kind == instrument::Kind::kStent)
+    fields.refuse("kind", "a stent has no shaft to push; name a balloon_catheter that carries it");
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <limits>
+
+#include "scene/schema/scene_schema.h"
+
+// The part of the schema that tells one instrument from several, one inside the other.
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+// Of an instrument among several, m: it can begin well before the introducer.
+const Range kAnywhere = {-1.0, std::numeric_limits<double>::max(), false, false};
+
+void visitLayer(SceneFields& fields, DrivenInstrument& driven)
+{
+  if (fields.reading() && !fields.has("instrument"))
+    fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
+  fields.map("instrument", [&driven](SceneFields& wire) { visitDrivenInstrument(wire, driven.instrument); });
+  fields.map("drive", [&driven](SceneFields& drive)
+             { visitDrive(drive, driven.drive, kAnywhere, driven.instrument.balloon.has_value()); });
+  fields.number("friction", driven.friction, "1", Range::nonNegative());
+  fields.number("fit_load", driven.fit_load, "N/m", Range::nonNegative());
+}
+
+std::string number(std::size_t k)
+{
+  return "instruments." + std::to_string(k);
+}
+
+/** Two that are both in the vessel at the start must fit into each other. */
+void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, std::size_t outer)
+{
+  const DrivenInstrument& in = scene.instruments[inner];
+  const DrivenInstrument& out = scene.instruments[outer];
+  if (in.drive.insertionAt(0.0) < -scene.solver.guide_length ||
+      out.drive.insertionAt(0.0) < -scene.solver.guide_length || instrument::fitsInside(in.instrument, out.instrument))
+    return;
+  fields.refuse(
+      number(outer) + ".drive.initial_insertion",
+      "'" + in.instrument.name + "' does not fit through '" + out.instrument.name +
+          "', so only one of the two can be inside; list instruments from the inside out, and begin the other "
+          "one before the introducer, e.g. at -0.1");
+}
+
+}  // namespace
+
+void visitInstruments(SceneFields& fields, Scene& scene)
+{
+  if (fields.reading() ? !fields.has("instruments") : scene.instruments.size() == 1)
+  {
+    scene.instruments.resize(1);
+    DrivenInstrument& only = scene.instruments.front();
+    if (fields.reading() && !fields.has("instrument"))
+      fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
+    fields.map("instrument", [&only](SceneFields& wire) { visitDrivenInstrument(wire, only.instrument); });
+    fields.map("drive", [&only](SceneFields& drive)
+               { visitDrive(drive, only.drive, Range::nonNegative(), only.instrument.balloon.has_value()); });
+    return;
+  }
+  for (const char* key : {"instrument", "drive"})
+    if (fields.has(key))
+      fields.refuse(key,
+                    "given besides instruments; name all of them there (instruments.N.instrument, counted from 0)");
+  fields.list(
+      "instruments", scene.instruments.size(), [&scene](std::size_t size) { scene.instruments.resize(size); },
+      [&scene](SceneFields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });
+  if (fields.reading() && scene.instruments.empty())
+    fields.refuse("instruments", "is empty; list at least one, from the inside out");
+}
+
+std::string drivePath(const Scene& scene, std::size_t k)
+{
+  return scene.instruments.size() == 1 ? "" : number(k) + ".";
+}
+
+void checkStack(const SceneFields& fields, const Scene& scene)
+{
+  int devices = 0;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    const DrivenInstrument& driven = scene.instruments[k];
+    if (driven.drive.source == DriveSource::kNone)
+      fields.refuse(number(k) + ".drive.source",
+                    "missing; every one of several instruments is driven: script, topic, device or procedure");
+    devices += driven.drive.source == DriveSource::kDevice;
+    if (devices > 1)
+      fields.refuse(number(k) + ".drive.source", "is device, like another one's; a device drives one instrument");
+    for (std::size_t inner = 0; inner < k; ++inner)
+    {
+      if (scene.instruments[inner].instrument.name == driven.instrument.name)
+        fields.refuse(number(k) + ".instrument.name", "is another one's too; give each its own, it names topics");
+      checkFit(fields, scene, inner, k);
+    }
+  }
+  if (scene.solver.scheme != "kkt")
+    fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' simulates one instrument; use kkt for several");
+  if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
+                   [](const DrivenInstrument& driven) { return driven.drive.insertionAt(0.0) >= 0.0; }))
+    fields.refuse("instruments.0.drive.initial_insertion",
+                  "leaves no instrument in the introducer; begin one at 0 or more");
+  if (scene.entry.valve_friction > 0.0)
+    fields.refuse("entry.valve_friction",
+                  "works on one instrument; remove it, or give instruments friction with each other");
+  if (!scene.introducer)
+    fields.refuse("introducer", "several instruments need one; set introducer: true");
+}
+
+}  // namespace endovascular_sim::scene

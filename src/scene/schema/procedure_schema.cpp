@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/schema/scene_schema.h"
+
+// The part of the schema that reads what a scripted operator does.
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+/** Keys of the actions, in the order of StepAction. */
+const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait"};
+
+void visitGoal(SceneFields& fields, GoalScene& goal)
+{
+  if (fields.reading() || !goal.tip_in.empty())
+    fields.text("tip_in", goal.tip_in);
+  if (fields.reading() || !goal.balloon_in.empty())
+    fields.text("balloon_in", goal.balloon_in);
+  if (fields.reading() || !goal.tip_in.empty() || !goal.balloon_in.empty())
+    fields.maybeNumber("beyond", goal.beyond, "m", Range::any());
+  fields.boolean("outside", goal.outside);
+  fields.maybeNumber("insertion", goal.insertion, "m", Range::any());
+  fields.maybeNumber("by", goal.by, "m", Range::positive());
+  fields.maybeNumber("turned", goal.turned, "rad", Range::any());
+  fields.number("held", goal.held, "s", Range::nonNegative());
+  if (!fields.reading())
+    return;
+  if (!goal.tip_in.empty() && !goal.balloon_in.empty())
+    fields.refuse("balloon_in", "given besides tip_in; keep one of the two");
+  if (fields.has("beyond") && goal.tip_in.empty() && goal.balloon_in.empty())
+    fields.refuse("beyond", "needs a branch; give tip_in or balloon_in, or remove it");
+}
+
+bool asksNothing(const GoalScene& goal)
+{
+  return goal.tip_in.empty() && goal.balloon_in.empty() && !goal.outside && std::isnan(goal.insertion) &&
+         std::isnan(goal.by) && std::isnan(goal.turned);
+}
+
+void visitRetry(SceneFields& fields, StepScene& step)
+{
+  RetryScene& retry = step.retry;
+  fields.number("back", retry.back, "m", Range::nonNegative());
+  fields.number("turn", retry.turn, "rad", Range::any());
+  fields.integer("times", retry.times, 0, 1000);
+  fields.maybeNumber("deepest", retry.deepest, "m", Range::positive());
+  if (fields.has("deepest") && step.action != StepAction::kAdvance)
+    fields.refuse("deepest", "only an instrument that advances passes its goal; remove it");
+  if (fields.has("deepest") && retry.deepest <= step.until.insertion)
+    fields.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
+}
+
+void visitSupport(SceneFields& fields, SupportScene& support)
+{
+  fields.text("instrument", support.instrument, Need::kRequired);
+  fields.text("tip_in", support.tip_in, Need::kRequired);
+  fields.text("again_from", support.again_from, Need::kRequired);
+  fields.integer("times", support.times, 0, 1000);
+}
+
+/** The key that says what the step does, and with what. */
+void visitAction(SceneFields& fields, StepScene& step)
+{
+  if (fields.reading())
+  {
+    int found = -1;
+    for (std::size_t k = 0; k < kActions.size(); ++k)
+    {
+      if (!fields.has(kActions[k]))
+        continue;
+      if (found >= 0)
+        fields.refuse(kActions[k], "given besides " + kActions[static_cast<std::size_t>(found)] +
+                                       "; a step does one thing, make two of it");
+      found = static_cast<int>(k);
+    }
+    if (found < 0)
+      fields.refuse("", "says nothing to do; give one of advance, withdraw, rotate, inflate, exchange, wait");
+    step.action = static_cast<StepAction>(found);
+  }
+  const std::string& key = kActions[static_cast<std::size_t>(step.action)];
+  if (step.action == StepAction::kWait)
+    fields.number(key, step.duration, "s", Range::nonNegative(), Need::kRequired);
+  else
+    fields.text(key, step.instrument, Need::kRequired);
+}
+
+void visitStep(SceneFields& fields, StepScene& step)
+{
+  if (fields.reading() || !step.phase.empty())
+    fields.text("phase", step.phase);
+  visitAction(fields, step);
+  if (step.action == StepAction::kWait)
+    return;
+  if (step.action == StepAction::kInflate)
+  {
+    fields.number("pressure", step.pressure, "Pa", {-101325.0, std::numeric_limits<double>::max()}, Need::kRequired);
+    fields.number("for", step.duration, "s", Range::nonNegative(), Need::kRequired);
+    return;
+  }
+  if (step.action == StepAction::kExchange)
+    fields.text("for", step.replacement, Need::kRequired);
+  fields.map("until", [&step](SceneFields& goal) { visitGoal(goal, step.until); });
+  if (fields.reading() && asksNothing(step.until))
+    fields.refuse("until", "missing; say when the step is done, e.g. until: {tip_in: aortic_arch}");
+  if (step.action != StepAction::kRotate)
+    fields.number("speed", step.speed, "m/s", Range::positive());
+  else if (fields.reading())
+    step.turn_speed = 1.0;
+  fields.number("turn_speed", step.turn_speed, "rad/s", Range::any());
+  fields.number("time_limit", step.time_limit, "s", Range::positive());
+  fields.boolean("any_branch", step.any_branch);
+  fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });
+  if (fields.reading() ? fields.has("support") : !step.support.instrument.empty())
+    fields.map("support", [&step](SceneFields& support) { visitSupport(support, step.support); });
+}
+
+void visitHand(SceneFields& fields, HandScene& hand)
+{
+  fields.number("max_speed", hand.max_speed, "m/s", Range::positive());
+  fields.number("max_turn", hand.max_turn, "rad/s", Range::positive());
+  fields.number("acceleration", hand.acceleration, "m/s²", Range::positive());
+  fields.number("turn_acceleration", hand.turn_acceleration, "rad/s²", Range::positive());
+  fields.number("reaction", hand.reaction, "s", Range::positive());
+  fields.number("push_force", hand.push_force, "N", Range::positive());
+  fields.number("pull_force", hand.pull_force, "N", Range::positive());
+  fields.number("patience", hand.patience, "s", Range::positive());
+  fields.number("speed_scale", hand.speed_scale, "1", Range::positive());
+}
+
+/** The instrument of this name, if the procedure drives it; else null. */
+const DrivenInstrument* scripted(const Scene& scene, const std::string& instrument)
+{
+  for (const DrivenInstrument& driven : scene.instruments)
+    if (driven.instrument.name == instrument && driven.drive.source == DriveSource::kProcedure)
+      return &driven;
+  return nullptr;
+}
+
+void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
+{
+  const std::vector<StepScene>& steps = scene.procedure->steps;
+  const SupportScene& support = steps[k].support;
+  if (support.instrument.empty())
+    return;
+  const std::string path = "procedure.steps." + std::to_string(k) + ".support.";
+  if (steps[k].action != StepAction::kAdvance)
+    fields.refuse(path + "instrument", "only an instrument that advances is supported; remove it");
+  // From the inside out.
+  const auto named = [](const std::string& name)
+  { return [&name](const DrivenInstrument& driven) { return driven.instrument.name == name; }; };
+  const auto inner = std::find_if(scene.instruments.begin(), scene.instruments.end(), named(steps[k].instrument));
+  if (std::none_of(inner + 1, scene.instruments.end(), named(support.instrument)))
+    fields.refuse(path + "instrument", "'" + support.instrument + "' is no instrument around '" + steps[k].instrument +
+                                           "'; name one that the scene lists behind it");
+  const auto end = steps.begin() + static_cast<std::ptrdiff_t>(k + 1);
+  if (std::none_of(steps.begin(), end, [&support](const StepScene& step) { return step.phase == support.again_from; }))
+    fields.refuse(path + "again_from",
+                  "no step so far has the phase '" + support.again_from + "'; name one that has begun before");
+}
+
+}  // namespace
+
+void visitProcedure(SceneFields& fields, ProcedureScene& procedure)
+{
+  if (fields.reading() || !procedure.name.empty())
+    fields.text("name", procedure.name);
+  fields.map("hand", [&procedure](SceneFields& hand) { visitHand(hand, procedure.hand); });
+  if (fields.reading() || !procedure.branches.empty())
+    fields.list(
+        "branches", procedure.branches.size(), [&procedure](std::size_t size) { procedure.branches.resize(size); },
+        [&procedure](SceneFields& branch, std::size_t k)
+        {
+          branch.text("name", procedure.branches[k].name, Need::kRequired);
+          branch.vector3("at", procedure.branches[k].at, "m", Need::kRequired);
+        });
+  fields.list(
+      "steps", procedure.steps.size(), [&procedure](std::size_t size) { procedure.steps.resize(size); },
+      [&procedure](SceneFields& step, std::size_t k) { visitStep(step, procedure.steps[k]); }, Need::kRequired);
+}
+
+void checkProcedure(const SceneFields& fields, const Scene& scene)
+{
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (scene.instruments[k].drive.source == DriveSource::kProcedure && !scene.procedure)
+      fields.refuse(drivePath(scene, k) + "drive.source",
+                    "is procedure, but the scene has none; give procedure: FILE, or another source");
+  if (!scene.procedure)
+    return;
+  if (!scene.vessel)
+    fields.refuse("procedure", "needs a vessel: its goals are places in one");
+  for (std::size_t k = 0; k < scene.procedure->steps.size(); ++k)
+  {
+    const StepScene& step = scene.procedure->steps[k];
+    const std::string path = "procedure.steps." + std::to_string(k) + ".";
+    const std::string remedy =
+        "' is no instrument that the procedure drives; name one of the scene's and set its "
+        "drive.source: procedure";
+    if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
+      fields.refuse(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
+    if (step.action == StepAction::kInflate && !scripted(scene, step.instrument)->instrument.balloon)
+      fields.refuse(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
+    if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
+      fields.refuse(path + "for", "'" + step.replacement + remedy);
+    checkSupport(fields, scene, k);
+  }
+}
+
+}  // namespace endovascular_sim::scene

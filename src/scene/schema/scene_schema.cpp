@@ -1,0 +1,348 @@
+#include "scene/schema/scene_schema.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+// Numbers of DriveSource, SamplingKind.
+const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
+const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
+const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
+const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
+
+// Lengths that differ by less than this were meant to be equal [m].
+constexpr double kSameLength = 1e-9;
+
+// Least edge of adaptive sampling over the hand's travel in a sub-step.
+constexpr double kTravelsPerEdge = 4.0;
+constexpr double kEdgePerGuide = 0.5;
+
+constexpr double kAtmosphere = 101325.0;  // Pa
+
+// Of the wire's length: the shortest edge that sampling may make.
+constexpr double kShortestEdge = 2e-5;
+
+void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_length)
+{
+  fields.option("kind", sampling.kind, kSamplingKinds);
+  const bool adaptive = sampling.kind == SamplingKind::kAdaptive;
+  for (const char* key : {"min_edge", "max_edge", "turn_per_edge", "min_age"})
+    if (fields.reading() && !adaptive && fields.has(key))
+      fields.refuse(key, "belongs to adaptive sampling; set kind: adaptive, or remove it");
+  if (!adaptive)
+  {
+    fields.integer("nodes", sampling.nodes, 3, 100000);
+    return;
+  }
+  if (fields.reading() && fields.has("nodes"))
+    fields.refuse("nodes", "belongs to uniform sampling; remove it, or set kind: uniform");
+  fields.number("min_edge", sampling.min_edge, "m", Range::positive());
+  fields.number("max_edge", sampling.max_edge, "m", Range::positive());
+  fields.number("turn_per_edge", sampling.turn_per_edge, "rad", {0.0, 1.0, true, false});
+  fields.number("min_age", sampling.min_age, "s", Range::nonNegative());
+  if (!fields.reading())
+    return;
+  if (sampling.max_edge < sampling.min_edge)
+    fields.refuse("max_edge", "is less than min_edge");
+  if (sampling.min_edge < kShortestEdge * wire_length)
+    fields.refuse("min_edge", "makes more than 100000 nodes of the wire; must be at least " +
+                                  std::to_string(kShortestEdge * wire_length) + " m");
+  if (sampling.max_edge > 0.5 * wire_length)
+    fields.refuse("max_edge",
+                  "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) + " m");
+}
+
+void visitRecord(SceneFields& fields, RecordScene& record)
+{
+  fields.number("pose_rate", record.pose_rate, "Hz", Range::positive());
+  fields.number("trajectory_rate", record.trajectory_rate, "Hz", Range::positive());
+  fields.number("wall_force_threshold", record.wall_force_threshold, "N", Range::nonNegative());
+}
+
+/** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer.
+ *  @param path of the map that holds `drive`, ending with a dot; empty for the only instrument, which cannot leave */
+void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, const std::string& path)
+{
+  const DriveScene& drive = driven.drive;
+  const bool by_speed = !std::isnan(drive.speed);
+  const auto [low, high] = by_speed ? std::pair(0.0, drive.travel) : bounds(drive.insertion);
+  const double length = driven.instrument.wire.length();
+  const std::string key = path + (by_speed ? "drive.travel" : "drive.insertion");
+  if (drive.initial_insertion + high > length + kSameLength)
+    fields.refuse(key, "pushes the wire " + std::to_string(drive.initial_insertion + high) + " m in, but it is " +
+                           std::to_string(length) + " m long; must be at most the wire's length");
+  if (path.empty() && drive.initial_insertion + low < -kSameLength)
+    fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
+}
+
+/** Without an introducer the whole wire is there: all that the hand can do is turn its clamp. */
+void checkBenchDrive(const SceneFields& fields, const Scene& scene)
+{
+  const DriveScene& drive = scene.instruments.front().drive;
+  if (!std::isnan(drive.speed) || !isTrivial(drive.insertion) || drive.initial_insertion != 0.0)
+    fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
+                  "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
+  if (drive.source != DriveSource::kNone && scene.proximal_end != EndCondition::kClamped)
+    fields.refuse("proximal_end", "is not clamped, so that the drive has no hold; set proximal_end: clamped");
+}
+
+/** Nodes pass the end of the introducer's guide one after another: an edge must outlast the hand's travel, and a guide
+ *  that holds the wire at less than two nodes lets go of it in jumps. */
+void checkEdges(const SceneFields& fields, const Scene& scene)
+{
+  if (!scene.introducer)
+    return;
+  const double longest = kEdgePerGuide * scene.solver.guide_length;
+  if (scene.sampling.kind == SamplingKind::kUniform)
+  {
+    const auto fewest = static_cast<int>(std::ceil(scene.longest() / longest)) + 1;
+    if (scene.sampling.nodes < fewest)
+      fields.refuse("sampling.nodes",
+                    "makes edges too long for the introducer's guide, which is to hold two; must be "
+                    "at least " +
+                        std::to_string(fewest));
+    return;
+  }
+  if (scene.sampling.max_edge > longest)
+    fields.refuse("sampling.max_edge",
+                  "is too long for the introducer's guide, which is to hold two edges; must be at "
+                  "most half of solver.guide_length, " +
+                      std::to_string(longest) + " m");
+  const double shortest = kTravelsPerEdge * scene.solver.max_travel_per_substep;
+  if (scene.sampling.min_edge < shortest - kSameLength)
+    fields.refuse("sampling.min_edge",
+                  "is too short for what the hand may travel in a sub-step; must be at least 4 times "
+                  "solver.max_travel_per_substep, " +
+                      std::to_string(shortest) + " m");
+}
+
+void checkScene(const SceneFields& fields, const Scene& scene)
+{
+  checkEdges(fields, scene);
+  const bool held_twice = scene.introducer && scene.proximal_end != EndCondition::kFree;
+  if (held_twice)
+    fields.refuse("proximal_end",
+                  "the introducer holds the wire already; set introducer: false, or proximal_end: free");
+  if (!scene.introducer && scene.entry.valve_friction > 0.0)
+    fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
+  for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
+    checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (!isTrivial(scene.instruments[k].drive.pressure) && scene.solver.scheme != "kkt")
+      fields.refuse(drivePath(scene, k) + "drive.pressure",
+                    "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
+  if (!scene.introducer)
+    checkBenchDrive(fields, scene);
+  if (scene.instruments.size() > 1)
+    checkStack(fields, scene);
+  checkProcedure(fields, scene);
+  checkEnds(fields, scene);
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
+      fields.refuse(drivePath(scene, k) + "drive.source",
+                    "is device, but haptic_device is not true; set haptic_device: true");
+  if (scene.duration < scene.solver.time_step)
+    fields.refuse("duration", "is shorter than one step; must be at least solver.time_step");
+  if (!scene.vessel || !scene.vessel->tube)
+    return;
+  for (const DrivenInstrument& driven : scene.instruments)
+    for (const rod::Section& section : driven.instrument.wire.sections)
+      if (section.radius >= scene.vessel->tube->radius)
+        fields.refuse("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
+                                                std::to_string(section.radius) + " m");
+}
+
+}  // namespace
+
+void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit)
+{
+  std::vector<std::vector<double>> rows;
+  for (const DriveProfile::Point& point : profile.points)
+    rows.push_back({point.time, point.value});
+  fields.rows("points", rows, 2, "s and " + unit);
+  profile.points.clear();
+  for (const std::vector<double>& row : rows)
+  {
+    if (fields.reading() && !profile.points.empty() && row[0] <= profile.points.back().time)
+      fields.refuse("points", "times must be increasing; each row is [time in s, value in " + unit + "]");
+    profile.points.push_back({row[0], row[1]});
+  }
+  fields.number("amplitude", profile.amplitude, unit, Range::any());
+  fields.number("frequency", profile.frequency, "Hz", Range::nonNegative());
+  fields.number("phase", profile.phase, "rad", Range::any());
+  if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
+    fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
+}
+
+bool isTrivial(const DriveProfile& profile)
+{
+  return profile.points.empty() && profile.amplitude == 0.0;
+}
+
+std::pair<double, double> bounds(const DriveProfile& profile)
+{
+  double low = profile.points.empty() ? 0.0 : profile.points.front().value;
+  double high = low;
+  for (const DriveProfile::Point& point : profile.points)
+  {
+    low = std::min(low, point.value);
+    high = std::max(high, point.value);
+  }
+  const double swing = std::abs(profile.amplitude);
+  return {low - swing, high + swing};
+}
+
+namespace
+{
+
+/** The inflator of a balloon. */
+void visitPressure(SceneFields& fields, DriveProfile& pressure)
+{
+  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, "Pa"); });
+  if (fields.reading() && bounds(pressure).first < -kAtmosphere)
+    fields.refuse("pressure", "is less than a vacuum; must be at least -101325 Pa");
+}
+
+}  // namespace
+
+void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
+{
+  fields.option("source", drive.source, kDriveSources);
+  fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
+  const bool by_speed = !std::isnan(drive.speed);
+  if (by_speed)
+    fields.number("travel", drive.travel, "m", Range::nonNegative(), Need::kRequired);
+  else if (fields.has("travel"))
+    fields.refuse("travel", "has no meaning without speed; give speed in m/s, or remove it");
+  fields.number("initial_insertion", drive.initial_insertion, "m", initial_insertion);
+  fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
+  if (fields.reading() && by_speed && fields.has("insertion"))
+    fields.refuse("insertion",
+                  "given besides speed; keep one of the two (null removes a key: --set drive.insertion=null)");
+  if (!by_speed)
+    fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
+  fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
+  if (balloon)
+    visitPressure(fields, drive.pressure);
+  else if (fields.has("pressure"))
+    fields.refuse("pressure", "has no balloon to inflate; use a balloon_catheter, or remove it");
+  fields.number("force_limit", drive.force_limit, "N", Range::positive());
+  fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
+  const bool moves =
+      by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation) || !isTrivial(drive.pressure);
+  if (fields.reading() && drive.source == DriveSource::kNone && moves)
+    fields.refuse("source", "is none, but a motion is given; set source: script");
+}
+
+void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
+{
+  fields.vector3("gravity", loads.gravity, "m/s²");
+  fields.number("fluid_density", loads.fluid_density, "kg/m³", Range::nonNegative());
+  fields.number("drag_coefficient", loads.drag_coefficient, "1", Range::nonNegative());
+  fields.number("damping", loads.damping, "1/s", Range::nonNegative());
+  fields.list(
+      "point_loads", loads.point_loads.size(), [&loads](std::size_t size) { loads.point_loads.resize(size); },
+      [&loads, wire_length](SceneFields& load_fields, std::size_t k)
+      {
+        PointLoad& load = loads.point_loads[k];
+        if (load_fields.reading())
+          load.position = wire_length;
+        load_fields.number("position", load.position, "m", Range::nonNegative());
+        load_fields.vector3("force", load.force, "N");
+        load_fields.number("torque", load.torque, "N·m", Range::any());
+        load_fields.number("ramp_time", load.ramp_time, "s", Range::nonNegative());
+        if (!load_fields.reading())
+          return;
+        if (load.position > wire_length + kSameLength)
+          load_fields.refuse("position", "lies beyond the tip; must be at most the wire's length, " +
+                                             std::to_string(wire_length) + " m");
+        if (load.torque != 0.0 && load.position < wire_length - kSameLength)
+          load_fields.refuse("torque", "acts at the tip only; remove position, or torque");
+      });
+}
+
+void visitSolver(SceneFields& fields, SolverScene& solver)
+{
+  const auto known = std::find(kSchemes.begin(), kSchemes.end(), solver.scheme);
+  int scheme = static_cast<int>(known - kSchemes.begin());
+  fields.choice("scheme", scheme, kSchemes);
+  solver.scheme = kSchemes.at(static_cast<std::size_t>(scheme));
+  fields.option("linear_solver", solver.linear_solver, kLinearSolvers);
+  fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
+  fields.integer("max_newton", solver.max_iterations, 1, 1000);
+  fields.number("strain_tolerance", solver.strain_tolerance, "1", Range::positive());
+  fields.number("contact_stiffness", solver.contact_stiffness, "N/m", Range::positive());
+  fields.number("contact_margin", solver.contact_margin, "m", Range::positive());
+  fields.number("max_travel_per_substep", solver.max_travel_per_substep, "m", Range::positive());
+  fields.number("guide_length", solver.guide_length, "m", Range::nonNegative());
+}
+
+void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+{
+  const Range turn = Range::between(-M_PI, M_PI);
+  fields.number("rate", fluoroscopy.rate, "Hz", {0.0, 60.0, true, false});
+  fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
+  fields.number("primary_angle", fluoroscopy.primary_angle, "rad", turn);
+  fields.number("secondary_angle", fluoroscopy.secondary_angle, "rad", turn);
+  fields.number("source_to_detector", fluoroscopy.source_to_detector, "m", Range::positive());
+  fields.number("source_to_patient", fluoroscopy.source_to_patient, "m", Range::positive());
+  if (fields.reading() && fluoroscopy.source_to_patient >= fluoroscopy.source_to_detector)
+    fields.refuse("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
+  fields.number("detector_width", fluoroscopy.detector_width, "m", Range::positive());
+  if (fields.reading() ? fields.has("isocentre") : fluoroscopy.isocentre.has_value())
+  {
+    if (!fluoroscopy.isocentre)
+      fluoroscopy.isocentre = Eigen::Vector3d::Zero();
+    fields.vector3("isocentre", *fluoroscopy.isocentre, "m");
+  }
+  // The span of the attenuation tables.
+  fields.number("energy", fluoroscopy.energy, "keV", Range::between(30.0, 100.0));
+  fields.number("iodine", fluoroscopy.iodine, "mgI/ml", Range::between(0.0, 500.0));
+  fields.number("tissue_thickness", fluoroscopy.tissue_thickness, "m", Range::nonNegative());
+  fields.boolean("follow_tip", fluoroscopy.follow_tip);
+}
+
+void visitScene(SceneFields& fields, Scene& scene)
+{
+  fields.text("name", scene.name);
+  fields.bigInteger("seed", scene.seed);
+  fields.number("duration", scene.duration, "s", Range::positive());
+  if (fields.reading() ? fields.has("vessel") : scene.vessel.has_value())
+  {
+    if (!scene.vessel)
+      scene.vessel.emplace();
+    fields.map("vessel", [&scene](SceneFields& vessel) { visitVessel(vessel, *scene.vessel); });
+  }
+  fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
+  visitInstruments(fields, scene);
+  if (fields.reading() ? fields.has("procedure") : scene.procedure.has_value())
+  {
+    if (!scene.procedure)
+      scene.procedure.emplace();
+    fields.map("procedure", [&scene](SceneFields& procedure) { visitProcedure(procedure, *scene.procedure); });
+  }
+  if (fields.reading())
+    scene.introducer = scene.instruments.front().drive.source != DriveSource::kNone;
+  fields.boolean("introducer", scene.introducer);
+  visitEnds(fields, scene);
+  const double wire_length = scene.longest();
+  fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
+  fields.map("sampling", [&](SceneFields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
+  fields.map("solver", [&scene](SceneFields& solver) { visitSolver(solver, scene.solver); });
+  if (fields.reading() ? fields.has("fluoroscopy") : scene.fluoroscopy.has_value())
+  {
+    if (!scene.fluoroscopy)
+      scene.fluoroscopy.emplace();
+    fields.map("fluoroscopy", [&scene](SceneFields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
+  }
+  fields.boolean("haptic_device", scene.haptic_device);
+  fields.map("record", [&scene](SceneFields& record) { visitRecord(record, scene.record); });
+  if (fields.reading())
+    checkScene(fields, scene);
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,240 @@
+#include <array>
+#include <cmath>
+
+#include "scene/schema/scene_schema.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+/** Coefficients of wet surfaces on a vessel's wall, the middles of the measured ranges: hydrophilic coatings 0.02–0.05,
+ *  PTFE 0.08–0.15, uncoated metal or polymer 0.2–0.3 (docs/SCENES.md). */
+const std::vector<std::string> kSurfaces = {"hydrophilic", "ptfe", "bare"};
+constexpr std::array<double, 3> kSurfaceFriction = {0.035, 0.115, 0.25};
+
+/** Rows of the rotation from the mesh's frame to the patient's, from head and left as seen in the mesh's frame. */
+Eigen::Matrix3d rotationFromBody(SceneFields& fields)
+{
+  Eigen::Vector3d head = Eigen::Vector3d::Zero();
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  fields.vector3("head", head, "the mesh's axes", Need::kRequired);
+  fields.vector3("left", left, "the mesh's axes", Need::kRequired);
+  if (head.norm() < 1e-9 || left.norm() < 1e-9 || std::abs(head.normalized().dot(left.normalized())) > 1e-6)
+    fields.refuse("left", "must be a direction at right angles to head, e.g. head: [0, 1, 0] with left: [1, 0, 0]");
+  Eigen::Matrix3d rotation;
+  rotation.row(0) = left.normalized();
+  rotation.row(2) = head.normalized();
+  rotation.row(1) = head.normalized().cross(left.normalized());
+  return rotation;
+}
+
+void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
+{
+  if (fields.has("head") || fields.has("left"))
+  {
+    if (fields.has("rotation"))
+      fields.refuse("rotation", "given besides head and left; keep one of the two");
+    transform.linear() = rotationFromBody(fields);
+    return;
+  }
+  std::vector<std::vector<double>> rows(3);
+  for (int i = 0; i < 3; ++i)
+    rows[static_cast<std::size_t>(i)] = {transform(i, 0), transform(i, 1), transform(i, 2)};
+  fields.rows("rotation", rows, 3, "1");
+  if (!fields.reading())
+    return;
+  if (rows.size() != 3)
+    fields.refuse("rotation", "expected three rows of three numbers, e.g. [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      transform(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  const Eigen::Matrix3d& r = transform.linear();
+  if (!(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
+    fields.refuse("rotation", "is not a rotation; rows must be unit vectors at right angles, right-handed");
+}
+
+void visitTube(SceneFields& fields, VesselScene::Tube& tube)
+{
+  fields.number("radius", tube.radius, "m", Range::positive(), Need::kRequired);
+  if (fields.reading())
+    tube.facet_length = tube.radius;
+  fields.number("facet_length", tube.facet_length, "m", Range::positive());
+  fields.integer("facets_around", tube.facets_around, 6, 1024);
+  fields.list(
+      "pieces", tube.pieces.size(), [&tube](std::size_t size) { tube.pieces.resize(size); },
+      [&tube](SceneFields& piece_fields, std::size_t k)
+      {
+        VesselScene::TubePiece& piece = tube.pieces[k];
+        piece_fields.number("length", piece.length, "m", Range::positive(), Need::kRequired);
+        piece_fields.number("curvature", piece.curvature, "1/m", Range::nonNegative());
+        piece_fields.number("plane_angle", piece.plane_angle, "rad", Range::any());
+        if (piece_fields.reading() && piece.curvature * tube.radius >= 1.0)
+          piece_fields.refuse("curvature", "bends more tightly than the tube is wide; must be less than 1/radius");
+      },
+      Need::kRequired);
+}
+
+void visitMesh(SceneFields& fields, VesselScene& vessel)
+{
+  fields.text("mesh", vessel.mesh);
+  fields.number("unit", vessel.unit, "metres per unit of the mesh file (0.001 for millimetres)", Range::positive(),
+                Need::kRequired);
+  visitRotation(fields, vessel.transform);
+  Eigen::Vector3d translation = vessel.transform.translation();
+  fields.vector3("translation", translation, "m");
+  vessel.transform.translation() = translation;
+  fields.boolean("repair", vessel.repair);
+}
+
+void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
+{
+  std::vector<VesselScene::FrictionRegion>& regions = vessel.friction_regions;
+  if (!fields.reading() && regions.empty())
+    return;
+  fields.list(
+      "friction_regions", regions.size(), [&regions](std::size_t size) { regions.resize(size); },
+      [&regions](SceneFields& region, std::size_t k)
+      {
+        region.vector3("centre", regions[k].centre, "m", Need::kRequired);
+        region.number("radius", regions[k].radius, "m", Range::positive(), Need::kRequired);
+        visitFriction(region, regions[k].friction, Need::kRequired);
+      });
+}
+
+void visitPlace(SceneFields& keys, vessel::Lesion& lesion)
+{
+  if (keys.reading() ? keys.has("at") : lesion.at.has_value())
+  {
+    for (const char* other : {"branch", "from_start", "fraction"})
+      if (keys.has(other))
+        keys.refuse(other, "given besides at; keep one of the two");
+    Eigen::Vector3d at = lesion.at.value_or(Eigen::Vector3d::Zero());
+    keys.vector3("at", at, "m", Need::kRequired);
+    lesion.at = at;
+    return;
+  }
+  keys.text("branch", lesion.branch, Need::kRequired);
+  if (keys.has("from_start") && keys.has("fraction"))
+    keys.refuse("fraction", "given besides from_start; keep one of the two");
+  keys.maybeNumber("from_start", lesion.from_start, "m", Range::nonNegative());
+  if (std::isnan(lesion.from_start))
+    keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
+}
+
+void visitLesions(SceneFields& fields, VesselScene& vessel)
+{
+  std::vector<vessel::Lesion>& lesions = vessel.lesions;
+  if (!fields.reading() && lesions.empty())
+    return;
+  fields.list(
+      "lesions", lesions.size(), [&lesions](std::size_t size) { lesions.resize(size); },
+      [&lesions](SceneFields& keys, std::size_t k)
+      {
+        vessel::Lesion& lesion = lesions[k];
+        visitPlace(keys, lesion);
+        keys.number("length", lesion.length, "m", Range::positive(), Need::kRequired);
+        keys.number("grade", lesion.grade, "share of the diameter", Range::between(0.0, 0.99), Need::kRequired);
+        keys.number("eccentricity", lesion.eccentricity, "1", Range::between(0.0, 1.0));
+        keys.number("angle", lesion.angle, "rad", Range::any());
+      });
+}
+
+/** Keys that only a mesh file has: told apart from unknown ones. */
+void refuseMeshKeys(SceneFields& fields)
+{
+  for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair"})
+    if (fields.has(key))
+      fields.refuse(key, "applies to a mesh file only; remove it, or give vessel.mesh");
+}
+
+void readDirection(SceneFields& fields, EntryScene& entry)
+{
+  fields.vector3("direction", entry.direction, "1");
+  if (entry.direction.norm() < 1e-9)
+    fields.refuse("direction", "has no length; give a direction into the vessel, e.g. [0, 0, 1]");
+  // A unit vector stays as it is, so that the resolved text reads back to the same bits.
+  if (std::abs(entry.direction.squaredNorm() - 1.0) > 1e-12)
+    entry.direction.normalize();
+  // The default of up must not lie along the direction.
+  entry.up = std::abs(entry.direction.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  fields.vector3("up", entry.up, "1");
+  if (entry.up.cross(entry.direction).norm() < 1e-6 * entry.up.norm() || entry.up.norm() < 1e-9)
+    fields.refuse("up", "must not be parallel to direction; give a direction across the wire");
+}
+
+}  // namespace
+
+void visitVessel(SceneFields& fields, VesselScene& vessel)
+{
+  const bool reading = fields.reading();
+  const bool is_mesh = reading ? fields.has("mesh") : !vessel.mesh.empty();
+  const bool is_anatomy = reading ? fields.has("anatomy") : !vessel.anatomy.empty();
+  const bool is_tube = reading ? fields.has("tube") : vessel.tube.has_value();
+  if (int{is_mesh} + int{is_anatomy} + int{is_tube} != 1)
+    fields.refuse(is_mesh || is_anatomy ? "mesh" : "",
+                  "needs exactly one of mesh, anatomy, tube; e.g. --set vessel.mesh=/path/vessel.stl "
+                  "--set vessel.anatomy=null, or vessel: none");
+  if (is_mesh)
+    visitMesh(fields, vessel);
+  else if (reading)
+    refuseMeshKeys(fields);
+  if (is_anatomy)
+    fields.text("anatomy", vessel.anatomy);
+  if (is_tube)
+  {
+    if (!vessel.tube)
+      vessel.tube = VesselScene::Tube{};
+    fields.map("tube", [&vessel](SceneFields& tube) { visitTube(tube, *vessel.tube); });
+  }
+  fields.integer("smoothing", vessel.smoothing, 0, 3);
+  fields.number("stiffness", vessel.stiffness, "N/m²", {0.0, std::numeric_limits<double>::max(), true, true});
+  visitFriction(fields, vessel.friction, Need::kRequired);
+  visitFrictionRegions(fields, vessel);
+  visitLesions(fields, vessel);
+}
+
+void visitFriction(SceneFields& fields, double& friction, Need need)
+{
+  if (fields.reading() && fields.hasWord("friction"))
+  {
+    int surface = 0;
+    fields.choice("friction", surface, kSurfaces, need);
+    friction = kSurfaceFriction[static_cast<std::size_t>(surface)];
+  }
+  else if (need == Need::kRequired)
+    fields.number("friction", friction, "1", Range::nonNegative(), need);
+  else
+    fields.maybeNumber("friction", friction, "1", Range::nonNegative());
+}
+
+void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)
+{
+  const bool real_vessel = vessel && !vessel->tube;
+  fields.text("centreline_end", entry.centreline_end);
+  fields.boolean("nearest_centreline_end", entry.nearest_centreline_end);
+  const bool at_end = entry.nearest_centreline_end || !entry.centreline_end.empty();
+  if (fields.reading() && entry.nearest_centreline_end && !entry.centreline_end.empty())
+    fields.refuse("centreline_end", "given besides nearest_centreline_end; keep one of the two");
+  if (fields.reading() && at_end && !real_vessel)
+    fields.refuse(entry.nearest_centreline_end ? "nearest_centreline_end" : "centreline_end",
+                  "needs a vessel with a centreline (vessel.mesh or vessel.anatomy); give position and direction");
+  if (fields.reading() && real_vessel && !at_end && (!fields.has("position") || !fields.has("direction")))
+    fields.refuse(fields.has("position") ? "direction" : "position",
+                  "missing; give position and direction, or nearest_centreline_end: true, or centreline_end");
+  const bool needs_point = real_vessel && entry.nearest_centreline_end;
+  fields.vector3("position", entry.position, "m", needs_point ? Need::kRequired : Need::kOptional);
+  if (fields.reading())
+    readDirection(fields, entry);
+  else
+  {
+    fields.vector3("direction", entry.direction, "1");
+    fields.vector3("up", entry.up, "1");
+  }
+  fields.number("offset", entry.offset, "m", Range::nonNegative());
+  if (fields.reading() && entry.offset != 0.0 && !at_end)
+    fields.refuse("offset", "belongs to a centreline end; move position instead");
+  fields.number("valve_friction", entry.valve_friction, "N", Range::nonNegative());
+}
+
+}  // namespace endovascular_sim::scene

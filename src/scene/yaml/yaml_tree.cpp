@@ -1,0 +1,166 @@
+#include "scene/yaml/yaml_tree.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+constexpr int kMaxDepth = 32;
+
+std::string joined(const std::string& path, const std::string& key)
+{
+  return path.empty() ? key : path + "." + key;
+}
+
+SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::string& path, int depth)
+{
+  SceneNode node;
+  node.file = file;
+  node.line = yaml.Mark().line + 1;
+  if (depth > kMaxDepth)
+    throw InputError(file, path.substr(0, path.find('.')) + node.place(),
+                     "nested too deeply; an anchor must not contain itself");
+  switch (yaml.Type())
+  {
+    case YAML::NodeType::Undefined:
+    case YAML::NodeType::Null:
+      break;
+    case YAML::NodeType::Scalar:
+      node.kind = SceneNode::Kind::kScalar;
+      node.text = yaml.Scalar();
+      break;
+    case YAML::NodeType::Sequence:
+      node.kind = SceneNode::Kind::kSequence;
+      for (std::size_t i = 0; i < yaml.size(); ++i)
+        node.items.push_back(convert(yaml[i], file, joined(path, std::to_string(i)), depth + 1));
+      break;
+    case YAML::NodeType::Map:
+      node.kind = SceneNode::Kind::kMap;
+      for (const auto& entry : yaml)
+      {
+        if (!entry.first.IsScalar())
+          throw InputError(file, path + node.place(), "a key must be a plain word");
+        const std::string& key = entry.first.Scalar();
+        const int line = entry.first.Mark().line + 1;
+        for (const auto& earlier : node.fields)
+          if (earlier.first == key)
+            throw InputError(
+                file, joined(path, key) + " (line " + std::to_string(line) + ")",
+                "duplicate key, given first in line " + std::to_string(earlier.second.line) + "; keep one of the two");
+        node.fields.emplace_back(key, convert(entry.second, file, joined(path, key), depth + 1));
+        node.fields.back().second.line = line;
+      }
+      break;
+  }
+  return node;
+}
+
+YAML::Node parseYaml(const std::string& yaml, const std::string& origin, const std::string& where)
+{
+  try
+  {
+    return YAML::Load(yaml);
+  }
+  catch (const YAML::Exception& error)
+  {
+    const std::string place = where.empty() ? "line " + std::to_string(error.mark.line + 1) : where;
+    throw InputError(origin, place, "not valid YAML: " + error.msg + "; check indentation, colons and brackets");
+  }
+}
+
+void markAsOverride(SceneNode& node)
+{
+  node.line = 0;
+  for (SceneNode& item : node.items)
+    markAsOverride(item);
+  for (auto& field : node.fields)
+    markAsOverride(field.second);
+}
+
+SceneNode& descend(SceneNode& node, const std::string& key, const std::string& where, const std::string& origin)
+{
+  if (node.kind == SceneNode::Kind::kSequence)
+  {
+    const bool is_index = !key.empty() && key.size() < 7 &&
+                          std::all_of(key.begin(), key.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
+    const std::size_t index = is_index ? std::stoul(key) : node.items.size();
+    if (index >= node.items.size())
+      throw InputError(origin, where,
+                       "\"" + key + "\" is no element of this list; it has " + std::to_string(node.items.size()) +
+                           ", counted from 0");
+    return node.items[index];
+  }
+  if (node.kind == SceneNode::Kind::kScalar)
+    throw InputError(origin, where, "\"" + key + "\" lies below \"" + node.text + "\", which has no keys");
+  node.kind = SceneNode::Kind::kMap;
+  for (auto& field : node.fields)
+    if (field.first == key)
+      return field.second;
+  SceneNode fresh;
+  fresh.file = origin;
+  node.fields.emplace_back(key, fresh);
+  return node.fields.back().second;
+}
+
+}  // namespace
+
+const SceneNode* SceneNode::find(const std::string& key) const
+{
+  for (const auto& field : fields)
+    if (field.first == key)
+      return field.second.kind == Kind::kNull ? nullptr : &field.second;
+  return nullptr;
+}
+
+std::string SceneNode::place() const
+{
+  return line > 0 ? " (line " + std::to_string(line) + ")" : " (--set)";
+}
+
+SceneNode parseSceneTree(const std::string& yaml, const std::string& origin)
+{
+  SceneNode root = convert(parseYaml(yaml, origin, ""), origin, "", 0);
+  if (root.kind != SceneNode::Kind::kMap)
+    throw InputError(origin, "line 1", "has no keys; expected `key: value` lines, see docs/SCENES.md");
+  return root;
+}
+
+SceneNode readSceneTree(const std::string& file)
+{
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw InputError(file, "", "no such file; give the path of a YAML file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file, "", "is not a file; give the path of a YAML file");
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError(file, "", "cannot be read; check its permissions");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parseSceneTree(text.str(), file);
+}
+
+void overrideSceneTree(SceneNode& root, const std::string& override_text, const std::string& origin)
+{
+  const std::string where = "--set " + override_text;
+  const std::size_t equals = override_text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(origin, where, "expected key.path=value, e.g. --set drive.speed=0.02");
+  SceneNode* node = &root;
+  std::istringstream path(override_text.substr(0, equals));
+  for (std::string key; std::getline(path, key, '.');)
+    node = &descend(*node, key, where, origin);
+  *node = convert(parseYaml(override_text.substr(equals + 1), origin, where), origin, where, 0);
+  markAsOverride(*node);
+}
+
+}  // namespace endovascular_sim::scene

@@ -1,0 +1,66 @@
+#include "simulation/contact_forces.h"
+
+#include <limits>
+
+#include "rod/contact/wall_friction.h"
+
+namespace endovascular_sim::simulation
+{
+namespace
+{
+
+void takeNearer(WallContact& contact, const contact::Feature& feature)
+{
+  if (feature.gap >= contact.gap)
+    return;
+  contact.gap = feature.gap;
+  contact.position = feature.point;
+  contact.triangle = feature.triangle;
+}
+
+}  // namespace
+
+void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts)
+{
+  const rod::State& state = simulation.state();
+  const int nodes = simulation.discretisation().nodes();
+  std::vector<int> at_node(static_cast<std::size_t>(nodes), -1);  // the contact there
+  contacts.clear();
+  for (int i = state.first_node; i < nodes; ++i)
+  {
+    if (state.wall_force[i].isZero(0.0))
+      continue;
+    WallContact contact;
+    contact.normal_force = state.wall_force[i];
+    contact.friction_force = rod::frictionForce(state, i, rod::StepperSettings().friction_slip);
+    contact.position = state.position[i];
+    contact.node = i;
+    contact.gap = std::numeric_limits<double>::infinity();
+    at_node[static_cast<std::size_t>(i)] = static_cast<int>(contacts.size());
+    contacts.push_back(contact);
+  }
+  const std::vector<contact::Feature>& features = simulation.contactSet().features;
+  for (const contact::Feature& feature : features)
+  {
+    const int k = at_node[static_cast<std::size_t>(feature.edge + static_cast<int>(feature.parameter > 0.5))];
+    if (k >= 0)
+      takeNearer(contacts[static_cast<std::size_t>(k)], feature);
+  }
+  // A node whose own halves of its edges have none got its force from the far halves.
+  const auto unlisted = [](const WallContact& contact) { return contact.triangle < 0; };
+  for (WallContact& contact : contacts)
+    if (unlisted(contact))
+      for (const contact::Feature& feature : features)
+        if (feature.parameter > 0.0 && feature.parameter < 1.0 &&
+            contact.node == feature.edge + (feature.parameter > 0.5 ? 0 : 1))
+          takeNearer(contact, feature);
+}
+
+std::vector<WallContact> wallContacts(const Simulation& simulation)
+{
+  std::vector<WallContact> contacts;
+  wallContacts(simulation, contacts);
+  return contacts;
+}
+
+}  // namespace endovascular_sim::simulation

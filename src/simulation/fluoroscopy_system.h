@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/fluoroscope.h"
+#include "fluoroscopy/x_ray_instrument.h"
+#include "scene/model/scene.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::simulation
+{
+
+/** The scene's X-ray system, and what it sees of instruments, balloons and stents. */
+class FluoroscopySystem
+{
+public:
+  /** @param scene must outlive this
+   *  @throws InputError for a scene without fluoroscopy, or with a material that the table does not know */
+  FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::AttenuationTable& table);
+
+  fluoroscopy::Fluoroscope& fluoroscope() { return fluoroscope_; }
+  const std::vector<fluoroscopy::XRayInstrument>& instruments() const { return instruments_; }
+  double filling() const { return filling_; }  ///< attenuation of a balloon's filling less what it displaces [1/m]
+  double metal() const { return metal_; }      ///< of a stent's struts, likewise [1/m]
+
+  /** Everything that a simulation has in the field. */
+  std::vector<fluoroscopy::XRayWire> wires(const Simulation& simulation) const;
+
+private:
+  fluoroscopy::Fluoroscope fluoroscope_;
+  std::vector<fluoroscopy::XRayInstrument> instruments_;
+  double filling_ = 0.0;
+  double metal_ = 0.0;
+};
+
+}  // namespace endovascular_sim::simulation

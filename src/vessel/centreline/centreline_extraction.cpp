@@ -1,0 +1,253 @@
+#include "vessel/centreline/centreline_extraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "geometry/mesh_distance.h"
+#include "vessel/centreline/medial_skeleton.h"
+#include "vessel/centreline/medial_spheres.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+/** Kept balls stand at least this many radii apart: few enough for a graph, close enough to overlap. */
+constexpr double kBallSpacing = 0.6;
+/** Distance of the centreline's points, in mean radii of the branch. */
+constexpr double kPointSpacing = 0.35;
+constexpr int kCentringRounds = 4;
+/** Towards the rim of a flat cap the balls shrink by 1/√2 per length; a vessel that tapers does not. */
+constexpr double kRimSlope = 0.35;
+/** The line ends this fraction of the last stretch before the cap. */
+constexpr double kCapMargin = 0.05;
+
+using Line = std::vector<Eigen::Vector3d>;
+
+double lineLength(const Line& line)
+{
+  double length = 0.0;
+  for (std::size_t k = 1; k < line.size(); ++k)
+    length += (line[k] - line[k - 1]).norm();
+  return length;
+}
+
+/** Points at equal distances along the line, its ends kept. */
+Line resample(const Line& line, double spacing)
+{
+  const double length = lineLength(line);
+  const int count = std::max(1, static_cast<int>(std::lround(length / spacing)));
+  Line out{line.front()};
+  std::size_t k = 1;
+  double passed = 0.0;
+  for (int i = 1; i < count; ++i)
+  {
+    const double wanted = length * i / count;
+    while (k + 1 < line.size() && passed + (line[k] - line[k - 1]).norm() < wanted)
+    {
+      passed += (line[k] - line[k - 1]).norm();
+      ++k;
+    }
+    const double step = (line[k] - line[k - 1]).norm();
+    const double fraction = step > 0.0 ? std::clamp((wanted - passed) / step, 0.0, 1.0) : 0.0;
+    out.emplace_back(line[k - 1] + fraction * (line[k] - line[k - 1]));
+  }
+  out.push_back(line.back());
+  return out;
+}
+
+/** Climbs to a local maximum of the distance to the wall, across the line only. */
+Eigen::Vector3d centre(const Eigen::Vector3d& start, const Eigen::Vector3d& tangent,
+                       const geometry::MeshDistance& distance)
+{
+  const Eigen::Vector3d u = tangent.unitOrthogonal();
+  const Eigen::Vector3d v = tangent.cross(u);
+  Eigen::Vector3d best = start;
+  double best_distance = distance.closest(start).distance;
+  const double first_step = 0.25 * best_distance;
+  for (double step = first_step; step > 0.02 * first_step;)
+  {
+    bool climbed = false;
+    for (int k = 0; k < 6; ++k)
+    {
+      const double angle = k * M_PI / 3.0;
+      const Eigen::Vector3d trial = best + step * (std::cos(angle) * u + std::sin(angle) * v);
+      const double trial_distance = distance.closest(trial).distance;
+      if (trial_distance <= best_distance || (trial - start).norm() > 2.0 * first_step)
+        continue;
+      best = trial;
+      best_distance = trial_distance;
+      climbed = true;
+      break;
+    }
+    if (!climbed)
+      step *= 0.5;
+  }
+  return best;
+}
+
+/** Moves the line onto the ridge of the distance to the wall and evens it out, its ends kept. */
+void centreLine(Line& line, const geometry::MeshDistance& distance)
+{
+  for (int round = 0; round < kCentringRounds; ++round)
+  {
+    Line centred = line;
+    for (std::size_t k = 1; k + 1 < line.size(); ++k)
+    {
+      const Eigen::Vector3d chord = line[k + 1] - line[k - 1];
+      if (chord.norm() > 0.0)
+        centred[k] = centre(line[k], chord.normalized(), distance);
+    }
+    for (int sweep = 0; sweep < 3; ++sweep)
+    {
+      const Line rough = centred;
+      for (std::size_t k = 1; k + 1 < line.size(); ++k)
+        centred[k] = 0.25 * rough[k - 1] + 0.5 * rough[k] + 0.25 * rough[k + 1];
+    }
+    line = std::move(centred);
+  }
+}
+
+class Extractor
+{
+public:
+  explicit Extractor(const geometry::TriangleMesh& mesh) : distance_(mesh)
+  {
+    balls_ = thinBalls(medialBalls(mesh, distance_), kBallSpacing);
+    std::vector<std::vector<int>> neighbours = overlappingBalls(balls_);
+    joinParts(balls_, distance_, neighbours);
+    skeleton_ = ballSkeleton(balls_, neighbours);
+  }
+
+  CentrelineTree run()
+  {
+    CentrelineTree tree;
+    std::vector<bool> forks(skeleton_.size(), false);
+    for (const SkeletonBranch& branch : skeleton_)
+      if (branch.parent >= 0)
+        forks[static_cast<std::size_t>(branch.parent)] = true;
+    for (std::size_t b = 0; b < skeleton_.size(); ++b)
+      tree.branches.push_back(lineOf(skeleton_[b], static_cast<int>(b), !forks[b]));
+    closeLoops(tree, forks);
+    return tree;
+  }
+
+private:
+  CentrelineBranch lineOf(const SkeletonBranch& skeleton, int index, bool is_leaf) const
+  {
+    std::vector<int> balls = skeleton.balls;
+    if (is_leaf)
+      trimRim(balls);
+    if (skeleton.parent < 0)
+    {
+      std::reverse(balls.begin(), balls.end());
+      trimRim(balls);
+      std::reverse(balls.begin(), balls.end());
+    }
+    Line line;
+    double mean_radius = 0.0;
+    for (int ball : balls)
+    {
+      line.push_back(at(ball).centre);
+      mean_radius += at(ball).radius / static_cast<double>(balls.size());
+    }
+    line = resample(line, kPointSpacing * mean_radius);
+    centreLine(line, distance_);
+
+    CentrelineBranch branch;
+    branch.name = "branch_" + std::to_string(index);
+    branch.parent = skeleton.parent;
+    branch.points = line;
+    for (const Eigen::Vector3d& point : line)
+      branch.radii.push_back(distance_.closest(point).distance);
+    if (is_leaf)
+      extend(branch);
+    if (skeleton.parent < 0)
+    {
+      std::reverse(branch.points.begin(), branch.points.end());
+      std::reverse(branch.radii.begin(), branch.radii.end());
+      extend(branch);
+      std::reverse(branch.points.begin(), branch.points.end());
+      std::reverse(branch.radii.begin(), branch.radii.end());
+    }
+    return branch;
+  }
+
+  const MedialSphere& at(int k) const { return balls_[static_cast<std::size_t>(k)]; }
+
+  /** Takes off the last balls where they only fill the rim of a flat cap. */
+  void trimRim(std::vector<int>& balls) const
+  {
+    while (balls.size() > 2)
+    {
+      const MedialSphere& tip = at(balls.back());
+      const MedialSphere& inner = at(balls[balls.size() - 2]);
+      if (inner.radius - tip.radius < kRimSlope * (inner.centre - tip.centre).norm())
+        break;
+      balls.pop_back();
+    }
+  }
+
+  /** Goes straight on from the last point to just before the cap, with the last radius. */
+  void extend(CentrelineBranch& branch) const
+  {
+    const Eigen::Vector3d tip = branch.points.back();
+    const double radius = branch.radii.back();
+    std::size_t k = branch.points.size() - 1;
+    while (k > 0 && (branch.points[k] - tip).norm() < 1.5 * radius)
+      --k;
+    const Eigen::Vector3d direction = (tip - branch.points[k]).normalized();
+    const double reach = (1.0 - kCapMargin) * distance_.rayHit(tip, direction);
+    const int count = std::max(1, static_cast<int>(std::lround(reach / (kPointSpacing * radius))));
+    for (int i = 1; i <= count && reach > 0.0; ++i)
+    {
+      branch.points.emplace_back(tip + reach * i / count * direction);
+      branch.radii.push_back(radius);
+    }
+  }
+
+  /** A tip that ends inside of another branch, not at a cap, is where a loop was cut. */
+  static void closeLoops(CentrelineTree& tree, const std::vector<bool>& forks)
+  {
+    for (std::size_t b = 0; b < tree.branches.size(); ++b)
+    {
+      if (forks[b])
+        continue;
+      CentrelineBranch& branch = tree.branches[b];
+      for (std::size_t other = 0; other < tree.branches.size(); ++other)
+      {
+        if (other == b)
+          continue;
+        const CentrelineBranch& near = tree.branches[other];
+        for (std::size_t k = 0; k < near.points.size(); ++k)
+          if ((near.points[k] - branch.points.back()).norm() < 0.6 * std::min(near.radii[k], branch.radii.back()) &&
+              static_cast<int>(other) != branch.parent)
+          {
+            branch.points.push_back(near.points[k]);
+            branch.radii.push_back(near.radii[k]);
+            other = tree.branches.size() - 1;
+            break;
+          }
+      }
+    }
+  }
+
+  geometry::MeshDistance distance_;
+  std::vector<MedialSphere> balls_;
+  std::vector<SkeletonBranch> skeleton_;
+};
+
+}  // namespace
+
+CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh)
+{
+  CentrelineTree tree = Extractor(mesh).run();
+  if (tree.branches.empty())
+    throw InputError("vessel", "centreline", "no lumen was found in the mesh; give the entry as a pose");
+  return tree;
+}
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,49 @@
+#include "vessel/centreline/centreline_file.h"
+
+#include <fstream>
+
+#include "common/error.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+/** Fractions of the branch's length at its points. */
+std::vector<double> fractions(const CentrelineBranch& branch)
+{
+  std::vector<double> arc{0.0};
+  for (std::size_t k = 1; k < branch.points.size(); ++k)
+    arc.push_back(arc.back() + (branch.points[k] - branch.points[k - 1]).norm());
+  for (double& s : arc)
+    s /= arc.back();
+  return arc;
+}
+
+}  // namespace
+
+void writeCentreline(const CentrelineTree& tree, const std::string& name, const std::string& path)
+{
+  std::ofstream out(path);
+  out.precision(9);
+  out << "# Centreline of a vessel mesh: points and inscribed diameters, in metres.\n"
+      << "name: \"" << name << "\"\nunit: 1\nbranches:\n";
+  for (const CentrelineBranch& branch : tree.branches)
+  {
+    out << "  - name: " << branch.name << "\n";
+    if (branch.parent >= 0)
+      out << "    parent: " << tree.branches[static_cast<std::size_t>(branch.parent)].name << "\n";
+    out << "    points:\n";
+    for (const Eigen::Vector3d& p : branch.points)
+      out << "      - [" << p.x() << ", " << p.y() << ", " << p.z() << "]\n";
+    out << "    diameters:\n";
+    const std::vector<double> at = fractions(branch);
+    for (std::size_t k = 0; k < at.size(); ++k)
+      out << "      - [" << at[k] << ", " << 2.0 * branch.radii[k] << "]\n";
+  }
+  out.close();
+  if (!out)
+    throw InputError(path, "", "cannot be written; give --out in an existing folder that can be written");
+}
+
+}  // namespace endovascular_sim::vessel

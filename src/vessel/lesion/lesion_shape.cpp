@@ -1,0 +1,122 @@
+#include "vessel/lesion/lesion_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+constexpr int kFacetsAround = 24;  // of the narrowed lumen
+constexpr int kFacetsAlong = 32;   // of the lesion
+constexpr double kNoReach = 2.6;   // radii from the axis from which the wall takes no part: side branches
+constexpr int kHalvings = 40;
+constexpr double kMarginRadii = 4.0;  // of the axis before and after the lesion
+
+/** 1 up to the full reach, 0 from kNoReach, C¹ between. */
+double participation(double radii)
+{
+  const double t = std::clamp((radii - LesionShape::kFullReach) / (kNoReach - LesionShape::kFullReach), 0.0, 1.0);
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+/** Start of the piece of the branch that a lesion needs [m]. */
+double marginBegin(const CentrelineBranch& branch, const Lesion& lesion, double middle)
+{
+  const double widest = *std::max_element(branch.radii.begin(), branch.radii.end());
+  return std::max(0.0, middle - 0.5 * lesion.length - kMarginRadii * widest);
+}
+
+geometry::Polyline axisAround(const CentrelineBranch& branch, const Lesion& lesion, double middle)
+{
+  const geometry::Polyline whole(branch.points);
+  const double begin = marginBegin(branch, lesion, middle);
+  const geometry::Polyline part = whole.part(begin, std::min(whole.length(), 2.0 * middle - begin));
+  return geometry::Polyline(part.points(), whole.interpolate(branch.radii, middle));
+}
+
+/** The reference direction across an axis, turned about it. */
+Eigen::Vector3d sideOf(const Eigen::Vector3d& axis, double angle)
+{
+  const Eigen::Vector3d reference = std::abs(axis.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d across = (reference - reference.dot(axis) * axis).normalized();
+  return Eigen::AngleAxisd(angle, axis) * across;
+}
+
+}  // namespace
+
+LesionShape::LesionShape(const CentrelineBranch& branch, const Lesion& lesion, double middle)
+  : lesion_(lesion), axis_(axisAround(branch, lesion, middle)), middle_(middle - marginBegin(branch, lesion, middle))
+{
+  const geometry::Polyline whole(branch.points);
+  for (double arc : axis_.arcs())
+    radii_.push_back(whole.interpolate(branch.radii, arc + middle - middle_));
+  away_ = -sideOf(direction(), lesion.angle);
+}
+
+double LesionShape::lostAt(double from_middle) const
+{
+  const double x = std::abs(from_middle) / lesion_.length;
+  return x < 0.5 ? 0.5 * lesion_.grade * (1.0 + std::cos(2.0 * M_PI * x)) : 0.0;
+}
+
+LesionShape::Foot LesionShape::foot(const Eigen::Vector3d& p) const
+{
+  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  const double radius = axis_.interpolate(radii_, on_axis.arc);
+  return {on_axis.point, on_axis.distance, on_axis.distance / radius, on_axis.arc - middle_};
+}
+
+bool LesionShape::isNear(const Eigen::Vector3d& p, double distance) const
+{
+  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  return std::abs(on_axis.arc - middle_) < 0.5 * lesion_.length + distance &&
+         on_axis.distance - distance < kNoReach * axis_.interpolate(radii_, on_axis.arc);
+}
+
+LesionShape::Image LesionShape::at(const Eigen::Vector3d& p) const
+{
+  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  const double radius = axis_.interpolate(radii_, on_axis.arc);
+  Image image;
+  image.lost = lostAt(on_axis.arc - middle_) * participation(on_axis.distance / radius);
+  image.facet = std::min(2.0 * M_PI * radius * (1.0 - image.lost) / kFacetsAround, lesion_.length / kFacetsAlong);
+  image.position = p - image.lost * (p - fixedPoint(on_axis, radius));
+  return image;
+}
+
+/** On the axis, or beside it; on the healthy wall where e = 1. */
+Eigen::Vector3d LesionShape::fixedPoint(const geometry::Polyline::Foot& on_axis, double radius) const
+{
+  if (lesion_.eccentricity == 0.0)
+    return on_axis.point;
+  const Eigen::Vector3d across = away_ - away_.dot(on_axis.tangent) * on_axis.tangent;
+  return on_axis.point + lesion_.eccentricity * radius * across.normalized();
+}
+
+Eigen::Vector3d LesionShape::before(const Eigen::Vector3d& image) const
+{
+  const geometry::Polyline::Foot on_axis = axis_.section(image);
+  const double most = lostAt(on_axis.arc - middle_);
+  if (most <= 0.0)
+    return image;
+  const Eigen::Vector3d fixed = fixedPoint(on_axis, axis_.interpolate(radii_, on_axis.arc));
+  const Eigen::Vector3d way = image - fixed;
+  double high = 1.0 / (1.0 - most);
+  if (foot(fixed + high * way).radii <= kFullReach)
+    return fixed + high * way;
+  // Where the wall takes part less and less: distances from the fixed point grow with those of their images.
+  double low = 1.0;
+  for (int k = 0; k < kHalvings; ++k)
+  {
+    const double middle = 0.5 * (low + high);
+    const bool beyond = (at(fixed + middle * way).position - fixed).dot(way) > way.squaredNorm();
+    (beyond ? high : low) = middle;
+  }
+  return fixed + low * way;
+}
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,143 @@
+#include "vessel/prepare/level_set.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <cmath>
+
+#include "common/error.h"
+#include "geometry/mesh_topology.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+/** Half-width of the band in which distances are kept, in voxels. */
+constexpr float kBand = 3.0F;
+/** Sheets that touch are parted in this many rounds at most. */
+constexpr int kPartingRounds = 20;
+/** What the grid's points at a place where sheets touch are set to, in voxels outside. */
+constexpr float kCleared = 0.25F;
+
+/** Distances in voxels, negative inside. */
+openvdb::FloatGrid::Ptr signedDistance(const geometry::TriangleMesh& mesh, double voxel)
+{
+  std::vector<openvdb::Vec3s> points;
+  points.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    points.emplace_back(openvdb::Vec3d(v.x() / voxel, v.y() / voxel, v.z() / voxel));
+  std::vector<openvdb::Vec3I> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    triangles.emplace_back(static_cast<openvdb::Index32>(t[0]), static_cast<openvdb::Index32>(t[1]),
+                           static_cast<openvdb::Index32>(t[2]));
+  const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(points, triangles);
+  const openvdb::math::Transform identity;
+  return openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, identity, kBand, kBand);
+}
+
+/** The grid's zero level, quads cut along their shorter diagonal. */
+geometry::TriangleMesh zeroLevel(const openvdb::FloatGrid& grid, double voxel)
+{
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  std::vector<openvdb::Vec4I> quads;
+  openvdb::tools::volumeToMesh(grid, points, triangles, quads, 0.0, 0.0);
+  geometry::TriangleMesh mesh;
+  mesh.vertices.reserve(points.size());
+  for (const openvdb::Vec3s& p : points)
+    mesh.vertices.emplace_back(voxel * Eigen::Vector3d(p.x(), p.y(), p.z()));
+  const auto add = [&mesh](openvdb::Index32 a, openvdb::Index32 b, openvdb::Index32 c)
+  { mesh.triangles.emplace_back(static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)); };
+  // OpenVDB's faces are clockwise seen from the outside.
+  for (const openvdb::Vec3I& t : triangles)
+    add(t[0], t[2], t[1]);
+  for (const openvdb::Vec4I& q : quads)
+  {
+    const bool first = (points[q[0]] - points[q[2]]).lengthSqr() <= (points[q[1]] - points[q[3]]).lengthSqr();
+    add(q[0], q[2], q[1]);
+    if (first)
+      add(q[0], q[3], q[2]);
+    else
+    {
+      mesh.triangles.back() = {static_cast<int>(q[0]), static_cast<int>(q[3]), static_cast<int>(q[1])};
+      add(q[1], q[3], q[2]);
+    }
+  }
+  return mesh;
+}
+
+/** Where more than two faces meet in an edge, or separate sheets in a vertex. */
+std::vector<Eigen::Vector3d> touchingPlaces(const geometry::TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3d> places;
+  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  geometry::DisjointSets corners(3 * mesh.triangles.size());
+  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+  {
+    const std::size_t end = geometry::endOfEdge(uses, begin);
+    const auto corner = [&](const geometry::EdgeUse& use, int vertex)
+    {
+      const bool first = mesh.triangles[static_cast<std::size_t>(use.triangle)][use.side] == vertex;
+      return 3 * use.triangle + (first ? use.side : (use.side + 1) % 3);
+    };
+    if (end - begin != 2)
+      places.emplace_back(0.5 * (mesh.vertices[static_cast<std::size_t>(uses[begin].low)] +
+                                 mesh.vertices[static_cast<std::size_t>(uses[begin].high)]));
+    for (std::size_t k = begin + 1; k < end; ++k)
+      for (int vertex : {uses[begin].low, uses[begin].high})
+        corners.join(corner(uses[begin], vertex), corner(uses[k], vertex));
+  }
+  std::vector<int> fan(mesh.vertices.size(), -1);
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
+  {
+    const auto v = static_cast<std::size_t>(mesh.triangles[c / 3][static_cast<int>(c % 3)]);
+    const int set = corners.find(static_cast<int>(c));
+    if (fan[v] < 0)
+      fan[v] = set;
+    else if (fan[v] != set)
+      places.push_back(mesh.vertices[v]);
+  }
+  return places;
+}
+
+/** Puts the corners of the cells at these places outside, so that the sheets on both sides do not touch. */
+void clear(openvdb::FloatGrid& grid, const std::vector<Eigen::Vector3d>& places, double voxel)
+{
+  auto accessor = grid.getAccessor();
+  for (const Eigen::Vector3d& place : places)
+    for (int k = 0; k < 8; ++k)
+    {
+      const openvdb::Coord at(static_cast<int>(std::floor(place.x() / voxel)) + (k & 1),
+                              static_cast<int>(std::floor(place.y() / voxel)) + (k >> 1 & 1),
+                              static_cast<int>(std::floor(place.z() / voxel)) + (k >> 2 & 1));
+      if (accessor.getValue(at) < kCleared)
+        accessor.setValue(at, kCleared);
+    }
+}
+
+}  // namespace
+
+UnitedSurface unite(const geometry::TriangleMesh& triangles, double voxel)
+{
+  openvdb::initialize();
+  const openvdb::FloatGrid::Ptr grid = signedDistance(triangles, voxel);
+  UnitedSurface united;
+  for (int round = 0; round < kPartingRounds; ++round)
+  {
+    united.mesh = zeroLevel(*grid, voxel);
+    if (united.mesh.triangles.empty())
+      throw InputError("mesh", "",
+                       "its triangles shut nothing off from the outside; close its holes, or check its unit");
+    const std::vector<Eigen::Vector3d> places = touchingPlaces(united.mesh);
+    if (places.empty())
+      return united;
+    clear(*grid, places, voxel);
+    united.cleared.insert(united.cleared.end(), places.begin(), places.end());
+  }
+  throw InputError("mesh", "", "sheets of the wall touch at this voxel size; give another --voxel");
+}
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,48 @@
+#include "vessel/repair/fairing.h"
+
+#include <cmath>
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+/** Factors of a step forth and of the one back; 1/kForth + 1/kBack is the pass band. */
+constexpr double kForth = 0.6307;
+constexpr double kBack = -0.6732;
+
+/** Moves every vertex by a factor of the way to the middle of its neighbours. */
+void step(geometry::TriangleMesh& mesh, double factor)
+{
+  std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  std::vector<int> count(mesh.vertices.size(), 0);
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+    {
+      sum[static_cast<std::size_t>(t[k])] += mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+      ++count[static_cast<std::size_t>(t[k])];
+    }
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    if (count[v] > 0)
+      mesh.vertices[v] += factor * (sum[v] / count[v] - mesh.vertices[v]);
+}
+
+}  // namespace
+
+void fair(geometry::TriangleMesh& mesh, const std::vector<double>& limits, int rounds)
+{
+  const std::vector<Eigen::Vector3d> start = mesh.vertices;
+  for (int round = 0; round < rounds; ++round)
+  {
+    step(mesh, kForth);
+    step(mesh, kBack);
+    for (std::size_t v = 0; v < start.size(); ++v)
+    {
+      const Eigen::Vector3d moved = mesh.vertices[v] - start[v];
+      if (moved.norm() > limits[v])
+        mesh.vertices[v] = start[v] + limits[v] / moved.norm() * moved;
+    }
+  }
+}
+
+}  // namespace endovascular_sim::vessel

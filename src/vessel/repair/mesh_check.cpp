@@ -1,0 +1,242 @@
+#include "vessel/repair/mesh_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "geometry/mesh_topology.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+constexpr double kSmallestVessel = 5e-3;  // [m]
+constexpr double kLargestVessel = 3.0;    // [m]
+
+const Eigen::Vector3d& corner(const geometry::TriangleMesh& mesh, int t, int k)
+{
+  return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])];
+}
+
+void checkIndices(const geometry::TriangleMesh& mesh, MeshReport& report)
+{
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    if (!v.allFinite())
+      report.invalid_faces.add(Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    if (t.minCoeff() < 0 || t.maxCoeff() >= count)
+      report.invalid_faces.add(Eigen::Vector3d::Zero());
+}
+
+void checkFaces(const geometry::TriangleMesh& mesh, MeshReport& report)
+{
+  std::vector<std::pair<std::array<int, 3>, int>> corners;
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const int index = static_cast<int>(t);
+    std::array<int, 3> key{mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]};
+    for (int v : key)
+      used[static_cast<std::size_t>(v)] = true;
+    std::sort(key.begin(), key.end());
+    corners.emplace_back(key, index);
+    const Eigen::Vector3d& a = corner(mesh, index, 0);
+    if ((corner(mesh, index, 1) - a).cross(corner(mesh, index, 2) - a).squaredNorm() == 0.0)
+      report.degenerate_faces.add(a);
+  }
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    if (corners[k].first == corners[k - 1].first)
+      report.duplicate_faces.add(corner(mesh, corners[k].second, 0));
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v])
+      report.unused_vertices.add(mesh.vertices[v]);
+}
+
+void checkEdges(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+{
+  for (std::size_t begin = 0; begin < uses.size();)
+  {
+    const std::size_t end = geometry::endOfEdge(uses, begin);
+    const Eigen::Vector3d place = 0.5 * (mesh.vertices[static_cast<std::size_t>(uses[begin].low)] +
+                                         mesh.vertices[static_cast<std::size_t>(uses[begin].high)]);
+    if (end - begin == 1)
+      report.boundary_edges.add(place);
+    else if (end - begin > 2)
+      report.non_manifold_edges.add(place);
+    else if (uses[begin].forward == uses[begin + 1].forward)
+      report.misoriented_edges.add(place);
+    begin = end;
+  }
+}
+
+/** A vertex is manifold when its faces, joined over the edges that meet in it, form one fan. */
+void checkVertices(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+{
+  geometry::DisjointSets corners(3 * mesh.triangles.size());
+  const auto cornerAt = [&mesh](const geometry::EdgeUse& use, int vertex)
+  {
+    const bool first = mesh.triangles[static_cast<std::size_t>(use.triangle)][use.side] == vertex;
+    return 3 * use.triangle + (first ? use.side : (use.side + 1) % 3);
+  };
+  for (std::size_t begin = 0; begin < uses.size();)
+  {
+    const std::size_t end = geometry::endOfEdge(uses, begin);
+    for (std::size_t k = begin + 1; k < end; ++k)
+      for (int vertex : {uses[begin].low, uses[begin].high})
+        corners.join(cornerAt(uses[begin], vertex), cornerAt(uses[k], vertex));
+    begin = end;
+  }
+  std::vector<int> fan(mesh.vertices.size(), -1);
+  std::vector<bool> reported(mesh.vertices.size(), false);
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
+  {
+    const auto v = static_cast<std::size_t>(mesh.triangles[c / 3][static_cast<int>(c % 3)]);
+    const int set = corners.find(static_cast<int>(c));
+    if (fan[v] < 0)
+      fan[v] = set;
+    if (fan[v] != set && !reported[v])
+    {
+      reported[v] = true;
+      report.non_manifold_vertices.add(mesh.vertices[v]);
+    }
+  }
+}
+
+void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+{
+  const std::vector<int> component = geometry::triangleComponents(mesh, uses);
+  std::map<int, MeshComponent> by_representative;
+  const Eigen::Vector3d origin = mesh.vertices.front();
+  for (std::size_t t = 0; t < component.size(); ++t)
+  {
+    const int index = static_cast<int>(t);
+    MeshComponent& piece = by_representative[component[t]];
+    if (piece.triangles++ == 0)
+      piece.place = corner(mesh, index, 0);
+    piece.volume += (corner(mesh, index, 0) - origin)
+                        .dot((corner(mesh, index, 1) - origin).cross(corner(mesh, index, 2) - origin)) /
+                    6.0;
+  }
+  for (const auto& [representative, piece] : by_representative)
+    report.components.push_back(piece);
+  std::stable_sort(report.components.begin(), report.components.end(),
+                   [](const MeshComponent& a, const MeshComponent& b) { return a.triangles > b.triangles; });
+}
+
+std::string formatLength(double metres)
+{
+  char text[32];
+  if (metres >= 0.5)
+    std::snprintf(text, sizeof text, "%.3g m", metres);
+  else
+    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
+  return text;
+}
+
+void append(std::string& text, const MeshDefect& defect, const std::string& what)
+{
+  if (defect.count == 0)
+    return;
+  text += (text.empty() ? "" : "; ") + std::to_string(defect.count) + " " + what + ", the first near " +
+          formatPlace(defect.place);
+}
+
+}  // namespace
+
+std::string formatPlace(const Eigen::Vector3d& place)
+{
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g) mm", 1e3 * place.x(), 1e3 * place.y(), 1e3 * place.z());
+  return text;
+}
+
+bool MeshReport::clean() const
+{
+  return summary().empty();
+}
+
+std::string MeshReport::summary() const
+{
+  std::string text;
+  append(text, invalid_faces, "faces or vertices with an impossible index or coordinate");
+  append(text, boundary_edges, "boundary edges (holes)");
+  append(text, non_manifold_edges, "non-manifold edges (three or more faces meet)");
+  append(text, non_manifold_vertices, "vertices where separate sheets touch");
+  append(text, misoriented_edges, "edges whose faces turn opposite ways");
+  append(text, degenerate_faces, "faces without area");
+  append(text, duplicate_faces, "duplicate faces");
+  append(text, unused_vertices, "unused vertices");
+  if (components.size() != 1)
+    text += (text.empty() ? "" : "; ") + std::to_string(components.size()) + " separate components";
+  if (text.empty() && signed_volume <= 0.0)
+    text = "faces point inward";
+  return text;
+}
+
+MeshReport checkMesh(const geometry::TriangleMesh& mesh)
+{
+  MeshReport report;
+  checkIndices(mesh, report);
+  if (report.invalid_faces.count > 0 || mesh.triangles.empty())
+    return report;
+
+  report.lower = report.upper = mesh.vertices.front();
+  for (const Eigen::Vector3d& v : mesh.vertices)
+  {
+    report.lower = report.lower.cwiseMin(v);
+    report.upper = report.upper.cwiseMax(v);
+  }
+  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  checkFaces(mesh, report);
+  checkEdges(mesh, uses, report);
+  checkVertices(mesh, uses, report);
+  checkComponents(mesh, uses, report);
+  report.signed_volume = mesh.signedVolume();
+
+  int edges = 0;
+  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+    ++edges;
+  const int vertices = static_cast<int>(mesh.vertices.size()) - report.unused_vertices.count;
+  const int euler = vertices - edges + static_cast<int>(mesh.triangles.size());
+  report.genus = (2 * static_cast<int>(report.components.size()) - euler) / 2;
+  return report;
+}
+
+void requirePlausibleSize(const MeshReport& report, double unit, const std::string& source)
+{
+  const double size = (report.upper - report.lower).maxCoeff();
+  if (size >= kSmallestVessel && size <= kLargestVessel)
+    return;
+  std::string remedy = "its bounding box is " + formatLength(size) + " long; a vessel is between " +
+                       formatLength(kSmallestVessel) + " and " + formatLength(kLargestVessel);
+  const std::array<std::pair<double, const char*>, 5> units{
+      {{1.0, "metres"}, {1e-3, "millimetres"}, {1e-2, "centimetres"}, {0.0254, "inches"}, {1e-6, "micrometres"}}};
+  for (const auto& [factor, name] : units)
+  {
+    const double as_unit = size / unit * factor;
+    if (as_unit < 0.02 || as_unit > 1.5)
+      continue;
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", factor);
+    remedy += std::string("; it looks like ") + name + ": set vessel.unit: " + number;
+    break;
+  }
+  throw InputError(source, "", remedy);
+}
+
+void requireClean(const MeshReport& report, const std::string& source)
+{
+  const std::string summary = report.summary();
+  if (!summary.empty())
+    throw InputError(source, "", "the mesh is not a closed surface of one lumen: " + summary);
+}
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,152 @@
+#include "haptics/device/device_simulator.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "common/error.h"
+#include "haptics/device/motion_script.h"
+#include "haptics/host/haptic_link.h"
+#include "test/haptics/host_fixture.h"
+
+namespace endovascular_sim::haptics
+{
+namespace
+{
+
+std::filesystem::path temporary(const std::string& name)
+{
+  return std::filesystem::temp_directory_path() / ("evs_" + std::to_string(getpid()) + "_" + name);
+}
+
+/** Simulator and link over a real pty in made-up time, in steps of 0.1 ms; the simulation answers at once. */
+struct SimulatorBench
+{
+  explicit SimulatorBench(double baud = 230400.0) : link_path(temporary("device").string())
+  {
+    SimulatorOptions options;
+    options.link = link_path;
+    options.baud = baud;
+    options.device = test::deviceOptions();
+    options.duration = std::numeric_limits<double>::infinity();
+    options.motion = [](double time) -> HandMotion { return {0.02 * time, 0.5 * time}; };
+    simulator.emplace(options);
+    simulator->plug(now);
+    LinkOptions host;
+    host.port = link_path;
+    host.baud = static_cast<int>(baud);
+    host.host = test::hostOptions();
+    link.emplace(host);
+  }
+
+  void run(double seconds)
+  {
+    for (const double end = now + seconds; now < end; now += 1e-4)
+    {
+      simulator->step(now);
+      link->service(now, {});
+      for (const MotionSample& motion : link->host().takeMotion())
+        link->commandForce({1.0, 0.01}, motion.command, now, {});
+    }
+  }
+
+  double now = 10.0;
+  std::string link_path;
+  std::optional<DeviceSimulator> simulator;
+  std::optional<HapticLink> link;
+};
+
+TEST(DeviceSimulator, MeasuresWhatTheLineItselfTakes)
+{
+  SimulatorBench bench;
+  bench.run(1.0);
+  EXPECT_TRUE(bench.simulator->hasStarted());
+  const auto report = bench.simulator->report();
+  // 21 bytes there and 21 back at 10 bits per byte are 1.823 ms; steps of 0.1 ms round up.
+  EXPECT_GE(report.motion_to_force.percentile(0.0), 1.82e-3);
+  EXPECT_LE(report.motion_to_force.percentile(0.5), 2.2e-3);
+  EXPECT_GT(report.motion_to_force.count(), 900U);
+  EXPECT_NEAR(report.forceRate(), 1000.0, 20.0);
+  EXPECT_EQ(report.largest_force, 1.0);
+  EXPECT_EQ(report.bytes_lost, 0U);
+  EXPECT_EQ(report.watchdog_trips, 0U);
+}
+
+TEST(DeviceSimulator, LosesBytesOnALineThatIsTooSlowAndTheHostFindsItsWay)
+{
+  SimulatorBench bench(57600.0);
+  bench.run(2.0);
+  EXPECT_GT(bench.simulator->report().bytes_lost, 1000U);
+  EXPECT_GT(bench.link->host().parserCounters().resyncs, 0U);
+  EXPECT_GT(bench.link->host().counters().samples, 5U) << "whole frames between torn ones are found";
+  EXPECT_EQ(bench.simulator->report().resyncs, 0U) << "the host keeps to the line's speed";
+}
+
+TEST(DeviceSimulator, CountsAnewAfterAReplugAndTheCommandDoesNotJump)
+{
+  SimulatorBench bench;
+  bench.run(1.0);
+  const double before = bench.link->host().motion().command().insertion;
+  EXPECT_GT(before, 0.015);
+  bench.simulator->unplug();
+  bench.run(0.3);
+  EXPECT_EQ(bench.link->host().renderedForce().force, 0.0);
+  bench.simulator->plug(bench.now);
+  bench.run(0.5);
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled);
+  const double after = bench.link->host().motion().command().insertion;
+  EXPECT_GT(after, before);
+  EXPECT_LT(after, before + 0.02 * 0.55) << "what was moved while unplugged is not made up for";
+}
+
+TEST(DeviceSimulator, LeavesAFileAloneThatIsNotALink)
+{
+  const auto path = temporary("file");
+  std::ofstream(path) << "precious";
+  Pty pty;
+  EXPECT_THROW(pty.plug(path.string()), InputError);
+  EXPECT_EQ(std::filesystem::file_size(path), 8U);
+  std::filesystem::remove(path);
+}
+
+TEST(MotionScript, InterpolatesAndHolds)
+{
+  const auto path = temporary("script.csv");
+  std::ofstream(path) << "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n";
+  const MotionScript script = MotionScript::load(path.string());
+  EXPECT_EQ(script.at(0.0).insertion, 0.1);
+  EXPECT_DOUBLE_EQ(script.at(2.0).insertion, 0.2);
+  EXPECT_DOUBLE_EQ(script.at(2.0).rotation, 0.0);
+  EXPECT_EQ(script.at(9.0).insertion, 0.3);
+  EXPECT_EQ(script.duration(), 3.0);
+  std::filesystem::remove(path);
+}
+
+TEST(MotionScript, RefusesBadRowsByLine)
+{
+  const auto path = temporary("bad.csv");
+  for (const char* text : {"1,2\n", "1,2,3,4\n", "1,0,0\n1,0,0\n", "1,nan,0\n", "", "1,x,0\n"})
+  {
+    std::ofstream(path) << text;
+    EXPECT_THROW(MotionScript::load(path.string()), InputError) << text;
+  }
+  std::filesystem::remove(path);
+  EXPECT_THROW(MotionScript::load(path.string()), InputError);
+}
+
+TEST(LatencyRecord, GivesExactPercentiles)
+{
+  LatencyRecord record;
+  EXPECT_EQ(record.percentile(0.5), 0.0);
+  for (int i = 100; i >= 1; --i)
+    record.add(i);
+  EXPECT_EQ(record.percentile(0.5), 50.0);
+  EXPECT_EQ(record.percentile(0.99), 99.0);
+  EXPECT_EQ(record.percentile(1.0), 100.0);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::haptics

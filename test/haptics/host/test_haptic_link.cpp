@@ -1,0 +1,223 @@
+#include "haptics/host/haptic_link.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/error.h"
+#include "test/haptics/host_fixture.h"
+
+namespace endovascular_sim::haptics
+{
+namespace
+{
+
+/** A device behind a real pty that can be pulled out; its path is a link, as below /dev/serial/by-id. */
+class PtyDevice
+{
+public:
+  PtyDevice() : folder_(std::filesystem::temp_directory_path() / ("evs_pty_" + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(folder_);
+  }
+  ~PtyDevice()
+  {
+    unplug();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void plug()
+  {
+    device.emplace(test::deviceOptions());
+    master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_GE(master_, 0);
+    ASSERT_EQ(grantpt(master_), 0);
+    ASSERT_EQ(unlockpt(master_), 0);
+    std::filesystem::create_symlink(ptsname(master_), path());
+  }
+
+  void unplug()
+  {
+    if (master_ < 0)
+      return;
+    std::filesystem::remove(path());
+    close(master_);
+    master_ = -1;
+  }
+
+  /** Moves bytes both ways. @return forces received */
+  std::vector<HapticForce> exchange(double now)
+  {
+    std::vector<HapticForce> forces;
+    if (master_ < 0)
+      return forces;
+    const Bytes out = device->takeOutput();
+    if (!out.empty())
+    {
+      EXPECT_EQ(write(master_, out.data(), out.size()), static_cast<ssize_t>(out.size()));
+    }
+    // The kernel carries what was written in its own time; only a read that finds nothing waits for it to have done so.
+    std::uint8_t in[4096];
+    for (ssize_t count = 0; (count = read(master_, in, sizeof in)) > 0;)
+      for (const HapticForce& force : device->receive(in, static_cast<std::size_t>(count), now))
+        forces.push_back(force);
+    return forces;
+  }
+
+  std::string path() const { return (folder_ / "haptic").string(); }
+
+  std::optional<RosserialDevice> device;
+
+private:
+  std::filesystem::path folder_;
+  int master_ = -1;
+};
+
+/** Link and device over a pty, in made-up time. */
+struct LinkBench
+{
+  LinkBench()
+  {
+    LinkOptions options;
+    options.port = pty.path();
+    options.baud = 230400;
+    options.host = test::hostOptions();
+    link.emplace(options);
+  }
+
+  void step()
+  {
+    now += 1e-3;
+    ++milliseconds;
+    if (pty.device)
+      pty.device->sendSample({milliseconds * 1000U, insertion, 0.0F, HapticSample::kEnabled});
+    for (const HapticForce& force : pty.exchange(now))
+      last = force;
+    link->service(now, wall);
+    for (const MotionSample& motion : link->host().takeMotion())
+    {
+      largest_jump = std::max(largest_jump, std::abs(motion.command.insertion - command.insertion));
+      command = motion.command;
+    }
+    link->commandForce({1.0, 0.0}, command, now, wall);
+  }
+
+  void run(int steps)
+  {
+    for (int i = 0; i < steps; ++i)
+      step();
+  }
+
+  PtyDevice pty;
+  std::optional<HapticLink> link;
+  WallTime wall{1800000000U, 0U};
+  double now = 0.0;
+  std::uint32_t milliseconds = 0;
+  float insertion = 0.0F;
+  HandMotion command;
+  double largest_jump = 0.0;
+  HapticForce last;
+};
+
+TEST(HapticLink, ConnectsOverAPtyWithRawBytes)
+{
+  LinkBench bench;
+  bench.pty.plug();
+  // Times whose bytes are carriage returns, line feeds, XON, XOFF, interrupt: a cooked line would change them.
+  bench.milliseconds = 0x0d0a11;
+  bench.run(50);
+  for (int i = 0; i < 200; ++i)
+  {
+    bench.insertion += 1e-4F;
+    bench.step();
+  }
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled);
+  EXPECT_EQ(bench.last.force, 1.0F);
+  EXPECT_NEAR(bench.command.insertion, 0.02, 2e-4);
+  EXPECT_EQ(bench.link->host().parserCounters().resyncs, 0U);
+  EXPECT_EQ(bench.pty.device->parserCounters().resyncs, 0U);
+}
+
+TEST(HapticLink, WaitsForADeviceThatIsNotThereYet)
+{
+  LinkBench bench;
+  bench.run(500);
+  EXPECT_FALSE(bench.link->isOpen());
+  EXPECT_NE(bench.link->host().reason().find("No such file"), std::string::npos);
+  bench.pty.plug();
+  bench.run(500);
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled);
+}
+
+TEST(HapticLink, LetsGoWhenUnpluggedAndGoesOnWithoutAJump)
+{
+  LinkBench bench;
+  bench.pty.plug();
+  bench.run(50);
+  for (int i = 0; i < 1000; ++i)
+  {
+    bench.insertion += 5e-5F;
+    bench.step();
+  }
+  const double held = bench.command.insertion;
+  ASSERT_GT(held, 0.045);
+  ASSERT_EQ(bench.link->host().renderedForce().force, 1.0);
+
+  bench.pty.unplug();
+  bench.run(2);
+  EXPECT_FALSE(bench.link->isOpen());
+  EXPECT_EQ(bench.link->host().renderedForce().force, 0.0);
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kDisabled);
+  bench.run(700);
+
+  bench.insertion = 0.0F;  // restarted: it counts anew
+  bench.pty.plug();
+  bench.run(500);
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled) << "back within 0.5 s";
+  EXPECT_EQ(bench.link->opened(), 2U);
+  EXPECT_EQ(bench.command.insertion, held);
+  for (int i = 0; i < 100; ++i)
+  {
+    bench.insertion += 5e-5F;
+    bench.step();
+  }
+  EXPECT_GT(bench.command.insertion, held + 0.004);
+  EXPECT_LT(bench.largest_jump, 1e-3);
+}
+
+TEST(HapticLink, SaysGoodbyeOnTheLine)
+{
+  LinkBench bench;
+  bench.pty.plug();
+  bench.run(100);
+  bench.link->shutDown(bench.now, bench.wall);
+  bench.link->flush(bench.now + 0.1);
+  EXPECT_TRUE(bench.link->isIdle());
+  const auto forces = bench.pty.exchange(bench.now);
+  ASSERT_FALSE(forces.empty());
+  EXPECT_EQ(forces.back().force, 0.0F);
+  EXPECT_EQ(bench.pty.device->stops(), 1U);
+}
+
+TEST(SerialPort, RefusesASpeedThatNoLineHas)
+{
+  LinkOptions options;
+  options.baud = 250001;
+  try
+  {
+    HapticLink link(options);
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("230400"), std::string::npos) << "names what would be right";
+  }
+  EXPECT_NO_THROW(SerialPort::checkBaud(2000000, "baud"));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::haptics

@@ -1,0 +1,70 @@
+#include "results/run_result.h"
+#include "scene/scene_file.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+/** Runs a scene of the package without a vessel for some steps; every step is said to take 50 µs. */
+Json resultOf(const std::string& scene_name, int steps)
+{
+  const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/" + scene_name);
+  simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
+  RunResult result(scene, 0, static_cast<std::size_t>(steps));
+  for (int k = 1; k <= steps; ++k)
+  {
+    const double end = k * scene.solver.time_step;
+    simulation.step(
+        {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
+    result.addStep(simulation, 50e-6);
+  }
+  return Json::parse(result.json(simulation));
+}
+
+TEST(RunResult, HoldsEveryKeyThatIsPromised)
+{
+  const Json json = resultOf("straight_wire.yaml", 20);
+  for (const char* key : {"steps", "dt", "nodes", "real_time_factor", "step_time_us", "worst_surface_penetration",
+                          "nodes_outside", "max_strain", "inserted_length", "tip_position", "tip_tangent", "hand_force",
+                          "hand_torque", "energy", "wall_forces", "trajectory_hash", "scene_hash", "mesh_hash"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* phase : {"collision", "assembly", "solve", "sampling", "twist"})
+    for (const char* statistic : {"mean", "median", "p99", "max"})
+      EXPECT_TRUE(json["step_time_us"][phase].contains(statistic)) << phase << " " << statistic;
+  EXPECT_EQ(json["steps"], 20);
+  EXPECT_NEAR(json["real_time_factor"].get<double>(), 20.0, 1e-9);
+  EXPECT_NEAR(json["step_time_us"]["median"].get<double>(), 50.0, 1e-9);
+}
+
+TEST(RunResult, PhasesThatASceneDoesNotNeedReadExactlyZero)
+{
+  for (const char* scene : {"straight_wire.yaml", "cantilever.yaml"})
+  {
+    const Json json = resultOf(scene, 50);
+    EXPECT_EQ(json["step_time_us"]["collision"]["max"], 0.0) << scene;
+    EXPECT_EQ(json["step_time_us"]["sampling"]["max"], 0.0) << scene;
+    EXPECT_EQ(json["step_time_us"]["twist"]["max"], 0.0) << scene;
+    EXPECT_GT(json["step_time_us"]["solve"]["max"], 0.0) << scene;
+  }
+}
+
+TEST(RunResult, TellsMeanMedianAndTails)
+{
+  std::vector<double> seconds(100, 1.0);
+  seconds[3] = 5.0;
+  const DurationStatistics statistics = durationStatistics(seconds);
+  EXPECT_NEAR(statistics.mean, 1.04, 1e-12);
+  EXPECT_EQ(statistics.median, 1.0);
+  EXPECT_EQ(statistics.p99, 5.0);
+  EXPECT_EQ(statistics.max, 5.0);
+  EXPECT_EQ(durationStatistics({}).max, 0.0);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::results

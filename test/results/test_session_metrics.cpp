@@ -1,0 +1,223 @@
+#include "results/session_metrics.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/metrics_page.h"
+#include "test/procedure/procedure_fixtures.h"
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+/** A session of wire and catheter, whose tips lie in the tree where @p tips puts them. */
+class Session
+{
+public:
+  Session()
+    : metrics(sceneWith("    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, until: {by: 0.1}}\n"),
+              forkedTree(), {0, 0, 0.001})
+  {
+  }
+
+  /** For a time, every tip goes evenly from where it is to a place, the hands with them. */
+  void move(double seconds, const std::vector<Eigen::Vector3d>& tips, const std::vector<double>& insertions,
+            double at_tip = 0.0)
+  {
+    const std::vector<Eigen::Vector3d> from = tips_;
+    const std::vector<double> inserted = insertions_;
+    const int samples = static_cast<int>(seconds * SessionMetrics::kRate + 0.5);
+    for (int i = 1; i <= samples; ++i)
+    {
+      Sample sample;
+      time_ += 1.0 / SessionMetrics::kRate;
+      sample.seen.time = time_;
+      sample.at_tip = at_tip;
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        const double share = static_cast<double>(i) / samples;
+        procedure::InstrumentView view;
+        tips_[k] = from[k] + share * (tips[k] - from[k]);
+        insertions_[k] = inserted[k] + share * (insertions[k] - inserted[k]);
+        view.tip = tips_[k];
+        view.hand.insertion = insertions_[k];
+        if (insertions_[k] > 0.0)
+          view.place = metrics.places().at(view.tip);
+        sample.seen.instruments.push_back(view);
+      }
+      procedure::markCovered(sample.seen);
+      metrics.add(sample);
+    }
+  }
+
+  nlohmann::ordered_json json() const { return metrics.json(); }
+
+  SessionMetrics metrics;
+
+private:
+  double time_ = 0.0;
+  std::vector<Eigen::Vector3d> tips_{{0, 0, 0}, {0, 0, 0}};
+  std::vector<double> insertions_{0.0, -0.1};
+};
+
+const Eigen::Vector3d kStart(0, 0, 0);
+
+TEST(SessionMetrics, CountsVisitsOfBranchesThatDoNotLeadToTheGoal)
+{
+  Session session;
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {{0.04, 0, 0.1}, kStart}, {0.14, -0.1});  // the side branch
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {{0, 0, 0.15}, kStart}, {0.15, -0.1});
+  session.move(1.0, {{-0.04, 0, 0.15}, kStart}, {0.19, -0.1});  // the goal
+  const nlohmann::ordered_json json = session.json();
+  ASSERT_EQ(json["wrong_branches"].size(), 1U);
+  EXPECT_EQ(json["wrong_branches"][0]["branch"], "side");
+  EXPECT_EQ(json["wrong_branches"][0]["instrument"], "wire");
+  EXPECT_NEAR(json["wrong_branches"][0]["deepest"], 0.030, 0.001);
+  // From 3 mm beyond the ostium, which is at 10 mm, to the deepest place at 40 mm and back to 7 mm, where the trunk is
+  // nearer, at 40 mm/s.
+  EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.027 + 0.033) / 0.04, 0.1);
+  EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
+}
+
+TEST(SessionMetrics, ATipInsideOfAnotherInstrumentIsInNoWrongBranch)
+{
+  Session session;
+  session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.1}}, {0.1, 0.15});
+  session.move(1.0, {{0.04, 0, 0.1}, {0.05, 0, 0.1}}, {0.14, 0.15});
+  EXPECT_TRUE(session.json()["wrong_branches"].empty());
+}
+
+TEST(SessionMetrics, AnInstrumentWithoutAGoalMayBeAnywhere)
+{
+  Session session;
+  session.move(1.0, {kStart, {0, 0, 0.1}}, {0.0, 0.1});
+  session.move(1.0, {kStart, {0.04, 0, 0.1}}, {0.0, 0.14});
+  EXPECT_TRUE(session.json()["wrong_branches"].empty());
+}
+
+TEST(SessionMetrics, MeasuresTheWayOfTheTips)
+{
+  Session session;
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {{0, 0, 0.06}, kStart}, {0.06, -0.1});
+  // The first sample lies one sampling period behind the start.
+  EXPECT_NEAR(session.json()["instruments"][0]["tip_path"], 0.14, 0.1 / 2.0 / SessionMetrics::kRate + 1e-9);
+  EXPECT_EQ(session.json()["instruments"][1]["tip_path"], 0.0);
+}
+
+TEST(SessionMetrics, CountsExchanges)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {kStart, kStart}, {-0.05, -0.1});
+  EXPECT_EQ(session.json()["instrument_exchanges"], 0) << "nothing has come in its place";
+  session.move(1.0, {kStart, {0, 0, 0.1}}, {-0.05, 0.1});
+  EXPECT_EQ(session.json()["instrument_exchanges"], 1);
+  EXPECT_EQ(session.json()["instruments"][1]["insertions"], 1);
+}
+
+TEST(SessionMetrics, ForcesOfAWiresTipThatMayPerforateAreErrorsOncePerTime)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.6);
+  session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.2);
+  session.move(1.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.9);  // now the catheter is foremost
+  const nlohmann::ordered_json json = session.json();
+  ASSERT_EQ(json["errors"].size(), 2U);
+  EXPECT_EQ(json["errors"][0]["error"], "risk of perforation");
+  EXPECT_EQ(json["errors"][0]["instrument"], "wire");
+  EXPECT_NEAR(json["errors"][0]["value"], 0.8, 1e-12);
+}
+
+TEST(SessionMetrics, OnlyContactsNearTheForemostTipCountAsItsForce)
+{
+  Sample sample;
+  sample.seen.instruments.resize(2);
+  sample.seen.instruments[0].hand.insertion = 0.1;
+  sample.seen.instruments[0].tip = {0, 0, 0.1};
+  sample.addContact({0, 0, 0.104}, 0.3);
+  sample.addContact({0, 0.004, 0.1}, 0.2);
+  sample.addContact({0, 0, 0.0}, 0.7);  // at the other's tip
+  EXPECT_NEAR(sample.at_tip, 0.5, 1e-12);
+  EXPECT_NEAR(sample.wall_force, 1.2, 1e-12);
+  EXPECT_EQ(sample.largest, 0.7);
+}
+
+TEST(SessionMetrics, EventsOfATreatmentAreErrorsButForAPlacedStent)
+{
+  Session session;
+  session.metrics.addEvent("stent_placed", 1, 3.0);
+  session.metrics.addEvent("above_rated", 1, 4.0);
+  const nlohmann::ordered_json json = session.json();
+  ASSERT_EQ(json["errors"].size(), 1U);
+  EXPECT_EQ(json["errors"][0]["error"], "above_rated");
+}
+
+TEST(SessionMetrics, SamplesThatComeTooEarlyAreLeftOut)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  const std::size_t before = session.metrics.samples().size();
+  EXPECT_FALSE(session.metrics.wants(1.0));
+  session.metrics.add(session.metrics.samples().back());
+  EXPECT_EQ(session.metrics.samples().size(), before);
+  EXPECT_TRUE(session.metrics.wants(1.0 + 1.0 / SessionMetrics::kRate));
+}
+
+TEST(SessionMetrics, TellsWhatBecameOfALesion)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  LesionOutcome lesion;
+  lesion.branch = "goal";
+  lesion.before.stenosis = 0.6;
+  lesion.after.stenosis = 0.1;
+  lesion.after.stented = true;
+  lesion.after.coverage = 0.97;
+  session.metrics.setLesions({lesion});
+  const auto json = session.metrics.json();
+  EXPECT_EQ(json["lesions"][0]["branch"], "goal");
+  EXPECT_EQ(json["lesions"][0]["before"]["stenosis"], 0.6);
+  EXPECT_EQ(json["lesions"][0]["after"]["coverage"], 0.97);
+  EXPECT_FALSE(json["lesions"][0]["before"].contains("coverage")) << "there was no stent";
+  EXPECT_NE(metricsPage(session.metrics).find("97"), std::string::npos);
+}
+
+TEST(MetricsPage, NeedsNoOtherFile)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  session.metrics.setSteps(
+      {{"advance wire until its tip is in goal", "Wire & goal <1>", 0.0, 1.0, 0, 0, procedure::Progress::kFailed}},
+      "step 1: because");
+  const std::string page = metricsPage(session.metrics);
+  for (const char* reference : {"http", "src=", "href=", "url(", "@import"})
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("Wire &amp; goal &lt;1&gt;"), std::string::npos) << "names are not read as HTML";
+  EXPECT_NE(page.find("step 1: because"), std::string::npos);
+  EXPECT_NE(page.find("risk of perforation"), std::string::npos);
+}
+
+TEST(MetricsPage, TellsForcesInAVesselWhoseBranchesHaveNoNames)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
+  WallForceSummary forces;
+  forces.whole.peak = 1.25;
+  forces.whole.peak_region = 0;
+  forces.regions = {forces.whole};
+  forces.regions[0].region = 0;
+  session.metrics.setWallForces(forces);
+  const std::string page = metricsPage(session.metrics);
+  EXPECT_NE(page.find("1.25 N at 0.0 s<"), std::string::npos) << page;
+}
+
+}  // namespace
+}  // namespace endovascular_sim::results

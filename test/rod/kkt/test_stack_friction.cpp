@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include "test/rod/stack_fixtures.h"
+
+// Friction between the layers of a stack.
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr double kLength = 0.3;
+
+/** Curved over its last 100 mm and no softer there, so that curvature couples two layers more than torsion does. */
+Wire curvedAtTip(Wire wire, double rest_curvature)
+{
+  if (rest_curvature == 0.0)
+    return wire;
+  Section tip = wire.sections.back();
+  tip.length = 0.1;
+  tip.rest_curvature = {rest_curvature, 0.0};
+  wire.sections.back().length -= tip.length;
+  wire.sections.push_back(tip);
+  return wire;
+}
+
+/** A wire in a catheter that fits tightly: 2 N/m over 100 mm. */
+struct TightFit
+{
+  /** @param rest_curvature of both, over their last 100 mm [1/m] */
+  explicit TightFit(double rest_curvature = 0.0)
+  {
+    Layer wire{curvedAtTip(uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), rest_curvature), 0.1, 2.0};
+    Layer catheter{curvedAtTip(uniformWire(kLength, 8e-5, 0.9e-3, 6000.0), rest_curvature)};
+    stepper = std::make_unique<StackStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
+                                             calm(), StepperSettings());
+    state = stepper->initialState(input);
+  }
+
+  void moveTo(double insertion, double rotation, int count = 20)
+  {
+    input[0] = {insertion, rotation};
+    StepInput all;
+    all.layers = input;
+    for (int k = 0; k < count; ++k)  // 20: until inertia has no part any more
+    {
+      std::uint32_t pass = 0;
+      all.step = steps++;
+      stepper->step(state, all, 0.1, pass, nullptr, timer);
+    }
+  }
+
+  /** Of straight layers: the largest torque between them [N·m], and the turn of the wire at which they slip [rad]. */
+  static constexpr double kLimit = 0.1 * 0.4e-3 * 2.0 * 0.1;
+  static constexpr double kSlip = kLimit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);  // ∫(L − s)² ds/L² of both, by GJ
+
+  std::vector<LayerInput> input = {{0.15, 0.0}, {0.1, 0.0}};
+  std::unique_ptr<StackStepper> stepper;
+  State state;
+  PhaseTimer timer;
+  std::uint64_t steps = 0;
+};
+
+TEST(StackFriction, FrictionBetweenLayersSticksSlidesAndHasHysteresis)
+{
+  TightFit fit;
+  const double limit = 0.1 * 2.0 * 0.1;
+  struct
+  {
+    double insertion, force;
+  } const path[] = {{10e-6, 0.5},   {20e-6, 1.0}, {300e-6, 1.0}, {290e-6, 0.5},
+                    {270e-6, -0.5}, {0.0, -1.0},  {20e-6, 0.0},  {200e-6, 1.0}};
+  for (const auto& point : path)
+  {
+    fit.moveTo(0.15 + point.insertion, 0.0);
+    EXPECT_NEAR(fit.state.layers[1].hand_force, -point.force * limit, 1e-4 * limit) << point.insertion;
+    EXPECT_NEAR(fit.state.layers[0].hand_force, point.force * limit, 1e-2 * limit) << point.insertion;
+  }
+}
+
+TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
+{
+  TightFit fit;
+  const double limit = TightFit::kLimit;
+  const double slip = TightFit::kSlip;
+  fit.moveTo(0.15, 0.25 * slip);
+  EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.25 * limit, 0.01 * limit);
+  EXPECT_NEAR(fit.state.layers[1].hand_torque, -0.25 * limit, 0.01 * limit);
+  // Turned on by the wire, which is held back: the angle between both is 0 in the mean.
+  EXPECT_GT(fit.state.layers[1].twist_angle.back(), 0.0);
+  EXPECT_LT(fit.state.layers[1].twist_angle.back(), 0.25 * slip);
+  EXPECT_LT(fit.state.layers[0].twist_angle.back(), 0.25 * slip);
+  for (const double turn : {0.9, 2.0, 10.0})
+    fit.moveTo(0.15, turn * slip);
+  EXPECT_NEAR(fit.state.layers[0].hand_torque, limit, 1e-2 * limit);
+  EXPECT_NEAR(fit.state.layers[1].hand_torque, -limit, 1e-2 * limit);
+  fit.moveTo(0.15, 9.0 * slip);  // back by the half of what reverses it
+  EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.0, 0.02 * limit);
+  fit.moveTo(0.15, 7.0 * slip);
+  EXPECT_NEAR(fit.state.layers[0].hand_torque, -limit, 1e-2 * limit);
+}
+
+/** Curvature of both holds them together: a change of the friction turns them far less than it would straight ones. */
+TEST(StackFriction, CurvedLayersThatStickSettleSoonAndDoNotSlip)
+{
+  TightFit fit(40.0);
+  const double stuck_at = fit.state.layers[0].friction_turn;
+  for (const double turn : {0.2, -0.2, 0.3, 0.0})
+  {
+    fit.moveTo(0.15, turn * TightFit::kSlip, 3);
+    const double soon = fit.state.layers[0].friction_share;
+    fit.moveTo(0.15, turn * TightFit::kSlip, 60);
+    EXPECT_NEAR(soon, fit.state.layers[0].friction_share, 0.05) << turn;
+    EXPECT_EQ(fit.state.layers[0].friction_turn, stuck_at) << turn;
+  }
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "scene/model/scene.h"
+#include "scene/scene_file.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+const std::string kScene =
+    "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
+    "instruments:\n"
+    "  - {instrument: {use: guidewire_014_workhorse, name: wire}, drive: {source: procedure}}\n"
+    "  - {instrument: {use: balloon_250_15, name: balloon}, drive: {source: procedure, initial_insertion: -0.1}}\n";
+
+Scene sceneOf(const std::string& step)
+{
+  return parseScene(kScene + "procedure:\n  steps:\n    - " + step + "\n", "scene.yaml");
+}
+
+std::string refusalOf(const std::string& step)
+{
+  try
+  {
+    sceneOf(step);
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SceneProcedure, IsReadStepByStep)
+{
+  const Scene scene = sceneOf(
+      "{phase: Way in, advance: wire, until: {tip_in: tube, beyond: 0.05, held: 0.2}, speed: 0.03, turn_speed: -1,\n"
+      "       time_limit: 12, any_branch: true, retry: {back: 0.02, turn: 0.7, times: 3}}");
+  const StepScene& step = scene.procedure->steps.at(0);
+  EXPECT_EQ(step.phase, "Way in");
+  EXPECT_EQ(step.action, StepAction::kAdvance);
+  EXPECT_EQ(step.instrument, "wire");
+  EXPECT_EQ(step.until.tip_in, "tube");
+  EXPECT_EQ(step.until.beyond, 0.05);
+  EXPECT_EQ(step.until.held, 0.2);
+  EXPECT_EQ(step.speed, 0.03);
+  EXPECT_EQ(step.turn_speed, -1.0);
+  EXPECT_EQ(step.time_limit, 12.0);
+  EXPECT_TRUE(step.any_branch);
+  EXPECT_EQ(step.retry.back, 0.02);
+  EXPECT_EQ(step.retry.turn, 0.7);
+  EXPECT_EQ(step.retry.times, 3);
+}
+
+TEST(SceneProcedure, IsTheSameWhenItsResolvedTextIsReadAgain)
+{
+  for (const char* step : {"{advance: wire, until: {tip_in: tube}}", "{withdraw: wire, until: {by: 0.1}, phase: Out}",
+                           "{rotate: wire, until: {turned: -2}}", "{inflate: balloon, pressure: -0.5e5, for: 3}",
+                           "{wait: 1.5}", "{exchange: wire, for: balloon, until: {balloon_in: tube, beyond: 0.02}}"})
+  {
+    const Scene scene = sceneOf(step);
+    EXPECT_EQ(parseScene(scene.resolved_yaml, "again.yaml").resolved_yaml, scene.resolved_yaml) << step;
+  }
+}
+
+TEST(SceneProcedure, CanBeAFileOfItsOwn)
+{
+  const Scene scene = loadScene(PROJECT_DIR "/config/scenes/pci.yaml");
+  ASSERT_TRUE(scene.procedure);
+  EXPECT_GT(scene.procedure->steps.size(), 5U);
+  EXPECT_EQ(
+      loadScene(PROJECT_DIR "/config/scenes/pci.yaml", {"procedure.steps.0.speed=0.03"}).procedure->steps[0].speed,
+      0.03);
+}
+
+TEST(SceneProcedure, RefusalsNameFileKeyAndRemedy)
+{
+  EXPECT_EQ(
+      refusalOf("{push: wire}"),
+      "scene.yaml: procedure.steps.0 (line 7): says nothing to do; give one of advance, withdraw, rotate, inflate, "
+      "exchange, wait");
+  EXPECT_NE(refusalOf("{advance: wire, rotate: wire, until: {by: 1}}").find("procedure.steps.0.rotate"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("{advance: wire, until: {tip_inn: tube}}").find("tip_in"), std::string::npos);
+  EXPECT_NE(refusalOf("{advance: wire}").find("procedure.steps.0.until"), std::string::npos);
+  EXPECT_NE(refusalOf("{advance: wire, until: {beyond: 0.1, outside: true}}").find("needs a branch"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("{advance: wire, until: {by: 0.1}, speed: -1}").find("procedure.steps.0.speed"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("{advance: catheter, until: {by: 0.1}}").find("'catheter' is no instrument"), std::string::npos);
+  EXPECT_NE(refusalOf("{inflate: wire, pressure: 1e5, for: 1}").find("has no balloon"), std::string::npos);
+  EXPECT_NE(refusalOf("{inflate: balloon, for: 1}").find("procedure.steps.0.pressure"), std::string::npos);
+  EXPECT_NE(refusalOf("{wait: 1, speed: 2}").find("speed"), std::string::npos);
+}
+
+TEST(SceneProcedure, IsMissedByADriveThatFollowsIt)
+{
+  try
+  {
+    parseScene(kScene, "scene.yaml");
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "scene.yaml: instruments.0.drive.source (line 2): is procedure, but the scene has none; give "
+                 "procedure: FILE, or another source");
+  }
+}
+
+}  // namespace
+}  // namespace endovascular_sim::scene

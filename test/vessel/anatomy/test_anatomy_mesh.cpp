@@ -1,0 +1,343 @@
+#include "vessel/anatomy/anatomy_mesh.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "geometry/mesh_distance.h"
+#include "geometry/mesh_topology.h"
+#include "vessel/anatomy/implicit_vessel.h"
+#include "vessel/io/mesh_cache.h"
+#include "vessel/repair/mesh_check.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+const std::string kFork = std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml";
+const std::string kDefault = std::string(PROJECT_DIR) + "/config/anatomies/default.yaml";
+
+/** A folder that goes away with the test. */
+class CacheFolder
+{
+public:
+  CacheFolder()
+    : path_((std::filesystem::temp_directory_path() / ("anatomy_cache_" + std::to_string(getpid()))).string())
+  {
+    std::filesystem::remove_all(path_);
+  }
+  CacheFolder(const CacheFolder&) = delete;
+  CacheFolder& operator=(const CacheFolder&) = delete;
+  ~CacheFolder() { std::filesystem::remove_all(path_); }
+
+  const std::string& path() const { return path_; }
+
+  std::string onlyFile() const
+  {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      files.push_back(entry.path().string());
+    return files.size() == 1 ? files[0] : std::string();
+  }
+
+private:
+  std::string path_;
+};
+
+/** Mean distance from the axis to the wall across it, at rays all round. */
+double meanRadius(const geometry::MeshDistance& wall, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis)
+{
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  const Eigen::Vector3d v = axis.cross(u);
+  double sum = 0.0;
+  const int count = 64;
+  for (int k = 0; k < count; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / count;
+    sum += wall.rayHit(centre, std::cos(angle) * u + std::sin(angle) * v);
+  }
+  return sum / count;
+}
+
+/** Whether no other branch, and no bulge, widens the lumen near a point. */
+bool onItsOwn(const CentrelineTree& tree, const Anatomy& anatomy, std::size_t branch, const Eigen::Vector3d& p,
+              double radius)
+{
+  for (std::size_t other = 0; other < tree.branches.size(); ++other)
+  {
+    const bool joined = tree.branches[other].parent == static_cast<int>(branch) ||
+                        tree.branches[branch].parent == static_cast<int>(other);
+    const bool in_line = (joined && anatomy.branches[std::max(other, branch)].continues);
+    if (other == branch || in_line)
+      continue;
+    const CentrelineBranch& near = tree.branches[other];
+    for (std::size_t k = 0; k < near.points.size(); ++k)
+      if ((near.points[k] - p).norm() < 2.2 * near.radii[k] + radius)
+        return false;
+  }
+  for (const Bulge& bulge : anatomy.bulges)
+    if ((bulge.centre - p).norm() < 2.2 * bulge.radius + radius)
+      return false;
+  return true;
+}
+
+/** Compares mesh and file all along every branch; @return how many places were compared. */
+int compareDiameters(const Anatomy& anatomy, const Vessel& vessel, double tolerance)
+{
+  const geometry::MeshDistance wall(vessel.mesh);
+  int compared = 0;
+  for (std::size_t b = 0; b < vessel.centreline.branches.size(); ++b)
+  {
+    const CentrelineBranch& branch = vessel.centreline.branches[b];
+    for (std::size_t k = 2; k + 2 < branch.points.size(); k += 3)
+    {
+      if (!onItsOwn(vessel.centreline, anatomy, b, branch.points[k], branch.radii[k]))
+        continue;
+      const Eigen::Vector3d axis = (branch.points[k + 1] - branch.points[k - 1]).normalized();
+      EXPECT_NEAR(meanRadius(wall, branch.points[k], axis) / branch.radii[k], 1.0, tolerance)
+          << branch.name << " at point " << k << " of " << branch.points.size();
+      ++compared;
+    }
+  }
+  return compared;
+}
+
+TEST(ImplicitVessel, IsTheDistanceToAnEvenTube)
+{
+  Anatomy anatomy = readAnatomy(kFork);
+  anatomy.bulges.clear();
+  anatomy.branches.resize(1);
+  anatomy.branches[0].points = {{0, 0, 0}, {0, 0, 0.05}};
+  anatomy.branches[0].diameters = {{0.0, 6e-3}};
+  const ImplicitVessel field(anatomy, sampleChains(anatomy));
+  for (int k = 0; k < 100; ++k)
+  {
+    const Eigen::Vector3d p(0.008 * std::sin(1.1 * k), 0.008 * std::cos(2.3 * k), 0.025 + 0.04 * std::sin(0.3 * k));
+    const Eigen::Vector3d foot(0, 0, std::clamp(p.z(), 0.0, 0.05));
+    EXPECT_NEAR(field.at(p).distance, (p - foot).norm() - 3e-3, 1e-12);
+  }
+}
+
+TEST(ImplicitVessel, GradientAgreesWithFiniteDifferences)
+{
+  Anatomy anatomy = readAnatomy(kFork);
+  // Where the radius changes along the branch the gradient leaves its slope out; an even one is exact.
+  anatomy.branches[0].diameters = {{0.0, 7e-3}};
+  anatomy.branches[1].diameters = {{1.0, 7e-3}};
+  anatomy.branches[2].diameters = {{0.0, 5e-3}};
+  anatomy.branches[2].stenoses.clear();
+  const ImplicitVessel field(anatomy, sampleChains(anatomy));
+  const double h = 1e-7;
+  for (int k = 0; k < 200; ++k)
+  {
+    const Eigen::Vector3d p(0.006 * std::sin(1.1 * k), 0.005 * std::cos(2.3 * k), 0.045 + 0.03 * std::sin(0.3 * k));
+    const FieldSample sample = field.at(p);
+    if (std::abs(sample.distance) > 1.5e-3)
+      continue;  // near the wall only: on the axis there is no gradient
+    Eigen::Vector3d difference;
+    for (int i = 0; i < 3; ++i)
+      difference[i] =
+          (field.at(p + h * Eigen::Vector3d::Unit(i)).distance - field.at(p - h * Eigen::Vector3d::Unit(i)).distance) /
+          (2.0 * h);
+    // The range of the blend follows the radius, and the axis is a spline: small terms that are left out.
+    EXPECT_LT((difference - sample.gradient).norm(), 0.02) << p.transpose();
+  }
+}
+
+TEST(AnatomyMesh, OfTheForkIsOneWatertightSurface)
+{
+  const Anatomy anatomy = readAnatomy(kFork);
+  const Vessel vessel = loadAnatomy(kFork, "");
+  const MeshReport report = checkMesh(vessel.mesh);
+  EXPECT_EQ(report.summary(), "");
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_GT(report.signed_volume, 0.0);
+  EXPECT_GT(compareDiameters(anatomy, vessel, 0.02), 20);
+}
+
+TEST(AnatomyMesh, IsTheSameBitForBit)
+{
+  EXPECT_EQ(loadAnatomy(kFork, "").mesh.hash(), loadAnatomy(kFork, "").mesh.hash());
+}
+
+TEST(AnatomyMesh, HasItsVerticesOnTheImplicitWall)
+{
+  const Anatomy anatomy = readAnatomy(kFork);
+  const std::vector<AnatomyChain> chains = sampleChains(anatomy);
+  const ImplicitVessel field(anatomy, chains);
+  for (const Eigen::Vector3d& v : generateAnatomyMesh(anatomy, chains).vertices)
+    ASSERT_LT(std::abs(field.at(v).distance), 1e-7);
+}
+
+TEST(AnatomyMesh, RefusesBranchesThatMeetAgain)
+{
+  Anatomy anatomy = readAnatomy(kFork);
+  anatomy.branches[2].points.back() = {0.022, 0.0, 0.082};  // into the tip of the left arm
+  anatomy.branches[2].points[1] = {-0.004, 0.0, 0.078};
+  anatomy.branches[2].stenoses.clear();
+  try
+  {
+    generateAnatomyMesh(anatomy, sampleChains(anatomy));
+    FAIL() << "a loop was accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("branches touch that should not"), std::string::npos) << error.what();
+  }
+}
+
+TEST(AnatomyCache, GivesTheSameMeshAndSurvivesDamage)
+{
+  const CacheFolder folder;
+  const std::uint64_t hash = loadAnatomy(kFork, folder.path()).mesh.hash();
+  const std::string file = folder.onlyFile();
+  ASSERT_FALSE(file.empty());
+  const Vessel cached = loadAnatomy(kFork, folder.path());
+  EXPECT_EQ(cached.mesh.hash(), hash);
+  EXPECT_NE(cached.notes.at(0).find("taken from"), std::string::npos);
+
+  {
+    std::fstream damage(file, std::ios::in | std::ios::out | std::ios::binary);
+    damage.seekp(5000);
+    damage.put('x');
+  }
+  const Vessel repaired = loadAnatomy(kFork, folder.path());
+  EXPECT_EQ(repaired.mesh.hash(), hash);
+  EXPECT_NE(repaired.notes.at(0).find("generated"), std::string::npos);
+  EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("taken from"), std::string::npos);
+
+  std::filesystem::resize_file(file, 1000);
+  EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("generated"), std::string::npos);
+  EXPECT_EQ(folder.onlyFile(), file) << "no temporary file stays behind";
+}
+
+TEST(AnatomyCache, ReadsNothingUnderAnotherKey)
+{
+  const CacheFolder folder;
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const std::string file = folder.path() + "/x.mesh";
+  ASSERT_TRUE(writeCachedMesh(file, 7, mesh));
+  ASSERT_TRUE(readCachedMesh(file, 7).has_value());
+  EXPECT_EQ(readCachedMesh(file, 7)->hash(), mesh.hash());
+  EXPECT_FALSE(readCachedMesh(file, 8).has_value());
+  EXPECT_FALSE(readCachedMesh(folder.path() + "/absent.mesh", 7).has_value());
+}
+
+TEST(AnatomyCache, ThatCannotBeWrittenOnlyCostsTime)
+{
+  const Vessel vessel = loadAnatomy(kFork, "/proc/no_such_folder");
+  EXPECT_EQ(checkMesh(vessel.mesh).summary(), "");
+  ASSERT_EQ(vessel.notes.size(), 2U);
+  EXPECT_NE(vessel.notes[1].find("could not be kept"), std::string::npos);
+}
+
+/** The anatomy that is shipped; generated once for all its tests. */
+class DefaultAnatomy : public testing::Test
+{
+protected:
+  static void SetUpTestSuite()
+  {
+    anatomy_ = new Anatomy(readAnatomy(kDefault));
+    vessel_ = new Vessel(loadAnatomy(kDefault, ""));
+  }
+  static void TearDownTestSuite()
+  {
+    delete anatomy_;
+    delete vessel_;
+  }
+  static Anatomy* anatomy_;
+  static Vessel* vessel_;
+};
+
+Anatomy* DefaultAnatomy::anatomy_ = nullptr;
+Vessel* DefaultAnatomy::vessel_ = nullptr;
+
+TEST_F(DefaultAnatomy, IsOneWatertightSurfaceOfModestSize)
+{
+  const MeshReport report = checkMesh(vessel_->mesh);
+  EXPECT_EQ(report.summary(), "");
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_GT(report.signed_volume, 1e-4);
+  EXPECT_LT(vessel_->mesh.triangles.size(), 120000U);
+}
+
+TEST_F(DefaultAnatomy, HasTheDiametersOfItsFile)
+{
+  EXPECT_GT(compareDiameters(*anatomy_, *vessel_, 0.05), 500);
+}
+
+TEST_F(DefaultAnatomy, NarrowsTheLeftAnteriorDescending)
+{
+  const auto& branches = vessel_->centreline.branches;
+  const auto lad = std::find_if(branches.begin(), branches.end(),
+                                [](const CentrelineBranch& b) { return b.name == "left_anterior_descending"; });
+  ASSERT_NE(lad, branches.end());
+  const auto throat = static_cast<std::size_t>(
+      std::min_element(lad->radii.begin(), lad->radii.begin() + lad->radii.size() / 2) - lad->radii.begin());
+  const geometry::MeshDistance wall(vessel_->mesh);
+  const auto radiusAt = [&](std::size_t k)
+  { return meanRadius(wall, lad->points[k], (lad->points[k + 1] - lad->points[k - 1]).normalized()); };
+  std::size_t before = throat;
+  while ((lad->points[before] - lad->points[throat]).norm() < 9e-3)
+    --before;
+  EXPECT_NEAR(radiusAt(throat) / radiusAt(before),
+              1.0 - anatomy_->branches[static_cast<std::size_t>(lad - branches.begin())].stenoses.at(0).reduction,
+              0.04);
+}
+
+TEST_F(DefaultAnatomy, HasTheVesselsAndEndsOfTheIntervention)
+{
+  std::vector<std::string> ends;
+  for (const CentrelineEnd& end : centrelineEnds(vessel_->centreline))
+    ends.push_back(vessel_->centreline.branches[static_cast<std::size_t>(end.branch)].name);
+  const std::vector<std::string> expected{"ascending_aorta",      "left_common_femoral",      "right_common_femoral",
+                                          "right_common_carotid", "right_subclavian",         "left_common_carotid",
+                                          "left_subclavian",      "left_anterior_descending", "left_circumflex",
+                                          "right_coronary"};
+  EXPECT_EQ(ends, expected);
+}
+
+TEST_F(DefaultAnatomy, HasASmoothWallOfEvenFacets)
+{
+  const geometry::TriangleMesh& mesh = vessel_->mesh;
+  const auto normal = [&mesh](int t)
+  {
+    const auto at = [&](int k)
+    { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])]; };
+    return Eigen::Vector3d((at(1) - at(0)).cross(at(2) - at(0)).normalized());
+  };
+  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  std::vector<double> angles;
+  for (std::size_t begin = 0; begin < uses.size(); begin += 2)
+    angles.push_back(
+        std::acos(std::clamp(normal(uses[begin].triangle).dot(normal(uses[begin + 1].triangle)), -1.0, 1.0)));
+  std::sort(angles.begin(), angles.end());
+  // 20 facets around turn by 18° at an edge along the vessel.
+  EXPECT_LT(angles[angles.size() / 2], 12.0 * M_PI / 180.0);
+  EXPECT_LT(angles[angles.size() * 999 / 1000], 25.0 * M_PI / 180.0);
+  // At the sharpest carina.
+  EXPECT_LT(angles.back(), 75.0 * M_PI / 180.0);
+
+  double worst = 1e300;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(t[(k + i) % 3])]; };
+      const Eigen::Vector3d u = (at(1) - at(0)).normalized();
+      worst = std::min(worst, std::acos(std::clamp(u.dot((at(2) - at(0)).normalized()), -1.0, 1.0)));
+    }
+  EXPECT_GT(worst, 10.0 * M_PI / 180.0);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::vessel

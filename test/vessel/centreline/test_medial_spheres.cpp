@@ -1,0 +1,59 @@
+#include "vessel/centreline/medial_spheres.h"
+
+#include <gtest/gtest.h>
+
+#include "vessel/anatomy/tube.h"
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+using Neighbours = std::vector<std::vector<int>>;
+
+geometry::TriangleMesh channel()
+{
+  TubeShape shape;
+  shape.radius = 5e-3;
+  shape.facet_length = 5e-3;
+  shape.pieces = {{0.05, 0.0, 0.0}};
+  return tubeMesh(shape);
+}
+
+Neighbours joined(const std::vector<MedialSphere>& balls)
+{
+  const geometry::TriangleMesh mesh = channel();
+  Neighbours neighbours = overlappingBalls(balls);
+  joinParts(balls, geometry::MeshDistance(mesh), neighbours);
+  return neighbours;
+}
+
+TEST(JoinParts, LinksTheNearestBallsOfPartsThatSeeEachOther)
+{
+  // A chain of two, and a chain of two smaller ones 0.2 mm further on.
+  const std::vector<MedialSphere> balls{
+      {{0, 0, 0}, 3e-3}, {{0, 0, 4e-3}, 3e-3}, {{0, 0, 7.7e-3}, 5e-4}, {{0, 0, 8.4e-3}, 5e-4}};
+  EXPECT_EQ(joined(balls), (Neighbours{{1}, {0, 2}, {1, 3}, {2}}));
+}
+
+TEST(JoinParts, LeavesApartWhatIsFartherThanTheLargerRadius)
+{
+  const std::vector<MedialSphere> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 6.6e-3}, 5e-4}};
+  EXPECT_EQ(joined(balls), (Neighbours{{}, {}}));
+}
+
+TEST(JoinParts, LeavesApartWhatAWallParts)
+{
+  // The second one stands outside of the channel, next to it.
+  const std::vector<MedialSphere> balls{{{0, 0, 0}, 4.9e-3}, {{5.9e-3, 0, 0}, 8e-4}};
+  EXPECT_EQ(joined(balls), (Neighbours{{}, {}}));
+}
+
+TEST(JoinParts, LeavesConnectedPartsAsTheyAre)
+{
+  const std::vector<MedialSphere> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 4e-3}, 3e-3}, {{0, 0, 9e-3}, 3e-3}};
+  EXPECT_EQ(joined(balls), overlappingBalls(balls));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::vessel
