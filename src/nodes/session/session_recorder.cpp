@@ -13,6 +13,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "common/version.h"
 #include "common/error.h"
 #include "common/hash.h"
 #include "contact/contract/contact_set.h"
@@ -47,7 +48,7 @@ results::SessionIdentity identityOf(const scene::Scene& scene)
   identity.seed = scene.seed;
   identity.time_step = scene.solver.time_step;
   identity.duration = scene.duration;
-  identity.software_version = ENDOVASCULAR_SIM_VERSION;
+  identity.software_version = version();
   return identity;
 }
 
@@ -59,7 +60,7 @@ SessionInfo infoOf(const scene::Scene& scene)
   info.scene_hash = scene.hash();
   info.seed = scene.seed;
   info.time_step = scene.solver.time_step;
-  info.software_version = ENDOVASCULAR_SIM_VERSION;
+  info.software_version = version();
   return info;
 }
 
