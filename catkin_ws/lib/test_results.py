@@ -1,29 +1,49 @@
 #!/usr/bin/python3
-"""Writes and counts JUnit result files: one place that knows how many tests passed, failed and were skipped."""
+"""Writes and counts JUnit result files: the one place that counts passed, failed and skipped tests.
+
+    test_results.py summary FOLDER
+"""
 
 import argparse
+import glob
 import os
 import sys
 import xml.etree.ElementTree as ElementTree
 
-SKIPPED = 77  # exit code by which a script says that it cannot run here
+SKIPPED = 77  # exit code of a script that cannot run on this machine
+SLOWEST = 10  # tests listed in the summary
 
 
-def write(arguments):
-    """Writes the outcome of one command as a JUnit file with one test case."""
-    with open(arguments.log, errors="replace") as log:
-        text = log.read()[-4000:]
-    text = "".join(c for c in text if c in "\n\t" or " " <= c < "\ud800")
-    suite = ElementTree.Element("testsuite", name="checks", tests="1")
-    case = ElementTree.SubElement(
-        suite, "testcase", classname="checks", name=arguments.name, time="%.3f" % arguments.seconds)
-    if arguments.status == SKIPPED:
-        ElementTree.SubElement(case, "skipped").text = text
-    elif arguments.status != 0:
-        failure = ElementTree.SubElement(case, "failure", message="exit code %d" % arguments.status)
-        failure.text = text
-    os.makedirs(os.path.dirname(arguments.file), exist_ok=True)
-    ElementTree.ElementTree(suite).write(arguments.file, encoding="utf-8", xml_declaration=True)
+class Case:
+    """Outcome of one test."""
+
+    def __init__(self, suite, name):
+        self.suite = suite
+        self.name = name
+        self.seconds = 0.0
+        self.failed = False
+        self.skipped = False
+        self.message = ""
+        self.text = ""
+
+
+def printable(text):
+    """The characters of a text that XML can hold."""
+    return "".join(c for c in text if c in "\n\t" or " " <= c < "\ud800")
+
+
+def write_cases(path, name, cases):
+    """Writes a JUnit file."""
+    suite = ElementTree.Element("testsuite", name=name, tests=str(len(cases)))
+    for case in cases:
+        element = ElementTree.SubElement(
+            suite, "testcase", classname=case.suite, name=case.name, time="%.3f" % case.seconds)
+        if case.failed:
+            ElementTree.SubElement(element, "failure", message=printable(case.message)).text = printable(case.text)
+        elif case.skipped:
+            ElementTree.SubElement(element, "skipped").text = printable(case.text)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    ElementTree.ElementTree(suite).write(path, encoding="utf-8", xml_declaration=True)
 
 
 def outcome(case):
@@ -37,35 +57,57 @@ def outcome(case):
     return "passed", ""
 
 
-def summary(arguments):
-    """Prints every failure and the closing line; the exit code is 0 when something passed and nothing failed."""
+def count_failed(folder, name):
+    """Failed tests in the result files of that name below a folder; an incomplete file counts as one."""
+    failed = 0
+    for path in glob.glob(os.path.join(folder, "**", "*" + name), recursive=True):
+        try:
+            root = ElementTree.parse(path).getroot()
+        except ElementTree.ParseError:
+            failed += 1
+            continue
+        cases = sum(outcome(case)[0] == "failed" for case in root.iter("testcase"))
+        failed += cases or int(root.get("errors") or 0) + int(root.get("failures") or 0)
+    return failed
+
+
+def summary(folder):
+    """Prints the slowest tests, every failure and the closing line. The exit code is 0 when at least one test passed and
+    none failed."""
     counts = {"passed": 0, "failed": 0, "skipped": 0}
-    for folder, folders, files in os.walk(arguments.folder):
+    slowest, failures = [], []
+    for parent, folders, files in os.walk(folder):
         folders.sort()
         for name in sorted(files):
             if not name.endswith(".xml"):
                 continue
-            path = os.path.join(folder, name)
+            path = os.path.join(parent, name)
             try:
                 root = ElementTree.parse(path).getroot()
             except ElementTree.ParseError as error:
                 counts["failed"] += 1
-                print("   FAILED  %s: not a complete result file (%s)" % (path, error))
+                failures.append("%s: not a complete result file (%s)" % (path, error))
                 continue
-            cases = list(root.iter("testcase"))
             declared = int(root.get("errors") or 0) + int(root.get("failures") or 0)
             failed_here = 0
-            for case in cases:
+            for case in root.iter("testcase"):
                 result, reason = outcome(case)
                 counts[result] += 1
+                slowest.append((float(case.get("time") or 0.0), "%s.%s" % (case.get("classname"), case.get("name"))))
                 if result == "failed":
                     failed_here += 1
-                    print("   FAILED  %s.%s: %s" % (case.get("classname"), case.get("name"),
+                    failures.append("%s.%s: %s" % (case.get("classname"), case.get("name"),
                                                    (reason.splitlines() or [""])[0]))
-            # A suite that could not run has an error of its own and no case to carry it.
+            # A suite that could not start has an error of its own and no test case.
             if declared > 0 and failed_here == 0:
                 counts["failed"] += 1
-                print("   FAILED  %s: the suite reports %d errors" % (path, declared))
+                failures.append("%s: the suite reports %d errors" % (path, declared))
+    if slowest:
+        print("   the slowest tests:")
+        for seconds, name in sorted(slowest, reverse=True)[:SLOWEST]:
+            print("   %8.1f s  %s" % (seconds, name))
+    for failure in failures:
+        print("   FAILED  " + failure)
     line = "%d passed, %d failed" % (counts["passed"], counts["failed"])
     if counts["skipped"]:
         line += ", %d skipped" % counts["skipped"]
@@ -76,20 +118,11 @@ def summary(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    one = commands.add_parser("write", help="write the outcome of one command")
-    one.add_argument("file")
-    one.add_argument("--name", required=True)
-    one.add_argument("--status", type=int, required=True)
-    one.add_argument("--seconds", type=float, default=0.0)
-    one.add_argument("--log", required=True)
-    one.set_defaults(run=write)
     every = commands.add_parser("summary", help="count all result files below a folder")
     every.add_argument("folder")
-    every.set_defaults(run=summary)
-    arguments = parser.parse_args()
-    return arguments.run(arguments)
+    return summary(parser.parse_args().folder)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,8 @@
 #include "scene/yaml/file_search.h"
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -18,12 +21,36 @@ std::string environment(const char* name)
   return value == nullptr ? "" : value;
 }
 
+/** Path of the program, or of the shared library, that this function is linked into. */
+fs::path ownFile()
+{
+  Dl_info info{};
+  link_map* object = nullptr;
+  const bool found =
+      dladdr1(reinterpret_cast<const void*>(&ownFile), &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+  // The dynamic linker names every object except the program itself.
+  const bool in_library = found && object != nullptr && object->l_name != nullptr && object->l_name[0] != '\0';
+  std::error_code error;
+  return fs::canonical(in_library ? object->l_name : "/proc/self/exe", error);
+}
+
+/** share/endovascular_sim/config in the nearest folder above @p file that has it, otherwise in the first one. */
+fs::path configAbove(const fs::path& file)
+{
+  const fs::path config = fs::path("share") / "endovascular_sim" / "config";
+  std::error_code error;
+  for (fs::path folder = file.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+    if (fs::is_directory(folder / config, error))
+      return folder / config;
+  return file.parent_path() / config;
+}
+
 }  // namespace
 
 std::string configFolder()
 {
   const std::string folder = environment("ENDOVASCULAR_CONFIG_DIR");
-  return folder.empty() ? ENDOVASCULAR_CONFIG_FOLDER : folder;
+  return folder.empty() ? configAbove(ownFile()).string() : folder;
 }
 
 std::string findSceneFile(const SceneNode& node, const std::string& path, const std::string& scene_file)
@@ -49,7 +76,7 @@ std::string findSceneFile(const SceneNode& node, const std::string& path, const 
   }
   throw InputError(node.file, path + node.place(),
                    "no such file \"" + node.text + "\"" +
-                       (fs::path(node.text).is_absolute() ? "" : "; sought in " + tried.substr(0, tried.size() - 2)) +
+                       (fs::path(node.text).is_absolute() ? "" : "; searched in " + tried.substr(0, tried.size() - 2)) +
                        "; give the path of an existing file");
 }
 

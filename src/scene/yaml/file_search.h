@@ -7,13 +7,15 @@
 namespace endovascular_sim::scene
 {
 
-/** The package's config folder: ENDOVASCULAR_CONFIG_DIR, or the one this program was built from. */
+/** The package's config folder: ENDOVASCULAR_CONFIG_DIR if set. Otherwise share/endovascular_sim/config in the nearest
+ *  folder above the program or shared library that holds this function. An installation may therefore be moved. In the
+ *  devel space that folder is a link to the sources. The folder need not exist. */
 std::string configFolder();
 
-/** Finds the file that a scene names by @p text. Relative paths are sought beside the scene, in the package's config
- *  folder, in the current folder and in ENDOVASCULAR_DATA_DIR, in this order; from an override in the current folder
- * first.
- *  @param node the value, for its place in errors
+/** Finds a file that a scene names in @p node. Relative paths are searched beside the scene, in the package's config
+ *  folder, in the current folder and in ENDOVASCULAR_DATA_DIR, in this order. Those of an override are searched in the
+ *  current folder first.
+ *  @param node the value, with its position for errors
  *  @param path key path of the value
  *  @param scene_file the scene
  *  @throws InputError naming the folders when there is no such file */

@@ -1,0 +1,293 @@
+#!/usr/bin/python3
+"""Runs the built tests of the package and reports them: gtest programs in parallel shards, then the programs that
+measure time, the rostests and the scripts one after another. Every test has a ceiling of time; the last line reads
+`N passed, N failed`."""
+
+import argparse
+import concurrent.futures
+import fnmatch
+import glob
+import os
+import re
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import test_results
+
+# Programs whose tests have deadlines of milliseconds: nothing runs beside them.
+ALONE = ("common", "haptics", "nodes")
+SECONDS_PER_GTEST = 300  # ceiling of one test case
+SECONDS_PER_ROSTEST = 300
+SECONDS_PER_SCRIPT = 900
+SECONDS_PER_LONG_SCRIPT = 4 * 3600  # scripts of test/scripts/all
+TESTS_PER_SHARD = 10  # a program with fewer is not divided
+
+
+class Run:
+    """One process: a shard of a gtest program, a rostest or a script."""
+
+    def __init__(self, kind, name, command, environment=None):
+        self.kind = kind
+        self.name = name
+        self.command = command
+        self.environment = environment or {}
+
+
+class Runner:
+    def __init__(self, arguments):
+        self.arguments = arguments
+        self.repository = os.path.realpath(arguments.repository)
+        self.workspace = os.path.join(self.repository, "catkin_ws")
+        self.programs = os.path.join(self.workspace, "devel", "lib", "endovascular_sim")
+        self.results = os.path.join(self.workspace, "build", "test_results")
+        self.logs = os.path.join(self.workspace, "build", "test_logs")
+        for folder in (self.results, self.logs):
+            shutil.rmtree(folder, ignore_errors=True)
+            os.makedirs(folder)
+
+    # ------------------------------------------------------------------------------------------------- what to run
+
+    def folders(self):
+        """Folders of test/ with a gtest program."""
+        return [name for name in sorted(os.listdir(os.path.join(self.repository, "test")))
+                if os.path.exists(os.path.join(self.programs, "test_" + name))]
+
+    def filter_of(self, folder):
+        """gtest filter of the tests in a sub-folder of test/, e.g. rod/contact."""
+        patterns = []
+        for path in glob.glob(os.path.join(self.repository, "test", folder, "**", "test_*.cpp"), recursive=True):
+            with open(path) as source:
+                text = source.read()
+            for suite, name in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", text, re.MULTILINE):
+                patterns += ["%s.%s" % (suite, name), "*/%s.%s/*" % (suite, name), "%s/*.%s" % (suite, name)]
+        return ":".join(patterns)
+
+    def tests_in(self, program, gtest_filter):
+        listed = subprocess.run([program, "--gtest_list_tests", "--gtest_filter=" + gtest_filter],
+                                cwd=self.repository, stdout=subprocess.PIPE, universal_newlines=True, check=True).stdout
+        return sum(line.startswith("  ") for line in listed.splitlines())
+
+    def gtests(self):
+        only = self.arguments.only
+        if only and only.split("/")[0] == "scripts":
+            return []
+        runs = []
+        for folder in self.folders():
+            if only and only.split("/")[0] != folder:
+                continue
+            program = os.path.join(self.programs, "test_" + folder)
+            gtest_filter = self.arguments.filter or "*"
+            if only and "/" in only:
+                if self.arguments.filter:
+                    raise SystemExit("error: --filter goes with a top folder of test/, not with '%s'" % only)
+                gtest_filter = self.filter_of(only)
+                if not gtest_filter:
+                    raise SystemExit("error: there is no test in test/%s" % only)
+            count = self.tests_in(program, gtest_filter)
+            if count == 0:
+                continue
+            shards = 1 if folder in ALONE else max(1, min(2 * processors(), count // TESTS_PER_SHARD))
+            for shard in range(shards):
+                name = "test_" + folder + ("" if shards == 1 else "_%d_of_%d" % (shard + 1, shards))
+                runs.append(Run("gtest", name, [program, "--gtest_color=no", "--gtest_filter=" + gtest_filter],
+                                {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard)}))
+        return runs
+
+    def rostests(self):
+        if self.arguments.no_rostest or (self.arguments.only and self.arguments.only != "nodes"):
+            return []
+        runs = []
+        for launch in sorted(glob.glob(os.path.join(self.repository, "test", "nodes", "*.test"))):
+            name = "graph_" + os.path.splitext(os.path.basename(launch))[0]
+            if self.wanted(name):
+                # rostest starts a master on a free port.
+                runs.append(Run("rostest", name, [
+                    "/usr/bin/rostest", "--pkgdir=" + self.repository, "--package=endovascular_sim",
+                    "--results-filename=" + name + ".xml", "--results-base-dir=" + self.results, launch]))
+        return runs
+
+    def scripts(self):
+        if self.arguments.only and self.arguments.only != "scripts":
+            return []
+        folder = os.path.join(self.repository, "test", "scripts")
+        paths = sorted(glob.glob(os.path.join(folder, "test_*.sh")))
+        if self.arguments.all:
+            paths += sorted(glob.glob(os.path.join(folder, "all", "test_*.sh")))
+        runs = []
+        for path in paths:
+            name = os.path.splitext(os.path.basename(path))[0]
+            if self.wanted(name):
+                long = os.path.basename(os.path.dirname(path)) == "all"
+                runs.append(Run("long script" if long else "script", name, ["bash", path]))
+        return runs
+
+    def wanted(self, name):
+        return not self.arguments.filter or fnmatch.fnmatchcase(name, self.arguments.filter)
+
+    # ------------------------------------------------------------------------------------------------------ running
+
+    def run(self, run):
+        """Runs one process to its end and writes its results."""
+        log = os.path.join(self.logs, run.name + ".log")
+        scratch = os.path.join(self.workspace, "build", "test_scratch", run.name)
+        shutil.rmtree(scratch, ignore_errors=True)
+        os.makedirs(scratch)
+        environment = dict(os.environ, ROS_HOME=os.path.join(scratch, "ros"), **run.environment)
+        if run.kind == "gtest":  # tests that write files of fixed names run beside each other
+            environment["TMPDIR"] = scratch
+        begin = time.monotonic()
+        if run.kind == "gtest":
+            cases = self.run_gtest(run, log, environment)
+        else:
+            cases = self.run_command(run, log, environment)
+        shutil.rmtree(scratch, ignore_errors=True)
+        if cases is not None:
+            test_results.write_cases(os.path.join(self.results, run.name + ".xml"), run.name, cases)
+            failed = sum(case.failed for case in cases)
+        else:
+            failed = test_results.count_failed(self.results, run.name + ".xml")
+        outcome = "ok" if not failed else "FAILED, see " + log
+        if cases and all(case.skipped for case in cases):
+            outcome = "skipped"
+        print("   %-52s %7.1f s  %s" % (run.name, time.monotonic() - begin, outcome), flush=True)
+
+    def run_command(self, run, log, environment):
+        """A script or a rostest. Returns its cases, or None where it has written a result file itself."""
+        seconds = {"script": SECONDS_PER_SCRIPT, "long script": SECONDS_PER_LONG_SCRIPT,
+                   "rostest": SECONDS_PER_ROSTEST}[run.kind]
+        case = test_results.Case("scripts" if run.kind != "rostest" else "nodes", run.name)
+        begin = time.monotonic()
+        with open(log, "w") as output:
+            process = subprocess.Popen(run.command, cwd=self.repository, env=environment, stdin=subprocess.DEVNULL,
+                                       stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+            try:
+                status = process.wait(timeout=seconds)
+            except subprocess.TimeoutExpired:
+                end_group(process)
+                status = None
+        case.seconds = time.monotonic() - begin
+        with open(log, errors="replace") as output:
+            case.text = output.read()[-4000:]
+        if status is None:
+            case.failed, case.message = True, "not finished within %d s" % seconds
+        elif run.kind == "rostest":
+            written = glob.glob(os.path.join(self.results, "**", run.name + ".xml"), recursive=True)
+            written += glob.glob(os.path.join(self.results, "**", "*" + run.name + ".xml"), recursive=True)
+            if written and (status == 0 or test_results.count_failed(self.results, run.name + ".xml")):
+                return None
+            case.failed, case.message = True, "exit code %d and no result of a test" % status
+        elif status == test_results.SKIPPED:
+            case.skipped = True
+        elif status != 0:
+            case.failed, case.message = True, "exit code %d" % status
+        return [case]
+
+    def run_gtest(self, run, log, environment):
+        """A shard of a gtest program, read as it prints: a crash or a test that hangs loses no other result."""
+        process = subprocess.Popen(run.command, cwd=self.repository, env=environment, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        cases, current, text = [], None, []
+        begin = time.monotonic()
+        hung = False
+        with open(log, "w") as output, selectors.DefaultSelector() as selector:
+            selector.register(process.stdout, selectors.EVENT_READ)
+            pending = b""
+            while True:
+                if not selector.select(timeout=max(0.0, begin + SECONDS_PER_GTEST - time.monotonic())):
+                    end_group(process)
+                    hung = True
+                    break
+                block = os.read(process.stdout.fileno(), 65536)
+                if not block:
+                    break
+                *lines, pending = (pending + block).split(b"\n")
+                for line in lines:
+                    line = line.decode(errors="replace")
+                    output.write(line + "\n")
+                    started = re.match(r"\[ RUN      \] (\S+)$", line)
+                    # A test may print without a newline before gtest's own line.
+                    ended = re.search(r"\[(       OK |  FAILED  |  SKIPPED )\] (\S+?),?(?: where .*)? \((\d+) ms\)$", line)
+                    if started:
+                        current, text, begin = started.group(1), [], time.monotonic()
+                    elif ended and ended.group(2) == current:
+                        case = test_results.Case(*current.rsplit(".", 1))
+                        case.seconds = int(ended.group(3)) / 1000
+                        case.failed = "FAILED" in ended.group(1)
+                        case.skipped = "SKIPPED" in ended.group(1)
+                        case.message, case.text = first_line(text), "\n".join(text)[-4000:]
+                        cases.append(case)
+                        current, begin = None, time.monotonic()
+                    elif current:
+                        text.append(line)
+        status = process.wait()
+        if current or hung or (status != 0 and not any(case.failed for case in cases)):
+            case = test_results.Case(*(current or run.name + ".end").rsplit(".", 1))
+            case.seconds = time.monotonic() - begin
+            case.failed = True
+            reason = "not finished within %d s" % SECONDS_PER_GTEST if hung else "the program ended with code %d" % status
+            case.message, case.text = reason + "; the tests after it did not run", "\n".join(text)[-4000:]
+            cases.append(case)
+        return cases
+
+    def run_all(self):
+        if self.arguments.only and not self.known(self.arguments.only):
+            raise SystemExit("error: there is no folder test/%s with tests" % self.arguments.only)
+        gtests, rostests, scripts = self.gtests(), self.rostests(), self.scripts()
+        alone = [run for run in gtests if run.name[len("test_"):] in ALONE]
+        parallel = [run for run in gtests if run not in alone]
+        if parallel:
+            print("== gtest, %d at once; logs: %s" % (processors(), self.logs), flush=True)
+            with concurrent.futures.ThreadPoolExecutor(processors()) as pool:
+                for _ in pool.map(self.run, parallel):
+                    pass
+        for title, runs in (("gtest, tests with deadlines, one at a time", alone),
+                            ("rostest, one at a time", rostests), ("scripts", scripts)):
+            if runs:
+                print("== " + title, flush=True)
+            for run in runs:
+                self.run(run)
+        print("== Summary", flush=True)
+        return test_results.summary(self.results)
+
+    def known(self, folder):
+        return folder == "scripts" or (folder.split("/")[0] in self.folders() and
+                                       os.path.isdir(os.path.join(self.repository, "test", folder)))
+
+
+def processors():
+    return len(os.sched_getaffinity(0))
+
+
+def first_line(lines):
+    return next((line.strip() for line in lines if line.strip()), "")
+
+
+def end_group(process):
+    """Ends a process and its children: SIGINT first, so that a launch can end its nodes."""
+    for number, patience in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
+        try:
+            os.killpg(process.pid, number)
+            process.wait(timeout=patience)
+            return
+        except ProcessLookupError:
+            return
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("repository")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--filter", default="")
+    parser.add_argument("--no-rostest", action="store_true")
+    parser.add_argument("--all", action="store_true")
+    return Runner(parser.parse_args()).run_all()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

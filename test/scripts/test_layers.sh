@@ -1,0 +1,60 @@
+#!/bin/bash
+# No include of src runs upwards or in a circle between folders: each points to its own folder or to one earlier in the
+# list of docs/ARCHITECTURE.md, section "Layers". Only nodes and tools include ROS. A folder holds at most 15 concepts.
+set -eu
+cd "$(dirname "$0")/../.."
+exec /usr/bin/python3 - <<'PYTHON'
+import os
+import re
+import sys
+
+CONCEPTS = 15  # per folder; a header and its source file count once
+ROS = re.compile(r"(ros|rosbag|tf2_ros|diagnostic_updater|message_filters|std_srvs|\w+_msgs|endovascular_sim)/")
+
+text = open("docs/ARCHITECTURE.md").read()
+block = re.search(r"^## Layers\n.*?^```\w*\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+if not block:
+    sys.exit("docs/ARCHITECTURE.md has no fenced list in a section 'Layers'")
+level = {}
+for number, line in enumerate(block.group(1).splitlines()):
+    # Folders of one line are independent of each other; two spaces divide them from the description.
+    for folder in re.split(r"\s{2,}", line.strip())[0].split():
+        level[folder] = number
+
+errors = []
+seen = set()
+for parent, folders, files in os.walk("src"):
+    folders.sort()
+    folder = os.path.relpath(parent, "src")
+    sources = sorted(name for name in files if name.endswith((".h", ".cpp")))
+    if not sources:
+        continue
+    seen.add(folder)
+    concepts = {os.path.splitext(name)[0] for name in sources}
+    if len(concepts) > CONCEPTS:
+        errors.append("src/%s holds %d concepts, more than %d" % (folder, len(concepts), CONCEPTS))
+    if folder not in level:
+        errors.append("src/%s is not in the list of docs/ARCHITECTURE.md" % folder)
+        continue
+    for name in sources:
+        path = os.path.join(parent, name)
+        with_ros = folder.split("/")[0] in ("nodes", "tools")
+        for number, line in enumerate(open(path), 1):
+            include = re.match(r'\s*#include\s+(["<])([^">]+)[">]', line)
+            if not include:
+                continue
+            where, target = "%s:%d: " % (path, number), include.group(2)
+            if ROS.match(target):
+                if not with_ros:
+                    errors.append(where + "only nodes and tools include ROS: " + target)
+            elif include.group(1) == '"' and "/" in target:
+                other = os.path.dirname(target)
+                if not os.path.exists(os.path.join("src", target)):
+                    errors.append(where + "no such file: src/" + target)
+                elif other != folder and not level.get(other, len(level)) < level[folder]:
+                    errors.append(where + "%s is not before %s in the order of folders" % (other, folder))
+for folder in sorted(set(level) - seen):
+    errors.append("docs/ARCHITECTURE.md lists %s, but src/%s holds no source" % (folder, folder))
+print("\n".join(errors))
+sys.exit(1 if errors else 0)
+PYTHON
