@@ -9,8 +9,6 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
-#include <exception>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -28,6 +26,8 @@
 #include "nodes/runtime/real_time.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
@@ -40,29 +40,7 @@ using endovascular_sim::haptics::MotionScript;
 using endovascular_sim::haptics::PayloadFormat;
 using endovascular_sim::haptics::SimulatorOptions;
 using endovascular_sim::haptics::StartCondition;
-
-constexpr auto kUsage = R"(Plays a haptic device on a pseudo-terminal: real rosserial bytes at the speed of a real line.
-
-usage: device_simulator --link PATH (--scene FILE | --script FILE | --keyboard) [options]
-
-  --link PATH          name under which the host finds the device; a link is made there
-  --scene FILE         the operator plays the scene's drive profile
-  --set key.path=value replaces a value of the scene; may be repeated
-  --script FILE        the operator plays a CSV file: time [s], insertion [m], rotation [rad]
-  --keyboard           arrow keys: up push, down pull, left and right twist; space grip, q end
-  --start WHEN         the motion begins when the host has subscribed (subscribed, the default) or when the
-                       simulation's forces come back (enabled)
-  --seconds T          ends T seconds after the motion began; default: runs until stopped
-  --rate HZ            samples per second, default 1000
-  --baud N             speed of the line, default 230400 [bit/s]
-  --sample KIND        haptic (13 bytes, default) or joint_state (with a Wrench for the force; about 100 bytes)
-  --unplug-at T        pulls the plug T seconds after the motion began
-  --replug-after T     and puts it back T seconds later, restarted; default: never
-  --out FILE           writes what was measured as JSON
-  --help               prints this
-
-exit code: 0 ended as asked or by a signal, 1 refused (the reason goes to the error stream), 2 wrong use
-)";
+using endovascular_sim::tools::CommandLine;
 
 volatile std::sig_atomic_t stop_requested = 0;
 
@@ -86,89 +64,60 @@ struct Arguments
   double unplug_at = std::numeric_limits<double>::infinity();
   double replug_after = std::numeric_limits<double>::infinity();
   std::string out;
-  bool help = false;
 };
 
-double number(const std::string& option, const std::string& text)
+/** @return message for a rejected combination of arguments, or an empty text */
+std::string conflict(const Arguments& arguments)
 {
-  std::size_t used = 0;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  try
-  {
-    value = std::stod(text, &used);
-  }
-  catch (const std::exception&)
-  {
-    used = 0;
-  }
-  if (used != text.size() || !(value >= 0.0))
-    throw InputError("command line", option, "needs a number that is not negative, not \"" + text + "\"");
-  return value;
-}
-
-Arguments parse(const std::vector<std::string>& words)
-{
-  Arguments arguments;
-  for (std::size_t i = 0; i < words.size(); ++i)
-  {
-    const std::string& option = words[i];
-    const auto value = [&]() -> const std::string&
-    {
-      if (i + 1 >= words.size())
-        throw InputError("command line", option, "needs a value");
-      return words[++i];
-    };
-    if (option == "--help" || option == "-h")
-      arguments.help = true;
-    else if (option == "--keyboard")
-      arguments.keyboard = true;
-    else if (option == "--link")
-      arguments.link = value();
-    else if (option == "--scene")
-      arguments.scene = value();
-    else if (option == "--set")
-      arguments.overrides.push_back(value());
-    else if (option == "--script")
-      arguments.script = value();
-    else if (option == "--start")
-      arguments.start = value();
-    else if (option == "--sample")
-      arguments.sample = value();
-    else if (option == "--out")
-      arguments.out = value();
-    else if (option == "--seconds")
-      arguments.seconds = number(option, value());
-    else if (option == "--rate")
-      arguments.rate = number(option, value());
-    else if (option == "--baud")
-      arguments.baud = static_cast<int>(number(option, value()));
-    else if (option == "--unplug-at")
-      arguments.unplug_at = number(option, value());
-    else if (option == "--replug-after")
-      arguments.replug_after = number(option, value());
-    else
-      throw InputError("command line", option, "is not an option; --help lists them");
-  }
-  return arguments;
-}
-
-void check(const Arguments& arguments)
-{
-  if (arguments.link.empty())
-    throw InputError("command line", "--link", "is missing; give the path under which the host shall find the device");
   const int sources = int{!arguments.scene.empty()} + int{!arguments.script.empty()} + int{arguments.keyboard};
   if (sources != 1)
-    throw InputError("command line", "", "give exactly one of --scene, --script and --keyboard");
-  if (arguments.start != "subscribed" && arguments.start != "enabled")
-    throw InputError("command line", "--start", "is subscribed or enabled, not " + arguments.start);
-  if (arguments.sample != "haptic" && arguments.sample != "joint_state")
-    throw InputError("command line", "--sample", "is haptic or joint_state, not " + arguments.sample);
-  if (arguments.rate < 1.0 || arguments.rate > 10000.0)
-    throw InputError("command line", "--rate", "must lie between 1 and 10000 Hz");
-  endovascular_sim::haptics::SerialPort::checkBaud(arguments.baud, "--baud");
+    return "give exactly one of --scene, --script and --keyboard";
+  try
+  {
+    endovascular_sim::haptics::SerialPort::checkBaud(arguments.baud, "--baud");
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return "";
 }
 
-/** A hand that is led by keys: each press moves the goal, the hand follows at a human speed. */
+void addOptions(CommandLine& line, Arguments& arguments)
+{
+  using endovascular_sim::tools::nonNegativeNumber;
+  line.option("--link", arguments.link, "PATH", "path of the symbolic link under which the host finds the device")
+      ->required();
+  line.option("--scene", arguments.scene, "FILE", "the operator follows the scene's drive profile");
+  line.overrides(arguments.overrides, "replaces a value of the scene");
+  line.option("--script", arguments.script, "FILE",
+              "the operator follows a CSV file: time [s], insertion [m], rotation [rad]");
+  line.flag("--keyboard", arguments.keyboard,
+            "arrow keys: up push, down pull, left and right twist; space grip, q end");
+  line.option(
+          "--start", arguments.start, "WHEN",
+          "start of the motion: after the host's subscription (subscribed), or after the first enabled force of the "
+          "simulation (enabled) [subscribed]")
+      ->check(CLI::IsMember({"subscribed", "enabled"}));
+  line.option("--seconds", arguments.seconds, "T", "ends T seconds after the start of the motion; default: no end")
+      ->check(nonNegativeNumber());
+  line.option("--rate", arguments.rate, "HZ", "samples per second, 1 to 10000 [1000]")->check(CLI::Range(1.0, 10000.0));
+  line.option("--baud", arguments.baud, "N", "speed of the line [230400 bit/s]");
+  line.option("--sample", arguments.sample, "KIND",
+              "message of a sample: haptic (13 bytes), or joint_state with a Wrench for the force (about 100 bytes) "
+              "[haptic]")
+      ->check(CLI::IsMember({"haptic", "joint_state"}));
+  line.option("--unplug-at", arguments.unplug_at, "T", "unplugs the device T seconds after the start of the motion")
+      ->check(nonNegativeNumber());
+  line.option("--replug-after", arguments.replug_after, "T",
+              "plugs the restarted device in again T seconds later; default: never")
+      ->check(nonNegativeNumber());
+  line.option("--out", arguments.out, "FILE", "writes the measurements as JSON");
+  line.require([&arguments] { return conflict(arguments); });
+}
+
+/** Hand controlled by the keyboard: each key moves the goal, and the hand follows at human speed.
+ */
 class KeyboardOperator
 {
 public:
@@ -278,7 +227,7 @@ SimulatorOptions simulatorOptions(const Arguments& arguments, KeyboardOperator* 
     const auto scene = endovascular_sim::scene::loadScene(arguments.scene, arguments.overrides);
     const auto drive = scene.instruments.front().drive;
     options.duration = scene.duration;
-    // The device counts from where it starts; where the wire starts is the scene's and the host's business.
+    // The device reports displacements from its start; scene and host define the initial insertion of the wire.
     options.motion = [drive](double time) -> HandMotion {
       return {drive.insertionAt(time) - drive.initial_insertion, drive.rotationAt(time) - drive.initial_rotation};
     };
@@ -312,10 +261,7 @@ void writeReport(const DeviceSimulator::Report& report, const std::string& file)
   std::cout << json.dump(2) << "\n";
   if (file.empty())
     return;
-  std::ofstream stream(file);
-  stream << json.dump(2) << "\n";
-  if (!stream.flush())
-    throw InputError(file, "", "cannot be written; choose a folder that exists and can be written");
+  endovascular_sim::tools::writeFile(file, json.dump(2) + "\n");
 }
 
 void showHand(const DeviceSimulator& device)
@@ -337,8 +283,8 @@ void waitUntil(double wake, int descriptor)
   ppoll(&source, 1, &timeout, nullptr);
 }
 
-/** Pulls the plug and puts it back when it is time. */
-void movePlug(DeviceSimulator& device, const Arguments& arguments, double now)
+/** Unplugs the device and plugs it in again at the given times. */
+void updatePlug(DeviceSimulator& device, const Arguments& arguments, double now)
 {
   const double time = device.motionTime(now);
   const bool out =
@@ -349,11 +295,11 @@ void movePlug(DeviceSimulator& device, const Arguments& arguments, double now)
     device.plug(now);
 }
 
-void run(const Arguments& arguments)
+int run(const Arguments& arguments)
 {
   const auto keyboard = arguments.keyboard ? std::make_unique<KeyboardOperator>() : nullptr;
   DeviceSimulator device(simulatorOptions(arguments, keyboard.get()));
-  // A device does not share its processor with the simulation: ask to be served first.
+  // A real device does not share its processor with the simulation: request real-time priority.
   prctl(PR_SET_TIMERSLACK, 1UL);
   sched_param priority = {};
   priority.sched_priority = sched_get_priority_min(SCHED_FIFO);
@@ -375,12 +321,13 @@ void run(const Arguments& arguments)
         shown_at = now;
       }
     }
-    movePlug(device, arguments, now);
+    updatePlug(device, arguments, now);
     device.step(now);
     waitUntil(device.isPlugged() ? device.wakeAt() : now + 5e-3, device.descriptor());
   }
   device.unplug();
   writeReport(device.report(), arguments.out);
+  return 0;
 }
 
 }  // namespace
@@ -389,33 +336,17 @@ int main(int argc, char** argv)
 {
   endovascular_sim::nodes::keepOffLockStepCpu();
   Arguments arguments;
-  try
-  {
-    std::vector<std::string> words;
-    ros::removeROSArgs(argc, argv, words);  // roslaunch appends its own
-    arguments = parse({words.begin() + 1, words.end()});
-    if (arguments.help)
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    check(arguments);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "device_simulator: " << error.what() << "\n" << kUsage;
-    return 2;
-  }
+  CommandLine line(
+      "device_simulator", "Emulates a haptic device on a pseudo-terminal: rosserial bytes at the speed of a real line.",
+      "Exit code: 0 ended as requested or by a signal; 1 rejected (the reason is on the error stream); 2 wrong "
+      "arguments.");
+  addOptions(line, arguments);
+  std::vector<std::string> words;
+  ros::removeROSArgs(argc, argv, words);  // appended by roslaunch
+  std::vector<const char*> pointers;
+  for (const std::string& word : words)
+    pointers.push_back(word.c_str());
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
-  try
-  {
-    run(arguments);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "device_simulator: " << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+  return line.run(static_cast<int>(pointers.size()), pointers.data(), [&arguments] { return run(arguments); });
 }

@@ -1,10 +1,7 @@
-// Renders one fluoroscopy frame of a mesh, and optionally of a wire, into a PNG file.
-
 #include <cmath>
-#include <exception>
+#include <cstdio>
 #include <fstream>
-#include <iostream>
-#include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,106 +10,97 @@
 #include "fluoroscopy/attenuation.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/png_writer.h"
+#include "tools/command_line.h"
 #include "vessel/io/mesh_reader.h"
 
-namespace endovascular_sim
-{
 namespace
 {
 
-constexpr auto kHelp = R"(Renders one fluoroscopy frame into a PNG file.
+using namespace endovascular_sim;  // NOLINT: a program's main file
 
-  fluoroscopy_frame --mesh FILE --table FILE --out FILE.png [options]
-
-  --mesh FILE          closed triangle mesh of the vessel (OBJ, STL, PLY); faces may point in or out
-  --unit U             metres per unit of the mesh and the wire [0.001]
-  --left AXIS          axis of the mesh towards the patient's left: x, -x, y, -y, z or -z [x]
-  --head AXIS          axis of the mesh towards the head [z]; the patient frame is x left, y posterior, z head
-  --wire FILE.csv      wire: a row x,y,z per node, proximal to distal, in the frame and unit of the mesh
-  --radius R           of the wire [0.00018 m]
-  --tip L              length of the platinum tip; the rest is nitinol [0.03 m]
-  --table FILE         attenuation table (config/xray/attenuation.yaml)
-  --lao DEG            primary angle, LAO positive [0]
-  --cranial DEG        secondary angle, cranial positive [0]
-  --isocentre X,Y,Z    in the patient frame, in the unit of the mesh [the wire's tip, else the centre of the mesh]
-  --sid M --sod M      distances source to detector and to isocentre [1.2] [0.75]
-  --detector M         width of the detector [0.3]
-  --pixels N           along a side [512]
-  --energy KEV         photon energy [60]
-  --iodine MG          iodine in the vessel [150 mgI/ml]
-  --tissue M           thickness of soft tissue [0.2]
-  --raw                write the linear 16-bit detector signal instead of the display image
-)";
-
-class Options
+struct Options
 {
-public:
-  Options(int argc, char** argv)
-  {
-    static const std::map<std::string, std::string> kDefaults = {
-        {"--mesh", ""},          {"--unit", "0.001"}, {"--left", "x"},     {"--head", "z"},       {"--wire", ""},
-        {"--radius", "0.00018"}, {"--tip", "0.03"},   {"--table", ""},     {"--lao", "0"},        {"--cranial", "0"},
-        {"--isocentre", ""},     {"--sid", "1.2"},    {"--sod", "0.75"},   {"--detector", "0.3"}, {"--pixels", "512"},
-        {"--energy", "60"},      {"--iodine", "150"}, {"--tissue", "0.2"}, {"--out", ""}};
-    values_ = kDefaults;
-    for (int i = 1; i < argc; ++i)
-    {
-      const std::string key = argv[i];
-      if (key == "--raw")
-        raw_ = true;
-      else if (values_.count(key) == 0)
-        throw InputError("command line", key, "unknown option; --help lists them");
-      else if (++i == argc)
-        throw InputError("command line", key, "needs a value");
-      else
-        values_[key] = argv[i];
-    }
-    for (const char* key : {"--mesh", "--table", "--out"})
-      if (values_.at(key).empty())
-        throw InputError("command line", key, "missing; --help explains it");
-  }
-
-  const std::string& text(const std::string& key) const { return values_.at(key); }
-  bool raw() const { return raw_; }
-
-  std::vector<double> numbers(const std::string& key, std::size_t count) const
-  {
-    std::string text = values_.at(key);
-    for (char& c : text)
-      c = c == ',' ? ' ' : c;
-    std::istringstream words(text);
-    std::vector<double> values(count);
-    std::string rest;
-    for (double& value : values)
-      words >> value;
-    if (!words || words >> rest)
-      throw InputError("command line", key, "needs " + std::to_string(count) + " number(s), separated by commas");
-    return values;
-  }
-
-  double number(const std::string& key) const { return numbers(key, 1).front(); }
-
-private:
-  std::map<std::string, std::string> values_;
-  bool raw_ = false;
+  std::string mesh;
+  std::string table;
+  std::string out;
+  std::string wire;
+  std::string left = "x";
+  std::string head = "z";
+  double unit = 1e-3;        ///< length of a unit of mesh and wire [m]
+  double radius = 1.8e-4;    ///< radius of the wire [m]
+  double tip_length = 0.03;  ///< length of the platinum tip [m]
+  double lao = 0.0;          ///< primary angle [°]
+  double cranial = 0.0;      ///< secondary angle [°]
+  std::string isocentre;     ///< x,y,z in units of the mesh; empty: default
+  double source_to_detector = 1.2;
+  double source_to_patient = 0.75;
+  double detector_width = 0.3;
+  int pixels = 512;
+  double energy = 60.0;   ///< photon energy [keV]
+  double iodine = 150.0;  ///< iodine concentration in the vessel [mg/ml]
+  double tissue = 0.2;    ///< thickness of soft tissue [m]
+  bool raw = false;
 };
 
-Eigen::Vector3d axisOf(const Options& options, const std::string& key)
+/** Three numbers separated by commas; nothing for another text. */
+std::optional<Eigen::Vector3d> pointOf(const std::string& text)
 {
-  const std::string& text = options.text(key);
-  const bool negative = !text.empty() && text.front() == '-';
-  const auto axis = std::string("xyz").find(negative ? text.substr(1) : text);
-  if (axis == std::string::npos || text.size() != (negative ? 2U : 1U))
-    throw InputError("command line", key, "must be x, -x, y, -y, z or -z");
-  return (negative ? -1.0 : 1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+  Eigen::Vector3d point;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &point.x(), &point.y(), &point.z(), &rest) != 3)
+    return std::nullopt;
+  return point;
+}
+
+/** Unit vector of an axis; @p name is one of x, -x, y, -y, z and -z. */
+Eigen::Vector3d axisOf(const std::string& name)
+{
+  const bool negative = name.front() == '-';
+  return (negative ? -1.0 : 1.0) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(name.back() - 'x'));
+}
+
+void addOptions(tools::CommandLine& line, Options& options)
+{
+  const CLI::IsMember axes({"x", "-x", "y", "-y", "z", "-z"});
+  line.option("--mesh", options.mesh, "FILE",
+              "closed triangle mesh of the vessel (OBJ, STL, PLY), oriented inwards or outwards")
+      ->required();
+  line.option("--table", options.table, "FILE", "attenuation table (config/xray/attenuation.yaml)")->required();
+  line.option("--out", options.out, "FILE.png", "image to write")->required();
+  line.option("--unit", options.unit, "U", "length of a unit of the mesh and the wire [0.001 m]");
+  line.option("--left", options.left, "AXIS", "axis of the mesh towards the patient's left: x, -x, y, -y, z or -z [x]")
+      ->check(axes);
+  line.option("--head", options.head, "AXIS",
+              "axis of the mesh towards the head; the patient frame is x left, y posterior, z head [z]")
+      ->check(axes);
+  line.option("--wire", options.wire, "FILE.csv",
+              "wire: a row x,y,z per node, proximal to distal, in the frame and unit of the mesh");
+  line.option("--radius", options.radius, "R", "radius of the wire [0.00018 m]");
+  line.option("--tip", options.tip_length, "L", "length of the platinum tip; the rest is nitinol [0.03 m]");
+  line.option("--lao", options.lao, "DEG", "primary angle, LAO positive [0]");
+  line.option("--cranial", options.cranial, "DEG", "secondary angle, cranial positive [0]");
+  line.option("--isocentre", options.isocentre, "X,Y,Z",
+              "isocentre in the patient frame, in units of the mesh [the wire's tip, else the centre of the mesh]")
+      ->check([](const std::string& text)
+              { return pointOf(text) ? "" : "requires three numbers separated by commas"; });
+  line.option("--sid", options.source_to_detector, "M", "distance from source to detector [1.2]");
+  line.option("--sod", options.source_to_patient, "M", "distance from source to isocentre [0.75]");
+  line.option("--detector", options.detector_width, "M", "width of the detector [0.3]");
+  line.option("--pixels", options.pixels, "N", "pixels along a side [512]");
+  line.option("--energy", options.energy, "KEV", "photon energy [60]");
+  line.option("--iodine", options.iodine, "MG", "iodine concentration in the vessel [150 mg/ml]");
+  line.option("--tissue", options.tissue, "M", "thickness of soft tissue [0.2]");
+  line.flag("--raw", options.raw, "writes the linear 16-bit detector signal instead of the display image");
+  line.require(
+      [&options] {
+        return axisOf(options.left).dot(axisOf(options.head)) == 0.0 ? "" : "--left and --head require different axes";
+      });
 }
 
 /** Rotation from the mesh's frame to the patient's: x left, y posterior, z head. */
 Eigen::Matrix3d patientFromMesh(const Options& options)
 {
-  const Eigen::Vector3d left = axisOf(options, "--left"), head = axisOf(options, "--head");
-  if (left.dot(head) != 0.0)
-    throw InputError("command line", "--left", "must not lie along --head");
+  const Eigen::Vector3d left = axisOf(options.left), head = axisOf(options.head);
   Eigen::Matrix3d rotation;
   rotation << left.transpose(), head.cross(left).transpose(), head.transpose();
   return rotation;
@@ -134,7 +122,7 @@ std::vector<Eigen::Vector3d> readNodes(const std::string& file, const Eigen::Mat
     if (words >> p.x() >> p.y() >> p.z())
       nodes.emplace_back(unit * (patient_from_mesh * p));
     else if (number > 1)
-      throw InputError(file, "line " + std::to_string(number), "must hold x,y,z");
+      throw InputError(file, "line " + std::to_string(number), "requires x,y,z");
   }
   return nodes;
 }
@@ -143,20 +131,20 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Attenu
                                const Eigen::Matrix3d& patient_from_mesh)
 {
   fluoroscopy::XRayWire wire;
-  if (options.text("--wire").empty())
+  if (options.wire.empty())
     return wire;
-  wire.nodes = readNodes(options.text("--wire"), patient_from_mesh, options.number("--unit"));
-  wire.radius.assign(wire.nodes.size(), options.number("--radius"));
+  wire.nodes = readNodes(options.wire, patient_from_mesh, options.unit);
+  wire.radius.assign(wire.nodes.size(), options.radius);
   if (wire.nodes.size() < 2)
-    throw InputError(options.text("--wire"), "", "must hold at least two nodes");
-  const double energy = options.number("--energy");
-  const double displaced = table.contrast(options.number("--iodine"), energy);
+    throw InputError(options.wire, "", "requires at least two nodes");
+  const double energy = options.energy;
+  const double displaced = table.contrast(options.iodine, energy);
   double to_tip = 0.0;
   wire.attenuation.resize(wire.nodes.size() - 1);
   for (std::size_t j = wire.nodes.size() - 1; j-- > 0;)
   {
     const double length = (wire.nodes[j + 1] - wire.nodes[j]).norm();
-    const char* material = to_tip + 0.5 * length < options.number("--tip") ? "platinum" : "nitinol";
+    const char* material = to_tip + 0.5 * length < options.tip_length ? "platinum" : "nitinol";
     wire.attenuation[j] = table.linear(material, energy) - displaced;
     to_tip += length;
   }
@@ -165,7 +153,7 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Attenu
 
 geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
-  geometry::TriangleMesh mesh = vessel::readMesh(options.text("--mesh"), options.number("--unit"));
+  geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit);
   for (Eigen::Vector3d& vertex : mesh.vertices)
     vertex = patient_from_mesh * vertex;
   if (mesh.signedVolume() < 0.0)
@@ -179,61 +167,51 @@ fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleM
 {
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   fluoroscopy::CArmPose pose;
-  pose.primary_angle = options.number("--lao") * kDegree;
-  pose.secondary_angle = options.number("--cranial") * kDegree;
-  pose.source_to_detector = options.number("--sid");
-  pose.source_to_patient = options.number("--sod");
-  pose.detector_width = options.number("--detector");
-  pose.pixels = static_cast<int>(options.number("--pixels"));
+  pose.primary_angle = options.lao * kDegree;
+  pose.secondary_angle = options.cranial * kDegree;
+  pose.source_to_detector = options.source_to_detector;
+  pose.source_to_patient = options.source_to_patient;
+  pose.detector_width = options.detector_width;
+  pose.pixels = options.pixels;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     box.extend(vertex);
   pose.isocentre = wire.nodes.empty() ? box.center() : wire.nodes.back();
-  if (!options.text("--isocentre").empty())
-    pose.isocentre = options.number("--unit") * Eigen::Vector3d(options.numbers("--isocentre", 3).data());
+  if (!options.isocentre.empty())
+    pose.isocentre = options.unit * *pointOf(options.isocentre);
   return pose;
 }
 
-void run(const Options& options)
+int run(const Options& options)
 {
-  const auto table = fluoroscopy::AttenuationTable::load(options.text("--table"));
+  const auto table = fluoroscopy::AttenuationTable::load(options.table);
   const Eigen::Matrix3d patient_from_mesh = patientFromMesh(options);
   const fluoroscopy::XRayWire wire = makeWire(options, table, patient_from_mesh);
   const geometry::TriangleMesh mesh = readVessel(options, patient_from_mesh);
-  const double energy = options.number("--energy");
+  const double energy = options.energy;
   fluoroscopy::XRayScene scene;
   scene.tissue_attenuation = table.linear("soft_tissue", energy);
-  scene.vessel_attenuation = table.contrast(options.number("--iodine"), energy);
-  scene.tissue_thickness = options.number("--tissue");
+  scene.vessel_attenuation = table.contrast(options.iodine, energy);
+  scene.tissue_thickness = options.tissue;
   fluoroscopy::Fluoroscope fluoroscope(makePose(options, mesh, wire), scene);
   fluoroscope.setVessel(mesh);
   const fluoroscopy::Frame& frame = fluoroscope.render({wire});
-  if (options.raw())
-    fluoroscopy::writePng(options.text("--out"), frame.pixels, frame.pixels, frame.raw);
+  if (options.raw)
+    fluoroscopy::writePng(options.out, frame.pixels, frame.pixels, frame.raw);
   else
-    fluoroscopy::writePng(options.text("--out"), frame.pixels, frame.pixels, frame.image);
+    fluoroscopy::writePng(options.out, frame.pixels, frame.pixels, frame.image);
+  return 0;
 }
 
 }  // namespace
-}  // namespace endovascular_sim
 
 int main(int argc, char** argv)
 {
-  using endovascular_sim::Options;
-  for (int i = 1; i < argc; ++i)
-    if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h")
-    {
-      std::cout << endovascular_sim::kHelp;
-      return 0;
-    }
-  try
-  {
-    endovascular_sim::run(Options(argc, argv));
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "fluoroscopy_frame: " << error.what() << '\n';
-    return 1;
-  }
+  Options options;
+  tools::CommandLine line("fluoroscopy_frame",
+                          "Renders one fluoroscopy frame of a vessel mesh, and optionally of a wire, into a PNG file.",
+                          "Exit code: 0 success; 1 a file cannot be used (the reason is on the error stream); 2 wrong "
+                          "arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return run(options); });
 }

@@ -1,38 +1,22 @@
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include "common/error.h"
 #include "instrument/rest_shape.h"
 #include "scene/instrument_library.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
 namespace fs = std::filesystem;
 using namespace endovascular_sim;
 
-constexpr auto kUsage = R"(Draws what instrument files describe: the shape at rest from two sides, diameter and bending
-stiffness along the shaft, radiopaque markers, the chart of a balloon, the length of a stent.
-
-usage: instrument_shape INSTRUMENT ... --out FILE.png | FILE.svg | FILE.csv [--set key.path=value ...]
-
-  INSTRUMENT            a YAML file, or the name of one in config/instruments, e.g. catheter_5f_jl4; all: every one there
-  --out FILE            .png, .svg: the drawing. .csv: its numbers, the shaft in FILE.csv, with FILE_markers.csv,
-                        FILE_balloon.csv and FILE_stent.csv beside it where an instrument has them
-  --set key.path=value  replaces a value in every instrument, e.g. --set tip.radius=0.005
-  --help                prints this
-
-exit code: 0 done, 1 an instrument is refused or the drawing failed (the reason goes to the error stream), 2 wrong use
-)";
-
-// Points of a drawn shape are at most this far apart [m].
-constexpr double kSpacing = 0.5e-3;
+constexpr double kSpacing = 0.5e-3;  // largest distance between points of a drawn shape [m]
 
 struct Options
 {
@@ -47,20 +31,15 @@ struct Drawn
   instrument::Instrument instrument;
 };
 
-int wrongUse(const std::string& reason)
-{
-  std::cerr << "instrument_shape: " << reason << "\n" << kUsage;
-  return 2;
-}
-
-/** A CSV file with a head line; throws when it cannot be written. */
+/** CSV file with a header line. */
 class Table
 {
 public:
-  Table(const fs::path& file, const std::string& head) : file_(file), stream_(file)
+  /** @throws InputError when the file cannot be opened */
+  Table(const fs::path& file, const std::string& header) : file_(file), stream_(tools::openFile(file))
   {
     stream_.precision(9);
-    stream_ << head << "\n";
+    stream_ << header << "\n";
   }
 
   std::ofstream& row() { return stream_; }
@@ -68,8 +47,7 @@ public:
   void close()
   {
     stream_.close();
-    if (!stream_)
-      throw InputError(file_.string(), "", "cannot be written; give a file in an existing folder with --out");
+    tools::requireWritten(static_cast<bool>(stream_), file_);
   }
 
 private:
@@ -157,20 +135,15 @@ void writeTables(const fs::path& csv, const std::vector<Drawn>& all)
     writeStents(beside("stent"), all);
 }
 
-/** Draws by plot_instruments.py, which lies beside this program. */
+/** Draws the instruments with plot_instruments.py. */
 int draw(const fs::path& picture, const std::vector<Drawn>& all)
 {
   const fs::path folder = fs::temp_directory_path() / ("instrument_shape_" + std::to_string(::getpid()));
   fs::create_directories(folder);
   writeTables(folder / "shaft.csv", all);
-  const fs::path script = fs::read_symlink("/proc/self/exe").parent_path() / "plot_instruments.py";
-  const std::string command =
-      "/usr/bin/python3 '" + script.string() + "' '" + folder.string() + "' '" + picture.string() + "'";
-  const int status = std::system(command.c_str());
+  const bool drawn = tools::runPlotScript("plot_instruments.py", {folder.string(), picture.string()});
   fs::remove_all(folder);
-  if (status != 0)
-    std::cerr << "instrument_shape: the drawing failed (" << command << ")\n";
-  return status == 0 ? 0 : 1;
+  return drawn ? 0 : 1;
 }
 
 std::vector<Drawn> readAll(const Options& options)
@@ -191,19 +164,31 @@ std::vector<Drawn> readAll(const Options& options)
 
 int run(const Options& options)
 {
-  try
-  {
-    const std::vector<Drawn> all = readAll(options);
-    if (options.out.extension() != ".csv")
-      return draw(options.out, all);
-    writeTables(options.out, all);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "instrument_shape: " << error.what() << "\n";
-    return 1;
-  }
+  const std::vector<Drawn> all = readAll(options);
+  if (options.out.extension() != ".csv")
+    return draw(options.out, all);
+  writeTables(options.out, all);
   return 0;
+}
+
+void addOptions(tools::CommandLine& line, Options& options)
+{
+  line.argument(
+      "INSTRUMENT", options.instruments,
+      "YAML file, or the name of one in config/instruments, e.g. catheter_5f_jl4; all: every one of that folder");
+  line.option(
+          "--out", options.out, "FILE",
+          ".png or .svg: the drawing. .csv: its numbers, with FILE_markers.csv, FILE_balloon.csv and FILE_stent.csv "
+          "beside it for the instruments that have them")
+      ->required()
+      ->check(
+          [](const std::string& name)
+          {
+            const std::string extension = fs::path(name).extension().string();
+            const bool known = extension == ".png" || extension == ".svg" || extension == ".csv";
+            return known ? "" : "requires a .png, .svg or .csv file";
+          });
+  line.overrides(options.overrides, "replaces a value in every instrument, e.g. --set tip.radius=0.005");
 }
 
 }  // namespace
@@ -211,29 +196,12 @@ int run(const Options& options)
 int main(int argc, char** argv)
 {
   Options options;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if ((word == "--out" || word == "--set") && i + 1 == argc)
-      return wrongUse(word + " needs a value");
-    if (word == "--out")
-      options.out = argv[++i];
-    else if (word == "--set")
-      options.overrides.emplace_back(argv[++i]);
-    else if (word.rfind("--", 0) == 0)
-      return wrongUse("unknown option " + word);
-    else
-      options.instruments.push_back(word);
-  }
-  if (options.instruments.empty())
-    return wrongUse("no instrument given");
-  const std::string extension = options.out.extension().string();
-  if (extension != ".png" && extension != ".svg" && extension != ".csv")
-    return wrongUse("--out must be a .png, .svg or .csv file");
-  return run(options);
+  tools::CommandLine line(
+      "instrument_shape",
+      "Draws instruments: the rest shape from two sides, diameter and bending stiffness along the "
+      "shaft, radiopaque markers, the compliance chart of a balloon, the length of a stent.",
+      "Exit code: 0 success; 1 an instrument was rejected or the drawing failed (the reason is on the "
+      "error stream); 2 wrong arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return run(options); });
 }

@@ -8,10 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
+#include <iterator>
+#include <optional>
 
 #include "benchmark/fuzz/fuzz_record.h"
 #include "common/error.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
@@ -20,26 +23,7 @@ using namespace endovascular_sim;             // NOLINT: a program's main file
 using namespace endovascular_sim::benchmark;  // NOLINT
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kUsage =
-    R"(Pushes, pulls and turns random wires in many vessels and looks whether any part of them leaves. Needs no ROS master.
-
-usage: leak_fuzz --out DIR [--steps N] [--seed S] [--resume] [--episode K] [--mesh FILE ...] [--set key.path=value ...]
-
-  --out DIR             writes leak_fuzz.json (result and state), leak_fuzz.csv (worst episodes) and leak_fuzz.md there
-  --steps N             stops after N steps in all, default 1000000
-  --seed S              of the random choices, default 1
-  --resume              goes on from DIR/leak_fuzz.json
-  --episode K           runs this episode alone, tells what became of it and writes nothing
-  --mesh FILE           a mesh to fuzz in [mm or m], may be repeated; default: all of ENDOVASCULAR_DATA_DIR that load
-  --set key.path=value  replaces a value of every scene, e.g. --set solver.max_iterations=2
-  --help                prints this
-
-Channels, bifurcations and the generated anatomy are always fuzzed. docs/CONTACT.md tells what is checked.
-
-exit code: 0 nothing left, 1 something did or a file cannot be written, 2 wrong use
-)";
-
-constexpr double kSaveEvery = 10.0;  // s
+constexpr double kSaveInterval = 10.0;  // wall-clock time between saved states [s]
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -49,64 +33,25 @@ struct Options
   std::uint64_t steps = 1000000;
   FuzzSettings settings;
   bool resume = false;
-  bool one = false;
-  std::uint64_t episode = 0;
+  std::optional<std::uint64_t> episode;  ///< the only one to run
   std::vector<std::string> meshes;
 };
 
-int wrongUse(const std::string& reason)
+void addOptions(tools::CommandLine& line, Options& options)
 {
-  std::cerr << "leak_fuzz: " << reason << "\n\n" << kUsage;
-  return 2;
+  line.option("--out", options.out, "DIR",
+              "folder for leak_fuzz.json (result and state), leak_fuzz.csv (worst episodes) and leak_fuzz.md");
+  line.option("--steps", options.steps, "N", "total number of steps [1000000]");
+  line.option("--seed", options.settings.seed, "S", "seed of the random choices [1]");
+  line.flag("--resume", options.resume, "continues from DIR/leak_fuzz.json");
+  line.option("--episode", options.episode, "K", "runs this episode only, prints its result and writes no file");
+  line.repeated("--mesh", options.meshes, "FILE",
+                "mesh to fuzz in [mm or m]; default: all meshes of ENDOVASCULAR_DATA_DIR that can be read");
+  line.overrides(options.settings.overrides, "replaces a value of every scene, e.g. --set solver.max_newton=2");
+  line.require([&options] { return options.out.empty() && !options.episode ? "--out is required" : ""; });
 }
 
-bool parseCount(const std::string& text, std::uint64_t& count)
-{
-  if (text.empty() || text.size() > 18 || text.find_first_not_of("0123456789") != std::string::npos)
-    return false;
-  count = std::stoull(text);
-  return true;
-}
-
-/** @return −1 to go on, else the exit code */
-int parse(int argc, char** argv, Options& options)
-{
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if (word == "--resume")
-    {
-      options.resume = true;
-      continue;
-    }
-    if (i + 1 >= argc)
-      return wrongUse("cannot use '" + word + "'");
-    const std::string value = argv[++i];
-    std::uint64_t* count = word == "--steps"     ? &options.steps
-                           : word == "--seed"    ? &options.settings.seed
-                           : word == "--episode" ? &options.episode
-                                                 : nullptr;
-    if (count != nullptr && !parseCount(value, *count))
-      return wrongUse(word + " takes a whole number, not '" + value + "'");
-    options.one = options.one || word == "--episode";
-    if (word == "--out")
-      options.out = value;
-    else if (word == "--mesh")
-      options.meshes.push_back(value);
-    else if (word == "--set")
-      options.settings.overrides.push_back(value);
-    else if (count == nullptr)
-      return wrongUse("cannot use '" + word + "'");
-  }
-  return options.out.empty() && !options.one ? wrongUse("--out is needed") : -1;
-}
-
-/** Meshes of ENDOVASCULAR_DATA_DIR in the order of their names. */
+/** Meshes of ENDOVASCULAR_DATA_DIR, sorted by name. */
 std::vector<std::string> meshesOfDataFolder()
 {
   std::vector<std::string> files;
@@ -123,16 +68,15 @@ std::vector<std::string> meshesOfDataFolder()
   return files;
 }
 
-void writeFile(const std::filesystem::path& path, const std::string& text)
+/** Writes a file by way of a temporary one: an interruption leaves the earlier file intact. */
+void replaceFile(const std::filesystem::path& path, const std::string& text)
 {
   const std::filesystem::path part = path.string() + ".part";
-  std::ofstream stream(part);
-  if (!(stream << text) || !stream.flush())
-    throw InputError(path.string(), "", "cannot be written; check the folder's permissions and the disk's free space");
-  stream.close();
+  tools::writeFile(part, text);
   std::filesystem::rename(part, path);
 }
 
+/** Command that runs the same episodes again. */
 std::string reproduction(const Options& options)
 {
   std::string command = "rosrun endovascular_sim leak_fuzz --seed " + std::to_string(options.settings.seed);
@@ -146,9 +90,9 @@ std::string reproduction(const Options& options)
 void save(const Options& options, const FuzzRecord& record, const FuzzVessels& vessels)
 {
   const std::filesystem::path out = options.out;
-  writeFile(out / "leak_fuzz.json", record.json());
-  writeFile(out / "leak_fuzz.csv", record.csv());
-  writeFile(out / "leak_fuzz.md", record.markdown(reproduction(options), vessels.skipped()));
+  replaceFile(out / "leak_fuzz.json", record.json());
+  replaceFile(out / "leak_fuzz.csv", record.csv());
+  replaceFile(out / "leak_fuzz.md", record.markdown(reproduction(options), vessels.skipped()));
 }
 
 void drawProgress(const FuzzRecord& record, std::uint64_t steps, double seconds, std::uint64_t begin)
@@ -163,17 +107,17 @@ void drawProgress(const FuzzRecord& record, std::uint64_t steps, double seconds,
 int runOne(const Options& options, FuzzVessels& vessels)
 {
   FuzzRecord record(options.settings, vessels.kinds());
-  record.add(fuzzEpisode(vessels, options.settings, options.episode));
+  record.add(fuzzEpisode(vessels, options.settings, *options.episode));
   std::cout << record.json();
   return record.good() ? 0 : 1;
 }
 
 int run(const Options& options)
 {
-  FuzzVessels vessels(options.meshes);
+  FuzzVessels vessels(options.meshes.empty() ? meshesOfDataFolder() : options.meshes);
   for (const std::string& reason : vessels.skipped())
-    std::cerr << "leak_fuzz: left out " << reason << "\n";
-  if (options.one)
+    std::cerr << "leak_fuzz: skipped " << reason << "\n";
+  if (options.episode)
     return runOne(options, vessels);
   std::filesystem::create_directories(options.out);
   FuzzRecord record(options.settings, vessels.kinds());
@@ -182,7 +126,7 @@ int run(const Options& options)
   {
     std::ifstream stream(state);
     if (!stream)
-      throw InputError(state, "", "is not there; leave --resume out to start");
+      throw InputError(state, "", "missing; omit --resume to start");
     record.resume(std::string(std::istreambuf_iterator<char>(stream), {}), state);
   }
   std::signal(SIGINT, [](int) { interrupted = 1; });
@@ -197,7 +141,7 @@ int run(const Options& options)
     const Clock::time_point now = Clock::now();
     if (progress)
       drawProgress(record, options.steps, std::chrono::duration<double>(now - begin).count(), begin_steps);
-    if (std::chrono::duration<double>(now - saved).count() < kSaveEvery)
+    if (std::chrono::duration<double>(now - saved).count() < kSaveInterval)
       continue;
     save(options, record, vessels);
     saved = now;
@@ -214,18 +158,13 @@ int run(const Options& options)
 int main(int argc, char** argv)
 {
   Options options;
-  const int code = parse(argc, argv, options);
-  if (code >= 0)
-    return code;
-  try
-  {
-    if (options.meshes.empty())
-      options.meshes = meshesOfDataFolder();
-    return run(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "leak_fuzz: " << error.what() << "\n";
-    return 1;
-  }
+  tools::CommandLine line(
+      "leak_fuzz",
+      "Pushes, pulls and turns random wires in many vessels and checks that no part of a wire leaves the vessel. "
+      "Requires no "
+      "ROS master.",
+      "Channels, bifurcations and the generated anatomy are always included. docs/CONTACT.md describes the checks.\n"
+      "Exit code: 0 no wire left its vessel; 1 a wire left or a file cannot be written; 2 wrong arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return run(options); });
 }

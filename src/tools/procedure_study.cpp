@@ -1,7 +1,6 @@
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,30 +14,13 @@
 #include "scene/scene_vessel.h"
 #include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
 
 using namespace endovascular_sim;  // NOLINT: a program's main file
-
-constexpr auto kUsage =
-    R"(Runs a scene's procedure from several starts that differ a little in insertion, rotation and speed, and counts how often
-it comes to its end.
-
-usage: procedure_study SCENE.yaml --out DIR [--runs N] [--first N] [--through PHASE] [--at-least N] [--set key.path=value ...]
-
-  --out DIR             writes study.csv, and the metrics of every run in DIR/1, DIR/2, …
-  --runs N              how many starts (10)
-  --first N             seed of the first one (1); the others have the next ones. 0 is the scene as it is
-  --through PHASE       ends every run after this phase of the procedure
-  --at-least N          how many must succeed for exit code 0 (all)
-  --insertion M, --rotation RAD, --speed SHARE
-                        the starts' spread: ± 0.005, ± 0.5, ± 0.2
-  --set key.path=value  replaces a value of the scene
-  --help                prints this
-
-exit code: 0 enough runs succeeded, 1 too few did or the scene is refused, 2 wrong use
-)";
 
 struct Options
 {
@@ -46,61 +28,35 @@ struct Options
   std::string out;
   std::string through;
   int runs = 10;
-  int first = 1;
-  int at_least = -1;
+  int first = 1;      ///< seed of the first run
+  int at_least = -1;  ///< required successful runs; negative: all
   procedure::Spread spread;
   std::vector<std::string> overrides;
 };
 
-int wrongUse(const std::string& reason)
+void addOptions(tools::CommandLine& line, Options& options)
 {
-  std::cerr << "procedure_study: " << reason << "\n\n" << kUsage;
-  return 2;
+  line.argument("SCENE.yaml", options.scene, "scene with a procedure");
+  line.option("--out", options.out, "DIR", "folder for study.csv and, in DIR/SEED, the metrics of each run")
+      ->required();
+  line.option("--runs", options.runs, "N", "number of runs [10]")->check(CLI::Range(1, 1000000));
+  line.option("--first", options.first, "N",
+              "seed of the first run, each further run takes the next one; seed 0 is the "
+              "scene without variation [1]")
+      ->check(CLI::Range(0, 1000000));
+  line.option("--through", options.through, "PHASE", "ends every run after this phase of the procedure");
+  line.option("--at-least", options.at_least, "N", "number of successful runs required for exit code 0 [all]")
+      ->check(CLI::Range(0, 1000000));
+  line.option("--insertion", options.spread.insertion, "M", "half range of the initial insertion [0.005 m]");
+  line.option("--rotation", options.spread.rotation, "RAD", "half range of the initial rotation [0.5 rad]");
+  line.option("--speed", options.spread.speed, "SHARE", "half range of the speed, as a share of it, below 1 [0.2]");
+  line.overrides(options.overrides, "replaces a value of the scene");
+  line.require([&options] { return options.spread.speed < 1.0 ? "" : "--speed requires a share below 1"; });
 }
 
-/** @return −1 to go on, else the exit code */
-int parse(int argc, char** argv, Options& options)
-{
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (word == "--help" || word == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if (word == "--out" && has_value)
-      options.out = argv[++i];
-    else if (word == "--through" && has_value)
-      options.through = argv[++i];
-    else if (word == "--runs" && has_value)
-      options.runs = std::atoi(argv[++i]);
-    else if (word == "--first" && has_value)
-      options.first = std::atoi(argv[++i]);
-    else if (word == "--at-least" && has_value)
-      options.at_least = std::atoi(argv[++i]);
-    else if (word == "--insertion" && has_value)
-      options.spread.insertion = std::atof(argv[++i]);
-    else if (word == "--rotation" && has_value)
-      options.spread.rotation = std::atof(argv[++i]);
-    else if (word == "--speed" && has_value)
-      options.spread.speed = std::atof(argv[++i]);
-    else if (word == "--set" && has_value)
-      options.overrides.emplace_back(argv[++i]);
-    else if (!word.empty() && word[0] != '-' && options.scene.empty())
-      options.scene = word;
-    else
-      return wrongUse("cannot use '" + word + "'");
-  }
-  if (options.scene.empty() || options.out.empty())
-    return wrongUse("a scene and --out are needed");
-  if (options.runs < 1 || options.first < 0 || options.spread.speed >= 1.0)
-    return wrongUse("--runs takes 1 or more, --first 0 or more, --speed less than 1");
-  return -1;
-}
-
-/** One run. @return what became of it; empty: success */
+/** Runs the procedure once and writes its metrics.
+ *  @param seconds simulated time at its end [s]
+ *  @return reason of the failure, empty after success */
 std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
 {
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
@@ -136,7 +92,7 @@ int study(const Options& options)
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
   std::filesystem::create_directories(options.out);
-  std::ofstream table(options.out + "/study.csv");
+  std::ofstream table = tools::openFile(options.out + "/study.csv");
   table << "seed,success,time,why\n";
   int succeeded = 0;
   for (int k = 0; k < options.runs; ++k)
@@ -151,8 +107,7 @@ int study(const Options& options)
                 why.empty() ? "success" : ("failed: " + why).c_str(), seconds);
     std::fflush(stdout);
   }
-  if (!table)
-    throw InputError(options.out + "/study.csv", "", "the disk refused it; free some space");
+  tools::requireWritten(static_cast<bool>(table), options.out + "/study.csv");
   std::printf("%d of %d\n", succeeded, options.runs);
   return succeeded >= (options.at_least >= 0 ? options.at_least : options.runs) ? 0 : 1;
 }
@@ -162,16 +117,12 @@ int study(const Options& options)
 int main(int argc, char** argv)
 {
   Options options;
-  const int code = parse(argc, argv, options);
-  if (code >= 0)
-    return code;
-  try
-  {
-    return study(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "procedure_study: " << error.what() << "\n";
-    return 1;
-  }
+  tools::CommandLine line(
+      "procedure_study",
+      "Runs a scene's procedure from several starts, which vary in insertion, rotation and speed, and "
+      "counts the successful runs.",
+      "Exit code: 0 enough runs succeeded; 1 too few succeeded or the scene was rejected; 2 wrong "
+      "arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return study(options); });
 }

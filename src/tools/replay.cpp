@@ -21,6 +21,8 @@
 #include "simulation/local_deformable_wall.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
@@ -28,21 +30,7 @@ namespace
 using namespace endovascular_sim;  // NOLINT: a program's main file
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kUsage =
-    R"(Simulates a recorded session again, from its inputs, and compares every step with the recording bit for bit.
-
-usage: replay SESSION.bag [--keep-going] [--costs FILE]
-
-  --keep-going  counts all steps that differ instead of ending at the first
-  --costs FILE  writes what every step costs here, as CSV: time, solves, contacts (docs/SIMULATE.md)
-  --help        prints this
-
-The scene, the vessel and the inputs of every step come from the bag. To look at a session instead of computing it
-again: roslaunch endovascular_sim replay.launch bag:=SESSION.bag
-exit code: 0 every step is equal, 1 a step differs or is missing, or the bag cannot be used, 2 wrong use
-)";
-
-/** What a recording holds for a replay. */
+/** Messages of a bag that a replay requires. */
 struct Recording
 {
   SessionInfoConstPtr info;
@@ -148,8 +136,8 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
       std::fprintf(stderr, "\r%3.0f %% ", 100.0 * static_cast<double>(step) / static_cast<double>(last + 1));
   }
   std::fprintf(stderr, "\r");
-  if (costs && !costs->flush())
-    throw InputError(costs_file, "", "the disk refused it; free some space");
+  if (costs)
+    tools::requireWritten(costs->flush(), costs_file);
   std::printf("%lu steps, %lu different, trajectory %s\n", static_cast<unsigned long>(simulation.steps()),
               static_cast<unsigned long>(different), Hash64::toHex(simulation.trajectoryHash()).c_str());
   return different == 0 ? 0 : 1;
@@ -162,38 +150,16 @@ int main(int argc, char** argv)
   std::string file;
   std::string costs;
   bool keep_going = false;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if (word == "--keep-going")
-      keep_going = true;
-    else if (word == "--costs" && i + 1 < argc)
-      costs = argv[++i];
-    else if (!word.empty() && word[0] != '-' && file.empty())
-      file = word;
-    else
-    {
-      std::cerr << "replay: cannot use '" << word << "'\n\n" << kUsage;
-      return 2;
-    }
-  }
-  if (file.empty())
-  {
-    std::cerr << "replay: a bag is needed\n\n" << kUsage;
-    return 2;
-  }
-  try
-  {
-    return replay(file, keep_going, costs);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "replay: " << error.what() << "\n";
-    return 1;
-  }
+  tools::CommandLine line(
+      "replay",
+      "Simulates a recorded session again from its inputs and compares every step with the recording, bit for bit.",
+      "The scene, the vessel and the inputs of every step come from the bag. To view a session without computing it "
+      "again: "
+      "roslaunch endovascular_sim replay.launch bag:=SESSION.bag\n"
+      "Exit code: 0 all steps are equal; 1 a step differs or is missing, or the bag cannot be used; 2 wrong "
+      "arguments.");
+  line.argument("SESSION.bag", file, "bag of the session node");
+  line.flag("--keep-going", keep_going, "counts all steps that differ instead of ending at the first one");
+  line.option("--costs", costs, "FILE", "writes time, solves and contacts of every step as CSV (docs/SIMULATE.md)");
+  return line.run(argc, argv, [&] { return replay(file, keep_going, costs); });
 }

@@ -1,41 +1,42 @@
-#include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include "common/error.h"
 #include "common/hash.h"
 #include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
+#include "tools/command_line.h"
 
 namespace
 {
 
-constexpr auto kUsage = R"(Checks a scene and prints it complete, with every default and included file.
+using namespace endovascular_sim;  // NOLINT: a program's main file
 
-usage: scene_check SCENE.yaml [--set key.path=value ...] [--vessel] [--nodes | --hash]
-
-  --set key.path=value  replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003
-  --vessel              makes the vessel too, and checks what needs it: the mesh, the entry, branches by their names
-  --nodes               prints the nodes that the scene needs instead, one a line
-  --hash                prints the scene's hash instead
-  --help                prints this
-
-exit code: 0 the scene is good, 1 it is refused (the reason goes to the error stream), 2 wrong use
-)";
-
-enum class Output
+struct Options
 {
-  kScene,
-  kNodes,
-  kHash,
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool vessel = false;
+  bool nodes = false;
+  bool hash = false;
 };
 
-void checkVessel(const endovascular_sim::scene::Scene& scene)
+void addOptions(tools::CommandLine& line, Options& options)
 {
-  using namespace endovascular_sim;  // NOLINT: inside of one function
+  line.argument("SCENE.yaml", options.scene, "scene to check");
+  line.overrides(options.overrides,
+                 "replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003");
+  line.flag("--vessel", options.vessel,
+            "also builds the vessel and checks the mesh, the entry and the branches' names");
+  line.flag("--nodes", options.nodes, "prints the ROS nodes that the scene requires instead, one per line");
+  line.flag("--hash", options.hash, "prints the scene's hash instead");
+}
+
+/** @throws InputError for a mesh, an entry or a branch that cannot be used */
+void checkVessel(const scene::Scene& scene)
+{
   if (!scene.vessel)
     return;
   const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
@@ -45,75 +46,30 @@ void checkVessel(const endovascular_sim::scene::Scene& scene)
   const results::SessionRun goals(scene, vessel, entry.position);
 }
 
-int wrongUse(const std::string& reason)
+int check(const Options& options)
 {
-  std::cerr << "scene_check: " << reason << "\n" << kUsage;
-  return 2;
-}
-
-void print(const endovascular_sim::scene::Scene& scene, Output output)
-{
-  switch (output)
-  {
-    case Output::kScene:
-      std::cout << scene.resolved_yaml;
-      break;
-    case Output::kNodes:
-      for (const std::string& node : endovascular_sim::scene::requiredNodes(scene))
-        std::cout << node << "\n";
-      break;
-    case Output::kHash:
-      std::cout << endovascular_sim::Hash64::toHex(scene.hash()) << "\n";
-      break;
-  }
+  const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+  if (options.vessel)
+    checkVessel(scene);
+  if (options.hash)
+    std::cout << Hash64::toHex(scene.hash()) << "\n";
+  else if (options.nodes)
+    for (const std::string& node : scene::requiredNodes(scene))
+      std::cout << node << "\n";
+  else
+    std::cout << scene.resolved_yaml;
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  std::string file;
-  std::vector<std::string> overrides;
-  Output output = Output::kScene;
-  bool with_vessel = false;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string argument = argv[i];
-    if (argument == "--help" || argument == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if (argument == "--vessel")
-      with_vessel = true;
-    else if (argument == "--nodes")
-      output = Output::kNodes;
-    else if (argument == "--hash")
-      output = Output::kHash;
-    else if (argument == "--set" && i + 1 < argc)
-      overrides.emplace_back(argv[++i]);
-    else if (argument == "--set")
-      return wrongUse("--set needs key.path=value");
-    else if (argument.rfind("--", 0) == 0)
-      return wrongUse("unknown option " + argument);
-    else if (file.empty())
-      file = argument;
-    else
-      return wrongUse("one scene at a time, not also " + argument);
-  }
-  if (file.empty())
-    return wrongUse("needs a scene file");
-  try
-  {
-    const endovascular_sim::scene::Scene scene = endovascular_sim::scene::loadScene(file, overrides);
-    if (with_vessel)
-      checkVessel(scene);
-    print(scene, output);
-  }
-  catch (const endovascular_sim::InputError& error)
-  {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+  Options options;
+  tools::CommandLine line("scene_check",
+                          "Checks a scene and prints it completely, with all defaults and included files.",
+                          "Exit code: 0 the scene is valid; 1 it was rejected (the reason is on the error stream); 2 "
+                          "wrong arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return check(options); });
 }

@@ -1,8 +1,8 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,6 +24,8 @@
 #include "scene/scene_vessel.h"
 #include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
@@ -31,141 +33,51 @@ namespace
 using namespace endovascular_sim;  // NOLINT: a program's main file
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kUsage =
-    R"(Runs a scene offline, as fast as it can, without a ROS master. The loop is the nodes' own, so the same inputs give the
-same trajectory bit for bit.
-
-usage: simulate SCENE.yaml --out DIR [--seconds T] [--set key.path=value ...] [--record nodes|costs]
-                [--pictures] [--save-state FILE --at T] [--from-state FILE] [--no-plots] [--quiet]
-
-  --out DIR             writes result.json, trajectory.csv, hand_force.csv, wall_forces.csv, plots and, with a vessel, metrics.json,
-                        metrics.html and instruments.csv there; made when it is missing
-  --seconds T           runs for T seconds of simulated time instead of the scene's duration
-  --set key.path=value  replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05
-  --record nodes        also writes nodes.csv: every node at every recorded step
-  --record costs        also writes costs.csv: what every step cost, in time, solves and contacts
-  --pictures            also writes fluoroscopy/phase_01.png and so on: what the C-arm sees at the end of every phase of a procedure
-  --save-state FILE     writes the state at the time of --at T, in seconds of simulated time, and goes on
-  --from-state FILE     begins with a state that was saved in this scene; T of --seconds is then counted from it
-  --no-plots            leaves the plots out
-  --quiet               no progress bar
-  --help                prints this
-
-exit code: 0 done, 1 the scene is refused, a step could not be solved or the scene's procedure failed (the reason goes to the
-error stream), 2 wrong use
-)";
-
 struct Options
 {
   std::string scene;
   std::string out;
-  double seconds = NAN;
+  double seconds = NAN;  ///< simulated time; NaN: the scene's duration [s]
   std::vector<std::string> overrides;
   std::string save_state;
-  double save_at = NAN;  ///< [s]
+  double save_at = NAN;  ///< simulated time of the saved state [s]
   std::string from_state;
-  bool record_nodes = false;
-  bool record_costs = false;
+  std::vector<std::string> record;
   bool pictures = false;
-  bool plots = true;
+  bool no_plots = false;
   bool quiet = false;
+
+  bool records(const std::string& table) const { return std::count(record.begin(), record.end(), table) > 0; }
 };
 
-int wrongUse(const std::string& reason)
+void addOptions(tools::CommandLine& line, Options& options)
 {
-  std::cerr << "simulate: " << reason << "\n\n" << kUsage;
-  return 2;
-}
-
-/** @return false where it is not a positive number */
-bool parseSeconds(const std::string& text, double& seconds)
-{
-  char* end = nullptr;
-  seconds = std::strtod(text.c_str(), &end);
-  return *end == '\0' && std::isfinite(seconds) && seconds > 0.0;
-}
-
-/** @return −1 to go on, else the exit code */
-int parse(int argc, char** argv, Options& options)
-{
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (word == "--help" || word == "-h")
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    if (word == "--no-plots")
-      options.plots = false;
-    else if (word == "--pictures")
-      options.pictures = true;
-    else if (word == "--quiet")
-      options.quiet = true;
-    else if (word == "--out" && has_value)
-      options.out = argv[++i];
-    else if (word == "--set" && has_value)
-      options.overrides.emplace_back(argv[++i]);
-    else if (word == "--seconds" && has_value)
-    {
-      if (!parseSeconds(argv[++i], options.seconds))
-        return wrongUse(std::string("--seconds takes a positive number of seconds, not '") + argv[i] + "'");
-    }
-    else if (word == "--save-state" && has_value)
-      options.save_state = argv[++i];
-    else if (word == "--from-state" && has_value)
-      options.from_state = argv[++i];
-    else if (word == "--at" && has_value)
-    {
-      if (!parseSeconds(argv[++i], options.save_at))
-        return wrongUse(std::string("--at takes a positive number of seconds, not '") + argv[i] + "'");
-    }
-    else if (word == "--record" && has_value)
-    {
-      const std::string what = argv[++i];
-      if (what != "nodes" && what != "costs")
-        return wrongUse("--record takes 'nodes' or 'costs', not '" + what + "'");
-      (what == "nodes" ? options.record_nodes : options.record_costs) = true;
-    }
-    else if (!word.empty() && word[0] != '-' && options.scene.empty())
-      options.scene = word;
-    else
-      return wrongUse("cannot use '" + word + "'");
-  }
-  if (options.scene.empty() || options.out.empty())
-    return wrongUse("a scene and --out are needed");
-  if (options.save_state.empty() != std::isnan(options.save_at))
-    return wrongUse("--save-state FILE and --at T belong together");
-  return -1;
-}
-
-[[noreturn]] void diskRefused(const std::string& path)
-{
-  throw InputError(path, "", "the disk refused it; free some space");
-}
-
-void writeFile(const std::string& path, const std::string& text)
-{
-  std::ofstream stream(path);
-  if (!(stream << text) || !stream.flush())
-    diskRefused(path);
-}
-
-std::ofstream openFile(const std::string& path)
-{
-  std::ofstream stream(path);
-  if (!stream)
-    throw InputError(path, "", "cannot be written; check the folder's permissions and the disk's free space");
-  return stream;
-}
-
-void drawProgress(double done, double factor)
-{
-  constexpr int kWidth = 40;
-  const int filled = static_cast<int>(done * kWidth);
-  std::fprintf(stderr, "\r[%s%s] %3.0f %%  %.1fx real time ", std::string(filled, '#').c_str(),
-               std::string(kWidth - filled, '.').c_str(), 100.0 * done, factor);
+  line.argument("SCENE.yaml", options.scene, "scene to simulate");
+  line.option(
+          "--out", options.out, "DIR",
+          "folder for the results, created if missing: result.json, trajectory.csv, hand_force.csv and plots; with a "
+          "vessel also wall_forces.csv, metrics.json, metrics.html and instruments.csv")
+      ->required();
+  line.option("--seconds", options.seconds, "T", "simulated time [s]; default: the scene's duration")
+      ->check(tools::positiveNumber());
+  line.overrides(options.overrides,
+                 "replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05");
+  line.repeated(
+          "--record", options.record, "TABLE",
+          "writes a further table. nodes: nodes.csv with every node at every recorded time. costs: costs.csv with "
+          "time, solves and contacts of every step")
+      ->check(CLI::IsMember({"nodes", "costs"}));
+  line.flag("--pictures", options.pictures,
+            "writes fluoroscopy/phase_01.png and so on: the C-arm's image at the end of each phase of a procedure");
+  CLI::Option* save = line.option("--save-state", options.save_state, "FILE", "saves the state at the time of --at");
+  CLI::Option* at = line.option("--at", options.save_at, "T", "simulated time of the saved state [s]")
+                        ->check(tools::positiveNumber());
+  save->needs(at);
+  at->needs(save);
+  line.option("--from-state", options.from_state, "FILE",
+              "starts from a state saved in the same scene; --seconds counts from it");
+  line.flag("--no-plots", options.no_plots, "omits the plots");
+  line.flag("--quiet", options.quiet, "prints neither progress nor results");
 }
 
 void writeNodes(std::ofstream& file, const simulation::Simulation& simulation)
@@ -206,14 +118,67 @@ void writeHandForce(std::ofstream& file, const simulation::Simulation& simulatio
   file << line;
 }
 
-/** The vessel of a scene with everything that is made from it. */
+/** Tables written during the run: trajectory.csv, hand_force.csv and, on request, nodes.csv and costs.csv. */
+class Tables
+{
+public:
+  /** @throws InputError when a file cannot be written */
+  Tables(const scene::Scene& scene, const Options& options)
+    : folder_(options.out),
+      trajectory_(options.out + "/trajectory.csv", scene.record.trajectory_rate),
+      hand_force_(tools::openFile(options.out + "/hand_force.csv"))
+  {
+    hand_force_ << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
+    if (options.records("nodes"))
+    {
+      nodes_.emplace(tools::openFile(options.out + "/nodes.csv"));
+      *nodes_ << "time,node,x,y,z\n";
+    }
+    if (options.records("costs"))
+      costs_.emplace(options.out + "/costs.csv");
+  }
+
+  /** @param duration time of computing the step [s] */
+  void addStep(const simulation::Simulation& simulation, double duration)
+  {
+    if (costs_)
+      costs_->add(simulation, duration);
+  }
+
+  /** Adds a row at the rate of the trajectory. */
+  void addRow(const simulation::Simulation& simulation)
+  {
+    tools::requireWritten(trajectory_.add(rowOf(simulation)), folder_ + "/trajectory.csv");
+    writeHandForce(hand_force_, simulation);
+    if (nodes_)
+      writeNodes(*nodes_, simulation);
+  }
+
+  /** @throws InputError when not everything could be written */
+  void flush()
+  {
+    tools::requireWritten(trajectory_.flush(), folder_ + "/trajectory.csv");
+    tools::requireWritten(static_cast<bool>(hand_force_.flush()), folder_ + "/hand_force.csv");
+    tools::requireWritten(!nodes_ || nodes_->flush(), folder_ + "/nodes.csv");
+    tools::requireWritten(!costs_ || costs_->flush(), folder_ + "/costs.csv");
+  }
+
+private:
+  std::string folder_;
+  results::TrajectoryFile trajectory_;
+  std::ofstream hand_force_;
+  std::optional<std::ofstream> nodes_;
+  std::optional<results::StepCostsFile> costs_;
+};
+
+/** Vessel of a scene with all objects built from it. */
 struct Surroundings
 {
   std::unique_ptr<contact::Detector> wall;
   std::unique_ptr<simulation::LocalDeformableWall> moving_wall;  ///< null without a balloon
   std::unique_ptr<results::WallForceMap> wall_forces;
   std::unique_ptr<results::SessionRun> session;        ///< null without a vessel
-  std::unique_ptr<procedure::PhasePictures> pictures;  ///< null where none are wanted
+  std::unique_ptr<procedure::PhasePictures> pictures;  ///< null without --pictures
   scene::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
@@ -247,7 +212,7 @@ std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
   return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
 }
 
-/** The scripted operator's part of a saved state. */
+/** Part of a saved state that belongs to the scripted operator. */
 std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
 {
   results::SessionRun* session = surroundings.session.get();
@@ -264,7 +229,7 @@ void saveState(const std::string& path, simulation::Simulation& simulation, cons
   if (stream)
     simulation.save(stream, surroundings.mesh_hash, sessionOf(surroundings));
   if (!stream.flush())
-    throw InputError(path, "", "cannot be written; choose a folder that exists and has room");
+    throw InputError(path, "", "cannot be written; choose an existing folder with free space");
 }
 
 void loadState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
@@ -275,17 +240,18 @@ void loadState(const std::string& path, simulation::Simulation& simulation, cons
   simulation.load(stream, surroundings.mesh_hash, path, sessionOf(surroundings));
 }
 
-/** Steps until the end, those before a loaded state included. */
+/** Number of the last step; the steps before a loaded state count. */
 std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const simulation::Simulation& simulation)
 {
   const std::uint64_t last = std::isfinite(options.seconds) ? simulation.steps() + stepsIn(options.seconds, scene)
                                                             : stepsIn(scene.duration, scene);
   if (last <= simulation.steps())
-    throw InputError(options.from_state, "", "is of the scene's end or later; give --seconds T to go on from there");
+    throw InputError(options.from_state, "",
+                     "lies at or after the scene's end; give --seconds T to continue from there");
   const std::uint64_t save_at = options.save_state.empty() ? last : stepsIn(options.save_at, scene);
   if (save_at <= simulation.steps() || save_at > last)
     throw InputError(options.save_state, "--at",
-                     "is not within the time that is simulated, " + std::to_string(simulation.time()) + " to " +
+                     "lies outside the simulated time, " + std::to_string(simulation.time()) + " to " +
                          std::to_string(static_cast<double>(last) * scene.solver.time_step) + " s");
   return last;
 }
@@ -298,21 +264,27 @@ void takePicture(const Surroundings& surroundings, const simulation::Simulation&
         surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
 }
 
+/** Commands of the hands for step @p k: of the operator, else of the scene's drives. */
+std::vector<simulation::HandCommand> commandsFor(const scene::Scene& scene, const simulation::Simulation& simulation,
+                                                 const Surroundings& surroundings, std::uint64_t k)
+{
+  return surroundings.session ? surroundings.session->commands(simulation)
+                              : simulation::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
+}
+
+void showProgress(const scene::Scene& scene, std::uint64_t done, std::uint64_t all, Clock::time_point begin)
+{
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  char factor[40];
+  std::snprintf(factor, sizeof factor, "%.1fx real time", static_cast<double>(done) * scene.solver.time_step / seconds);
+  tools::drawProgress(static_cast<double>(done) / static_cast<double>(all), factor);
+}
+
+/** @param steps number of the last step */
 void run(const scene::Scene& scene, const Options& options, simulation::Simulation& simulation,
          const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
 {
-  results::TrajectoryFile trajectory(options.out + "/trajectory.csv", scene.record.trajectory_rate);
-  std::ofstream hand_force = openFile(options.out + "/hand_force.csv");
-  hand_force << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
-  std::ofstream nodes;
-  if (options.record_nodes)
-  {
-    nodes = openFile(options.out + "/nodes.csv");
-    nodes << "time,node,x,y,z\n";
-  }
-  std::optional<results::StepCostsFile> costs;
-  if (options.record_costs)
-    costs.emplace(options.out + "/costs.csv");
+  Tables tables(scene, options);
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
@@ -324,15 +296,12 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
   {
     if (surroundings.session && surroundings.session->isOver())
       break;
-    const std::vector<simulation::HandCommand> commands =
-        surroundings.session ? surroundings.session->commands(simulation)
-                             : simulation::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
+    const std::vector<simulation::HandCommand> commands = commandsFor(scene, simulation, surroundings, k);
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
-    const double took = std::chrono::duration<double>(Clock::now() - before).count();
-    result.addStep(simulation, took);
-    if (costs)
-      costs->add(simulation, took);
+    const double duration = std::chrono::duration<double>(Clock::now() - before).count();
+    result.addStep(simulation, duration);
+    tables.addStep(simulation, duration);
     if (k == save_at)
       saveState(options.save_state, simulation, surroundings);
     if (surroundings.wall_forces)
@@ -344,29 +313,16 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
     takePicture(surroundings, simulation);
     if (k % row_every != 0 && k != steps)
       continue;
-    if (!trajectory.add(rowOf(simulation)))
-      diskRefused(options.out + "/trajectory.csv");
-    writeHandForce(hand_force, simulation);
+    tables.addRow(simulation);
     if (surroundings.wall)
       result.checkOutside(simulation, *surroundings.wall);
-    if (options.record_nodes)
-      writeNodes(nodes, simulation);
     if (progress)
-      drawProgress(static_cast<double>(k + 1 - first) / static_cast<double>(steps + 1 - first),
-                   static_cast<double>(k + 1 - first) * scene.solver.time_step /
-                       std::chrono::duration<double>(Clock::now() - begin).count());
+      showProgress(scene, k + 1 - first, steps + 1 - first, begin);
   }
   takePicture(surroundings, simulation);
   if (progress)
     std::fputc('\n', stderr);
-  if (!trajectory.flush())
-    diskRefused(options.out + "/trajectory.csv");
-  if (!hand_force.flush())
-    diskRefused(options.out + "/hand_force.csv");
-  if (options.record_nodes && !nodes.flush())
-    diskRefused(options.out + "/nodes.csv");
-  if (costs && !costs->flush())
-    diskRefused(options.out + "/costs.csv");
+  tables.flush();
 }
 
 void writeWallForces(const std::string& folder, const Surroundings& surroundings)
@@ -375,8 +331,8 @@ void writeWallForces(const std::string& folder, const Surroundings& surroundings
   std::vector<results::WallForceRow> rows;
   for (const results::WallForce& force : map.touched())
     rows.push_back({force, map.centre(force.triangle), map.regionName(force.region)});
-  writeFile(folder + "/wall_forces.csv", results::wallForcesCsv(std::move(rows)));
-  writeFile(folder + "/vessel_points.csv", results::vesselPointsCsv(surroundings.wall_points));
+  tools::writeFile(folder + "/wall_forces.csv", results::wallForcesCsv(std::move(rows)));
+  tools::writeFile(folder + "/vessel_points.csv", results::vesselPointsCsv(surroundings.wall_points));
 }
 
 void finishSession(const simulation::Simulation& simulation, const Surroundings& surroundings)
@@ -386,27 +342,18 @@ void finishSession(const simulation::Simulation& simulation, const Surroundings&
   surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
 }
 
-/** How the scripted operator got on. */
-void tellProcedure(const Surroundings& surroundings)
+/** Prints the steps of the scripted operator. */
+void printProcedure(const Surroundings& surroundings)
 {
   if (!surroundings.session || !surroundings.session->person())
     return;
   const procedure::Operator& person = *surroundings.session->person();
   for (const procedure::StepRecord& step : person.records())
     std::fprintf(stderr, "%7.2f to %7.2f s: %s%s%s\n", step.begin, step.end, step.name.c_str(),
-                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " new tries)").c_str() : "",
+                 step.retries > 0 ? (" (" + std::to_string(step.retries) + " retries)").c_str() : "",
                  step.outcome == procedure::Progress::kLost ? ", lost its support" : "");
   if (!person.failure().empty())
     std::cerr << "simulate: the procedure failed: " << person.failure() << "\n";
-}
-
-void plot(const Options& options)
-{
-  const std::filesystem::path script =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_results.py";
-  const std::string command = "/usr/bin/python3 '" + script.string() + "' '" + options.out + "' >/dev/null";
-  if (std::system(command.c_str()) != 0)
-    std::cerr << "simulate: the plots could not be drawn (" << command << ")\n";
 }
 
 int simulate(const Options& options)
@@ -434,19 +381,20 @@ int simulate(const Options& options)
         scene, simulation,
         surroundings.session ? surroundings.session->metrics().lesions() : std::vector<results::LesionOutcome>());
   const std::string text = result.json(simulation, surroundings.wall_forces.get());
-  writeFile(options.out + "/result.json", text);
-  writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
+  tools::writeFile(options.out + "/result.json", text);
+  tools::writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
   if (surroundings.wall_forces)
   {
     writeWallForces(options.out, surroundings);
     surroundings.session->write(options.out);
   }
-  if (options.plots)
-    plot(options);
+  if (!options.no_plots)
+    tools::runPlotScript("plot_results.py", {options.out});
   if (!options.quiet)
+  {
     std::cout << text;
-  if (!options.quiet)
-    tellProcedure(surroundings);
+    printProcedure(surroundings);
+  }
   if (result.refusedSteps() > 0)
   {
     std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
@@ -463,16 +411,13 @@ int simulate(const Options& options)
 int main(int argc, char** argv)
 {
   Options options;
-  const int code = parse(argc, argv, options);
-  if (code >= 0)
-    return code;
-  try
-  {
-    return simulate(options);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "simulate: " << error.what() << "\n";
-    return 1;
-  }
+  tools::CommandLine line(
+      "simulate",
+      "Runs a scene offline, as fast as possible, without a ROS master. The loop is that of the nodes: equal inputs "
+      "give "
+      "equal trajectories, bit for bit.",
+      "Exit code: 0 success; 1 the scene was rejected, a step was not solved or the procedure failed (the reason is on "
+      "the error stream); 2 wrong arguments.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return simulate(options); });
 }

@@ -1,13 +1,13 @@
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "common/error.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/centreline/centreline_file.h"
 #include "vessel/io/mesh_reader.h"
@@ -17,166 +17,95 @@
 namespace
 {
 
-using endovascular_sim::InputError;
-namespace geometry = endovascular_sim::geometry;
-namespace vessel = endovascular_sim::vessel;
+using namespace endovascular_sim;  // NOLINT: a program's main file
 
-constexpr auto kUsage =
-    R"(Makes a vessel that scenes can use out of a mesh that they refuse: pieces that overlap, holes,
-non-manifold edges, faces turned either way, coarse facets.
-
-usage: vessel_prepare IN --unit METRES --out OUT.obj [options]
-
-  IN                    OBJ, STL or PLY file
-  --unit METRES         metres per unit of IN: 0.001 for millimetres, 1 for metres
-  --out OUT.obj         the vessel, in metres (vessel.unit: 1 in a scene); beside it OUT_report.json, and
-                        OUT_centreline.yaml: the centreline with diameters, as an anatomy file
-
-  --max-distance M      largest distance of the result's wall from the input's, both ways [0.0002]
-  --voxel M             edge of the grid's cells [2/3 of max-distance]; walls between lumens below two of them may be lost
-  --bridge M            joins loose pieces that are closer than this to the vessel by a tube of their own width [0]
-  --join ANATOMY.yaml   unites the vessel with a generated one (an anatomy file, in the axes of IN) that overlaps it, e.g.
-                        the vessels beyond a cut end; may be repeated
-  --plug X,Y,Z,R        closes the lumen inside of a wall with a thickness by a lid through this place, before an
-                        opening; the wall is nearer than R all around [m]; may be repeated. When all openings of a
-                        lumen are closed it counts as the inside, and the inner wall goes
-  --hollow              the inner wall stays instead and the outer one goes: the lumen is the largest hollow
-  --smooth              takes the edges of coarse facets out, within max-distance
-  --smoothing-rounds N  [30]
-  --facets-around N     of the result, around every lumen [24]
-  --longest-facet M     of the result [0.0025]
-
-  --open WHICH          leaves an end open: all, largest, a count (so many of the widest), x,y,z in metres (the end
-                        nearest to it), or a branch's name from the report; may be repeated. Default: all ends are closed.
-                        A scene closes flat open ends by itself when it reads the mesh.
-  --cut-back R          how far before the tip of an open end the cut is, in radii of the lumen [1]
-  --quiet               prints the report only
-  --help                prints this
-
-exit code: 0 done and within max-distance, 1 refused (the reason goes to the error stream), 2 wrong use, 3 done, but
-somewhere beyond max-distance (the report says where)
-)";
-
-int wrongUse(const std::string& reason)
-{
-  std::cerr << "vessel_prepare: " << reason << "\n" << kUsage;
-  return 2;
-}
-
-struct Arguments
+struct Options
 {
   std::string in;
   std::string out;
   std::vector<std::string> joins;  ///< anatomy files
-  double unit = 0.0;
+  std::vector<std::string> plugs;  ///< x,y,z,radius of each [m]
+  double unit = 0.0;               ///< length of a unit of the input [m]
   bool quiet = false;
-  bool help = false;
-  vessel::PrepareOptions options;
+  vessel::PrepareOptions prepare;
 };
 
-double numberOf(const std::string& option, const std::string& text)
-{
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0')
-    throw std::invalid_argument(option + " needs a number, not \"" + text + "\"");
-  return value;
-}
-
+/** @throws InputError for a text that is no plug */
 vessel::Plug plugOf(const std::string& text)
 {
   vessel::Plug plug;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &plug.centre.x(), &plug.centre.y(), &plug.centre.z(), &plug.radius,
                   &rest) != 4)
-    throw std::invalid_argument("--plug needs x,y,z,radius in metres, not \"" + text + "\"");
+    throw InputError("command line", "--plug", "requires x,y,z,radius in metres, not '" + text + "'");
   return plug;
 }
 
-int countOf(const std::string& option, const std::string& text)
+std::string plugError(const std::string& text)
 {
-  const double value = numberOf(option, text);
-  if (!(value >= 0.0 && value <= 1e6) || value != static_cast<int>(value))
-    throw std::invalid_argument(option + " needs a count, not \"" + text + "\"");
-  return static_cast<int>(value);
-}
-
-/** @throws std::invalid_argument with what is wrong */
-Arguments parse(const std::vector<std::string>& words)
-{
-  Arguments a;
-  for (std::size_t i = 0; i < words.size(); ++i)
+  try
   {
-    const std::string& word = words[i];
-    const auto value = [&]() -> const std::string&
-    {
-      if (i + 1 >= words.size())
-        throw std::invalid_argument(word + " needs a value");
-      return words[++i];
-    };
-    const auto number = [&] { return numberOf(word, value()); };
-    const auto count = [&] { return countOf(word, value()); };
-    if (word == "--help" || word == "-h")
-      a.help = true;
-    else if (word == "--quiet")
-      a.quiet = true;
-    else if (word == "--hollow")
-      a.options.hollow = true;
-    else if (word == "--smooth")
-      a.options.smooth = true;
-    else if (word == "--unit")
-      a.unit = number();
-    else if (word == "--out")
-      a.out = value();
-    else if (word == "--max-distance")
-      a.options.max_distance = number();
-    else if (word == "--voxel")
-      a.options.voxel = number();
-    else if (word == "--bridge")
-      a.options.bridge = number();
-    else if (word == "--join")
-      a.joins.push_back(value());
-    else if (word == "--plug")
-      a.options.plugs.push_back(plugOf(value()));
-    else if (word == "--smoothing-rounds")
-      a.options.smoothing_rounds = count();
-    else if (word == "--facets-around")
-      a.options.facets_around = count();
-    else if (word == "--longest-facet")
-      a.options.longest_facet = number();
-    else if (word == "--cut-back")
-      a.options.cut_back = number();
-    else if (word == "--open")
-      a.options.open.push_back(value());
-    else if (word.rfind("--", 0) == 0)
-      throw std::invalid_argument("unknown option " + word);
-    else if (a.in.empty())
-      a.in = word;
-    else
-      throw std::invalid_argument("one mesh at a time, not also " + word);
+    plugOf(text);
+    return "";
   }
-  if (a.help)
-    return a;
-  if (a.in.empty())
-    throw std::invalid_argument("needs a mesh file");
-  if (a.out.empty() || std::filesystem::path(a.out).extension() != ".obj")
-    throw std::invalid_argument("needs --out with a name that ends in .obj");
-  if (!(a.unit > 0.0))
-    throw std::invalid_argument("needs --unit: 0.001 for a mesh in millimetres, 1 for metres");
-  return a;
+  catch (const InputError&)
+  {
+    return "requires x,y,z,radius in metres, not '" + text + "'";
+  }
 }
 
-void writeText(const std::string& text, const std::string& path)
+void addOptions(tools::CommandLine& line, Options& options)
 {
-  std::ofstream out(path);
-  out << text;
-  out.close();
-  if (!out)
-    throw InputError(path, "", "cannot be written; give --out in an existing folder that can be written");
+  const CLI::Range count(0, 1000000);
+  vessel::PrepareOptions& prepare = options.prepare;
+  line.argument("IN", options.in, "mesh to prepare: OBJ, STL or PLY");
+  line.option("--unit", options.unit, "METRES", "length of a unit of IN [m]: 0.001 for millimetres, 1 for metres")
+      ->required()
+      ->check(tools::positiveNumber());
+  line.option("--out", options.out, "OUT.obj",
+              "the vessel in metres (vessel.unit: 1 in a scene); beside it OUT_report.json and, as an anatomy file, "
+              "OUT_centreline.yaml: the centreline with diameters")
+      ->required()
+      ->check([](const std::string& name)
+              { return std::filesystem::path(name).extension() == ".obj" ? "" : "requires a name that ends in .obj"; });
+  line.option("--max-distance", prepare.max_distance, "M",
+              "largest distance between the walls of input and result, in both directions [0.0002]");
+  line.option(
+      "--voxel", prepare.voxel, "M",
+      "edge of the grid's cells [2/3 of max-distance]; walls between lumens thinner than two cells may be lost");
+  line.option("--bridge", prepare.bridge, "M",
+              "joins loose pieces within this distance of the vessel by a tube of their own width [0]");
+  line.repeated(
+      "--join", options.joins, "ANATOMY.yaml",
+      "unites the vessel with an overlapping generated one (an anatomy file in the axes of IN), e.g. the vessels "
+      "beyond a cut end");
+  line.repeated(
+          "--plug", options.plugs, "X,Y,Z,R",
+          "for walls with a thickness: closes the lumen by a lid through this point [m], before an opening; R exceeds "
+          "the distance to the wall all around. A lumen with all openings closed counts as inside, and the inner "
+          "wall is removed")
+      ->check(plugError);
+  line.flag("--hollow", prepare.hollow,
+            "keeps the inner wall and removes the outer one: the lumen is the largest hollow");
+  line.flag("--smooth", prepare.smooth, "smooths the edges of coarse facets, within max-distance");
+  line.option("--smoothing-rounds", prepare.smoothing_rounds, "N", "number of smoothing passes [30]")->check(count);
+  line.option("--facets-around", prepare.facets_around, "N", "facets around every lumen of the result [24]")
+      ->check(count);
+  line.option("--longest-facet", prepare.longest_facet, "M", "longest facet edge of the result [0.0025]");
+  line.repeated(
+      "--open", prepare.open, "WHICH",
+      "leaves an end open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end), or a "
+      "branch's name from the report. Default: all ends are closed. A scene closes flat open ends itself when it "
+      "reads the mesh");
+  line.option("--cut-back", prepare.cut_back, "R",
+              "distance of the cut from the tip of an open end, in radii of the lumen [1]");
+  line.flag("--quiet", options.quiet, "prints the report only");
 }
 
-int prepare(const Arguments& a)
+int prepare(Options a)
 {
+  for (const std::string& plug : a.plugs)
+    a.prepare.plugs.push_back(plugOf(plug));
   geometry::TriangleMesh input = vessel::readMesh(a.in, a.unit);
   vessel::requirePlausibleSize(vessel::checkMesh(input), a.unit, a.in);
   std::string source = a.in;
@@ -186,7 +115,7 @@ int prepare(const Arguments& a)
     source += " + " + anatomy;
   }
   const std::filesystem::path out(a.out);
-  writeText("", a.out);  // refused now rather than after minutes of work
+  tools::writeFile(a.out, "");  // fails now rather than after minutes of work
 
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](const std::string& stage)
@@ -195,14 +124,14 @@ int prepare(const Arguments& a)
       std::fprintf(stderr, "%6.1f s  %s\n",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), stage.c_str());
   };
-  const vessel::PreparedVessel made = vessel::prepareVessel(input, source, a.options, progress);
+  const vessel::PreparedVessel made = vessel::prepareVessel(input, source, a.prepare, progress);
   const std::string stem = (out.parent_path() / out.stem()).string();
   vessel::writeObj(made.mesh, a.out);
   vessel::writeCentreline(made.centreline, out.stem().string(), stem + "_centreline.yaml");
-  writeText(made.report.json(made.centreline), stem + "_report.json");
+  tools::writeFile(stem + "_report.json", made.report.json(made.centreline));
   std::cout << made.report.text(made.centreline) << "wrote " << a.out << ", " << stem << "_centreline.yaml, " << stem
             << "_report.json\n"
-            << "to use it: simulate config/scenes/mesh.yaml --set vessel.mesh="
+            << "to simulate in it: simulate config/scenes/mesh.yaml --set vessel.mesh="
             << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
   return made.report.withinDistance() ? 0 : 3;
 }
@@ -211,23 +140,13 @@ int prepare(const Arguments& a)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    const Arguments arguments = parse({argv + 1, argv + argc});
-    if (arguments.help)
-    {
-      std::cout << kUsage;
-      return 0;
-    }
-    return prepare(arguments);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return wrongUse(error.what());
-  }
-  catch (const InputError& error)
-  {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
+  Options options;
+  tools::CommandLine line(
+      "vessel_prepare",
+      "Makes a vessel for scenes out of a mesh that they reject: overlapping pieces, holes, non-manifold "
+      "edges, inconsistent orientation, coarse facets.",
+      "Exit code: 0 success, within max-distance; 1 rejected (the reason is on the error stream); 2 "
+      "wrong arguments; 3 success, but beyond max-distance at places that the report names.");
+  addOptions(line, options);
+  return line.run(argc, argv, [&options] { return prepare(options); });
 }

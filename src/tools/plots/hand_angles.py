@@ -1,30 +1,30 @@
 #!/usr/bin/env python3
-"""Runs the wire and the motion of the published benchmark (config/scenes/peer_wire.yaml) over many initial hand angles.
+"""Runs the wire and the motion of the published benchmark (config/scenes/peer_wire.yaml) from many initial hand angles.
 
-At bifurcations the outcome is chaotic, so one run says little: this runs an ensemble on the generated anatomy, and on the
-benchmark's own mesh where that is given, and checks every run against the limits that the project promises.
+At bifurcations the outcome is chaotic, so a single run is no evidence. This tool runs an ensemble in the generated anatomy
+and, if available, in the benchmark's own mesh, and checks every run against the limits of the project.
 """
 
-import argparse
 import csv
-import json
 import math
 import os
-import pathlib
 import statistics
-import subprocess
+import pathlib
 import sys
 
-# Promised for every run; a wire that jams in a closed branch (its hand slips) may press deeper.
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
+
+# Limits of every run; a wire locked in a closed branch (the hand slips) may penetrate deeper.
 MAX_PENETRATION = 0.1e-3        # m
-MAX_PENETRATION_JAMMED = 0.35e-3  # m
+MAX_PENETRATION_LOCKED = 0.35e-3  # m
 MAX_STRAIN = 1e-3
-# Told, not judged, because they depend on the machine: by speed of the push [m/s] the mean real-time factor of the runs
-# on one core and the 99th percentile of a step [us].
+# Reported goals, not part of the verdict because they depend on the machine: mean real-time factor on one core and 99th
+# percentile of a step [us], by speed of the push [m/s].
 GOALS = {0.035: (15.0, 300.0), 0.1: (8.0, 300.0), 0.5: (2.0, None)}
-TRAVEL = 0.4                    # m, of the scene
-END = 0.4042                    # m, inserted when nothing jams
-SPARE_TIME = 0.07               # s, after the push
+TRAVEL = 0.4                    # m, travel of the scene's drive
+END = 0.4042                    # m, final insertion unless the wire locks
+SPARE_TIME = 0.07               # s, simulated time after the push
 
 COLUMNS = ['vessel', 'speed_mm_s', 'angle_deg', 'inserted_mm', 'jammed', 'penetration_mm', 'nodes_outside', 'max_strain',
            'steps_strained', 'hand_force_max_N', 'refused_steps', 'real_time_factor', 'step_median_us', 'step_p99_us',
@@ -32,7 +32,7 @@ COLUMNS = ['vessel', 'speed_mm_s', 'angle_deg', 'inserted_mm', 'jammed', 'penetr
 
 
 def vessels(mesh):
-    """Name and overrides of every vessel that is run."""
+    """Name and overrides of every vessel."""
     generated = ['vessel.unit=null', 'vessel.anatomy=anatomies/default.yaml', 'entry.position=null',
                  'entry.direction=null', 'entry.up=null', 'entry.centreline_end=right_common_femoral',
                  'entry.offset=0.005']
@@ -42,33 +42,20 @@ def vessels(mesh):
     return chosen
 
 
-def find_scene(programs):
-    """The benchmark's scene, in the source tree or where the package is installed."""
-    for config in (pathlib.Path(__file__).resolve().parents[2] / 'config',
-                   programs.parents[1] / 'share' / 'endovascular_sim' / 'config'):
-        if (config / 'scenes' / 'peer_wire.yaml').exists():
-            return config / 'scenes' / 'peer_wire.yaml'
-    return sys.exit('hand_angles: config/scenes/peer_wire.yaml was not found beside this program')
-
-
-def run(programs, scene, overrides, speed, angle, folder, seconds):
-    """One run of `simulate`; returns its result."""
-    command = [str(programs / 'simulate'), str(scene), '--out', str(folder), '--no-plots', '--quiet']
-    for override in [f'drive.speed={speed}', f'drive.initial_rotation={angle:.17g}'] + overrides:
-        command += ['--set', override]
-    command += ['--seconds', str(seconds or TRAVEL / speed + SPARE_TIME)]
-    done = subprocess.run(command, stderr=subprocess.PIPE, universal_newlines=True, check=False)
+def run(scene, overrides, speed, angle, folder, seconds):
+    """Simulates the scene once; returns the content of result.json."""
+    motion = [f'drive.speed={speed}', f'drive.initial_rotation={angle:.17g}']
+    done = tools.simulate(scene, folder, motion + overrides, '--seconds', str(seconds or TRAVEL / speed + SPARE_TIME))
     if not (folder / 'result.json').exists():
-        sys.exit(f'hand_angles: simulate gave no result:\n{done.stderr}')
-    with open(folder / 'result.json', encoding='utf-8') as stream:
-        return json.load(stream)
+        tools.fail(f'simulate wrote no result:\n{done.stderr}')
+    return tools.read_json(folder / 'result.json')
 
 
 def row_of(name, speed, angle, result):
-    """One line of the table."""
+    """Row of hand_angles.csv."""
     whole = result['steps'] * result['dt'] >= TRAVEL / speed
-    jammed = whole and result['inserted_length'] < END - 1e-3
-    limit = MAX_PENETRATION_JAMMED if jammed else MAX_PENETRATION
+    locked = whole and result['inserted_length'] < END - 1e-3
+    limit = MAX_PENETRATION_LOCKED if locked else MAX_PENETRATION
     broken = []
     if result['worst_surface_penetration'] > limit:
         broken.append('penetration')
@@ -80,7 +67,7 @@ def row_of(name, speed, angle, result):
         broken.append('refused')
     time = result['step_time_us']
     return {'vessel': name, 'speed_mm_s': round(1e3 * speed), 'angle_deg': round(math.degrees(angle), 1),
-            'inserted_mm': round(1e3 * result['inserted_length'], 1), 'jammed': 'yes' if jammed else 'no',
+            'inserted_mm': round(1e3 * result['inserted_length'], 1), 'jammed': 'yes' if locked else 'no',
             'penetration_mm': round(1e3 * result['worst_surface_penetration'], 4),
             'nodes_outside': result['nodes_outside'], 'max_strain': f"{result['max_strain']:.1e}",
             'steps_strained': result['steps_with_strain_above_1e-4'],
@@ -94,7 +81,7 @@ def row_of(name, speed, angle, result):
 
 
 def write(folder, rows):
-    """The table as CSV and as Markdown."""
+    """Writes the table as CSV and as Markdown."""
     with open(folder / 'hand_angles.csv', 'w', newline='', encoding='utf-8') as stream:
         writer = csv.DictWriter(stream, COLUMNS)
         writer.writeheader()
@@ -106,7 +93,7 @@ def write(folder, rows):
 
 
 def summary(name, speed, rows):
-    """One vessel and speed in a line, with the goals that are known for it."""
+    """Summary of one vessel and speed in a line, with the goals of that speed."""
     factor = statistics.mean(row['real_time_factor'] for row in rows)
     slow = [row['step_p99_us'] for row in rows]
     factor_goal, step_goal = GOALS.get(speed, (None, None))
@@ -120,19 +107,20 @@ def summary(name, speed, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--out', required=True, type=pathlib.Path, help='folder for the table and every run')
-    parser.add_argument('--mesh', help='aortic_arch_tree.obj of the benchmark [mm]; default: looked for in '
+    """Runs the ensemble and writes the table after every run."""
+    parser = tools.argument_parser(__doc__, 'Exit code: 0 all runs are within the limits; 1 some are not, or a run '
+                                            'failed; 2 wrong arguments.')
+    parser.add_argument('--out', required=True, type=pathlib.Path, help='folder for the table and the runs')
+    parser.add_argument('--mesh', help='aortic_arch_tree.obj of the benchmark [mm]; default: that of '
                                        'ENDOVASCULAR_DATA_DIR')
     parser.add_argument('--speeds', type=float, nargs='+', default=[0.035], metavar='M/S',
-                        help='speeds of the push, default 0.035; the goals are for 0.035 0.1 0.5')
-    parser.add_argument('--angles', type=int, default=16, help='number of initial hand angles, default 16')
-    parser.add_argument('--seconds', type=float, help='simulated time of each run, default: the scene\'s 11.5 s')
+                        help='speeds of the push [0.035]; goals exist for 0.035, 0.1 and 0.5')
+    parser.add_argument('--angles', type=int, default=16, help='number of initial hand angles [16]')
+    parser.add_argument('--seconds', type=float, help='simulated time of each run [s]; default: until the push has ended')
     parser.add_argument('--set', action='append', default=[], dest='overrides', metavar='KEY=VALUE',
                         help='replaces a value of the scene in every run; may be repeated')
     options = parser.parse_args()
-    programs = pathlib.Path(os.environ.get('ENDOVASCULAR_PROGRAMS', pathlib.Path(sys.argv[0]).resolve().parent))
-    scene = find_scene(programs)
+    scene = tools.find_scene('peer_wire.yaml')
     mesh = options.mesh
     if mesh is None and 'ENDOVASCULAR_DATA_DIR' in os.environ:
         candidate = pathlib.Path(os.environ['ENDOVASCULAR_DATA_DIR']) / 'aortic_arch_tree.obj'
@@ -147,7 +135,7 @@ def main():
                   flush=True)
             folder = options.out / f'{name}_{1e3 * speed:.0f}_{k:02d}'
             folder.mkdir(exist_ok=True)
-            result = run(programs, scene, overrides + options.overrides, speed, angle, folder, options.seconds)
+            result = run(scene, overrides + options.overrides, speed, angle, folder, options.seconds)
             rows.append(row_of(name, speed, angle, result))
             write(options.out, rows)
     bad = [row for row in rows if row['verdict'] != 'good']

@@ -1,39 +1,38 @@
 #!/usr/bin/python3
-"""Draws instruments from the tables that `instrument_shape` writes: the shape at rest from two sides, diameter and
-bending stiffness along the shaft with the radiopaque markers, the chart of a balloon or the length of a stent."""
+"""Draws instruments from the tables of `instrument_shape`.
 
-import argparse
-import csv
+Per instrument: the rest shape from two sides, diameter and bending stiffness along the shaft with the radiopaque markers,
+and the compliance chart of a balloon or the length of a stent.
+"""
+
 import os
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
 COLOURS = {"steel": "#4c6a92", "nitinol": "#b07d2b", "platinum": "#111111", "polymer": "#8a8f98",
            "filled_polymer": "#5f6670"}
-SHOWN_STRAIGHT = 0.020   # of the shaft behind the first curve [m]
-SHOWN_LEAST = 0.060      # of an instrument [m]
-ATMOSPHERE = 101325.0    # [Pa]
-
-
-def fail(message):
-    """Ends the program with a message for the user."""
-    sys.exit("plot_instruments.py: " + message)
+SHOWN_STRAIGHT = 0.020   # drawn length of straight shaft proximal to the first curve [m]
+SHOWN_LEAST = 0.060      # minimum drawn length of an instrument [m]
+ATMOSPHERE = 101325.0    # standard atmosphere [Pa]
 
 
 def read_table(path, text_columns):
-    """Rows of a CSV file by instrument, in the file's order; numbers but for the text columns."""
+    """Rows of a CSV file by instrument, in the order of the file; all columns but the text columns are numbers."""
     table = {}
     if not os.path.isfile(path):
         return table
-    with open(path, newline="") as stream:
-        for row in csv.DictReader(stream):
-            name = row.pop("instrument")
-            table.setdefault(name, []).append(
-                {key: value if key in text_columns else float(value) for key, value in row.items()})
+    for row in tools.read_rows(path):
+        name = row.pop("instrument")
+        table.setdefault(name, []).append(
+            {key: value if key in text_columns else float(value) for key, value in row.items()})
     return table
 
 
 def shown_from(shaft):
-    """Arc length from which a shape is drawn: everything curved, and some of the straight shaft behind it [m]."""
+    """Arc length from which a shape is drawn: the curved part and SHOWN_STRAIGHT proximal to it [m]."""
     length = shaft[-1]["arc_length"]
     curved = [row["arc_length"] for row in shaft if abs(row["x"]) + abs(row["y"]) > 1e-9]
     begin = curved[0] if curved else length
@@ -41,7 +40,7 @@ def shown_from(shaft):
 
 
 def pieces(shaft):
-    """Runs of points of one material, each with the point that it begins at."""
+    """Runs of consecutive points of one material; each run includes the last point of the preceding one."""
     runs = []
     for before, row in zip(shaft, shaft[1:]):
         if not runs or runs[-1][0] != row["material"]:
@@ -51,34 +50,34 @@ def pieces(shaft):
 
 
 def marked(shaft, marker):
-    """Points of a shaft under a marker."""
+    """Points of a shaft covered by a marker."""
     length = shaft[-1]["arc_length"]
     end = length - marker["from_tip"]
     rows = [row for row in shaft if end - marker["length"] - 5e-4 <= row["arc_length"] <= end + 5e-4]
     return rows
 
 
-def draw_view(axes, shaft, markers, across, words):
-    """The shape at rest, the hand's side below."""
+def draw_view(axes, shaft, markers, across, title):
+    """Draws the rest shape, the proximal side below."""
     begin = shown_from(shaft)
     shown = [row for row in shaft if row["arc_length"] >= begin]
     base = shown[0]["z"]
 
-    def place(rows):
+    def coordinates(rows):
         return [1e3 * row[across] for row in rows], [1e3 * (row["z"] - base) for row in rows]
 
     for material, rows in pieces(shown):
-        axes.plot(*place(rows), color=COLOURS[material], linewidth=1.0 + 1.5e3 * rows[-1]["diameter"],
+        axes.plot(*coordinates(rows), color=COLOURS[material], linewidth=1.0 + 1.5e3 * rows[-1]["diameter"],
                   solid_capstyle="butt")
     for marker in markers:
-        axes.plot(*place(marked(shaft, marker)), color="black", linewidth=2.5 + 1.5e3 * shown[-1]["diameter"],
+        axes.plot(*coordinates(marked(shaft, marker)), color="black", linewidth=2.5 + 1.5e3 * shown[-1]["diameter"],
                   solid_capstyle="butt")
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_title(words, fontsize=7)
+    axes.set_title(title, fontsize=7)
 
 
 def draw_shaft(axes, shaft, markers, balloon):
-    """Diameter and bending stiffness of the last 250 mm of the shaft by the distance from the tip; dotted: the lumen."""
+    """Draws diameter, lumen (dotted) and bending stiffness of the distal 250 mm over the distance from the tip."""
     tip = shaft[-1]["arc_length"]
     from_tip = [1e3 * (tip - row["arc_length"]) for row in shaft]
     axes.step(from_tip, [1e3 * row["diameter"] for row in shaft], color="#8a8f98", where="pre")
@@ -103,7 +102,7 @@ def draw_shaft(axes, shaft, markers, balloon):
 
 
 def draw_balloon(axes, rows):
-    """Diameter over pressure, nominal and rated burst pressure."""
+    """Draws diameter over pressure, with nominal and rated burst pressure."""
     axes.plot([row["pressure"] / ATMOSPHERE for row in rows], [1e3 * row["diameter"] for row in rows], color="#2a7f62")
     for key, colour in (("nominal_pressure", "#2a7f62"), ("rated_burst_pressure", "#b03a2e")):
         axes.axvline(rows[0][key] / ATMOSPHERE, color=colour, linestyle="--", linewidth=0.8)
@@ -112,7 +111,7 @@ def draw_balloon(axes, rows):
 
 
 def draw_stent(axes, rows):
-    """Length over inner diameter."""
+    """Draws length over inner diameter."""
     axes.plot([1e3 * row["diameter"] for row in rows], [1e3 * row["length"] for row in rows], "o-", color="#4c6a92",
               markersize=3)
     axes.axvline(1e3 * rows[0]["nominal_diameter"], color="#4c6a92", linestyle="--", linewidth=0.8)
@@ -122,7 +121,7 @@ def draw_stent(axes, rows):
 
 
 def draw_row(axes, name, tables):
-    """One instrument in a row of four."""
+    """Draws one instrument in a row of four axes."""
     shaft = tables["shaft"].get(name)
     markers = tables["markers"].get(name, [])
     balloon = tables["balloon"].get(name)
@@ -146,20 +145,18 @@ def draw_row(axes, name, tables):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="with what `instrument_shape --out shaft.csv` writes")
+    """Reads the tables and writes the picture."""
+    parser = tools.argument_parser(__doc__)
+    parser.add_argument("folder", help="folder with the tables of `instrument_shape --out shaft.csv`")
     parser.add_argument("picture", help="PNG or SVG file to write")
     arguments = parser.parse_args()
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
+    pyplot = tools.pyplot()
     files = {"shaft": "shaft.csv", "markers": "shaft_markers.csv", "balloon": "shaft_balloon.csv",
              "stent": "shaft_stent.csv"}
     tables = {key: read_table(os.path.join(arguments.folder, file), ("material",)) for key, file in files.items()}
     names = list(dict.fromkeys(name for key in ("shaft", "stent") for name in tables[key]))
     if not names:
-        fail("%s: no instrument in shaft.csv" % arguments.folder)
+        tools.fail("%s: no instrument in shaft.csv" % arguments.folder)
     columns = 1 if len(names) < 6 else 2
     rows = -(-len(names) // columns)
     figure, axes = pyplot.subplots(rows, 4 * columns, figsize=(9.0 * columns, 0.4 + 1.9 * rows), squeeze=False,
@@ -173,7 +170,7 @@ def main():
     try:
         figure.savefig(arguments.picture, dpi=80)
     except (OSError, ValueError) as error:
-        fail("%s: cannot be written: %s" % (arguments.picture, error))
+        tools.fail("%s: cannot be written: %s" % (arguments.picture, error))
 
 
 if __name__ == "__main__":

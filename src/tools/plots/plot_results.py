@@ -1,62 +1,61 @@
 #!/usr/bin/python3
-"""Draws the results of a session or of `simulate`: forces.png and tip_path.png from trajectory.csv, and wall_forces.png
-from wall_forces.csv and vessel_points.csv where they are."""
+"""Draws the results of a session or of `simulate`.
 
-import argparse
+Writes forces.png and tip_path.png from trajectory.csv, and wall_forces.png from wall_forces.csv and vessel_points.csv if
+these exist.
+"""
+
 import csv
 import os
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
 AXES = {"x": "x, to the left [mm]", "y": "y, to the back [mm]", "z": "z, to the head [mm]"}
 VIEWS = (("x", "z", "from the front"), ("y", "z", "from the side"), ("x", "y", "from below"))
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
 
 
-def fail(message):
-    """Ends the program with a message for the user."""
-    sys.exit("plot_results.py: " + message)
-
-
 def read_trajectory(path):
     """Columns of a trajectory.csv as lists of floats, SI units."""
     if not os.path.isfile(path):
-        fail("%s: there is no such file; give the folder that a session or `simulate` wrote" % path)
+        tools.fail("%s: no such file; give the results folder of a session or of `simulate`" % path)
     columns = {name: [] for name in COLUMNS}
     with open(path, newline="") as stream:
         reader = csv.DictReader(stream)
         missing = [name for name in COLUMNS if name not in (reader.fieldnames or [])]
         if missing:
-            fail("%s: no column %s in the head line" % (path, ", ".join(missing)))
+            tools.fail("%s: no column %s in the header line" % (path, ", ".join(missing)))
         for row in reader:
             try:
                 values = [float(row[name]) for name in COLUMNS]
             except (TypeError, ValueError):
-                # The last row of a session that was cut off may be half written.
-                print("plot_results.py: %s: line %d left out: not a number in every column"
-                      % (path, reader.line_num), file=sys.stderr)
+                # The last row of an interrupted session may be incomplete.
+                tools.warn("%s: line %d skipped: not a number in every column" % (path, reader.line_num))
                 continue
             for name, value in zip(COLUMNS, values):
                 columns[name].append(value)
     if not columns["time"]:
-        fail("%s: no row; the session ended before the first one" % path)
+        tools.fail("%s: no row; the session ended before the first one" % path)
     return columns
 
 
 def read_columns(path, names):
-    """Columns of a CSV file as lists of floats; nothing where there is no such file or it holds something else."""
+    """Columns of a CSV file as lists of floats; None without the file or without numbers in these columns."""
     if not os.path.isfile(path):
         return None
-    with open(path, newline="") as stream:
-        rows = list(csv.DictReader(stream))
+    rows = list(tools.read_rows(path))
     try:
         return {name: [float(row[name]) for row in rows] for name in names}
     except (KeyError, TypeError, ValueError):
-        print("plot_results.py: %s: not plotted: not a number in every column" % path, file=sys.stderr)
+        tools.warn("%s: not plotted: not a number in every column" % path)
         return None
 
 
 def plot_forces(pyplot, data, path):
-    """Force and torque at the hand over time, force over insertion."""
+    """Draws force and torque at the hand over time, and force over insertion."""
     figure, axes = pyplot.subplots(2, 2, figsize=(11, 7), constrained_layout=True)
     millimetres = [1e3 * value for value in data["insertion"]]
     axes[0, 0].plot(data["time"], data["hand_force"], linewidth=0.8)
@@ -77,7 +76,7 @@ def plot_forces(pyplot, data, path):
 
 
 def plot_tip_path(pyplot, data, path):
-    """The tip's path from the front, from the side and from above (patient frame)."""
+    """Draws the path of the tip from the front, from the side and from below (patient frame)."""
     figure, axes = pyplot.subplots(1, 3, figsize=(13, 5), constrained_layout=True)
     for axis, (across, up, title) in zip(axes, VIEWS):
         horizontal = [1e3 * value for value in data["tip_" + across]]
@@ -94,9 +93,9 @@ def plot_tip_path(pyplot, data, path):
 
 
 def plot_wall_forces(pyplot, wall, forces, path):
-    """The vessel as grey points with the touched places on it, coloured by the largest force at one contact."""
+    """Draws the vessel as grey points, and its touched triangles coloured by the largest force at one contact."""
     from matplotlib.colors import LinearSegmentedColormap
-    # As in rviz; the end of the scale is the largest force of the run.
+    # Colours of rviz; the scale ends at the largest force of the run.
     colours = LinearSegmentedColormap.from_list("force", ["#ffe633", "#ff800d", "#d90d0d"])
     order = sorted(range(len(forces["peak"])), key=lambda k: forces["peak"][k])  # the largest on top
     peaks = [forces["peak"][k] for k in order]
@@ -114,19 +113,15 @@ def plot_wall_forces(pyplot, wall, forces, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    """Reads the results and writes the pictures."""
+    parser = tools.argument_parser(__doc__)
     parser.add_argument("folder", help="folder with trajectory.csv")
-    parser.add_argument("--out", metavar="DIR", help="where the pictures go (default: the same folder)")
+    parser.add_argument("--out", metavar="DIR", help="folder for the pictures [the same folder]")
     arguments = parser.parse_args()
 
     data = read_trajectory(os.path.join(arguments.folder, "trajectory.csv"))
     out = arguments.out or arguments.folder
-    try:
-        import matplotlib
-        matplotlib.use("Agg")
-        from matplotlib import pyplot
-    except ImportError as error:
-        fail("%s; install the Debian package python3-matplotlib and run with /usr/bin/python3" % error)
+    pyplot = tools.pyplot()
     try:
         os.makedirs(out, exist_ok=True)
         plot_forces(pyplot, data, os.path.join(out, "forces.png"))
@@ -136,7 +131,7 @@ def main():
         if forces and wall:
             plot_wall_forces(pyplot, wall, forces, os.path.join(out, "wall_forces.png"))
     except OSError as error:
-        fail("%s" % error)
+        tools.fail("%s" % error)
     return 0
 
 

@@ -1,32 +1,30 @@
 #!/usr/bin/python3
-"""Draws what `vessel_prepare` made of a mesh: the input and, with its centreline and opened ends, the result as seen from
-the front, and both cut by planes. The tool's OUT_report.json lies beside OUT.obj."""
+"""Draws input and result of `vessel_prepare`.
+
+Both are seen from the front, the result with its centreline and open ends, and cut by planes. OUT_report.json must lie
+beside OUT.obj.
+"""
 
 import argparse
-import json
 import os
+import pathlib
 import sys
 
-import matplotlib
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+plt = tools.pyplot()
 import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402
 
 AXES = "xyz"
 BEFORE, AFTER, CENTRELINE = "#d9604f", "#e8a79d", "#1f6fb0"
-LIGHT = (0.3, 0.4, 0.87)  # towards it, in the picture: right, up, to the viewer
-
-
-def fail(message):
-    """Ends the program with a message for the user."""
-    sys.exit("plot_vessel.py: " + message)
+LIGHT = (0.3, 0.4, 0.87)  # direction towards the light, in the picture: right, up, towards the viewer
 
 
 def read_obj(path):
-    """Vertices and triangles of an OBJ file; faces with more corners are cut into fans."""
+    """Vertices and triangles of an OBJ file; polygons become fans of triangles."""
     vertices, triangles = [], []
     with open(path) as stream:
         for line in stream:
@@ -40,30 +38,30 @@ def read_obj(path):
 
 
 def read_stl(path):
-    """Corners of a binary STL file's triangles."""
+    """Corners of the triangles of a binary STL file."""
     with open(path, "rb") as stream:
         data = stream.read()
     count = int.from_bytes(data[80:84], "little")
     if len(data) != 84 + 50 * count:
-        fail(path + ": no binary STL file; convert it to OBJ")
+        tools.fail(path + ": not a binary STL file; convert it to OBJ")
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     return np.frombuffer(data, record, count, 84)["corners"].astype(float)
 
 
 def read_corners(path, unit):
-    """Corners of a mesh's triangles [m], triangles by corners by axes."""
+    """Corners of the triangles of a mesh as an array triangles × corners × axes [m]."""
     if not os.path.isfile(path):
-        fail(path + ": there is no such file")
+        tools.fail(path + ": no such file")
     if path.lower().endswith(".stl"):
         return unit * read_stl(path)
     vertices, triangles = read_obj(path)
     if not triangles:
-        fail(path + ": no triangles; OBJ and binary STL are read")
+        tools.fail(path + ": no triangles; use OBJ or binary STL")
     return unit * np.array(vertices)[np.array(triangles)]
 
 
 def draw_surface(axis, corners, view, colour, alpha):
-    """Triangles from the farthest to the nearest, in the light. view: the axes that point right and up."""
+    """Draws shaded triangles from the farthest to the nearest. view: the axes that point right and up."""
     right, up = np.eye(3)[list(view)]
     seen = 1e3 * corners @ np.stack([right, up, np.cross(right, up)], axis=1)
     normal = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
@@ -78,74 +76,77 @@ def draw_surface(axis, corners, view, colour, alpha):
     axis.set_axis_off()
 
 
-def cut_lines(corners, normal, place):
-    """Lines in which a plane across an axis cuts the triangles, lines by ends by axes [m]."""
-    height = corners[:, :, normal] - place
+def cut_lines(corners, normal, position):
+    """Intersection of the triangles with a plane normal to an axis, as an array segments × ends × axes [m]."""
+    height = corners[:, :, normal] - position
     crossed = corners[(height.min(axis=1) < 0.0) & (height.max(axis=1) >= 0.0)]
     lines = []
     for triangle in crossed:
         ends = []
         for k in range(3):
             a, b = triangle[k], triangle[(k + 1) % 3]
-            if (a[normal] < place) != (b[normal] < place):
-                ends.append(a + (place - a[normal]) / (b[normal] - a[normal]) * (b - a))
+            if (a[normal] < position) != (b[normal] < position):
+                ends.append(a + (position - a[normal]) / (b[normal] - a[normal]) * (b - a))
         lines.append(ends)
     return np.array(lines).reshape(-1, 2, 3)
 
 
 def draw_cut(axis, meshes, cut):
-    """Both meshes cut by a plane, given as y=0.495."""
-    name, place = cut
+    """Draws both meshes cut by a plane.
+
+    cut: axis and position, e.g. ("y", 0.495).
+    """
+    name, position = cut
     normal = AXES.index(name)
     others = [k for k in range(3) if k != normal]
     for corners, colour, width in zip(meshes, ("0.55", "#a03b30"), (2.4, 1.2)):
-        lines = 1e3 * cut_lines(corners, normal, place)[:, :, others]
+        lines = 1e3 * cut_lines(corners, normal, position)[:, :, others]
         if len(lines) == 0:
-            print("plot_vessel.py: the plane %s = %g m does not meet every mesh" % cut, file=sys.stderr)
+            tools.warn("the plane %s = %g m does not intersect both meshes" % cut)
         axis.add_collection(LineCollection(lines, colors=colour, linewidths=width))
     axis.autoscale_view()
     axis.set_aspect("equal")
-    axis.set_title("cut at %s = %g mm (grey: before, red: after)" % (name, 1e3 * place), fontsize=9)
+    axis.set_title("cut at %s = %g mm (grey: before, red: after)" % (name, 1e3 * position), fontsize=9)
     axis.set_xlabel(AXES[others[0]] + " [mm]")
     axis.set_ylabel(AXES[others[1]] + " [mm]")
 
 
 def draw_centreline(axis, report, view):
-    """Branches, and rings at the ends that were opened."""
+    """Draws the branches, and a ring at each open end."""
     for branch in report["centreline"]:
         points = 1e3 * np.array(branch["points"])
         axis.plot(points[:, view[0]], points[:, view[1]], color=CENTRELINE, linewidth=1.2)
     for opening in report["openings"]:
-        place = 1e3 * np.array(opening["place"])
-        axis.plot(place[view[0]], place[view[1]], "o", color="black", fillstyle="none", markersize=9)
+        centre = 1e3 * np.array(opening["place"])
+        axis.plot(centre[view[0]], centre[view[1]], "o", color="black", fillstyle="none", markersize=9)
 
 
 def cut_of(text):
-    """A plane: y=0.495 is (y, 0.495)."""
-    name, equals, place = text.partition("=")
+    """Plane of a text: y=0.495 is ("y", 0.495)."""
+    name, equals, position = text.partition("=")
     try:
         if name not in AXES or len(name) != 1 or not equals:
             raise ValueError
-        return name, float(place)
+        return name, float(position)
     except ValueError:
-        raise argparse.ArgumentTypeError("wants an axis and a place in metres like y=0.495, got " + text)
+        raise argparse.ArgumentTypeError("requires an axis and a position in metres, e.g. y=0.495, not " + text)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    """Reads both meshes and the report, and writes the picture."""
+    parser = tools.argument_parser(__doc__)
     parser.add_argument("before", help="the input of vessel_prepare, OBJ or binary STL")
     parser.add_argument("after", help="its output, OUT.obj")
-    parser.add_argument("--unit", type=float, default=1.0, help="of the input [m] (default: 1)")
-    parser.add_argument("--up", choices=AXES, default="y", help="axis to the head (default: y)")
-    parser.add_argument("--cut", type=cut_of, action="append", default=[], metavar="AXIS=PLACE",
-                        help="also draws both cut by a plane, e.g. y=0.495 [m]; may be repeated")
+    parser.add_argument("--unit", type=float, default=1.0, help="length of a unit of the input [1 m]")
+    parser.add_argument("--up", choices=AXES, default="y", help="axis towards the head [y]")
+    parser.add_argument("--cut", type=cut_of, action="append", default=[], metavar="AXIS=POSITION",
+                        help="also draws both meshes cut by a plane, e.g. y=0.495 [m]; may be repeated")
     parser.add_argument("--out", required=True, metavar="FILE.png", help="picture to write")
     options = parser.parse_args()
     beside = os.path.splitext(options.after)[0] + "_report.json"
     if not os.path.isfile(beside):
-        fail(beside + ": missing; vessel_prepare writes it beside " + options.after)
-    with open(beside) as stream:
-        report = json.load(stream)
+        tools.fail(beside + ": missing; vessel_prepare writes it beside " + options.after)
+    report = tools.read_json(beside)
     meshes = [read_corners(options.before, options.unit), read_corners(options.after, 1.0)]
     view = (0 if options.up != "x" else 1, AXES.index(options.up))
     rows = max(1, len(options.cut))
@@ -155,7 +156,7 @@ def main():
     draw_surface(before, meshes[0], view, BEFORE, 1.0)
     draw_surface(after, meshes[1], view, AFTER, 0.6)
     draw_centreline(after, report, view)
-    for axis, title, key in ((before, "before", "before"), (after, "after, ends opened (o)", "after")):
+    for axis, title, key in ((before, "before", "before"), (after, "after, open ends (o)", "after")):
         counts = report[key]
         axis.set_title("%s\n%d triangles, components: %d, boundary edges: %d" %
                        (title, counts["triangles"], counts["components"], counts["boundary_edges"]), fontsize=9)

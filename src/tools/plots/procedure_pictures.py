@@ -1,38 +1,32 @@
 #!/usr/bin/python3
-"""Draws the phases of a procedure side by side: the instruments in the vessel as they lie at each phase's end, and below
-the fluoroscopy picture nearest to that moment, where there are pictures."""
+"""Draws the phases of a procedure side by side.
 
-import argparse
-import csv
-import json
+Each column shows the instruments in the vessel at the end of a phase and, if images exist, the fluoroscopy image nearest to
+that time.
+"""
+
 import pathlib
 import sys
 import textwrap
 
-import matplotlib
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+plt = tools.pyplot()
 import numpy as np  # noqa: E402
 
 COLOURS = ["#d62728", "#ff9900", "#111111", "#1f77b4", "#2ca02c", "#9467bd"]
-WIDTHS = [1.2, 2.2, 1.6, 4.0]   # points, from the inside out
+WIDTHS = [1.2, 2.2, 1.6, 4.0]   # line widths of the layers, from the innermost [points]
 COLUMNS = 6
-ZOOM = 0.075                    # half the width of a picture [m]
-
-
-def read(path):
-    """Rows of a CSV file."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        yield from csv.DictReader(stream)
+ZOOM = 0.075                    # half the width of a view [m]
 
 
 def phases(folder):
-    """Name, end [s] and picture's number of every phase, in their order; of one that began again, the last time."""
+    """Name, end [s] and image number of every phase in order; a repeated phase counts with its last end."""
     found = {}
     before = None
     number = 0
-    for step in json.loads((folder / "metrics.json").read_text(encoding="utf-8"))["steps"]:
+    for step in tools.read_json(folder / "metrics.json")["steps"]:
         name = step["phase"] or step["step"]
         number += name != before
         before = name
@@ -41,7 +35,7 @@ def phases(folder):
 
 
 def shapes(path, times):
-    """Polyline of the nodes at the recorded moment nearest before each time, streamed: the file is large."""
+    """Polyline of the nodes at the last recorded time up to each given time; streams the file, which is large."""
     found = [None] * len(times)
     rows = []
     now = None
@@ -50,7 +44,7 @@ def shapes(path, times):
         for k, wanted in enumerate(times):
             if now is not None and now <= wanted + 1e-9:
                 found[k] = rows
-    for row in read(path):
+    for row in tools.read_rows(path):
         time = float(row["time"])
         if time != now:
             keep()
@@ -61,20 +55,20 @@ def shapes(path, times):
 
 
 def insertions(path, times):
-    """Insertion of every instrument at the sample nearest to each time, in the scene's order [m]."""
+    """Insertion of every instrument at the sample nearest to each time, in the order of the scene [m]."""
     found = [{} for _ in times]
     best = [{} for _ in times]
-    for row in read(path):
+    for row in tools.read_rows(path):
         for k, wanted in enumerate(times):
-            away = abs(float(row["time"]) - wanted)
-            if away < best[k].get(row["instrument"], 1e9):
-                best[k][row["instrument"]] = away
+            distance = abs(float(row["time"]) - wanted)
+            if distance < best[k].get(row["instrument"], 1e9):
+                best[k][row["instrument"]] = distance
                 found[k][row["instrument"]] = float(row["insertion"])
     return found
 
 
-def upto(nodes, length):
-    """The part of a polyline from its beginning that is so long."""
+def truncated(nodes, length):
+    """Initial part of a polyline with the given length."""
     part = nodes[:1]
     for a, b in zip(nodes, nodes[1:]):
         step = sum((q - p) ** 2 for p, q in zip(a, b)) ** 0.5
@@ -87,7 +81,10 @@ def upto(nodes, length):
 
 
 def picture_of(folder, number, time, duration):
-    """The fluoroscopy picture of a phase's end: `simulate --pictures` takes one there, a session evenly over the run."""
+    """Fluoroscopy image at the end of a phase.
+
+    `simulate --pictures` writes one per phase; a session writes images at equal intervals.
+    """
     own = folder / "fluoroscopy" / f"phase_{number:02d}.png"
     if own.exists():
         return own
@@ -99,7 +96,7 @@ def picture_of(folder, number, time, duration):
 
 
 def draw(axis, vessel, nodes, inside):
-    """One phase from the front: the vessel's points grey, every instrument as far as it reaches."""
+    """Draws one phase from the front: the points of the vessel in grey, every instrument over its inserted length."""
     axis.scatter([p[0] for p in vessel], [p[2] for p in vessel], s=1.0, c="#c9a9a0", linewidths=0)
     names = list(inside)
     tip = (0.0, 0.0, 0.0)
@@ -107,7 +104,7 @@ def draw(axis, vessel, nodes, inside):
         length = inside[names[k]]
         if length <= 0.002 or not nodes:
             continue
-        part = upto(nodes, length)
+        part = truncated(nodes, length)
         axis.plot([p[0] for p in part], [p[2] for p in part], color=COLOURS[k % len(COLOURS)],
                   linewidth=WIDTHS[k % len(WIDTHS)], solid_capstyle="round", label=names[k])
     if nodes:
@@ -120,12 +117,12 @@ def draw(axis, vessel, nodes, inside):
 
 
 def main():
-    """Reads the results, draws, writes."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("results", type=pathlib.Path, help="folder of results of simulate or of a session")
+    """Reads the results and writes the picture."""
+    parser = tools.argument_parser(__doc__)
+    parser.add_argument("results", type=pathlib.Path, help="results folder of `simulate` or of a session")
     parser.add_argument("--shapes", type=pathlib.Path, metavar="DIR",
-                        help="folder of `simulate --record nodes` of the same scene (default: the results)")
-    parser.add_argument("--out", type=pathlib.Path, default=None, help="picture (default: phases.png in the results)")
+                        help="results folder of `simulate --record nodes` of the same scene [the results]")
+    parser.add_argument("--out", type=pathlib.Path, default=None, help="picture to write [phases.png in the results]")
     options = parser.parse_args()
     shape_folder = options.shapes or options.results
     try:
@@ -133,9 +130,9 @@ def main():
         times = [end for _, end, _ in moments]
         nodes = shapes(shape_folder / "nodes.csv", times)
         inside = insertions(shape_folder / "instruments.csv", times)
-        vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in read(shape_folder / "vessel_points.csv")]
+        vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in tools.read_rows(shape_folder / "vessel_points.csv")]
     except (OSError, KeyError) as error:
-        sys.exit(f"procedure_pictures: {error}; give results of a procedure, recorded with --record nodes")
+        tools.fail(f"{error}; give the results of a procedure, recorded with --record nodes")
     pictures = [picture_of(options.results, number, end, times[-1]) for _, end, number in moments]
     layers = 2 if any(pictures) else 1
     lines = -(-len(moments) // COLUMNS)
@@ -155,7 +152,7 @@ def main():
             below.set_visible(True)
             below.axis("off")
             picture = plt.imread(pictures[k])
-            # Not from the darkest: a wire of platinum would leave no grey for the vessel.
+            # The scale starts above the darkest pixels: platinum would leave no grey levels for the vessel.
             dark = 0.7 * np.percentile(picture, 2)
             below.imshow(picture, cmap="gray", vmin=dark, vmax=picture.max())
     figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)

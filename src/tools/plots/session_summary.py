@@ -1,33 +1,34 @@
 #!/usr/bin/python3
-"""Prints what a session came to, from its folder of results, and writes report.html beside the rest.
+"""Prints a summary of a session from its results folder and writes report.html there.
 
-The exit code is 0 when the session is complete: steps were made, all of them are in the recording, nothing was lost.
+A session is complete if it has steps, all of them are in the recording, and no message was lost.
 """
 
-import argparse
 import glob
 import html
-import json
 import os
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
 
 def read_json(path):
-    """The file's content, or nothing where there is no such file or it is not JSON."""
+    """Content of a JSON file; None without a readable one."""
     try:
-        with open(path) as stream:
-            return json.load(stream)
+        return tools.read_json(path)
     except (OSError, ValueError):
         return None
 
 
 def number(value, form, unit="", scale=1.0):
-    """Text of a number that may be unknown."""
+    """Text of a number; None is shown as "not known"."""
     return form % (scale * value) + unit if isinstance(value, (int, float)) else "not known"
 
 
 def penetration(report):
-    """Worst surface penetration [m] that a node told in /diagnostics."""
+    """Worst surface penetration published in /diagnostics [m]; None without one."""
     for values in report.get("diagnostics", {}).values():
         for key, value in values.items():
             if "penetration" in key and isinstance(value, (int, float)):
@@ -36,7 +37,7 @@ def penetration(report):
 
 
 def summary_rows(report, device, folder):
-    """What is worth saying, as pairs of label and text."""
+    """Pairs of label and text of the summary."""
     recording = report["recording"]
     rows = [
         ("scene", "%s, hash %s" % (report["scene"]["name"], report["scene"]["hash"])),
@@ -61,7 +62,7 @@ def summary_rows(report, device, folder):
             number(latency.get("median"), "%.2f", " ms"), number(latency.get("p99"), "%.2f", " ms"))))
     pictures = len(glob.glob(os.path.join(folder, "fluoroscopy", "*.png")))
     rows += [
-        ("fluoroscopy", "%d frames, %d kept as PNG" % (report["fluoroscopy"]["frames"], pictures)),
+        ("fluoroscopy", "%d frames, %d saved as PNG" % (report["fluoroscopy"]["frames"], pictures)),
         ("recording", "%s, %.1f MB, %d messages" % (os.path.basename(recording["file"]), recording["bytes"] / 1e6,
                                                     recording["messages"])),
     ]
@@ -69,10 +70,10 @@ def summary_rows(report, device, folder):
 
 
 def problems(report):
-    """Why the session is not complete, and what could be better: (fatal, texts)."""
+    """Reasons for an incomplete session, and remarks: (fatal, remarks)."""
     fatal, remarks = [], []
     if report["steps"] == 0:
-        fatal.append("no step was made")
+        fatal.append("no step was simulated")
     if report.get("error"):
         fatal.append(report["error"])
     if report["steps_missing_from_recording"] > 0:
@@ -89,7 +90,7 @@ def problems(report):
 
 
 def write_html(report, rows, fatal, remarks, folder):
-    """One page with the numbers and every picture that is there."""
+    """Writes a page with the summary and all existing pictures."""
     title = "Session of scene %s" % report["scene"]["name"]
     lines = ["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><title>%s</title>' % html.escape(title),
              "<style>body{font-family:sans-serif;max-width:70em;margin:2em auto}td{padding:.2em 1em .2em 0}"
@@ -110,19 +111,21 @@ def write_html(report, rows, fatal, remarks, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="folder of results that the session wrote")
+    """Reads the reports, prints the summary and writes the page."""
+    parser = tools.argument_parser(__doc__, "Exit code: 0 the session is complete; 1 it is not, or the results cannot be "
+                                            "read; 2 wrong arguments.")
+    parser.add_argument("folder", help="results folder of the session")
     arguments = parser.parse_args()
     report = read_json(os.path.join(arguments.folder, "report.json"))
     if report is None:
-        sys.exit("session_summary.py: %s: no report.json that can be read" % arguments.folder)
+        tools.fail("%s: no readable report.json" % arguments.folder)
     device = read_json(os.path.join(arguments.folder, "device_latency.json"))
     rows = summary_rows(report, device, arguments.folder)
     fatal, remarks = problems(report)
     try:
         write_html(report, rows, fatal, remarks, arguments.folder)
     except OSError as error:
-        print("session_summary.py: %s" % error, file=sys.stderr)
+        tools.warn(error)
     print("== Summary")
     for label, text in rows:
         print("   %-30s %s" % (label, text))

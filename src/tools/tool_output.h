@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+
+namespace endovascular_sim::tools
+{
+
+/** @throws InputError when the file cannot be opened */
+inline std::ofstream openFile(const std::filesystem::path& path)
+{
+  std::ofstream stream(path);
+  if (!stream)
+    throw InputError(path.string(), "", "cannot be written; check the folder's permissions and the disk's free space");
+  return stream;
+}
+
+/** Throws when a stream could not write everything.
+ *  @throws InputError */
+inline void requireWritten(bool written, const std::filesystem::path& path)
+{
+  if (!written)
+    throw InputError(path.string(), "", "cannot be written; check the disk's free space");
+}
+
+/** @throws InputError when the file cannot be written */
+inline void writeFile(const std::filesystem::path& path, const std::string& text)
+{
+  std::ofstream stream = openFile(path);
+  stream << text;
+  requireWritten(static_cast<bool>(stream.flush()), path);
+}
+
+/** Draws a progress bar on the error stream, over the one drawn before.
+ *  @param share completed share, 0 to 1 */
+inline void drawProgress(double share, const std::string& text)
+{
+  constexpr int kWidth = 30;
+  const int filled = static_cast<int>(share * kWidth);
+  std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.90s", std::string(filled, '#').c_str(),
+               std::string(kWidth - filled, '.').c_str(), 100.0 * share, text.c_str());
+}
+
+/** Runs a plotting script of the folder of the running program.
+ *  @return false after a failure, which is reported on the error stream */
+inline bool runPlotScript(const std::string& script, const std::vector<std::string>& arguments)
+{
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  std::string command = "/usr/bin/python3 '" + (program.parent_path() / script).string() + "'";
+  for (const std::string& argument : arguments)
+    command += " '" + argument + "'";
+  if (std::system((command + " >/dev/null").c_str()) == 0)
+    return true;
+  std::cerr << program.filename().string() << ": the plots could not be drawn (" << command << ")\n";
+  return false;
+}
+
+}  // namespace endovascular_sim::tools
