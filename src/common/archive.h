@@ -14,24 +14,29 @@
 namespace endovascular_sim
 {
 
-/** A saved state that ends too early or says what cannot be. */
+/** Error: a saved state is truncated or holds an invalid value. */
 class ArchiveError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/** Bytes of a state, written or read by the same calls in the same order: a class says once what it consists of.
- *  Numbers keep their bits; byte order is the machine's. */
+/** Binary archive of a simulation state, for both directions.
+ *
+ *  Writing and reading use the same calls in the same order, so each class lists its members once. Numbers keep their
+ *  bits. The byte order is that of the machine. */
 class Archive
 {
 public:
-  Archive() = default;                                                             ///< to be written
-  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}  ///< to be read
+  /** Creates an empty archive for writing. */
+  Archive() = default;
+  /** Creates an archive that reads @p bytes. */
+  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
 
   bool reading() const { return reads_; }
   const std::string& bytes() const { return bytes_; }
-  bool atEnd() const { return at_ == bytes_.size(); }  ///< all was read
+  /** True if every byte has been read. */
+  bool atEnd() const { return at_ == bytes_.size(); }
 
   template <typename... Values>
   void operator()(Values&... values)
@@ -49,7 +54,7 @@ private:
   template <typename T, int kRows>
   void add(Eigen::Matrix<T, kRows, 1>& vector)
   {
-    static_assert(kRows > 0, "of a fixed size");
+    static_assert(kRows > 0, "only vectors of fixed size are archived");
     raw(vector.data(), sizeof(T) * kRows);
   }
 
@@ -72,17 +77,17 @@ private:
   template <typename T>
   void add(std::optional<T>& value)
   {
-    bool there = value.has_value();
-    add(there);
-    if (reads_ && there && !value)
+    bool has_value = value.has_value();
+    add(has_value);
+    if (reads_ && has_value && !value)
       value.emplace();
-    if (reads_ && !there)
+    if (reads_ && !has_value)
       value.reset();
-    if (there)
+    if (has_value)
       add(*value);
   }
 
-  /** Whatever says itself what it consists of: a member or a free function archive(). */
+  /** Adds an object of class type through its member function archive(), or else through a free function archive(). */
   template <typename T>
   std::enable_if_t<std::is_class_v<T>> add(T& value)
   {
@@ -106,7 +111,7 @@ private:
   {
     std::uint64_t size = values.size();
     add(size);
-    // Every element takes a byte at least: a wrong number does not make one ask for all memory.
+    // Each element takes at least one byte. The check bounds the allocation for a corrupt size.
     if (reads_ && size > bytes_.size() - at_)
       throw ArchiveError("ends too early");
     if (reads_)
@@ -128,7 +133,7 @@ private:
   }
 
   std::string bytes_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0;  ///< read position [bytes]
   bool reads_ = false;
 };
 

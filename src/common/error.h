@@ -6,13 +6,13 @@
 namespace endovascular_sim
 {
 
-/** Input that cannot be used: says which file, which key or element, and what would be right. */
+/** Error in an input: names the file, the key or element, and the remedy. */
 class InputError : public std::runtime_error
 {
 public:
   /** @param file path of the offending file, or the name of the source (a topic, a service)
-   *  @param where key, line or element inside it; empty when it is the file as a whole
-   *  @param remedy what is wrong and what would be right */
+   *  @param where key, line or element inside the file; empty for the file as a whole
+   *  @param remedy description of the error and of a valid input */
   InputError(const std::string& file, const std::string& where, const std::string& remedy)
     : std::runtime_error(file + (where.empty() ? "" : ": " + where) + ": " + remedy)
   {

@@ -8,10 +8,10 @@
 namespace endovascular_sim
 {
 
-/** 64-bit content hash, taken over 8-byte words (a short last word is zero-padded).
+/** 64-bit content hash over 8-byte words; a short last word is padded with zeros.
  *
- *  A multiply-xorshift chain (the finaliser of MurmurHash3 on every word): order-dependent, equal on every
- *  little-endian machine, cheap enough for every step of the simulation. Not cryptographic. */
+ *  Multiply-xorshift chain: each word passes the finaliser of MurmurHash3. The hash depends on the order of the words
+ *  and is equal on all little-endian machines. It is not cryptographic. */
 class Hash64
 {
 public:
@@ -32,7 +32,7 @@ public:
     add(word);
   }
 
-  /** Adds @p size bytes, then the size itself, so that neighbouring fields cannot trade bytes. */
+  /** Adds @p size bytes and then the size, so that shifting bytes between adjacent fields changes the hash. */
   void add(const void* data, std::size_t size)
   {
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -49,10 +49,10 @@ public:
 
   std::uint64_t value() const { return state_; }
 
-  /** Goes on from a value(). */
+  /** Continues from an earlier value(). */
   void resume(std::uint64_t value) { state_ = value; }
 
-  /** The value as 16 hexadecimal digits. */
+  /** Hash as 16 hexadecimal digits. */
   std::string hex() const { return toHex(state_); }
 
   static std::string toHex(std::uint64_t value)

@@ -7,7 +7,7 @@
 namespace endovascular_sim
 {
 
-/** The parts of a step whose time is reported. A phase that a scene does not need stays at exactly zero. */
+/** Phases of a step with separately reported times. A phase that a scene does not use stays at exactly zero. */
 enum class Phase
 {
   kCollision,
@@ -19,7 +19,7 @@ enum class Phase
 constexpr std::size_t kPhaseCount = 5;
 constexpr std::array<const char*, kPhaseCount> kPhaseNames = {"collision", "assembly", "solve", "sampling", "twist"};
 
-/** Time spent per phase since the last reset. It measures only: nothing that the simulation computes depends on it. */
+/** Time spent per phase since the last reset. No result of the simulation depends on it. */
 class PhaseTimer
 {
 public:
@@ -31,12 +31,13 @@ public:
     entries_.fill(0);
   }
 
+  /** Time spent in a phase since the last reset [s]. */
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
 
-  /** How often a phase was entered since the last reset. */
+  /** Number of entries into a phase since the last reset. */
   int entries(Phase phase) const { return entries_[static_cast<std::size_t>(phase)]; }
 
-  /** Runs the phase from construction to destruction. */
+  /** Guard that counts the time from its construction to its destruction towards a phase. */
   class Scope
   {
   public:

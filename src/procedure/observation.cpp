@@ -9,30 +9,31 @@ Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserte
 {
   const rod::State& state = simulation.state();
   const std::vector<double>& arc = simulation.discretisation().position;
-  // The nodes are measured from the tip of the instrument that reaches furthest.
-  const double wanted = arc.back() - state.inserted_length + inserted;
-  const auto after = std::upper_bound(arc.begin(), arc.end(), wanted);
+  // Node positions are arc lengths up to the tip of the foremost instrument.
+  const double target = arc.back() - state.inserted_length + inserted;
+  const auto after = std::upper_bound(arc.begin(), arc.end(), target);
   if (after == arc.begin())
     return state.position.front();
   if (after == arc.end())
     return state.position.back();
   const auto k = static_cast<std::size_t>(after - arc.begin());
-  const double share = (wanted - arc[k - 1]) / (arc[k] - arc[k - 1]);
+  const double share = (target - arc[k - 1]) / (arc[k] - arc[k - 1]);
   return state.position[k - 1] + share * (state.position[k] - state.position[k - 1]);
 }
 
-void markCovered(Observation& seen)
+void markCovered(Observation& observation)
 {
-  for (std::size_t k = 0; k < seen.instruments.size(); ++k)
-    for (std::size_t outer = k + 1; outer < seen.instruments.size(); ++outer)
-      seen.instruments[k].covered =
-          seen.instruments[k].covered || seen.instruments[outer].hand.insertion > seen.instruments[k].hand.insertion;
+  for (std::size_t k = 0; k < observation.instruments.size(); ++k)
+    for (std::size_t outer = k + 1; outer < observation.instruments.size(); ++outer)
+      observation.instruments[k].covered =
+          observation.instruments[k].covered ||
+          observation.instruments[outer].hand.insertion > observation.instruments[k].hand.insertion;
 }
 
-Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchPlaces& places)
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchLocator& locator)
 {
-  Observation seen;
-  seen.time = simulation.time();
+  Observation observation;
+  observation.time = simulation.time();
   for (int k = 0; k < simulation.instruments(); ++k)
   {
     InstrumentView view;
@@ -40,15 +41,15 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     view.outside = simulation.isOutside(k);
     view.tip = pointAt(simulation, std::max(0.0, view.hand.insertion));
     if (view.hand.insertion > 0.0)
-      view.place = places.at(view.tip);
+      view.branch_position = locator.at(view.tip);
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)
       view.balloon = pointAt(simulation, middle);
-    seen.instruments.push_back(view);
+    observation.instruments.push_back(view);
   }
-  markCovered(seen);
-  return seen;
+  markCovered(observation);
+  return observation;
 }
 
 }  // namespace endovascular_sim::procedure

@@ -5,38 +5,39 @@
 
 #include <Eigen/Core>
 
-#include "procedure/branch_places.h"
+#include "procedure/branch_locator.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::procedure
 {
 
-/** What a person sees and feels of one instrument. */
+/** Observable state of one instrument. */
 struct InstrumentView
 {
   simulation::HandState hand;
-  bool outside = false;                           ///< it has left the introducer
-  bool covered = false;                           ///< its tip lies inside of another instrument
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< patient frame; of an instrument outside, the introducer [m]
-  BranchPlace place;                              ///< of the tip
-  std::optional<Eigen::Vector3d> balloon;         ///< the middle of the balloon, where one is in the vessel [m]
+  bool outside = false;                           ///< true if the instrument has left the introducer
+  bool covered = false;                           ///< true if the tip lies inside another instrument
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip in the patient frame; the introducer if outside [m]
+  BranchPosition branch_position;                 ///< position of the tip in the tree of branches
+  std::optional<Eigen::Vector3d> balloon;         ///< centre of the balloon if it is in the vessel, patient frame [m]
 };
 
-/** What a person sees and feels at a moment. */
+/** Observation of the scripted operator at one time. */
 struct Observation
 {
-  double time = 0.0;  ///< [s]
+  double time = 0.0;  ///< simulated time [s]
   std::vector<InstrumentView> instruments;
 };
 
-/** A point of the instruments' common line at a length beyond the introducer, in front of it for negative ones [m]. */
+/** Point of the common centreline of the instruments at a length beyond the introducer [m].
+ *  @param inserted length beyond the introducer [m]; negative outside */
 Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted);
 
-/** Tells which tips lie inside of another instrument, from the insertions. */
-void markCovered(Observation& seen);
+/** Sets InstrumentView::covered from the insertions. */
+void markCovered(Observation& observation);
 
-/** Looks at a simulation. */
-Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchPlaces& places);
+/** Observes a simulation. */
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchLocator& locator);
 
 }  // namespace endovascular_sim::procedure

@@ -11,8 +11,8 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr double kNoticed = 3e-3;  // m beyond its ostium where a tip is seen to be in a wrong branch
-constexpr double kSlowFrom = 0.6;  // of the force at which he stops: from here he pushes more slowly
+constexpr double kWrongBranchDepth = 3e-3;  // depth beyond the ostium from which a wrong branch is detected [m]
+constexpr double kSlowdownShare = 0.6;      // share of the force limit from which the operator slows down
 
 using scene::StepAction;
 using scene::StepScene;
@@ -32,17 +32,17 @@ std::string inMillimetres(const Eigen::Vector3d& point)
   return text;
 }
 
-std::string written(const char* format, double value)
+std::string formatted(const char* format, double value)
 {
   char text[80];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-/** @return @p from moved towards @p to by at most @p most */
-double towards(double from, double to, double most)
+/** @return @p from moved towards @p to by at most @p limit */
+double towards(double from, double to, double limit)
 {
-  return from + std::clamp(to - from, -most, most);
+  return from + std::clamp(to - from, -limit, limit);
 }
 
 }  // namespace
@@ -50,9 +50,10 @@ double towards(double from, double to, double most)
 Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry)
   : scene_(scene),
     hand_(scene.procedure->hand),
-    places_(tree, scene.procedure->branches),
-    entered_(places_.at(entry).branch),
-    look_every_(static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step))))
+    locator_(tree, scene.procedure->branches),
+    entry_branch_(locator_.at(entry).branch),
+    observation_interval_(
+        static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step))))
 {
   expand();
   checkBranches();
@@ -67,7 +68,7 @@ Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree
   commands_.resize(hands_.size());
 }
 
-/** An exchange is a withdrawal and an insertion. */
+/** Splits each exchange into a withdrawal and an insertion. */
 void Operator::expand()
 {
   for (const StepScene& step : scene_.procedure->steps)
@@ -88,9 +89,9 @@ void Operator::checkBranches() const
 {
   const auto check = [this](const std::string& name, std::size_t step, const std::string& key)
   {
-    if (!name.empty() && places_.find(name) < 0)
+    if (!name.empty() && locator_.find(name) < 0)
       throw InputError(scene_.file, "procedure.steps." + std::to_string(step) + "." + key,
-                       "the vessel has no branch '" + name + "'; it has " + places_.names());
+                       "the vessel has no branch '" + name + "'; known: " + locator_.names());
   };
   for (std::size_t k = 0; k < scene_.procedure->steps.size(); ++k)
   {
@@ -111,15 +112,15 @@ std::string Operator::nameOf(const StepScene& step) const
     if (!step.until.balloon_in.empty())
       text += " until its balloon is in " + step.until.balloon_in;
     if (!std::isnan(step.until.beyond))
-      text += written(" by %.1f mm", 1e3 * step.until.beyond);
+      text += formatted(" by %.1f mm", 1e3 * step.until.beyond);
     if (step.until.outside)
       text += " until it is out";
     if (!std::isnan(step.until.insertion))
-      text += written(" to %.1f mm", 1e3 * step.until.insertion);
+      text += formatted(" to %.1f mm", 1e3 * step.until.insertion);
     if (!std::isnan(step.until.by))
-      text += written(" by %.1f mm", 1e3 * step.until.by);
+      text += formatted(" by %.1f mm", 1e3 * step.until.by);
     if (!std::isnan(step.until.turned))
-      text += written(" by %.2f rad", step.until.turned);
+      text += formatted(" by %.2f rad", step.until.turned);
     return text;
   };
   switch (step.action)
@@ -131,22 +132,22 @@ std::string Operator::nameOf(const StepScene& step) const
     case StepAction::kRotate:
       return goal("rotate");
     case StepAction::kInflate:
-      return "inflate " + step.instrument + written(" to %.1f atm", step.pressure / 101325.0);
+      return "inflate " + step.instrument + formatted(" to %.1f atm", step.pressure / 101325.0);
     case StepAction::kExchange:
     case StepAction::kWait:
       break;
   }
-  return written("wait %.1f s", step.duration);
+  return formatted("wait %.1f s", step.duration);
 }
 
 const std::vector<simulation::HandCommand>& Operator::next(const simulation::Simulation& simulation)
 {
-  if (looksBefore(simulation.steps()))
-    see(observe(scene_, simulation, places_));
-  return move(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
+  if (observesBefore(simulation.steps()))
+    observe(procedure::observe(scene_, simulation, locator_));
+  return advance(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
 }
 
-const std::vector<simulation::HandCommand>& Operator::move(double end_time)
+const std::vector<simulation::HandCommand>& Operator::advance(double end_time)
 {
   const double dt = scene_.solver.time_step;
   for (std::size_t k = 0; k < hands_.size(); ++k)
@@ -158,8 +159,8 @@ const std::vector<simulation::HandCommand>& Operator::move(double end_time)
       commands_[k] = {drive.insertionAt(end_time), drive.rotationAt(end_time), drive.pressureAt(end_time)};
       continue;
     }
-    hand.speed = towards(hand.speed, hand.wanted, hand_.acceleration * dt);
-    hand.turn_speed = towards(hand.turn_speed, hand.wanted_turn, hand_.turn_acceleration * dt);
+    hand.speed = towards(hand.speed, hand.target_speed, hand_.acceleration * dt);
+    hand.turn_speed = towards(hand.turn_speed, hand.target_turn_speed, hand_.turn_acceleration * dt);
     hand.insertion += dt * hand.speed;
     hand.rotation += dt * hand.turn_speed;
     commands_[k] = {hand.insertion, hand.rotation, hand.pressure};
@@ -167,72 +168,72 @@ const std::vector<simulation::HandCommand>& Operator::move(double end_time)
   return commands_;
 }
 
-void Operator::rest()
+void Operator::stop()
 {
   for (Hand& hand : hands_)
-    hand.wanted = hand.wanted_turn = 0.0;
+    hand.target_speed = hand.target_turn_speed = 0.0;
 }
 
-void Operator::see(const Observation& seen)
+void Operator::observe(const Observation& observation)
 {
   if (progress_ != Progress::kRunning)
     return;
   if (!begun_)
-    begin(seen);
-  records_.back().end = seen.time;
-  const bool reached = mode_ != Mode::kReturn && isReached(seen);
+    begin(observation);
+  records_.back().end = observation.time;
+  const bool reached = mode_ != Mode::kRecoverSupport && isReached(observation);
   if (!reached)
     reached_since_ = -1.0;
   else if (reached_since_ < 0.0)
-    reached_since_ = seen.time;
-  if (reached && seen.time - reached_since_ >= step().until.held)
-    finishStep(seen.time);
-  else if (reached && mode_ == Mode::kGo)
-    rest();
+    reached_since_ = observation.time;
+  if (reached && observation.time - reached_since_ >= step().until.held)
+    finishStep(observation.time);
+  else if (reached && mode_ == Mode::kExecute)
+    stop();
   else
-    act(seen);
+    act(observation);
 }
 
-void Operator::begin(const Observation& seen)
+void Operator::begin(const Observation& observation)
 {
   begun_ = true;
   StepRecord record;
   record.step = current_;
   record.name = nameOf(step());
   record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
-  record.begin = record.end = seen.time;
+  record.begin = record.end = observation.time;
   records_.push_back(record);
   prepareStep();
-  mode_ = Mode::kGo;
+  mode_ = Mode::kExecute;
   reached_since_ = lost_since_ = -1.0;
-  begin_time_ = progress_time_ = seen.time;
+  begin_time_ = progress_time_ = observation.time;
   if (active_ < 0)
     return;
-  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+  const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
   begin_insertion_ = progress_insertion_ = view.hand.insertion;
   begin_rotation_ = view.hand.rotation;
   progress_tip_ = view.tip;
-  // An instrument that waits further out than the introducer feels anything is brought there first.
+  // An instrument far outside the introducer starts at the insertion from which the introducer senses it.
   if (Hand& hand = hands_[static_cast<std::size_t>(active_)]; view.outside)
     hand.insertion = std::max(hand.insertion, view.hand.insertion);
   if (step().action == StepAction::kInflate)
     hands_[static_cast<std::size_t>(active_)].pressure = step().pressure;
 }
 
-/** What follows from the step alone. */
+/** Sets the members that depend on the step only. */
 void Operator::prepareStep()
 {
   active_ = instrumentOf(scene_, step().instrument);
   const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
-  goal_branch_ = branch.empty() ? -1 : places_.find(branch);
-  on_way_ = places_.wayBetween(entered_, step().any_branch ? -1 : goal_branch_);
+  goal_branch_ = branch.empty() ? -1 : locator_.find(branch);
+  on_way_ = locator_.pathBetween(entry_branch_, step().any_branch ? -1 : goal_branch_);
   support_ = instrumentOf(scene_, step().support.instrument);
-  support_branch_ = places_.find(step().support.tip_in);
+  support_branch_ = locator_.find(step().support.tip_in);
 }
 
 void Operator::finishStep(double time)
 {
-  rest();
+  stop();
   records_.back().outcome = Progress::kDone;
   records_.back().end = time;
   begun_ = false;
@@ -242,20 +243,21 @@ void Operator::finishStep(double time)
 
 void Operator::fail(const InstrumentView* view, const std::string& why)
 {
-  rest();
+  stop();
   progress_ = Progress::kFailed;
   records_.back().outcome = Progress::kFailed;
   failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + "): " + why;
   if (view != nullptr)
-    failure_ += "; the tip of " + step().instrument + " is in " + places_.name(view->place.branch) +
-                written(", %.1f mm beyond its ostium, at ", 1e3 * view->place.depth) + inMillimetres(view->tip);
+    failure_ += "; the tip of " + step().instrument + " is in " + locator_.name(view->branch_position.branch) +
+                formatted(", %.1f mm beyond its ostium, at ", 1e3 * view->branch_position.depth) +
+                inMillimetres(view->tip);
 }
 
-bool Operator::isReached(const Observation& seen) const
+bool Operator::isReached(const Observation& observation) const
 {
   if (step().action == StepAction::kWait || step().action == StepAction::kInflate)
-    return seen.time - begin_time_ >= step().duration - 1e-9;
-  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+    return observation.time - begin_time_ >= step().duration - 1e-9;
+  const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
   const scene::GoalScene& goal = step().until;
   const double forward = step().action == StepAction::kWithdraw ? -1.0 : 1.0;
   if (goal.outside && !view.outside)
@@ -266,9 +268,9 @@ bool Operator::isReached(const Observation& seen) const
     if (!by_tip && !view.balloon)
       return false;
     const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
-    if (places_.at(point).branch != goal_branch_)
+    if (locator_.at(point).branch != goal_branch_)
       return false;
-    if (!std::isnan(goal.beyond) && forward * (places_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+    if (!std::isnan(goal.beyond) && forward * (locator_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
       return false;
   }
   if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)
@@ -278,32 +280,33 @@ bool Operator::isReached(const Observation& seen) const
   return std::isnan(goal.turned) || std::abs(view.hand.rotation - begin_rotation_) >= std::abs(goal.turned);
 }
 
-/** Speed at which he moves on against the force that he feels. */
-double Operator::pushed(const InstrumentView& view, double speed) const
+/** Insertion speed under the present force: reduced linearly from kSlowdownShare of the force limit to zero at the
+ *  limit. */
+double Operator::insertionSpeed(const InstrumentView& view, double speed) const
 {
   const double limit = speed > 0.0 ? hand_.push_force : hand_.pull_force;
   const double against = speed > 0.0 ? view.hand.force : -view.hand.force;
-  const double share = (limit - against) / ((1.0 - kSlowFrom) * limit);
+  const double share = (limit - against) / ((1.0 - kSlowdownShare) * limit);
   const double scaled = std::clamp(hand_.speed_scale * speed, -hand_.max_speed, hand_.max_speed);
   return std::clamp(share, 0.0, 1.0) * scaled;
 }
 
-void Operator::go(const InstrumentView& view)
+void Operator::execute(const InstrumentView& view)
 {
   Hand& hand = hands_[static_cast<std::size_t>(active_)];
   const double turn = std::clamp(hand_.speed_scale * step().turn_speed, -hand_.max_turn, hand_.max_turn);
   switch (step().action)
   {
     case StepAction::kAdvance:
-      hand.wanted = pushed(view, step().speed);
-      hand.wanted_turn = turn;
+      hand.target_speed = insertionSpeed(view, step().speed);
+      hand.target_turn_speed = turn;
       break;
     case StepAction::kWithdraw:
-      hand.wanted = pushed(view, -step().speed);
-      hand.wanted_turn = turn;
+      hand.target_speed = insertionSpeed(view, -step().speed);
+      hand.target_turn_speed = turn;
       break;
     case StepAction::kRotate:
-      hand.wanted_turn = step().until.turned < 0.0 ? -std::abs(turn) : turn;
+      hand.target_turn_speed = step().until.turned < 0.0 ? -std::abs(turn) : turn;
       break;
     case StepAction::kInflate:
     case StepAction::kExchange:
@@ -312,38 +315,39 @@ void Operator::go(const InstrumentView& view)
   }
 }
 
-void Operator::act(const Observation& seen)
+void Operator::act(const Observation& observation)
 {
-  rest();
+  stop();
   if (active_ < 0)
     return;
-  const InstrumentView& view = seen.instruments[static_cast<std::size_t>(active_)];
+  const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
   if (step().action == StepAction::kInflate)
     return;
-  if (seen.time - begin_time_ > step().time_limit)
-    return fail(&view, written("not done within %.0f s", step().time_limit));
-  if (mode_ == Mode::kReturn)
-    return comeBack(seen);
-  if (missesSupport(seen))
-    return giveUp(view, seen.time);
-  if (mode_ != Mode::kGo)
-    return manoeuvre(view, seen.time);
-  const bool astray = !view.covered && view.place.branch >= 0 && !on_way_[static_cast<std::size_t>(view.place.branch)];
-  if (step().action == StepAction::kAdvance && astray && view.place.depth > kNoticed)
+  if (observation.time - begin_time_ > step().time_limit)
+    return fail(&view, formatted("not done within %.0f s", step().time_limit));
+  if (mode_ == Mode::kRecoverSupport)
+    return recoverSupport(observation);
+  if (hasLostSupport(observation))
+    return handleLostSupport(view, observation.time);
+  if (mode_ != Mode::kExecute)
+    return recover(view, observation.time);
+  const bool wrong_branch = !view.covered && view.branch_position.branch >= 0 &&
+                            !on_way_[static_cast<std::size_t>(view.branch_position.branch)];
+  if (step().action == StepAction::kAdvance && wrong_branch && view.branch_position.depth > kWrongBranchDepth)
   {
     ++records_.back().wrong_branches;
-    if (tryAgain(Mode::kLeave, view, "entered " + places_.name(view.place.branch) + " again and again"))
-      mode_time_ = seen.time;
+    if (retry(Mode::kLeaveBranch, view, "entered " + locator_.name(view.branch_position.branch) + " repeatedly"))
+      mode_time_ = observation.time;
     return;
   }
   const bool missed = view.hand.insertion > step().retry.deepest;
-  if (step().action == StepAction::kAdvance && (missed || stalls(view, seen.time)))
+  if (step().action == StepAction::kAdvance && (missed || isStalled(view, observation.time)))
   {
-    if (tryAgain(Mode::kBack, view, missed ? "passed its goal again and again" : "makes no progress"))
-      mode_time_ = seen.time;
+    if (retry(Mode::kPullBack, view, missed ? "passed its goal repeatedly" : "makes no progress"))
+      mode_time_ = observation.time;
     return;
   }
-  go(view);
+  execute(view);
 }
 
 }  // namespace endovascular_sim::procedure

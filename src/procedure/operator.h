@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/archive.h"
-#include "procedure/branch_places.h"
+#include "procedure/branch_locator.h"
 #include "procedure/observation.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
@@ -13,111 +13,116 @@
 namespace endovascular_sim::procedure
 {
 
+/** State of a procedure or of one step. */
 enum class Progress
 {
   kRunning,
   kDone,
   kFailed,
-  kLost,  ///< of a step: the instrument has come out of its support elsewhere, and he goes back to an earlier one
+  kSupportLost,  ///< the step lost its support, and the procedure resumes from an earlier step
 };
 
-/** How one step of the procedure went. */
+/** Record of one step of the procedure. */
 struct StepRecord
 {
-  std::string name;        ///< e.g. "advance wire until its tip is in aortic_arch"
-  std::string phase;       ///< as the procedure calls it
-  double begin = 0.0;      ///< [s]
-  double end = 0.0;        ///< [s]; of the running step, the newest look
-  int retries = 0;         ///< after no progress
-  int wrong_branches = 0;  ///< entered and left again
+  std::string name;        ///< description, e.g. "advance wire until its tip is in aortic_arch"
+  std::string phase;       ///< phase of the procedure
+  double begin = 0.0;      ///< start time [s]
+  double end = 0.0;        ///< end time; the latest observation while the step runs [s]
+  int retries = 0;         ///< number of retries
+  int wrong_branches = 0;  ///< number of entries into a wrong branch
   Progress outcome = Progress::kRunning;
-  std::size_t step = 0;  ///< of the procedure, an exchange counted as two
+  std::size_t step = 0;  ///< index of the step in the procedure, an exchange counted as two
 };
 
-/** A scripted person at the hands of all instruments: sees the tips and feels the hands' forces at his reaction
- *  interval, moves one instrument at a time within the limits of his hands, and goes through the steps of the scene's
- *  procedure. The same observations give the same commands, bit for bit.
+/** Scripted operator: a state machine that drives the instruments through the steps of the scene's procedure.
  *
- *  Without progress, and from a branch that does not lead to the goal, he pulls back, turns and tries again. Where the
- *  instrument has come out of its support elsewhere, he draws it back and goes on from an earlier step. */
+ *  At its reaction interval it observes the tips and the forces at the handles. It moves one instrument at a time
+ * within the limits of HandScene. Equal observations give equal commands, bit for bit.
+ *
+ *  If an instrument makes no progress or enters a wrong branch, the operator pulls it back, rotates it and retries. If
+ *  an instrument loses its support, the operator withdraws it and resumes from an earlier step. */
 class Operator
 {
 public:
-  /** @param scene with a procedure
-   *  @param tree the centreline of its vessel
-   *  @param entry the introducer
-   *  @throws InputError for a branch that the vessel does not have, naming those that it has */
+  /** @param scene scene with a procedure
+   *  @param tree centreline tree of the vessel
+   *  @param entry position of the introducer, patient frame [m]
+   *  @throws InputError for an unknown branch, listing the branches of the vessel */
   Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
 
-  /** Commands for the simulation's next step, one per instrument; those that the procedure does not drive follow their
-   *  drives. To be called once before every step. */
+  /** Commands for the next step of the simulation, one per instrument. Instruments without drive.source: procedure
+   *  follow their own drives. To be called once before each step. */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
 
-  /** Parts of next(), for observations from elsewhere. @{ */
-  bool looksBefore(std::uint64_t step) const { return step % look_every_ == 0; }
-  void see(const Observation& seen);
-  const std::vector<simulation::HandCommand>& move(double end_time);
+  /** Parts of next(), for observations from another source. @{ */
+  bool observesBefore(std::uint64_t step) const { return step % observation_interval_ == 0; }
+  void observe(const Observation& observation);
+  const std::vector<simulation::HandCommand>& advance(double end_time);
   /** @} */
 
   Progress progress() const { return progress_; }
-  /** Why it failed: step, reason, where the tip is; empty otherwise. */
+  /** Description of the failure: step, reason, position of the tip; empty without a failure. */
   const std::string& failure() const { return failure_; }
-  const std::vector<StepRecord>& records() const { return records_; }  ///< of the steps that have begun
-  const BranchPlaces& places() const { return places_; }
-  int enteredBranch() const { return entered_; }  ///< in which the introducer sits
+  const std::vector<StepRecord>& records() const { return records_; }  ///< records of all steps begun so far
+  const BranchLocator& locator() const { return locator_; }
+  int entryBranch() const { return entry_branch_; }  ///< branch that contains the introducer
 
-  /** Saves or loads all that changes. */
+  /** Saves or loads the mutable state. */
   void archive(Archive& archive);
 
 private:
-  /** What he does within a step. */
+  /** Activity within a step. */
   enum class Mode
   {
-    kGo,      ///< the step itself
-    kLeave,   ///< out of a wrong branch
-    kBack,    ///< a little further
-    kTurn,    ///< before he tries again
-    kReturn,  ///< into what supported it, before he goes on from an earlier step
+    kExecute,         ///< the action of the step
+    kLeaveBranch,     ///< withdrawal from a wrong branch
+    kPullBack,        ///< further withdrawal by retry.back
+    kRotate,          ///< rotation by retry.turn before the retry
+    kRecoverSupport,  ///< withdrawal into the support, before an earlier phase resumes
   };
 
   struct Hand
   {
-    double insertion = 0.0, rotation = 0.0;  ///< commanded [m], [rad]
-    double speed = 0.0, turn_speed = 0.0;    ///< now [m/s], [rad/s]
-    double wanted = 0.0, wanted_turn = 0.0;  ///< that he accelerates to
-    double pressure = 0.0;                   ///< [Pa]
-    void archive(Archive& archive) { archive(insertion, rotation, speed, turn_speed, wanted, wanted_turn, pressure); }
-    bool scripted = false;  ///< driven by the procedure
+    double insertion = 0.0, rotation = 0.0;              ///< commanded position [m], [rad]
+    double speed = 0.0, turn_speed = 0.0;                ///< present speeds [m/s], [rad/s]
+    double target_speed = 0.0, target_turn_speed = 0.0;  ///< target speeds of the acceleration [m/s], [rad/s]
+    double pressure = 0.0;                               ///< commanded pressure [Pa]
+    void archive(Archive& archive)
+    {
+      archive(insertion, rotation, speed, turn_speed, target_speed, target_turn_speed, pressure);
+    }
+    bool scripted = false;  ///< true if the procedure drives the instrument
   };
 
   void expand();
   void checkBranches() const;
-  void begin(const Observation& seen);
+  void begin(const Observation& observation);
   void prepareStep();
   void archiveRecords(Archive& archive);
-  void act(const Observation& seen);
-  void go(const InstrumentView& view);
-  void manoeuvre(const InstrumentView& view, double time);
-  bool isReached(const Observation& seen) const;
-  bool isInPlace(const InstrumentView& view) const;
-  bool missesSupport(const Observation& seen);
-  void comeBack(const Observation& seen);
-  void giveUp(const InstrumentView& view, double time);
-  bool stalls(const InstrumentView& view, double time);
-  bool tryAgain(Mode mode, const InstrumentView& view, const std::string& why);
+  void act(const Observation& observation);
+  void execute(const InstrumentView& view);
+  void recover(const InstrumentView& view, double time);
+  bool isReached(const Observation& observation) const;
+  bool isSupportPosition(const InstrumentView& view) const;
+  bool hasLostSupport(const Observation& observation);
+  void recoverSupport(const Observation& observation);
+  void handleLostSupport(const InstrumentView& view, double time);
+  bool isStalled(const InstrumentView& view, double time);
+  bool retry(Mode mode, const InstrumentView& view, const std::string& why);
   void fail(const InstrumentView* view, const std::string& why);
   void finishStep(double time);
-  void rest();
-  double pushed(const InstrumentView& view, double speed) const;
+  void stop();
+  double insertionSpeed(const InstrumentView& view, double speed) const;
   const scene::StepScene& step() const { return steps_[current_]; }
   std::string nameOf(const scene::StepScene& step) const;
 
   scene::Scene scene_;
   scene::HandScene hand_;
-  BranchPlaces places_;
-  int entered_ = -1;
-  std::uint64_t look_every_ = 1;
-  std::vector<scene::StepScene> steps_;  ///< with every exchange as two
+  BranchLocator locator_;
+  int entry_branch_ = -1;
+  std::uint64_t observation_interval_ = 1;
+  std::vector<scene::StepScene> steps_;  ///< steps of the procedure, with each exchange split into two
   std::vector<Hand> hands_;
   std::vector<simulation::HandCommand> commands_;
   std::vector<StepRecord> records_;
@@ -126,19 +131,19 @@ private:
   Progress progress_ = Progress::kRunning;
   std::string failure_;
 
-  // Of the current step:
-  int active_ = -1;  ///< instrument
+  // State of the current step:
+  int active_ = -1;  ///< moved instrument; −1: none
   int goal_branch_ = -1;
-  std::vector<bool> on_way_;  ///< of every branch
-  int support_ = -1;          ///< instrument; −1: none is asked for
+  std::vector<bool> on_way_;  ///< for each branch: true if it lies on the path to the goal
+  int support_ = -1;          ///< supporting instrument; −1: none
   int support_branch_ = -1;
-  Mode mode_ = Mode::kGo;
+  Mode mode_ = Mode::kExecute;
   double begin_time_ = 0.0, begin_insertion_ = 0.0, begin_rotation_ = 0.0;
-  double reached_since_ = -1.0;                            ///< negative: not reached [s]
-  double lost_since_ = -1.0;                               ///< the support; negative: it is in its place [s]
-  double progress_time_ = 0.0, progress_insertion_ = 0.0;  ///< of the last progress
-  Eigen::Vector3d progress_tip_ = Eigen::Vector3d::Zero();
-  double mode_insertion_ = 0.0, mode_rotation_ = 0.0, mode_time_ = 0.0;  ///< where the manoeuvre began
+  double reached_since_ = -1.0;                             ///< time of reaching the goal; negative: not reached [s]
+  double lost_since_ = -1.0;                                ///< time of losing the support; negative: not lost [s]
+  double progress_time_ = 0.0, progress_insertion_ = 0.0;   ///< time and insertion at the last progress
+  Eigen::Vector3d progress_tip_ = Eigen::Vector3d::Zero();  ///< tip at the last progress [m]
+  double mode_insertion_ = 0.0, mode_rotation_ = 0.0, mode_time_ = 0.0;  ///< state at the start of the mode
 };
 
 }  // namespace endovascular_sim::procedure

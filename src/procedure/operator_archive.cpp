@@ -1,6 +1,6 @@
 #include "procedure/operator.h"
 
-// What of the scripted operator a saved state holds.
+// Saved state of the scripted operator.
 
 namespace endovascular_sim::procedure
 {
@@ -8,17 +8,17 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr std::uint64_t kMostRecords = 1000000;
+constexpr std::uint64_t kMaxRecords = 1000000;
 
 }  // namespace
 
-/** Names follow from the steps. */
+/** Archives the records. Their names are derived from the steps. */
 void Operator::archiveRecords(Archive& archive)
 {
   std::uint64_t count = records_.size();
   archive(count);
-  if (archive.reading() && count > kMostRecords)
-    throw ArchiveError("has more steps than a procedure can have begun");
+  if (archive.reading() && count > kMaxRecords)
+    throw ArchiveError("has an implausible number of steps");
   records_.resize(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < records_.size(); ++k)
   {
@@ -26,7 +26,7 @@ void Operator::archiveRecords(Archive& archive)
     std::uint64_t step = record.step;
     archive(step, record.begin, record.end, record.retries, record.wrong_branches, record.outcome);
     if (archive.reading() && step >= steps_.size())
-      throw ArchiveError("is of a step that the procedure does not have");
+      throw ArchiveError("refers to a step that the procedure does not have");
     record.step = static_cast<std::size_t>(step);
     record.name = nameOf(steps_[record.step]);
     record.phase = steps_[record.step].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[record.step].phase;
@@ -44,12 +44,13 @@ void Operator::archive(Archive& archive)
   if (!archive.reading())
     return;
   if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))
-    throw ArchiveError("is of a step that the procedure does not have");
+    throw ArchiveError("refers to a step that the procedure does not have");
   current_ = static_cast<std::size_t>(current);
   if (begun_ && current_ < steps_.size())
     prepareStep();
   if (progress_ == Progress::kFailed)
-    failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") had failed before";
+    failure_ =
+        "step " + std::to_string(records_.size()) + " (" + records_.back().name + ") failed before the state was saved";
 }
 
 }  // namespace endovascular_sim::procedure

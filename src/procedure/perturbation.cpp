@@ -11,8 +11,8 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-/** Even between −1 and 1; unlike the standard's distributions the same on every machine. */
-double even(std::mt19937_64& generator)
+/** Uniform random number in [−1, 1); unlike std::uniform_real_distribution, it is equal on all machines. */
+double uniform(std::mt19937_64& generator)
 {
   return std::ldexp(static_cast<double>(generator() >> 11U), -52) - 1.0;
 }
@@ -26,20 +26,20 @@ scene::Scene perturbed(scene::Scene scene, const Spread& spread, std::uint64_t s
   std::mt19937_64 generator(seed);
   for (scene::DrivenInstrument& driven : scene.instruments)
   {
-    const double insertion = driven.drive.initial_insertion + spread.insertion * even(generator);
-    // One that is in the introducer at the start stays there, one before it stays outside.
+    const double insertion = driven.drive.initial_insertion + spread.insertion * uniform(generator);
+    // The perturbation does not move an instrument across the introducer.
     if (driven.drive.initial_insertion >= 0.0)
       driven.drive.initial_insertion = std::max(0.0, insertion);
     else
       driven.drive.initial_insertion = std::min(driven.drive.initial_insertion, insertion);
-    driven.drive.initial_rotation += spread.rotation * even(generator);
+    driven.drive.initial_rotation += spread.rotation * uniform(generator);
   }
   if (!scene.procedure)
     return scene;
-  scene.procedure->hand.speed_scale *= 1.0 + spread.speed * even(generator);
+  scene.procedure->hand.speed_scale *= 1.0 + spread.speed * uniform(generator);
   for (scene::StepScene& step : scene.procedure->steps)
     for (double* length : {&step.until.insertion, &step.until.by})
-      *length += spread.insertion * even(generator);
+      *length += spread.insertion * uniform(generator);
   return scene;
 }
 
@@ -60,7 +60,7 @@ scene::Scene endingWith(scene::Scene scene, const std::string& phase)
       end = k + 1;
   }
   if (end == 0)
-    throw InputError(scene.file, "procedure", "has no phase '" + phase + "'; it has " + phases);
+    throw InputError(scene.file, "procedure", "has no phase '" + phase + "'; known: " + phases);
   steps.resize(end);
   return scene;
 }

@@ -8,20 +8,20 @@
 namespace endovascular_sim::procedure
 {
 
-/** By how much starts differ from the scene's. */
+/** Half widths of the uniform distributions of a perturbation. */
 struct Spread
 {
-  double insertion = 5e-3;  ///< of the instruments at the start, and of the steps' insertions [m]
-  double rotation = 0.5;    ///< of the handles at the start [rad]
-  double speed = 0.2;       ///< share of all speeds
+  double insertion = 5e-3;  ///< spread of the initial insertions and of the insertions in the steps [m]
+  double rotation = 0.5;    ///< spread of the initial rotations [rad]
+  double speed = 0.2;       ///< relative spread of the operator's speeds [1]
 };
 
-/** The scene with a start, and an operator, that differ a little: evenly distributed within ± the spread.
- *  @param seed the same one gives the same scene everywhere; 0 leaves it as it is */
+/** Scene with perturbed initial insertions and rotations, steps and speeds, distributed uniformly within ± the spread.
+ *  @param seed seed of the random numbers, portable between machines; 0: no perturbation */
 scene::Scene perturbed(scene::Scene scene, const Spread& spread, std::uint64_t seed);
 
-/** The scene whose procedure ends with the last step of a phase.
- *  @throws InputError when the procedure has no such phase, naming those that it has */
+/** Scene with a procedure that ends after the last step of a phase.
+ *  @throws InputError for an unknown phase, listing the phases of the procedure */
 scene::Scene endingWith(scene::Scene scene, const std::string& phase);
 
 }  // namespace endovascular_sim::procedure

@@ -12,36 +12,36 @@ namespace endovascular_sim::procedure
 {
 
 PhasePictures::PhasePictures(const scene::Scene& scene, const std::string& folder)
-  : room_(scene, fluoroscopy::AttenuationTable::load(scene::configFolder() + "/xray/attenuation.yaml")),
+  : fluoroscopy_(scene, fluoroscopy::AttenuationTable::load(scene::configFolder() + "/xray/attenuation.yaml")),
     folder_(folder + "/fluoroscopy")
 {
-  std::error_code refused;
-  std::filesystem::create_directories(folder_, refused);
-  if (refused)
-    throw InputError(folder_, "", "cannot be made; choose a folder that can be written to");
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error)
+    throw InputError(folder_, "", "cannot be created; choose a writable folder");
 }
 
-void PhasePictures::look(const simulation::Simulation& simulation, const Operator& person,
-                         const geometry::TriangleMesh& wall)
+void PhasePictures::update(const simulation::Simulation& simulation, const Operator& scripted_operator,
+                           const geometry::TriangleMesh& wall)
 {
-  if (over_ || person.records().empty())
+  if (finished_ || scripted_operator.records().empty())
     return;
-  const std::string& phase = person.records().back().phase;
-  over_ = person.progress() != Progress::kRunning;
-  if (over_ || (!phase_.empty() && phase != phase_))
-    take(simulation, wall);
+  const std::string& phase = scripted_operator.records().back().phase;
+  finished_ = scripted_operator.progress() != Progress::kRunning;
+  if (finished_ || (!phase_.empty() && phase != phase_))
+    writeImage(simulation, wall);
   phase_ = phase;
 }
 
-void PhasePictures::take(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
+void PhasePictures::writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
 {
-  fluoroscopy::CArmPose pose = room_.fluoroscope().geometry().pose();
+  fluoroscopy::CArmPose pose = fluoroscopy_.fluoroscope().geometry().pose();
   pose.isocentre = simulation.state().position.back();
-  room_.fluoroscope().setPose(pose);
-  room_.fluoroscope().setVessel(wall);
-  const fluoroscopy::Frame& frame = room_.fluoroscope().render(room_.wires(simulation));
+  fluoroscopy_.fluoroscope().setPose(pose);
+  fluoroscopy_.fluoroscope().setVessel(wall);
+  const fluoroscopy::Frame& frame = fluoroscopy_.fluoroscope().render(fluoroscopy_.wires(simulation));
   char name[32];
-  std::snprintf(name, sizeof name, "/phase_%02d.png", ++taken_);
+  std::snprintf(name, sizeof name, "/phase_%02d.png", ++images_);
   fluoroscopy::writePng(folder_ + name, frame.pixels, frame.pixels, frame.image);
 }
 

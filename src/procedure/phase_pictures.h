@@ -10,26 +10,28 @@
 namespace endovascular_sim::procedure
 {
 
-/** Fluoroscopy of a procedure: a picture at the end of every phase, `fluoroscopy/phase_01.png` and so on. */
+/** Fluoroscopy images of a procedure, one at the end of each phase: `fluoroscopy/phase_01.png` and so on. */
 class PhasePictures
 {
 public:
-  /** @param scene with fluoroscopy; must outlive this
-   *  @param folder of the results
-   *  @throws InputError when the scene has no fluoroscopy or the folder cannot be made */
+  /** @param scene scene with fluoroscopy; must outlive this object
+   *  @param folder folder of the results
+   *  @throws InputError if the scene has no fluoroscopy or the folder cannot be created */
   PhasePictures(const scene::Scene& scene, const std::string& folder);
 
-  /** After every step, and once after the last one. @param wall as it is now */
-  void look(const simulation::Simulation& simulation, const Operator& person, const geometry::TriangleMesh& wall);
+  /** Writes an image if a phase has ended; to be called after each step and once at the end.
+   *  @param wall present wall of the vessel */
+  void update(const simulation::Simulation& simulation, const Operator& scripted_operator,
+              const geometry::TriangleMesh& wall);
 
 private:
-  void take(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall);
+  void writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall);
 
-  simulation::FluoroscopySystem room_;
+  simulation::FluoroscopySystem fluoroscopy_;
   std::string folder_;
   std::string phase_;
-  int taken_ = 0;
-  bool over_ = false;
+  int images_ = 0;
+  bool finished_ = false;
 };
 
 }  // namespace endovascular_sim::procedure

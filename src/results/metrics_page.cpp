@@ -157,7 +157,7 @@ std::vector<PlotLine> overTime(const SessionMetrics& metrics, const Quantity& qu
   {
     PlotLine line{metrics.scene().instruments[k].instrument.name, colour(k), {}};
     for (const Sample& sample : metrics.samples())
-      line.points.emplace_back(sample.seen.time, quantity(sample.seen.instruments[k]));
+      line.points.emplace_back(sample.observation.time, quantity(sample.observation.instruments[k]));
     lines.push_back(std::move(line));
   }
   return lines;
@@ -199,9 +199,9 @@ std::string timePlots(const SessionMetrics& metrics)
   bool inflated = false;
   for (const Sample& sample : metrics.samples())
   {
-    sum.points.emplace_back(sample.seen.time, sample.wall_force);
-    largest.points.emplace_back(sample.seen.time, sample.largest);
-    for (const procedure::InstrumentView& view : sample.seen.instruments)
+    sum.points.emplace_back(sample.observation.time, sample.wall_force);
+    largest.points.emplace_back(sample.observation.time, sample.largest);
+    for (const procedure::InstrumentView& view : sample.observation.instruments)
       inflated = inflated || view.hand.pressure != 0.0;
   }
   html += plot("Force on the wall", "[N]", {sum, largest});
@@ -220,10 +220,10 @@ std::string tipMap(const SessionMetrics& metrics)
   svg.ordinate = "to the head [mm]";
   svg.equal_scales = true;
   svg.height = 700.0;
-  for (int b = 0; b < metrics.places().branches(); ++b)
+  for (int b = 0; b < metrics.locator().branches(); ++b)
   {
     PlotLine line{"", "#cccccc", {}};
-    for (const Eigen::Vector3d& point : metrics.places().line(b).points())
+    for (const Eigen::Vector3d& point : metrics.locator().line(b).points())
       line.points.emplace_back(1e3 * point.x(), 1e3 * point.z());
     svg.lines.push_back(std::move(line));
   }
@@ -231,8 +231,9 @@ std::string tipMap(const SessionMetrics& metrics)
   {
     PlotLine line{metrics.scene().instruments[k].instrument.name, colour(k), {}};
     for (const Sample& sample : metrics.samples())
-      if (sample.seen.instruments[k].hand.insertion > 0.0)
-        line.points.emplace_back(1e3 * sample.seen.instruments[k].tip.x(), 1e3 * sample.seen.instruments[k].tip.z());
+      if (sample.observation.instruments[k].hand.insertion > 0.0)
+        line.points.emplace_back(1e3 * sample.observation.instruments[k].tip.x(),
+                                 1e3 * sample.observation.instruments[k].tip.z());
     svg.lines.push_back(std::move(line));
   }
   return "<h2>Where</h2>\n" + svg.text();

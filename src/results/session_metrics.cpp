@@ -23,7 +23,7 @@ constexpr double kTurning = 0.05;   // rad/s
 
 /** For every instrument, the branches on the way to any goal that the procedure sets it. An instrument without a goal,
  *  and every one without a procedure, may be anywhere. */
-std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure::BranchPlaces& places, int entered)
+std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure::BranchLocator& locator, int entered)
 {
   std::vector<std::vector<bool>> ways(scene.instruments.size());
   for (std::size_t k = 0; scene.procedure && k < ways.size(); ++k)
@@ -32,9 +32,9 @@ std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure
       const bool exchange = step.action == scene::StepAction::kExchange;
       const std::string& moved = exchange ? step.replacement : step.instrument;
       const std::string& goal = step.until.tip_in.empty() ? step.until.balloon_in : step.until.tip_in;
-      if (moved != scene.instruments[k].instrument.name || goal.empty() || places.find(goal) < 0)
+      if (moved != scene.instruments[k].instrument.name || goal.empty() || locator.find(goal) < 0)
         continue;
-      const std::vector<bool> way = places.wayBetween(entered, places.find(goal));
+      const std::vector<bool> way = locator.pathBetween(entered, locator.find(goal));
       ways[k].resize(way.size(), false);
       for (std::size_t b = 0; b < way.size(); ++b)
         ways[k][b] = ways[k][b] || way[b];
@@ -46,12 +46,12 @@ std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure
 }
 
 /** The instrument that reaches furthest. */
-int foremostOf(const procedure::Observation& seen)
+int foremostOf(const procedure::Observation& observation)
 {
   const auto further = [](const procedure::InstrumentView& a, const procedure::InstrumentView& b)
   { return a.hand.insertion < b.hand.insertion; };
-  return static_cast<int>(std::max_element(seen.instruments.begin(), seen.instruments.end(), further) -
-                          seen.instruments.begin());
+  return static_cast<int>(std::max_element(observation.instruments.begin(), observation.instruments.end(), further) -
+                          observation.instruments.begin());
 }
 
 const char* word(procedure::Progress progress)
@@ -62,7 +62,7 @@ const char* word(procedure::Progress progress)
       return "done";
     case procedure::Progress::kFailed:
       return "failed";
-    case procedure::Progress::kLost:
+    case procedure::Progress::kSupportLost:
       return "lost its support";
     case procedure::Progress::kRunning:
       break;
@@ -76,7 +76,8 @@ void Sample::addContact(const Eigen::Vector3d& position, double force)
 {
   wall_force += force;
   largest = std::max(largest, force);
-  const procedure::InstrumentView& foremost = seen.instruments[static_cast<std::size_t>(foremostOf(seen))];
+  const procedure::InstrumentView& foremost =
+      observation.instruments[static_cast<std::size_t>(foremostOf(observation))];
   if ((position - foremost.tip).norm() < kTipReach)
     at_tip += force;
 }
@@ -84,8 +85,8 @@ void Sample::addContact(const Eigen::Vector3d& position, double force)
 SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::CentrelineTree& tree,
                                const Eigen::Vector3d& entry)
   : scene_(scene),
-    places_(tree, scene.procedure ? scene.procedure->branches : std::vector<scene::NamedBranch>()),
-    on_way_(waysOf(scene, places_, places_.at(entry).branch)),
+    locator_(tree, scene.procedure ? scene.procedure->branches : std::vector<scene::NamedBranch>()),
+    on_way_(waysOf(scene, locator_, locator_.at(entry).branch)),
     wrong_now_(scene.instruments.size(), -1),
     ahead_(scene.instruments.size(), false),
     ahead_time_(scene.instruments.size(), 0.0),
@@ -101,9 +102,9 @@ bool SessionMetrics::wants(double time) const
 
 void SessionMetrics::add(Sample sample)
 {
-  if (!wants(sample.seen.time))
+  if (!wants(sample.observation.time))
     return;
-  last_slot_ = static_cast<std::int64_t>(std::floor(sample.seen.time * kRate + 1e-6));
+  last_slot_ = static_cast<std::int64_t>(std::floor(sample.observation.time * kRate + 1e-6));
   followBranches(sample);
   followWires(sample);
   followExchanges(sample);
@@ -132,21 +133,22 @@ void SessionMetrics::followBranches(const Sample& sample)
 {
   for (std::size_t k = 0; k < wrong_now_.size(); ++k)
   {
-    const procedure::BranchPlace& place = sample.seen.instruments[k].place;
-    const bool wrong =
-        !sample.seen.instruments[k].covered && place.branch >= 0 && !on_way_[k][static_cast<std::size_t>(place.branch)];
+    const procedure::BranchPosition& place = sample.observation.instruments[k].branch_position;
+    const bool wrong = !sample.observation.instruments[k].covered && place.branch >= 0 &&
+                       !on_way_[k][static_cast<std::size_t>(place.branch)];
     int& now = wrong_now_[k];
     if (now >= 0 && (!wrong || wrong_[static_cast<std::size_t>(now)].branch != place.branch))
       now = -1;
     if (wrong && now < 0 && place.depth > kNoticed)
     {
       now = static_cast<int>(wrong_.size());
-      wrong_.push_back({static_cast<int>(k), place.branch, sample.seen.time, sample.seen.time, place.depth});
+      wrong_.push_back(
+          {static_cast<int>(k), place.branch, sample.observation.time, sample.observation.time, place.depth});
     }
     if (now < 0)
       continue;
     WrongBranch& stay = wrong_[static_cast<std::size_t>(now)];
-    stay.end = sample.seen.time;
+    stay.end = sample.observation.time;
     stay.deepest = std::max(stay.deepest, place.depth);
   }
 }
@@ -157,13 +159,13 @@ void SessionMetrics::followWires(const Sample& sample)
   double furthest = 0.0;
   for (std::size_t k = 0; k < ahead_.size(); ++k)
     if (scene_.instruments[k].instrument.kind == instrument::Kind::kGuidewire)
-      furthest = std::max(furthest, sample.seen.instruments[k].hand.insertion);
+      furthest = std::max(furthest, sample.observation.instruments[k].hand.insertion);
   for (std::size_t k = 0; k < ahead_.size(); ++k)
   {
-    const double lead = sample.seen.instruments[k].hand.insertion - furthest;
+    const double lead = sample.observation.instruments[k].hand.insertion - furthest;
     const bool ahead = scene_.instruments[k].instrument.kind == instrument::Kind::kBalloonCatheter && lead > kAhead;
     if (ahead && !ahead_[k])
-      mishaps_.push_back({"balloon ahead of its wire", static_cast<int>(k), sample.seen.time, lead, "m"});
+      mishaps_.push_back({"balloon ahead of its wire", static_cast<int>(k), sample.observation.time, lead, "m"});
     ahead_[k] = ahead;
     ahead_time_[k] += ahead ? 1.0 / kRate : 0.0;
   }
@@ -174,7 +176,7 @@ void SessionMetrics::followExchanges(const Sample& sample)
 {
   for (std::size_t k = 0; k < was_in_.size(); ++k)
   {
-    const bool is_in = sample.seen.instruments[k].hand.insertion > 0.0;
+    const bool is_in = sample.observation.instruments[k].hand.insertion > 0.0;
     if (is_in && !was_in_[k])
     {
       ++entries_[k];
@@ -189,17 +191,17 @@ void SessionMetrics::followExchanges(const Sample& sample)
 
 void SessionMetrics::followForces(const Sample& sample)
 {
-  const int foremost = foremostOf(sample.seen);
+  const int foremost = foremostOf(sample.observation);
   if (sample.at_tip <= kPerforation ||
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
-  if (sample.seen.time > pressing_until_ + kSameTime)
+  if (sample.observation.time > pressing_until_ + kSameTime)
   {
     pressing_ = mishaps_.size();
-    mishaps_.push_back({"risk of perforation", foremost, sample.seen.time, sample.at_tip, "N"});
+    mishaps_.push_back({"risk of perforation", foremost, sample.observation.time, sample.at_tip, "N"});
   }
   mishaps_[pressing_].value = std::max(mishaps_[pressing_].value, sample.at_tip);
-  pressing_until_ = sample.seen.time;
+  pressing_until_ = sample.observation.time;
 }
 
 /** Time in which some hand moves: a person looks at X-rays while he moves something. [s] */
@@ -208,12 +210,12 @@ double SessionMetrics::handTime() const
   double time = 0.0;
   for (std::size_t i = 1; i < samples_.size(); ++i)
   {
-    const double dt = samples_[i].seen.time - samples_[i - 1].seen.time;
+    const double dt = samples_[i].observation.time - samples_[i - 1].observation.time;
     bool moves = false;
     for (std::size_t k = 0; k < was_in_.size(); ++k)
     {
-      const simulation::HandState& before = samples_[i - 1].seen.instruments[k].hand;
-      const simulation::HandState& now = samples_[i].seen.instruments[k].hand;
+      const simulation::HandState& before = samples_[i - 1].observation.instruments[k].hand;
+      const simulation::HandState& now = samples_[i].observation.instruments[k].hand;
       moves = moves || std::abs(now.insertion - before.insertion) > kMoving * dt ||
               std::abs(now.rotation - before.rotation) > kTurning * dt || now.pressure != 0.0;
     }
@@ -230,8 +232,8 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
   std::size_t last = 0;
   for (std::size_t i = 1; i < samples_.size(); ++i)
   {
-    const procedure::InstrumentView& before = samples_[i - 1].seen.instruments[k];
-    const procedure::InstrumentView& now = samples_[i].seen.instruments[k];
+    const procedure::InstrumentView& before = samples_[i - 1].observation.instruments[k];
+    const procedure::InstrumentView& now = samples_[i].observation.instruments[k];
     const double travel = (now.tip - before.tip).norm();
     path += travel;
     peak = std::max(peak, std::abs(now.hand.force));
@@ -267,7 +269,7 @@ Json SessionMetrics::json() const
   if (!steps_.empty())
     json["outcome"] = word(steps_.back().outcome);
   json["failure"] = failure_.empty() ? Json(nullptr) : Json(failure_);
-  json["procedure_time"] = samples_.empty() ? 0.0 : samples_.back().seen.time;
+  json["procedure_time"] = samples_.empty() ? 0.0 : samples_.back().observation.time;
   json["fluoroscopy_time"] = scene_.fluoroscopy ? handTime() : 0.0;
   json["instrument_exchanges"] = exchanges_;
   json["steps"] = Json::array();
@@ -285,7 +287,7 @@ Json SessionMetrics::json() const
   json["wrong_branches"] = Json::array();
   for (const WrongBranch& stay : wrong_)
     json["wrong_branches"].push_back({{"instrument", nameOf(stay.instrument)},
-                                      {"branch", places_.name(stay.branch)},
+                                      {"branch", locator_.name(stay.branch)},
                                       {"begin", stay.begin},
                                       {"end", stay.end},
                                       {"deepest", stay.deepest}});

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "procedure/branch_places.h"
+#include "procedure/branch_locator.h"
 #include "procedure/observation.h"
 #include "procedure/operator.h"
 #include "results/treatment_report.h"
@@ -45,12 +45,12 @@ constexpr double kTipReach = 5e-3;
 /** One moment of a session. */
 struct Sample
 {
-  procedure::Observation seen;
+  procedure::Observation observation;
   double wall_force = 0.0;  ///< sum of the normal forces [N]
   double largest = 0.0;     ///< of one contact [N]
   double at_tip = 0.0;      ///< sum within kTipReach of the foremost tip [N]
 
-  /** Counts a contact of the wall in, after `seen` is complete.
+  /** Counts a contact of the wall in, after `observation` is complete.
    *  @param force normal one [N] */
   void addContact(const Eigen::Vector3d& position, double force);
 };
@@ -82,7 +82,7 @@ public:
   nlohmann::ordered_json json() const;
 
   const scene::Scene& scene() const { return scene_; }
-  const procedure::BranchPlaces& places() const { return places_; }
+  const procedure::BranchLocator& locator() const { return locator_; }
   const std::vector<Sample>& samples() const { return samples_; }
   const std::vector<procedure::StepRecord>& steps() const { return steps_; }
   const std::vector<WrongBranch>& wrongBranches() const { return wrong_; }
@@ -98,7 +98,7 @@ private:
   const std::string& nameOf(int instrument) const;
 
   scene::Scene scene_;
-  procedure::BranchPlaces places_;
+  procedure::BranchLocator locator_;
   std::vector<std::vector<bool>> on_way_;  ///< per instrument: to any goal of its steps
   std::vector<Sample> samples_;
   std::int64_t last_slot_ = -1;

@@ -44,7 +44,7 @@ void SessionRun::addStep(const simulation::Simulation& simulation, const std::ve
   if (!metrics_.wants(simulation.time()))
     return;
   Sample sample;
-  sample.seen = procedure::observe(scene_, simulation, metrics_.places());
+  sample.observation = procedure::observe(scene_, simulation, metrics_.locator());
   for (const simulation::WallContact& contact : contacts)
     sample.addContact(contact.position, contact.normal_force.norm());
   metrics_.add(std::move(sample));
@@ -70,13 +70,14 @@ std::string instrumentsCsv(const SessionMetrics& metrics)
       "time,instrument,insertion,rotation,pressure,hand_force,hand_torque,tip_x,tip_y,tip_z,branch,depth\n";
   std::array<char, 400> row{};
   for (const Sample& sample : metrics.samples())
-    for (std::size_t k = 0; k < sample.seen.instruments.size(); ++k)
+    for (std::size_t k = 0; k < sample.observation.instruments.size(); ++k)
     {
-      const procedure::InstrumentView& view = sample.seen.instruments[k];
+      const procedure::InstrumentView& view = sample.observation.instruments[k];
       std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g\n",
-                    sample.seen.time, metrics.scene().instruments[k].instrument.name.c_str(), view.hand.insertion,
-                    view.hand.rotation, view.hand.pressure, view.hand.force, view.hand.torque, view.tip.x(),
-                    view.tip.y(), view.tip.z(), metrics.places().name(view.place.branch).c_str(), view.place.depth);
+                    sample.observation.time, metrics.scene().instruments[k].instrument.name.c_str(),
+                    view.hand.insertion, view.hand.rotation, view.hand.pressure, view.hand.force, view.hand.torque,
+                    view.tip.x(), view.tip.y(), view.tip.z(),
+                    metrics.locator().name(view.branch_position.branch).c_str(), view.branch_position.depth);
       text += row.data();
     }
   return text;

@@ -39,7 +39,7 @@ public:
   }
 
   SessionMetrics& metrics() { return metrics_; }
-  const std::optional<procedure::Operator>& person() const { return operator_; }
+  const std::optional<procedure::Operator>& scriptedOperator() const { return operator_; }
   const vessel::Vessel& vessel() const { return vessel_; }
 
   /** Takes down how it ended. @param wall as it is now; null: it did not move */

@@ -51,28 +51,28 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
   return nullptr;
 }
 
-/** Puts the fields of @p top over those of @p base. */
+/** Merges @p top into @p base; fields of @p top override. */
 void overlay(SceneNode& base, const SceneNode& top)
 {
   for (const auto& [key, value] : top.fields)
   {
-    SceneNode* beneath = fieldOf(base, key);
-    if (beneath == nullptr)
+    SceneNode* existing = fieldOf(base, key);
+    if (existing == nullptr)
       base.fields.emplace_back(key, value);
-    else if (beneath->kind == SceneNode::Kind::kMap && value.kind == SceneNode::Kind::kMap)
-      overlay(*beneath, value);
+    else if (existing->kind == SceneNode::Kind::kMap && value.kind == SceneNode::Kind::kMap)
+      overlay(*existing, value);
     else
-      *beneath = value;
+      *existing = value;
   }
 }
 
-std::string below(const std::string& path, const std::string& key)
+std::string joined(const std::string& path, const std::string& key)
 {
   return path.empty() ? key : path + "." + key;
 }
 
-/** Takes `use` or `file` out of a map and returns the content of the file that it names; nothing without either. */
-bool takeBase(SceneNode& node, const std::string& path, const std::string& scene_file, SceneNode& base)
+/** Removes `use` or `file` from a map and reads the named file into @p base. @return false if the map has neither */
+bool extractBase(SceneNode& node, const std::string& path, const std::string& scene_file, SceneNode& base)
 {
   if (node.kind != SceneNode::Kind::kMap)
     return false;
@@ -81,13 +81,13 @@ bool takeBase(SceneNode& node, const std::string& path, const std::string& scene
   if (use == nullptr && file == nullptr)
     return false;
   if (use != nullptr && file != nullptr)
-    throw InputError(file->file, below(path, "file") + file->place(), "given besides use; keep one of the two");
+    throw InputError(file->file, joined(path, "file") + file->location(), "conflicts with use; keep one of the two");
   const SceneNode& name = use != nullptr ? *use : *file;
-  const std::string key = below(path, use != nullptr ? "use" : "file");
+  const std::string key = joined(path, use != nullptr ? "use" : "file");
   if (use != nullptr && (use->kind != SceneNode::Kind::kScalar || !isInLibrary(use->text)))
-    throw InputError(use->file, key + use->place(), unknownName(use->text));
+    throw InputError(use->file, key + use->location(), unknownName(use->text));
   const std::string found = use != nullptr ? pathInLibrary(use->text).string() : findSceneFile(*file, key, scene_file);
-  // An override's --set has no line: it names another instrument, so nothing of the one before stays.
+  // An override (--set) has no line number. It names another instrument, so the keys for the previous one are dropped.
   const bool overridden = name.line == 0;
   const auto is_stale = [overridden](const auto& field)
   { return field.first == "use" || field.first == "file" || (overridden && field.second.line != 0); };
@@ -100,12 +100,12 @@ void expandStent(SceneNode& instrument, const std::string& path, const std::stri
 {
   SceneNode* stent = fieldOf(instrument, "stent");
   SceneNode file;
-  if (stent == nullptr || !takeBase(*stent, path, scene_file, file))
+  if (stent == nullptr || !extractBase(*stent, path, scene_file, file))
     return;
   const SceneNode* base = file.find("stent");
   if (base == nullptr || base->kind != SceneNode::Kind::kMap)
-    throw InputError(stent->file, path + stent->place(),
-                     "\"" + file.file + "\" is no stent; name a file with kind: stent");
+    throw InputError(stent->file, path + stent->location(),
+                     "\"" + file.file + "\" is not a stent; give a file with kind: stent");
   SceneNode merged = *base;
   merged.file = stent->file;
   merged.line = stent->line;
@@ -120,13 +120,13 @@ void expandInstrument(SceneNode& node, const std::string& path, const std::strin
   if (node.kind == SceneNode::Kind::kScalar)
     node = readSceneTree(findSceneFile(node, path, scene_file));
   SceneNode base;
-  if (takeBase(node, path, scene_file, base))
+  if (extractBase(node, path, scene_file, base))
   {
     overlay(base, node);
     node = base;
   }
   if (node.kind == SceneNode::Kind::kMap)
-    expandStent(node, below(path, "stent"), scene_file);
+    expandStent(node, joined(path, "stent"), scene_file);
 }
 
 instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides)

@@ -22,14 +22,14 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
   return nullptr;
 }
 
-/** Replaces the path of a procedure by the file's content. */
+/** Replaces the path of a procedure with the content of the file. */
 void expandProcedure(SceneNode& procedure, const std::string& file)
 {
   if (procedure.kind == SceneNode::Kind::kScalar)
     procedure = readSceneTree(findSceneFile(procedure, "procedure", file));
 }
 
-/** Replaces the names of instruments and procedures by their files' content, and `vessel: none` by nothing. */
+/** Expands references to instrument and procedure files, and removes `vessel: none` and `fluoroscopy: none`. */
 void normalise(SceneNode& root, const std::string& file)
 {
   if (SceneNode* instrument = fieldOf(root, "instrument"))
@@ -48,8 +48,8 @@ void normalise(SceneNode& root, const std::string& file)
   }
 }
 
-/** Files named by the vessel, as absolute paths. The resolved text keeps what was written, so that the scene's hash
- *  does not depend on the machine. */
+/** Resolves the paths of the vessel's files. The resolved text retains the paths as written, so that the hash of the
+ *  scene does not depend on the machine. */
 void resolveVesselPaths(Scene& scene, const SceneNode& root)
 {
   const SceneNode* vessel = root.find("vessel");
@@ -63,12 +63,12 @@ void resolveVesselPaths(Scene& scene, const SceneNode& root)
 
 enum class VesselFiles
 {
-  kSought,
+  kResolved,
   kNotNeeded,
 };
 
 Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides,
-                 VesselFiles files = VesselFiles::kSought)
+                 VesselFiles files = VesselFiles::kResolved)
 {
   normalise(root, file);
   for (const std::string& override_text : overrides)
@@ -85,7 +85,7 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   SceneWriter writer;
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();
-  if (files == VesselFiles::kSought)
+  if (files == VesselFiles::kResolved)
     resolveVesselPaths(scene, root);
   return scene;
 }

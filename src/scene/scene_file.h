@@ -8,16 +8,17 @@
 namespace endovascular_sim::scene
 {
 
-/** Reads, completes and checks a scene.
+/** Loads, completes and validates a scene.
  *  @param file path of the YAML file
- *  @param overrides `key.path=value` texts, applied in order before checking
- *  @throws InputError naming file, key and remedy for an unknown key, a missing or impossible value, a missing file */
+ *  @param overrides texts `key.path=value`, applied in order before validation
+ *  @throws InputError with file, key and remedy, for an unknown key, a missing or invalid value, or a missing file */
 Scene loadScene(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/** The same from a text; @p origin names it in errors, and relative paths are sought beside it. */
+/** Parses, completes and validates the text of a scene.
+ *  @param origin name of the text in errors; relative paths are searched next to it */
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides = {});
 
-/** From the resolved text of a recording that holds the vessel itself: the vessel's files need not be there. */
+/** Parses the resolved text of a recording. The recording contains the vessel, so the vessel's files may be missing. */
 Scene parseRecordedScene(const std::string& yaml, const std::string& origin);
 
 }  // namespace endovascular_sim::scene

@@ -69,16 +69,16 @@ EntryPose poseWithUp(const Eigen::Vector3d& position, const Eigen::Vector3d& dir
   const Eigen::Vector3d across = up - up.dot(direction) / direction.squaredNorm() * direction;
   if (!(across.norm() > 1e-6 * up.norm()))
     throw InputError(origin, "entry.up", "must not be parallel to the entry's direction; give a direction across it");
-  // A unit vector stays as it is, to the last bit.
+  // A unit vector is not normalised again, which retains its bits.
   const bool is_unit = std::abs(direction.squaredNorm() - 1.0) < 1e-12;
   return {position, is_unit ? direction : Eigen::Vector3d(direction.normalized()), across.normalized()};
 }
 
-const vessel::CentrelineEnd& nearestEnd(const std::vector<vessel::CentrelineEnd>& ends, const Eigen::Vector3d& place)
+const vessel::CentrelineEnd& nearestEnd(const std::vector<vessel::CentrelineEnd>& ends, const Eigen::Vector3d& point)
 {
   const vessel::CentrelineEnd* nearest = &ends.front();
   for (const vessel::CentrelineEnd& end : ends)
-    if ((end.position - place).norm() < (nearest->position - place).norm())
+    if ((end.position - point).norm() < (nearest->position - point).norm())
       nearest = &end;
   return *nearest;
 }
@@ -93,15 +93,15 @@ const vessel::CentrelineEnd& namedEnd(const std::vector<vessel::CentrelineEnd>& 
     const std::string& branch = vessel.centreline.branches[static_cast<std::size_t>(end.branch)].name;
     names += (names.empty() ? "" : ", ") + branch;
     if (branch == name)
-      found = &end;  // the root has two ends: its tip stands last
+      found = &end;  // of the two ends of the root branch, the distal one is listed last
   }
   if (found == nullptr)
     throw InputError(origin, "entry.centreline_end",
-                     "no end \"" + name + "\" in " + vessel.source + "; it has " + names);
+                     "unknown centreline end \"" + name + "\" in " + vessel.source + "; known: " + names);
   return *found;
 }
 
-/** Point and inward tangent of the centreline at a distance from one of its ends. */
+/** Entry pose on the centreline, at a distance from one of its ends, with the inward tangent. */
 EntryPose poseAtEnd(const vessel::CentrelineEnd& end, const vessel::CentrelineTree& tree, const EntryScene& entry,
                     const std::string& origin)
 {
@@ -120,7 +120,7 @@ EntryPose poseAtEnd(const vessel::CentrelineEnd& end, const vessel::CentrelineTr
     direction = (at(k + 1) - at(k)).normalized();
   const Eigen::Vector3d position = at(k) + left * (at(k + 1) - at(k)).normalized();
 
-  // The default `up` may happen to lie along a centreline that nobody has chosen by hand.
+  // The default `up` may be parallel to the tangent of the centreline.
   Eigen::Vector3d up = entry.up;
   if (up.normalized().cross(direction).norm() < 1e-3)
     up = direction.unitOrthogonal();
@@ -135,8 +135,8 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
   char distance[32];
   std::snprintf(distance, sizeof distance, "%.3g mm", 1e3 * wall.distance);
   throw InputError(origin, "entry.position",
-                   vessel::formatPlace(pose.position) + " is not inside of the vessel: it lies " + distance +
-                       " outside of its wall, whose nearest point is " + vessel::formatPlace(wall.point) +
+                   vessel::formatPlace(pose.position) + " is not inside the vessel: it lies " + distance +
+                       " outside the wall, with nearest point " + vessel::formatPlace(wall.point) +
                        "; move it inward, or use nearest_centreline_end: true");
 }
 
@@ -178,21 +178,21 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
     vessel.mesh = geometry::loopSubdivision(std::move(vessel.mesh), scene.smoothing);
     vessel.notes.push_back("smoothed by " + std::to_string(scene.smoothing) + " Loop subdivisions");
   }
-  const bool wanted = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
-  if (wanted && vessel.centreline.branches.empty())
+  const bool required = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
+  if (required && vessel.centreline.branches.empty())
     vessel.centreline = vessel::extractCentreline(vessel.mesh);
   vessel::addLesions(vessel, scene.lesions, origin);
   return vessel;
 }
 
-double roomAround(const Eigen::Vector3d& place, const geometry::TriangleMesh& mesh)
+double distanceToWall(const Eigen::Vector3d& point, const geometry::TriangleMesh& mesh)
 {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3i& t : mesh.triangles)
     nearest = std::min(
         nearest,
-        (geometry::closestPointOnTriangle(place, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).point -
-         place)
+        (geometry::closestPointOnTriangle(point, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).point -
+         point)
             .norm());
   return nearest;
 }
@@ -218,7 +218,7 @@ EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, co
   else
     pose = resolveEntry(entry, origin);
   requireInside(pose, vessel, origin);
-  pose.room = roomAround(pose.position, vessel.mesh);
+  pose.wall_distance = distanceToWall(pose.position, vessel.mesh);
   return pose;
 }
 
@@ -231,14 +231,14 @@ EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel)
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
     const double inserted = scene.instruments[k].drive.insertionAt(0.0);
-    const double free = inserted > pose.room ? wall.rayHit(pose.position, pose.direction) : -1.0;
+    const double free = inserted > pose.wall_distance ? wall.rayHit(pose.position, pose.direction) : -1.0;
     if (free < 0.0 || inserted < free)
       continue;
-    char most[32];
-    std::snprintf(most, sizeof most, "%.3g m", free);
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%.3g m", free);
     throw InputError(scene.file, drivePath(scene, k) + "drive.initial_insertion",
-                     "puts the instrument, which begins straight, through the vessel's wall; must be less than " +
-                         std::string(most) + " along entry.direction from entry.position");
+                     "makes the initially straight instrument penetrate the wall; must be less than " +
+                         std::string(limit) + " along entry.direction from entry.position");
   }
   return pose;
 }

@@ -12,47 +12,47 @@
 namespace endovascular_sim::scene
 {
 
-/** Whether a vessel's centreline is wanted: extracting one from a mesh takes seconds. */
+/** Requirement of a centreline. Its extraction from a mesh takes seconds. */
 enum class CentrelineUse
 {
-  kIfCheap,   ///< only where it comes for nothing (tube, anatomy) or the entry asks for it
+  kIfCheap,   ///< only if no extraction is needed (tube, anatomy), or if the entry or the lesions require it
   kRequired,  ///< always
 };
 
-/** What a scene needs: adaptive sampling looks ahead along the centreline. */
+/** Centreline requirement of a scene: adaptive sampling uses the centreline ahead of the tip. */
 CentrelineUse centrelineUse(const Scene& scene);
 
 /** Stiffness and friction of a scene's wall. */
 contact::WallLaw wallLaw(const VesselScene& scene);
 
-/** Reads or makes the vessel of a scene: unit, check and repair, transform, smoothing, lesions.
- *  @param origin the scene's file, for errors
- *  @throws InputError when the mesh or the anatomy is refused */
+/** Loads or generates the vessel of a scene: unit, validation and repair, transform, smoothing, lesions.
+ *  @param origin scene file, for errors
+ *  @throws InputError if the mesh or the anatomy is invalid */
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
                            CentrelineUse centreline = CentrelineUse::kIfCheap);
 
-/** Where the wire enters, and how it is turned there. */
+/** Pose of the wire at the entry into the vessel. */
 struct EntryPose
 {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< patient frame [m]
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();   ///< unit vector into the vessel
-  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();          ///< unit, at right angles to direction
-  double room = std::numeric_limits<double>::infinity();  ///< from the position to the wall [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();              ///< position in the patient frame [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();            ///< unit vector into the vessel
+  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();                   ///< material director, unit, normal to direction
+  double wall_distance = std::numeric_limits<double>::infinity();  ///< distance from the position to the wall [m]
 };
 
-/** Distance from a place to the mesh, by all its triangles [m]. */
-double roomAround(const Eigen::Vector3d& place, const geometry::TriangleMesh& mesh);
+/** Distance from a point to the mesh by brute force over all triangles [m]. */
+double distanceToWall(const Eigen::Vector3d& point, const geometry::TriangleMesh& mesh);
 
-/** The entry without a vessel: the scene's pose, d1 made orthogonal.
- *  @throws InputError when up and direction are parallel */
+/** Entry pose without a vessel: pose of the scene with d1 made orthogonal to the direction.
+ *  @throws InputError if up and direction are parallel */
 EntryPose resolveEntry(const EntryScene& entry, const std::string& origin = "scene");
 
-/** The entry in a vessel: the scene's pose, or a centreline end moved inward by the offset along the centreline.
- *  @throws InputError when the named end does not exist (listing those that do) or the entry is not inside */
+/** Entry pose in a vessel: pose of the scene, or a centreline end moved inward along the centreline by the offset.
+ *  @throws InputError if the named end does not exist (listing the existing ones) or the entry is outside the vessel */
 EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, const std::string& origin = "scene");
 
-/** The same for a scene whose instruments begin there.
- *  @throws InputError as above, and where an instrument, which begins straight, would begin in the wall */
+/** Entry pose of a scene, with a check of the initial insertions. Instruments are straight at the start.
+ *  @throws InputError as resolveEntry(), and if an instrument would penetrate the wall at the start */
 EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel);
 
 }  // namespace endovascular_sim::scene

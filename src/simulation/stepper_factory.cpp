@@ -49,7 +49,7 @@ rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entr
   for (const scene::DrivenInstrument& driven : scene.instruments)
     for (const rod::Section& section : driven.instrument.wire.sections)
       radius = std::max(radius, section.radius);
-  boundary.sheath_clearance = std::max(kLeastClearance, kRoomShare * (entry.room - radius));
+  boundary.sheath_clearance = std::max(kLeastClearance, kRoomShare * (entry.wall_distance - radius));
   boundary.proximal = hold(scene.proximal_end);
   boundary.distal = hold(scene.distal_end);
   boundary.distal_twist_held = scene.distal.twist_held;

@@ -267,7 +267,7 @@ void writeReport(const DeviceSimulator::Report& report, const std::string& file)
 void showHand(const DeviceSimulator& device)
 {
   static const char* const states[] = {"disabled", "enabled ", "paused  ", "fault   "};
-  const auto& force = device.shown();
+  const auto& force = device.renderedForce();
   std::printf("\rinsertion %8.2f mm  rotation %7.2f rad  force %7.3f N  torque %8.5f N m  %s ",
               1e3 * device.hand().insertion, device.hand().rotation, static_cast<double>(force.force),
               static_cast<double>(force.torque), states[static_cast<int>(force.state)]);

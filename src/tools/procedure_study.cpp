@@ -77,9 +77,9 @@ std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const s
   std::filesystem::create_directories(folder);
   session.finish(simulation, moving_wall ? &moving_wall->opening().mesh() : nullptr);
   session.write(folder);
-  if (session.person()->progress() == procedure::Progress::kRunning)
+  if (session.scriptedOperator()->progress() == procedure::Progress::kRunning)
     return "not finished within the scene's duration";
-  return session.person()->failure();
+  return session.scriptedOperator()->failure();
 }
 
 int study(const Options& options)

@@ -260,7 +260,7 @@ void takePicture(const Surroundings& surroundings, const simulation::Simulation&
 {
   if (surroundings.pictures)
     surroundings.pictures->look(
-        simulation, *surroundings.session->person(),
+        simulation, *surroundings.session->scriptedOperator(),
         surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
 }
 
@@ -345,15 +345,15 @@ void finishSession(const simulation::Simulation& simulation, const Surroundings&
 /** Prints the steps of the scripted operator. */
 void printProcedure(const Surroundings& surroundings)
 {
-  if (!surroundings.session || !surroundings.session->person())
+  if (!surroundings.session || !surroundings.session->scriptedOperator())
     return;
-  const procedure::Operator& person = *surroundings.session->person();
-  for (const procedure::StepRecord& step : person.records())
+  const procedure::Operator& scripted = *surroundings.session->scriptedOperator();
+  for (const procedure::StepRecord& step : scripted.records())
     std::fprintf(stderr, "%7.2f to %7.2f s: %s%s%s\n", step.begin, step.end, step.name.c_str(),
                  step.retries > 0 ? (" (" + std::to_string(step.retries) + " retries)").c_str() : "",
-                 step.outcome == procedure::Progress::kLost ? ", lost its support" : "");
-  if (!person.failure().empty())
-    std::cerr << "simulate: the procedure failed: " << person.failure() << "\n";
+                 step.outcome == procedure::Progress::kSupportLost ? ", lost its support" : "");
+  if (!scripted.failure().empty())
+    std::cerr << "simulate: the procedure failed: " << scripted.failure() << "\n";
 }
 
 int simulate(const Options& options)
@@ -363,7 +363,7 @@ int simulate(const Options& options)
   Surroundings surroundings = build(scene);
   if (options.pictures)
   {
-    if (!surroundings.session || !surroundings.session->person())
+    if (!surroundings.session || !surroundings.session->scriptedOperator())
       throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
     surroundings.pictures = std::make_unique<procedure::PhasePictures>(scene, options.out);
   }
@@ -400,8 +400,8 @@ int simulate(const Options& options)
     std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
     return 1;
   }
-  return surroundings.session && surroundings.session->person() &&
-                 surroundings.session->person()->progress() == procedure::Progress::kFailed
+  return surroundings.session && surroundings.session->scriptedOperator() &&
+                 surroundings.session->scriptedOperator()->progress() == procedure::Progress::kFailed
              ? 1
              : 0;
 }

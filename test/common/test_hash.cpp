@@ -18,7 +18,7 @@ TEST(Hash64, DependsOnTheOrderOfItsWords)
   EXPECT_NE(a.value(), b.value());
 }
 
-TEST(Hash64, TellsPlusZeroFromMinusZero)
+TEST(Hash64, DistinguishesPlusZeroFromMinusZero)
 {
   Hash64 a;
   a.add(0.0);
@@ -27,7 +27,7 @@ TEST(Hash64, TellsPlusZeroFromMinusZero)
   EXPECT_NE(a.value(), b.value());
 }
 
-TEST(Hash64, DoesNotLetNeighbouringTextsTradeBytes)
+TEST(Hash64, DependsOnTheBoundaryBetweenAdjacentTexts)
 {
   Hash64 a;
   a.add(std::string("ab"));
@@ -43,7 +43,7 @@ TEST(Hash64, WritesSixteenHexadecimalDigits)
   EXPECT_EQ(Hash64::toHex(0x00ff12ULL), "000000000000ff12");
 }
 
-TEST(Hash64, GivesTheSameValueOnEveryMachineAndInEveryVersion)
+TEST(Hash64, IsEqualOnAllMachinesAndVersions)
 {
   Hash64 hash;
   hash.add(0.1);

@@ -12,7 +12,7 @@ namespace endovascular_sim::haptics::test
 inline const std::string kSampleMd5 = "5a5a5a5a5a5a5a5a5a5a5a5a5a5a5a5a";
 inline const std::string kForceMd5 = "f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0";
 
-/** The types a host knows; the standard ones with their true sums. */
+/** Options with all types that a host supports; standard types have their true md5 sums. */
 inline HostOptions hostOptions()
 {
   HostOptions options;
@@ -34,7 +34,7 @@ inline DeviceOptions deviceOptions()
   return options;
 }
 
-/** A sink that remembers, and may be blocked. */
+/** Sink that stores the bytes and can be blocked. */
 class BufferSink : public ByteSink
 {
 public:
@@ -50,7 +50,7 @@ public:
   Bytes bytes;
 };
 
-/** A host and a device joined by memory, in steps of 1 ms of made-up time. */
+/** Host and device connected through memory, in steps of 1 ms of simulated time. */
 struct Bench
 {
   explicit Bench(HostOptions host_options = hostOptions(), DeviceOptions device_options = deviceOptions())
@@ -59,12 +59,12 @@ struct Bench
     host.lineOpened(now);
   }
 
-  /** One millisecond: a sample if the device is talking, a force if the simulation is. */
+  /** Advances by 1 ms; sends a sample if the device is active, and a force if the simulation is active. */
   void step()
   {
     now += 1e-3;
     ++milliseconds;
-    if (device_talks)
+    if (device_active)
     {
       device.sendSample({milliseconds * 1000U, insertion, rotation, flags});
       const Bytes bytes = device.takeOutput();
@@ -72,7 +72,7 @@ struct Bench
     }
     for (const MotionSample& motion : host.takeMotion())
       motions.push_back(motion);
-    if (simulation_talks)
+    if (simulation_active)
       host.commandForce(simulated, motions.empty() ? HandMotion() : motions.back().command, now);
     host.tick(now, wall);
     host.output().flush(sink, now);
@@ -98,8 +98,8 @@ struct Bench
   float rotation = 0.0F;
   std::uint8_t flags = HapticSample::kEnabled;
   HandForce simulated{1.0, 0.01};
-  bool device_talks = true;
-  bool simulation_talks = true;
+  bool device_active = true;
+  bool simulation_active = true;
   std::vector<MotionSample> motions;
   std::vector<HapticForce> forces;
 };

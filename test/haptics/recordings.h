@@ -8,14 +8,15 @@
 
 #include "haptics/rosserial/rosserial_protocol.h"
 
-/** Recordings of the original rosserial client and server over raw ptys: lines of seconds, H or D, hexadecimal. */
+/** Recordings of the original rosserial client and server over raw ptys. Each line has the time [s], the sender
+ *  (H: host, D: device) and the bytes in hexadecimal. */
 namespace endovascular_sim::haptics::test
 {
 
 struct Piece
 {
-  double time = 0.0;         ///< [s]
-  bool from_device = false;  ///< else from the host
+  double time = 0.0;         ///< time since the start of the recording [s]
+  bool from_device = false;  ///< sender; false: host
   Bytes bytes;
 };
 
@@ -27,7 +28,7 @@ inline Bytes fromHex(const std::string& text)
   return bytes;
 }
 
-/** Folder of the recordings, beside the test vessels; empty when ENDOVASCULAR_DATA_DIR is not set. */
+/** Folder of the recordings, next to the test vessels; empty if ENDOVASCULAR_DATA_DIR is not set. */
 inline std::string recordingFolder()
 {
   const char* data = std::getenv("ENDOVASCULAR_DATA_DIR");
@@ -35,9 +36,9 @@ inline std::string recordingFolder()
 }
 
 inline constexpr auto kNoRecordings =
-    "set ENDOVASCULAR_DATA_DIR to the folder of test data; the recordings are expected in rosserial/ beside it";
+    "set ENDOVASCULAR_DATA_DIR to the folder of test data; the recordings are expected in rosserial/ next to it";
 
-/** Empty when the file is absent. */
+/** Reads a recording; empty if the file is missing. */
 inline std::vector<Piece> readRecording(const std::string& name)
 {
   std::ifstream file(recordingFolder() + name);

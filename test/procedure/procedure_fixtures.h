@@ -13,7 +13,7 @@
 namespace endovascular_sim::procedure
 {
 
-/** A trunk of 200 mm along z with a side branch at 100 mm and a goal branch at 150 mm, 60 mm long, to both sides. */
+/** Trunk of 200 mm along z with a side branch at 100 mm and a goal branch at 150 mm, each 60 mm long. */
 inline vessel::CentrelineTree forkedTree()
 {
   vessel::CentrelineTree tree;
@@ -36,7 +36,7 @@ inline vessel::CentrelineTree forkedTree()
   return tree;
 }
 
-/** A scene with a wire and a catheter that the operator drives. @param steps YAML of the procedure's steps */
+/** Scene with a wire and a catheter, both driven by the operator. @param steps YAML of the procedure's steps */
 inline scene::Scene sceneWith(const std::string& steps, const std::string& hand = "{}")
 {
   return scene::parseScene(
@@ -49,7 +49,7 @@ inline scene::Scene sceneWith(const std::string& steps, const std::string& hand 
       "test scene");
 }
 
-/** A world in which instruments follow their commands at once; their tips lie where @p tip puts them. */
+/** Kinematic world: instruments follow their commands immediately, and @p tip gives the position of their tips. */
 class PlainWorld
 {
 public:
@@ -58,7 +58,7 @@ public:
   explicit PlainWorld(
       const scene::Scene& scene,
       Tip tip = [](double insertion, double /*rotation*/) { return Eigen::Vector3d(0.0, 0.0, insertion); })
-    : person(scene, forkedTree(), {0, 0, 0.001}), tip_(std::move(tip)), hands_(scene.instruments.size())
+    : scripted_operator(scene, forkedTree(), {0, 0, 0.001}), tip_(std::move(tip)), hands_(scene.instruments.size())
   {
   }
 
@@ -66,10 +66,10 @@ public:
   {
     for (const double end = time + seconds; time < end - 1e-9; ++steps_)
     {
-      if (person.looksBefore(steps_))
-        person.see(seen());
+      if (scripted_operator.observesBefore(steps_))
+        scripted_operator.observe(observation());
       time = static_cast<double>(steps_ + 1) * 1e-3;
-      const std::vector<simulation::HandCommand> commands = person.move(time);
+      const std::vector<simulation::HandCommand> commands = scripted_operator.advance(time);
       for (std::size_t k = 0; k < hands_.size(); ++k)
       {
         hands_[k].insertion = commands[k].insertion;
@@ -80,7 +80,7 @@ public:
     }
   }
 
-  Observation seen() const
+  Observation observation() const
   {
     Observation observation;
     observation.time = time;
@@ -91,18 +91,18 @@ public:
       view.hand.force = force;
       view.outside = hand.insertion <= -0.02;
       view.tip = tip_(hand.insertion, hand.rotation);
-      view.place = hand.insertion > 0.0 ? person.places().at(view.tip) : BranchPlace();
+      view.branch_position = hand.insertion > 0.0 ? scripted_operator.locator().at(view.tip) : BranchPosition();
       observation.instruments.push_back(view);
     }
-    if (happens)
-      happens(observation);
+    if (disturbance)
+      disturbance(observation);
     return observation;
   }
 
-  Operator person;
+  Operator scripted_operator;
   double time = 0.0;
-  double force = 0.0;                              ///< on every hand [N]
-  std::function<void(Observation& seen)> happens;  ///< changes what the operator sees
+  double force = 0.0;                                         ///< force at each handle [N]
+  std::function<void(Observation& observation)> disturbance;  ///< modifies each observation
   std::vector<std::vector<simulation::HandCommand>> history;
   const simulation::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
 

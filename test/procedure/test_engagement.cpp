@@ -14,7 +14,7 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-/** pci.yaml through the engagement, with the wire and the catheter alone. */
+/** Scene pci.yaml up to the engagement, with the wire and the catheter only. */
 scene::Scene engagement()
 {
   scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/pci.yaml");
@@ -23,8 +23,8 @@ scene::Scene engagement()
   return scene;
 }
 
-// `procedure_study --through Engagement` does it from ten starts; this is one of them.
-TEST(Engagement, TheGuidingCatheterFindsTheLeftMainArteryFromAPerturbedStart)
+// One of the ten starts of `procedure_study --through Engagement`.
+TEST(Engagement, SucceedsFromAPerturbedStart)
 {
   const scene::Scene scene = perturbed(engagement(), Spread(), 3);
   const vessel::Vessel vessel =
@@ -40,9 +40,9 @@ TEST(Engagement, TheGuidingCatheterFindsTheLeftMainArteryFromAPerturbedStart)
     simulation::wallContacts(simulation, contacts);
     run.addStep(simulation, contacts);
   }
-  EXPECT_EQ(run.person()->progress(), Progress::kDone) << run.person()->failure();
-  const InstrumentView& catheter = run.metrics().samples().back().seen.instruments[1];
-  EXPECT_EQ(run.metrics().places().name(catheter.place.branch), "left_main");
+  EXPECT_EQ(run.scripted_operator()->progress(), Progress::kDone) << run.scripted_operator()->failure();
+  const InstrumentView& catheter = run.metrics().samples().back().observation.instruments[1];
+  EXPECT_EQ(run.metrics().locator().name(catheter.branch_position.branch), "left_main");
   EXPECT_TRUE(run.metrics().wrongBranches().empty());
 }
 

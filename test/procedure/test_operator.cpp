@@ -13,7 +13,7 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-TEST(Operator, GoesThroughTheStepsInTheirOrder)
+TEST(Operator, ExecutesTheStepsInOrder)
 {
   PlainWorld world(
       sceneWith("    - {advance: wire, until: {tip_in: trunk, beyond: 0.08}, speed: 0.04}\n"
@@ -21,17 +21,17 @@ TEST(Operator, GoesThroughTheStepsInTheirOrder)
                 "    - {wait: 0.5}\n"
                 "    - {withdraw: wire, until: {insertion: 0.02}, speed: 0.05}\n"));
   world.run(10.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone);
-  ASSERT_EQ(world.person.records().size(), 4U);
-  EXPECT_EQ(world.person.records()[0].name, "advance wire until its tip is in trunk by 80.0 mm");
-  for (const StepRecord& record : world.person.records())
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
+  ASSERT_EQ(world.scripted.records().size(), 4U);
+  EXPECT_EQ(world.scripted.records()[0].name, "advance wire until its tip is in trunk by 80.0 mm");
+  for (const StepRecord& record : world.scripted.records())
     EXPECT_EQ(record.outcome, Progress::kDone);
   EXPECT_NEAR(world.hand(0).insertion, 0.02, 0.01);
   EXPECT_NEAR(world.hand(0).rotation, 1.5, 0.3);
-  EXPECT_EQ(world.hand(1).insertion, 0.0) << "nobody moved the catheter";
+  EXPECT_EQ(world.hand(1).insertion, 0.0) << "the catheter was not moved";
 }
 
-TEST(Operator, DrawsBackIntoABranchAndInItToADepth)
+TEST(Operator, WithdrawsIntoABranchAndToADepth)
 {
   const auto tip = [](double insertion, double /*rotation*/)
   { return Eigen::Vector3d(std::max(0.0, insertion - 0.1), 0.0, std::min(insertion, 0.1)); };
@@ -43,11 +43,11 @@ TEST(Operator, DrawsBackIntoABranchAndInItToADepth)
   world.run(6.0);
   EXPECT_NEAR(world.hand(0).insertion, 0.1 + 0.007 + 0.02, 0.003);
   world.run(5.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
   EXPECT_NEAR(world.hand(0).insertion, 0.107, 0.003);
 }
 
-TEST(Operator, MovesWithinTheLimitsOfItsHands)
+TEST(Operator, ObeysItsLimitsOfSpeedAndAcceleration)
 {
   PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.15}, speed: 0.5, turn_speed: 50}\n",
                              "{max_speed: 0.03, max_turn: 2, acceleration: 0.1, turn_acceleration: 5}"));
@@ -70,18 +70,18 @@ TEST(Operator, MovesWithinTheLimitsOfItsHands)
     turn_before = turn;
     fastest = std::max(fastest, speed);
   }
-  EXPECT_NEAR(fastest, 0.03, 1e-6) << "the limit is reached, so it is what was tested";
+  EXPECT_NEAR(fastest, 0.03, 1e-6) << "the limit must be active in this test";
 }
 
-TEST(Operator, LooksOnlyAtItsReactionInterval)
+TEST(Operator, ObservesAtItsReactionIntervalOnly)
 {
   const PlainWorld world(sceneWith("    - {wait: 1}\n", "{reaction: 0.05}"));
-  EXPECT_TRUE(world.person.looksBefore(0));
-  EXPECT_FALSE(world.person.looksBefore(49));
-  EXPECT_TRUE(world.person.looksBefore(50));
+  EXPECT_TRUE(world.scripted_operator.observesBefore(0));
+  EXPECT_FALSE(world.scripted_operator.observesBefore(49));
+  EXPECT_TRUE(world.scripted_operator.observesBefore(50));
 }
 
-TEST(Operator, GivesTheSameCommandsForTheSameObservations)
+TEST(Operator, IsDeterministic)
 {
   const std::string steps = "    - {advance: wire, until: {tip_in: trunk, beyond: 0.12}, turn_speed: 1}\n";
   PlainWorld one(sceneWith(steps));
@@ -95,7 +95,7 @@ TEST(Operator, GivesTheSameCommandsForTheSameObservations)
   }
 }
 
-TEST(Operator, StopsPushingAtItsForce)
+TEST(Operator, StopsPushingAtItsForceLimit)
 {
   PlainWorld world(
       sceneWith("    - {advance: wire, until: {by: 0.15}, speed: 0.02}\n", "{push_force: 1.0, patience: 100}"));
@@ -104,28 +104,28 @@ TEST(Operator, StopsPushingAtItsForce)
   EXPECT_GT(before, 0.02);
   world.force = 1.2;
   world.run(2.0);
-  EXPECT_LT(world.hand(0).insertion - before, 0.005) << "he brakes within a reaction and stands";
+  EXPECT_LT(world.hand(0).insertion - before, 0.005) << "stops within one reaction interval";
   world.force = 0.3;
   world.run(1.0);
-  EXPECT_GT(world.hand(0).insertion - before, 0.01) << "he goes on when the force is gone";
+  EXPECT_GT(world.hand(0).insertion - before, 0.01) << "continues when the force has vanished";
 }
 
-TEST(Operator, PullsBackTurnsAndTriesAgainWhereTheTipMakesNoWay)
+TEST(Operator, PullsBackRotatesAndRetriesWithoutProgress)
 {
-  // The tip is caught at 60 mm until the wire has been turned.
+  // The tip is stuck at 60 mm until the wire has been rotated.
   PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: trunk, beyond: 0.1}, speed: 0.02,\n"
                              "       retry: {back: 0.01, turn: 0.8, times: 5}}\n"),
                    [](double insertion, double rotation)
                    { return Eigen::Vector3d(0.0, 0.0, rotation < 1.2 ? std::min(insertion, 0.06) : insertion); });
   world.run(25.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone);
-  EXPECT_EQ(world.person.records().front().retries, 2);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
+  EXPECT_EQ(world.scripted.records().front().retries, 2);
   EXPECT_GE(world.hand(0).rotation, 1.2);
 }
 
-TEST(Operator, TriesAgainWhereTheTipWentPastItsGoal)
+TEST(Operator, RetriesAfterPassingTheGoal)
 {
-  // The tip passes the ostium of the goal, 150 mm up, until the wire has been turned.
+  // The tip passes the ostium of the goal at 150 mm until the wire has been rotated.
   PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: goal, beyond: 0.01}, speed: 0.02,\n"
                              "       retry: {back: 0.03, turn: 0.8, times: 5, deepest: 0.17}}\n"),
                    [](double insertion, double rotation) -> Eigen::Vector3d
@@ -134,13 +134,13 @@ TEST(Operator, TriesAgainWhereTheTipWentPastItsGoal)
                      return {-beyond, 0.0, insertion - beyond};
                    });
   world.run(30.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
-  EXPECT_EQ(world.person.records().front().retries, 2);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  EXPECT_EQ(world.scripted.records().front().retries, 2);
 }
 
 TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
 {
-  // Unturned, the wire goes into the side branch; turned, it stays in the trunk and enters the goal.
+  // Without rotation the wire enters the side branch. After a rotation it stays in the trunk and enters the goal.
   const auto tip = [](double insertion, double rotation) -> Eigen::Vector3d
   {
     const double turn_off = rotation < 0.5 ? 0.1 : 0.15;
@@ -152,22 +152,22 @@ TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
                              "       retry: {back: 0.005, turn: 0.8, times: 3}}\n"),
                    tip);
   world.run(30.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
-  EXPECT_EQ(world.person.records().front().wrong_branches, 1);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  EXPECT_EQ(world.scripted.records().front().wrong_branches, 1);
 }
 
-/** The catheter lies in the goal branch; a wire that comes 20 mm out of it lifts it into the trunk and goes there too,
- * so many times; there they stay until the catheter is pushed again by 2 mm. */
+/** Disturbance that displaces the support: a wire that leaves the catheter by 20 mm lifts it from the goal branch into
+ * the trunk, a given number of times. Both remain there until the catheter is advanced by 2 mm. */
 struct LiftingWire
 {
   int times = 1;
   bool lifted = false;
   double lifted_at = 0.0;  ///< insertion of the catheter [m]
 
-  void operator()(Observation& seen)
+  void operator()(Observation& observation)
   {
-    InstrumentView& wire = seen.instruments[0];
-    InstrumentView& catheter = seen.instruments[1];
+    InstrumentView& wire = observation.instruments[0];
+    InstrumentView& catheter = observation.instruments[1];
     if (!lifted && times > 0 && wire.hand.insertion > catheter.hand.insertion + 0.02)
     {
       lifted = true;
@@ -177,12 +177,12 @@ struct LiftingWire
     lifted = lifted && catheter.hand.insertion < lifted_at + 0.002;
     if (!lifted)
       return;
-    wire.place = catheter.place = {0, 0.14};
+    wire.branch_position = catheter.branch_position = {0, 0.14};
     wire.tip = catheter.tip = {0.0, 0.0, 0.14};
   }
 };
 
-/** Wire and catheter of an engagement that needs support. */
+/** Wire and catheter in an engagement with support. */
 struct SupportedWorld : PlainWorld
 {
   explicit SupportedWorld(int times)
@@ -197,71 +197,71 @@ struct SupportedWorld : PlainWorld
             return {-beyond, 0.0, insertion - beyond};
           })
   {
-    happens = LiftingWire{times};
+    disturbance = LiftingWire{times};
   }
 };
 
-TEST(Operator, DrawsBackAndBeginsAnEarlierPhaseAgainWhenTheSupportHasLeftItsPlace)
+TEST(Operator, WithdrawsAndResumesFromAnEarlierPhaseAfterALossOfSupport)
 {
   SupportedWorld world(1);
   world.run(80.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
   std::vector<std::size_t> steps;
-  for (const StepRecord& record : world.person.records())
+  for (const StepRecord& record : world.scripted.records())
     steps.push_back(record.step);
   ASSERT_EQ(steps, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(world.person.records()[2].outcome, Progress::kLost);
-  EXPECT_EQ(world.person.records()[5].outcome, Progress::kDone);
-  EXPECT_EQ(world.person.records()[4].phase, "Engagement");
+  EXPECT_EQ(world.scripted.records()[2].outcome, Progress::kLost);
+  EXPECT_EQ(world.scripted.records()[5].outcome, Progress::kDone);
+  EXPECT_EQ(world.scripted.records()[4].phase, "Engagement");
   for (std::size_t k = 1; k < world.history.size(); ++k)
   {
     const double wire = world.history[k][0].insertion;
     const double catheter = world.history[k][1].insertion;
     if (catheter > 0.1 && catheter != world.history[k - 1][1].insertion)
     {
-      ASSERT_LT(wire, catheter - 0.04) << "the catheter moves while the wire is within it";
+      ASSERT_LT(wire, catheter - 0.04) << "the catheter moves while the wire is inside it";
     }
   }
 }
 
-TEST(Operator, FailsWhenTheSupportLeavesItsPlaceAgainAndAgain)
+TEST(Operator, FailsAfterRepeatedLossesOfSupport)
 {
   SupportedWorld world(100);
   world.run(200.0);
-  EXPECT_EQ(world.person.progress(), Progress::kFailed);
-  EXPECT_NE(world.person.failure().find("catheter has left goal again and again"), std::string::npos)
-      << world.person.failure();
-  EXPECT_EQ(world.person.records().size(), 9U) << "two new beginnings";
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
+  EXPECT_NE(world.scripted.failure().find("catheter has left goal repeatedly"), std::string::npos)
+      << world.scripted.failure();
+  EXPECT_EQ(world.scripted.records().size(), 9U) << "the phase was repeated twice";
 }
 
-TEST(Operator, DoesNotMindASupportThatIsAwayForAMoment)
+TEST(Operator, ToleratesAShortLossOfSupport)
 {
   SupportedWorld world(0);
-  world.happens = [](Observation& seen)
+  world.disturbance = [](Observation& observation)
   {
-    if (seen.instruments[0].hand.insertion > 0.17 && std::fmod(seen.time, 2.0) < 1.0)
-      seen.instruments[0].place = seen.instruments[1].place = {0, 0.14};
+    if (observation.instruments[0].hand.insertion > 0.17 && std::fmod(observation.time, 2.0) < 1.0)
+      observation.instruments[0].branch_position = observation.instruments[1].branch_position = {0, 0.14};
   };
   world.run(40.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
-  for (const StepRecord& record : world.person.records())
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  for (const StepRecord& record : world.scripted.records())
     EXPECT_EQ(record.outcome, Progress::kDone);
 }
 
-TEST(Operator, NeedsNoSupportWhereTheTipHasFoundItsWay)
+TEST(Operator, NeedsNoSupportOnceTheTipIsInTheBranch)
 {
   SupportedWorld world(0);
-  world.happens = [](Observation& seen)
+  world.disturbance = [](Observation& observation)
   {
-    if (seen.instruments[0].hand.insertion > 0.18)
-      seen.instruments[1].place = {0, 0.14};
+    if (observation.instruments[0].hand.insertion > 0.18)
+      observation.instruments[1].branch_position = {0, 0.14};
   };
   world.run(80.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone) << world.person.failure();
-  EXPECT_EQ(world.person.records().size(), 3U);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  EXPECT_EQ(world.scripted.records().size(), 3U);
 }
 
-TEST(Operator, RefusesASupportThatCannotBe)
+TEST(Operator, RejectsAnInvalidSupport)
 {
   const auto step = [](const std::string& support)
   {
@@ -276,7 +276,7 @@ TEST(Operator, RefusesASupportThatCannotBe)
   EXPECT_THROW(sceneWith("    - {phase: Engagement, advance: catheter, until: {tip_in: goal},\n"
                          "       support: {instrument: wire, tip_in: goal, again_from: Engagement}}\n"),
                InputError)
-      << "the wire is within the catheter";
+      << "the wire is inside the catheter";
   EXPECT_THROW(sceneWith("    - {phase: Wire, withdraw: wire, until: {outside: true},\n"
                          "       support: {instrument: catheter, tip_in: goal, again_from: Wire}}\n"),
                InputError);
@@ -284,51 +284,51 @@ TEST(Operator, RefusesASupportThatCannotBe)
   EXPECT_THROW(PlainWorld(sceneWith(step("{instrument: catheter, tip_in: gaol, again_from: Engagement}"))), InputError);
 }
 
-TEST(Operator, FailureNamesTheStepTheReasonAndThePlaceOfTheTip)
+TEST(Operator, FailureReportsStepReasonAndPositionOfTheTip)
 {
   PlainWorld world(sceneWith("    - {wait: 0.1}\n"
                              "    - {advance: wire, until: {tip_in: goal}, speed: 0.02, retry: {times: 1}}\n"),
                    [](double insertion, double /*rotation*/)
                    { return Eigen::Vector3d(0.0, 0.0, std::min(insertion, 0.06)); });
   world.run(30.0);
-  EXPECT_EQ(world.person.progress(), Progress::kFailed);
-  EXPECT_EQ(world.person.failure(),
-            "step 2 (advance wire until its tip is in goal): makes no progress, after 1 new tries; the tip of wire is "
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
+  EXPECT_EQ(world.scripted.failure(),
+            "step 2 (advance wire until its tip is in goal): makes no progress, after 1 retries; the tip of wire is "
             "in trunk, 60.0 mm beyond its ostium, at (0.0, 0.0, 60.0) mm");
   const double rest = world.hand(0).insertion;
   world.run(5.0);
-  EXPECT_NEAR(world.hand(0).insertion, rest, 1e-3) << "he takes his hands off";
+  EXPECT_NEAR(world.hand(0).insertion, rest, 1e-3) << "the operator stops";
 }
 
-TEST(Operator, FailsWhenItsTimeIsOver)
+TEST(Operator, FailsAfterItsTimeLimit)
 {
   PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.4}, speed: 0.01, time_limit: 3}\n"));
   world.run(5.0);
-  EXPECT_EQ(world.person.progress(), Progress::kFailed);
-  EXPECT_NE(world.person.failure().find("not done within 3 s"), std::string::npos) << world.person.failure();
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
+  EXPECT_NE(world.scripted.failure().find("not done within 3 s"), std::string::npos) << world.scripted.failure();
 }
 
-TEST(Operator, ExchangeDrawsOneOutBeforeTheOtherGoesIn)
+TEST(Operator, ExchangeWithdrawsOneInstrumentBeforeAdvancingTheOther)
 {
   PlainWorld world(
       sceneWith("    - {advance: wire, until: {by: 0.05}, speed: 0.05}\n"
                 "    - {exchange: wire, for: catheter, until: {insertion: 0.03}, speed: 0.05}\n"));
   world.run(10.0);
-  EXPECT_EQ(world.person.progress(), Progress::kDone);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
   for (const std::vector<simulation::HandCommand>& commands : world.history)
     EXPECT_TRUE(commands[1].insertion <= 0.0 || commands[0].insertion <= -0.02)
         << commands[0].insertion << " " << commands[1].insertion;
   EXPECT_GT(world.hand(1).insertion, 0.03);
 }
 
-TEST(Operator, RefusesADeepestInsertionThatCannotBePassed)
+TEST(Operator, RejectsADeepestInsertionBelowTheGoal)
 {
   EXPECT_THROW(sceneWith("    - {withdraw: wire, until: {outside: true}, retry: {deepest: 0.1}}\n"), InputError);
   EXPECT_THROW(sceneWith("    - {advance: wire, until: {insertion: 0.2}, retry: {deepest: 0.1}}\n"), InputError);
   EXPECT_NO_THROW(sceneWith("    - {advance: wire, until: {insertion: 0.2}, retry: {deepest: 0.3}}\n"));
 }
 
-TEST(Operator, RefusesABranchThatTheVesselDoesNotHave)
+TEST(Operator, RejectsAnUnknownBranch)
 {
   try
   {
@@ -338,12 +338,12 @@ TEST(Operator, RefusesABranchThatTheVesselDoesNotHave)
   catch (const InputError& error)
   {
     EXPECT_STREQ(error.what(),
-                 "test scene: procedure.steps.0.until: the vessel has no branch 'gaol'; it has trunk, "
+                 "test scene: procedure.steps.0.until: the vessel has no branch 'gaol'; known: trunk, "
                  "side, goal");
   }
 }
 
-TEST(Operator, KnowsBranchesByTheProceduresNames)
+TEST(Operator, AcceptsBranchNamesOfTheProcedure)
 {
   const scene::Scene scene = scene::parseScene(
       "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
@@ -352,11 +352,11 @@ TEST(Operator, KnowsBranchesByTheProceduresNames)
       "  steps: [{advance: guidewire, until: {tip_in: left_main}}]\n",
       "test scene");
   const PlainWorld world(scene);
-  EXPECT_EQ(world.person.places().find("left_main"), 2);
-  EXPECT_EQ(world.person.places().find("goal"), 2) << "the vessel's own name still counts";
+  EXPECT_EQ(world.scripted_operator.locator().find("left_main"), 2);
+  EXPECT_EQ(world.scripted_operator.locator().find("goal"), 2) << "the name in the vessel remains valid";
 }
 
-TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
+TEST(Operator, ContinuesFromASavedStateBitForBit)
 {
   const scene::Scene scene = sceneWith(
       "    - {advance: wire, until: {tip_in: trunk, beyond: 0.05}, speed: 0.02, turn_speed: 1}\n"
@@ -364,16 +364,16 @@ TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
       "    - {withdraw: wire, until: {insertion: 0.02}}\n");
   const auto caught = [](double insertion, double rotation)
   { return Eigen::Vector3d(0.0, 0.0, rotation < 4.0 ? std::min(insertion, 0.03) : insertion); };
-  for (const double at : {0.5, 3.0, 6.0, 11.0})  // on the way, in a manoeuvre, later
+  for (const double at : {0.5, 3.0, 6.0, 11.0})  // while advancing, in a recovery, later
   {
     PlainWorld world(scene, caught);
     world.run(at);
     Archive saved;
-    world.person.archive(saved);
+    world.scripted_operator.archive(saved);
     PlainWorld other(world);
-    other.person = Operator(scene, forkedTree(), {0, 0, 0.001});
+    other.scripted_operator = Operator(scene, forkedTree(), {0, 0, 0.001});
     Archive loaded(saved.bytes());
-    other.person.archive(loaded);
+    other.scripted_operator.archive(loaded);
     EXPECT_TRUE(loaded.atEnd());
     world.run(10.0);
     other.run(10.0);
@@ -383,27 +383,27 @@ TEST(Operator, GoesOnFromASavedStateAsTheOneThatWasSaved)
       ASSERT_EQ(world.history[k][0].insertion, other.history[k][0].insertion) << at << " " << k;
       ASSERT_EQ(world.history[k][0].rotation, other.history[k][0].rotation) << at << " " << k;
     }
-    EXPECT_EQ(world.person.records().size(), other.person.records().size());
-    EXPECT_EQ(world.person.records().back().name, other.person.records().back().name);
-    EXPECT_EQ(world.person.records().back().retries, other.person.records().back().retries);
+    EXPECT_EQ(world.scripted.records().size(), other.scripted.records().size());
+    EXPECT_EQ(world.scripted.records().back().name, other.scripted.records().back().name);
+    EXPECT_EQ(world.scripted.records().back().retries, other.scripted.records().back().retries);
   }
 }
 
-TEST(Operator, GoesOnFromAStateThatWasSavedAfterTheSupportWasLost)
+TEST(Operator, ContinuesFromAStateSavedAfterALossOfSupport)
 {
   for (const double at : {28.0, 30.5, 32.0, 34.0, 38.0})
   {
     SupportedWorld world(1);
     world.run(at);
     Archive saved;
-    world.person.archive(saved);
+    world.scripted_operator.archive(saved);
     SupportedWorld other(world);
-    other.person = SupportedWorld(1).person;
+    other.scripted_operator = SupportedWorld(1).scripted_operator;
     Archive loaded(saved.bytes());
-    other.person.archive(loaded);
+    other.scripted_operator.archive(loaded);
     world.run(50.0);
     other.run(50.0);
-    EXPECT_EQ(world.person.records().size(), 6U);
+    EXPECT_EQ(world.scripted.records().size(), 6U);
     ASSERT_EQ(world.history.size(), other.history.size());
     for (std::size_t k = 0; k < world.history.size(); ++k)
       for (int hand : {0, 1})
@@ -411,16 +411,16 @@ TEST(Operator, GoesOnFromAStateThatWasSavedAfterTheSupportWasLost)
   }
 }
 
-TEST(Operator, RefusesASavedStateOfALongerProcedure)
+TEST(Operator, RejectsASavedStateOfALongerProcedure)
 {
   const std::string wait = "    - {wait: 0.1}\n";
   PlainWorld longer(sceneWith(wait + wait + wait));
   longer.run(0.35);
   Archive saved;
-  longer.person.archive(saved);
+  longer.scripted_operator.archive(saved);
   PlainWorld shorter{sceneWith(wait)};
   Archive loaded(saved.bytes());
-  EXPECT_THROW(shorter.person.archive(loaded), ArchiveError);
+  EXPECT_THROW(shorter.scripted_operator.archive(loaded), ArchiveError);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const std::string kSteps =
     "    - {wait: 1}\n"
     "    - {phase: Out, withdraw: wire, until: {by: 0.05}}\n";
 
-TEST(Perturbation, OfSeedZeroIsTheSceneItself)
+TEST(Perturbation, LeavesTheSceneUnchangedForSeedZero)
 {
   const scene::Scene scene = sceneWith(kSteps);
   const scene::Scene same = perturbed(scene, Spread(), 0);
@@ -23,7 +23,7 @@ TEST(Perturbation, OfSeedZeroIsTheSceneItself)
   EXPECT_EQ(same.procedure->hand.speed_scale, 1.0);
 }
 
-TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
+TEST(Perturbation, CoversItsSpreadWithoutExceedingIt)
 {
   const scene::Scene scene = sceneWith(kSteps);
   double least = 1e9;
@@ -36,7 +36,7 @@ TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
     most = std::max(most, rotation);
     EXPECT_LE(std::abs(other.procedure->hand.speed_scale - 1.0), 0.2);
     EXPECT_LE(std::abs(other.procedure->steps[0].until.insertion - 0.1), 5e-3);
-    EXPECT_GE(other.instruments[0].drive.initial_insertion, 0.0) << "what is in the introducer stays in it";
+    EXPECT_GE(other.instruments[0].drive.initial_insertion, 0.0) << "an instrument in the introducer remains in it";
   }
   EXPECT_GE(least, -0.5);
   EXPECT_LE(most, 0.5);
@@ -44,7 +44,7 @@ TEST(Perturbation, StaysWithinItsSpreadAndFillsIt)
   EXPECT_GT(most, 0.45);
 }
 
-TEST(Perturbation, OfTheSameSeedIsTheSame)
+TEST(Perturbation, IsReproducible)
 {
   const scene::Scene scene = sceneWith(kSteps);
   EXPECT_EQ(perturbed(scene, Spread(), 7).instruments[0].drive.initial_rotation,
@@ -53,10 +53,10 @@ TEST(Perturbation, OfTheSameSeedIsTheSame)
             perturbed(scene, Spread(), 8).instruments[0].drive.initial_rotation);
 }
 
-TEST(Perturbation, AProcedureCanEndWithAPhase)
+TEST(Perturbation, EndsAProcedureAfterAPhase)
 {
   EXPECT_EQ(endingWith(sceneWith(kSteps), "In").procedure->steps.size(), 2U)
-      << "steps without a phase of their own belong to the one before";
+      << "steps without a phase belong to the previous phase";
   EXPECT_EQ(endingWith(sceneWith(kSteps), "Out").procedure->steps.size(), 3U);
   try
   {
@@ -65,7 +65,7 @@ TEST(Perturbation, AProcedureCanEndWithAPhase)
   }
   catch (const InputError& error)
   {
-    EXPECT_STREQ(error.what(), "test scene: procedure: has no phase 'Through'; it has In, Out");
+    EXPECT_STREQ(error.what(), "test scene: procedure: has no phase 'Through'; known: In, Out");
   }
 }
 

@@ -34,7 +34,7 @@ scene::Scene twoPhases(const std::string& fluoroscopy)
       "test scene");
 }
 
-/** A wire in a tube with its scripted operator. */
+/** Wire in a tube with a scripted operator. */
 struct World
 {
   scene::Scene scene;
@@ -55,7 +55,7 @@ struct World
   }
 };
 
-TEST(PhasePictures, AreTakenAtTheEndOfEveryPhase)
+TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
 {
   World world(twoPhases("fluoroscopy: {pixels: 64}\n"));
   const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
@@ -63,26 +63,27 @@ TEST(PhasePictures, AreTakenAtTheEndOfEveryPhase)
   for (int k = 0; k < 3000 && !world.session.isOver(); ++k)
   {
     world.simulation.stepAll(world.session.commands(world.simulation));
-    pictures.look(world.simulation, *world.session.person(), world.vessel.mesh);
+    pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);
   }
-  pictures.look(world.simulation, *world.session.person(), world.vessel.mesh);
-  ASSERT_EQ(world.session.person()->progress(), Progress::kDone) << world.session.person()->failure();
+  pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);
+  ASSERT_EQ(world.session.scriptedOperator()->progress(), Progress::kDone)
+      << world.session.scriptedOperator()->failure();
   EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_01.png"), 100U);
   EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_02.png"), 100U);
   EXPECT_FALSE(std::filesystem::exists(folder + "/fluoroscopy/phase_03.png"));
   std::filesystem::remove_all(folder);
 }
 
-TEST(PhasePictures, ShowTheInstrumentsThatAreInside)
+TEST(PhasePictures, ShowTheInsertedInstruments)
 {
   World world(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n"));
-  simulation::FluoroscopySystem room(
+  simulation::FluoroscopySystem system(
       world.scene, fluoroscopy::AttenuationTable::load(std::string(PROJECT_DIR) + "/config/xray/attenuation.yaml"));
-  room.fluoroscope().setVessel(world.vessel.mesh);
-  const std::vector<std::uint16_t> empty = room.fluoroscope().render({}).raw;
-  const std::vector<fluoroscopy::XRayWire> wires = room.wires(world.simulation);
+  system.fluoroscope().setVessel(world.vessel.mesh);
+  const std::vector<std::uint16_t> empty = system.fluoroscope().render({}).raw;
+  const std::vector<fluoroscopy::XRayWire> wires = system.wires(world.simulation);
   ASSERT_FALSE(wires.empty());
-  const std::vector<std::uint16_t> seen = room.fluoroscope().render(wires).raw;
+  const std::vector<std::uint16_t> seen = system.fluoroscope().render(wires).raw;
   int darker = 0;
   for (std::size_t k = 0; k < seen.size(); ++k)
   {
@@ -93,7 +94,7 @@ TEST(PhasePictures, ShowTheInstrumentsThatAreInside)
   EXPECT_LT(darker, 1000);
 }
 
-TEST(PhasePictures, AreRefusedForASceneWithoutFluoroscopy)
+TEST(PhasePictures, RequireASceneWithFluoroscopy)
 {
   const scene::Scene scene = twoPhases("");
   EXPECT_THROW(PhasePictures(scene, testing::TempDir()), InputError);

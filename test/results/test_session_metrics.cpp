@@ -32,7 +32,7 @@ public:
     {
       Sample sample;
       time_ += 1.0 / SessionMetrics::kRate;
-      sample.seen.time = time_;
+      sample.observation.time = time_;
       sample.at_tip = at_tip;
       for (std::size_t k = 0; k < 2; ++k)
       {
@@ -43,10 +43,10 @@ public:
         view.tip = tips_[k];
         view.hand.insertion = insertions_[k];
         if (insertions_[k] > 0.0)
-          view.place = metrics.places().at(view.tip);
-        sample.seen.instruments.push_back(view);
+          view.branch_position = metrics.locator().at(view.tip);
+        sample.observation.instruments.push_back(view);
       }
-      procedure::markCovered(sample.seen);
+      procedure::markCovered(sample.observation);
       metrics.add(sample);
     }
   }
@@ -138,9 +138,9 @@ TEST(SessionMetrics, ForcesOfAWiresTipThatMayPerforateAreErrorsOncePerTime)
 TEST(SessionMetrics, OnlyContactsNearTheForemostTipCountAsItsForce)
 {
   Sample sample;
-  sample.seen.instruments.resize(2);
-  sample.seen.instruments[0].hand.insertion = 0.1;
-  sample.seen.instruments[0].tip = {0, 0, 0.1};
+  sample.observation.instruments.resize(2);
+  sample.observation.instruments[0].hand.insertion = 0.1;
+  sample.observation.instruments[0].tip = {0, 0, 0.1};
   sample.addContact({0, 0, 0.104}, 0.3);
   sample.addContact({0, 0.004, 0.1}, 0.2);
   sample.addContact({0, 0, 0.0}, 0.7);  // at the other's tip

@@ -52,7 +52,7 @@ Eigen::Vector3d tangentAfter(const Instrument& instrument, std::size_t section)
   return tangent;
 }
 
-TEST(InstrumentLibrary, EveryFileLoadsAndItsShaftIsPhysical)
+TEST(InstrumentLibrary, AllFilesAreValidWithPlausibleShafts)
 {
   EXPECT_GE(names().size(), 24U);
   for (const std::string& name : names())
@@ -66,14 +66,14 @@ TEST(InstrumentLibrary, EveryFileLoadsAndItsShaftIsPhysical)
     EXPECT_GT(length, 0.25);
     EXPECT_LT(length, 1.3);
     const double weight = rod::massBetween(instrument.wire, 0.0, length) / length;
-    EXPECT_GT(weight, 0.5e-3);  // a 0.014" wire
-    EXPECT_LT(weight, 5.0e-3);  // a 6F catheter
-    double before = 5e-3;       // above the stiffest wire in use, 4857 N·mm²
+    EXPECT_GT(weight, 0.5e-3);  // lower limit: 0.014" wire
+    EXPECT_LT(weight, 5.0e-3);  // upper limit: 6F catheter
+    double previous = 5e-3;     // above the stiffest wire in use, 4857 N·mm²
     for (const rod::Section& section : instrument.wire.sections)
     {
-      EXPECT_LE(section.bending_stiffness, before) << "stiffer towards the tip";
-      before = section.bending_stiffness * (1.0 + 1e-9);
-      EXPECT_GT(section.bending_stiffness, 0.2e-6);  // the tip of a balloon catheter
+      EXPECT_LE(section.bending_stiffness, previous) << "must not become stiffer towards the tip";
+      previous = section.bending_stiffness * (1.0 + 1e-9);
+      EXPECT_GT(section.bending_stiffness, 0.2e-6);  // lower limit: tip of a balloon catheter
       EXPECT_GE(section.bending_stiffness / section.torsional_stiffness, 0.99);
       EXPECT_LE(section.bending_stiffness / section.torsional_stiffness, 1.5);
       EXPECT_GT(section.radius, instrument.inner_radius);
@@ -86,9 +86,9 @@ TEST(InstrumentLibrary, EveryFileLoadsAndItsShaftIsPhysical)
   }
 }
 
-TEST(InstrumentLibrary, StiffnessesOfShaftsAreThePublishedOnes)
+TEST(InstrumentLibrary, ShaftStiffnessesMatchPublishedValues)
 {
-  // Harrison et al. 2011: references of data for 0.035" wires [N·mm²].
+  // Harrison et al. 2011: published data of 0.035" wires [N·mm²].
   for (const auto& [name, stiffness] :
        std::vector<std::pair<std::string, double>>{{"guidewire_035_floppy", 291.0},
                                                    {"guidewire_035_j", 291.0},
@@ -100,7 +100,7 @@ TEST(InstrumentLibrary, StiffnessesOfShaftsAreThePublishedOnes)
   EXPECT_NEAR(1e6 * load("catheter_5f_jl4").wire.sections.front().bending_stiffness, 282.0, 0.5);
 }
 
-TEST(InstrumentLibrary, WiresAndBalloonsFitTheCathetersMeantForThem)
+TEST(InstrumentLibrary, WiresAndBalloonsFitTheirCatheters)
 {
   for (const std::string& name : names())
   {
@@ -124,7 +124,7 @@ TEST(InstrumentLibrary, WiresAndBalloonsFitTheCathetersMeantForThem)
   EXPECT_FALSE(fitsInside(load("catheter_6f_jl4"), load("guide_6f_jl4")));
 }
 
-TEST(InstrumentLibrary, Jl4TurnsByItsStatedAnglesAroundItsArm)
+TEST(InstrumentLibrary, Jl4HasItsDocumentedAngles)
 {
   for (const char* name : {"catheter_5f_jl4", "catheter_6f_jl4", "guide_6f_jl4"})
   {
@@ -139,13 +139,13 @@ TEST(InstrumentLibrary, Jl4TurnsByItsStatedAnglesAroundItsArm)
     EXPECT_NEAR(degreesBetween(arm, tip), 90.0, 0.01);
     EXPECT_NEAR(sections[3].length, 0.040, 1e-12);
     EXPECT_NEAR(catheter.wire.length(), 0.900, 1e-8);
-    // The tip looks back at the shaft, which is the z axis.
+    // The tip points back towards the shaft, i.e. the z axis.
     const Eigen::Vector3d end = instrument::restShape(catheter.wire, 1e-3).back().position;
     EXPECT_LT(tip.dot(Eigen::Vector3d(end.x(), end.y(), 0.0)), 0.0);
   }
 }
 
-TEST(InstrumentLibrary, OtherCathetersTurnByTheirStatedAngles)
+TEST(InstrumentLibrary, OtherCathetersHaveTheirDocumentedAngles)
 {
   const auto whole_turn = [](const Instrument& instrument)
   {
@@ -162,7 +162,7 @@ TEST(InstrumentLibrary, OtherCathetersTurnByTheirStatedAngles)
   }
 }
 
-TEST(InstrumentLibrary, BalloonsGrowWithPressureAndReachTheirLabelAtNominal)
+TEST(InstrumentLibrary, BalloonsReachTheirNominalDiameterAtNominalPressure)
 {
   for (const auto& [name, label] : std::vector<std::pair<std::string, double>>{
            {"balloon_250_15", 2.5e-3}, {"balloon_300_12_nc", 3.0e-3}, {"stent_system_300_18", 3.0e-3}})
@@ -180,7 +180,7 @@ TEST(InstrumentLibrary, BalloonsGrowWithPressureAndReachTheirLabelAtNominal)
   }
 }
 
-TEST(InstrumentLibrary, StentSystemCarriesTheStentOfItsFile)
+TEST(InstrumentLibrary, StentSystemsCarryTheStentOfTheirFile)
 {
   const Instrument system = load("stent_system_300_18");
   const Instrument stent = load("stent_300_18");
@@ -190,7 +190,7 @@ TEST(InstrumentLibrary, StentSystemCarriesTheStentOfItsFile)
   EXPECT_EQ(load("stent_system_300_18", {"stent.recoil=0.02"}).stent->recoil, 0.02);
 }
 
-TEST(InstrumentLibrary, ScenesNameInstrumentsByUseOrFileWithKeysOnTop)
+TEST(InstrumentLibrary, ScenesReferToInstrumentsByUseOrFileWithOverridingKeys)
 {
   const Scene by_name = loadScene(kBench, {"instrument={use: guidewire_035_j, name: wire, tip: {radius: 0.005}}"});
   EXPECT_EQ(by_name.instruments.front().instrument.name, "wire");
@@ -200,7 +200,7 @@ TEST(InstrumentLibrary, ScenesNameInstrumentsByUseOrFileWithKeysOnTop)
   EXPECT_EQ(by_file.hash(), loadScene(kBench, {"instrument={use: guidewire_035_j}"}).hash());
 }
 
-TEST(InstrumentLibrary, AnOverrideThatNamesAnotherInstrumentKeepsNothingOfTheOneBefore)
+TEST(InstrumentLibrary, AnOverrideWithAnotherInstrumentDropsTheKeysOfThePreviousOne)
 {
   const Scene scene = loadScene(kBench, {"instrument.use=catheter_5f_jl4"});
   EXPECT_EQ(scene.hash(), loadScene(kBench, {"instrument={use: catheter_5f_jl4}"}).hash());
@@ -255,7 +255,7 @@ const std::vector<Refusal> kRefusals = {
      "at least nominal_pressure"},
     {"balloon_250_15", "balloon.burst_pressure=9e5", "balloon.burst_pressure (--set)", "at least rated_burst_pressure"},
     {"balloon_250_15", "stent={use: stent_300_18}", "stent (--set)", "longer than its balloon"},
-    {"balloon_250_15", "stent={use: guidewire_035_j}", "stent", "is no stent"},
+    {"balloon_250_15", "stent={use: guidewire_035_j}", "stent", "is not a stent"},
     {"balloon_250_15", "stent={use: stent_300_81}", "stent.use (--set)", "did you mean \"stent_300_18\"?"},
     {"stent_300_18", "stent.expansion=[[1e-3, 18e-3], [3e-3, 19e-3]]", "stent.expansion.1 (--set)",
      "lengths must not increase"},
@@ -272,7 +272,7 @@ class InstrumentRefusal : public ::testing::TestWithParam<Refusal>
 {
 };
 
-TEST_P(InstrumentRefusal, NamesFileKeyAndRemedy)
+TEST_P(InstrumentRefusal, ReportsFileKeyAndRemedy)
 {
   const Refusal& expected = GetParam();
   try
@@ -305,7 +305,7 @@ void expectSceneRefusal(const std::string& change, const std::string& place, con
   }
 }
 
-TEST(InstrumentLibrary, ScenesRefuseUnknownNamesTwoNamesAndLooseStents)
+TEST(InstrumentLibrary, ScenesRejectUnknownNamesTwoNamesAndSeparateStents)
 {
   expectSceneRefusal("instrument={use: guidewire_035_jj}", "instrument.use (--set)",
                      "did you mean \"guidewire_035_j\"?");

@@ -21,7 +21,7 @@ const std::string kBench = TEST_DATA_DIR "/scenes/good_bench.yaml";
 
 using Names = std::vector<std::string>;
 
-/** A file that only has to exist: scenes name a mesh, they do not read it. */
+/** Creates a placeholder for a mesh file. Loading a scene requires the file to exist but does not read it. */
 std::string someMesh()
 {
   const std::string path = (std::filesystem::temp_directory_path() / "endovascular_sim_scene_test.stl").string();
@@ -56,8 +56,8 @@ void expectSameWire(const instrument::Instrument& a, const instrument::Instrumen
   }
 }
 
-/** Every value of the scene but the name of its file. The text of a scene holds all of them, so equal texts complete
- * the check. */
+/** Compares all values of two scenes except the file name. The resolved text contains all of them, so equal texts
+ * complete the check. */
 void expectSameScene(const Scene& a, const Scene& b)
 {
   EXPECT_EQ(a.resolved_yaml, b.resolved_yaml);
@@ -116,7 +116,7 @@ void expectSameScene(const Scene& a, const Scene& b)
   }
 }
 
-TEST(Scene, OfEveryConfigFileSurvivesItsResolvedText)
+TEST(Scene, IsReproducedByItsResolvedTextForAllConfigFiles)
 {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kScenes))
@@ -135,7 +135,7 @@ TEST(Scene, OfEveryConfigFileSurvivesItsResolvedText)
   EXPECT_GE(count, 6);
 }
 
-TEST(Scene, NamesSurfacesInsteadOfCoefficientsAndRegionsOfTheWall)
+TEST(Scene, AcceptsSurfaceNamesAndFrictionRegions)
 {
   const Scene scene =
       loadScene(kScenes + "tube.yaml", {"vessel.friction=hydrophilic", "instrument.sections.0.friction=ptfe",
@@ -146,11 +146,11 @@ TEST(Scene, NamesSurfacesInsteadOfCoefficientsAndRegionsOfTheWall)
   const contact::WallLaw law = wallLaw(*scene.vessel);
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.0}), 0.035);
   EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.09}), 0.25);
-  EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.11}), 0.4);  // the last of two that overlap
+  EXPECT_EQ(law.frictionAt({0.0, 0.0, 0.11}), 0.4);  // the last of two overlapping regions applies
   expectSameScene(scene, parseScene(scene.resolved_yaml, scene.file));
 }
 
-TEST(Scene, PutsLesionsOnItsVessel)
+TEST(Scene, ReadsLesions)
 {
   const Scene scene = loadScene(
       kScenes + "tube.yaml", {"vessel.lesions=[{branch: tube, from_start: 0.05, length: 0.01, grade: 0.6},"
@@ -162,7 +162,7 @@ TEST(Scene, PutsLesionsOnItsVessel)
     EXPECT_NEAR(placed.narrowed_diameter / placed.healthy_diameter, 1.0 - placed.lesion.grade, 0.01);
 }
 
-TEST(Scene, KeepsEveryBitOfANumberInItsResolvedText)
+TEST(Scene, RetainsAllBitsOfANumberInItsResolvedText)
 {
   const double awkward = 0.1 + 0.2;
   std::ostringstream override_text;
@@ -176,7 +176,7 @@ TEST(Scene, KeepsEveryBitOfANumberInItsResolvedText)
   expectSameScene(scene, again);
 }
 
-TEST(Scene, OfARecordingNeedsNoFilesOfTheVesselThatTheRecordingHolds)
+TEST(Scene, OfARecordingDoesNotRequireTheFilesOfTheVessel)
 {
   const std::string mesh = someMesh();
   const Scene scene = loadScene(kScenes + "mesh.yaml", {"vessel.mesh=" + mesh});
@@ -185,14 +185,14 @@ TEST(Scene, OfARecordingNeedsNoFilesOfTheVesselThatTheRecordingHolds)
   EXPECT_EQ(parseRecordedScene(scene.resolved_yaml, "session.bag").hash(), scene.hash());
 }
 
-TEST(Scene, KeepsUnusualCharactersOfAName)
+TEST(Scene, RetainsUnusualCharactersOfAName)
 {
   const Scene scene = loadScene(kBench, {"name='a \"quoted\" \\ name: #1'"});
   EXPECT_EQ(scene.name, "a \"quoted\" \\ name: #1");
   EXPECT_EQ(parseScene(scene.resolved_yaml, "recording").name, scene.name);
 }
 
-TEST(Scene, HashChangesWithEveryValueAndNotWithTheWayItIsWritten)
+TEST(Scene, HashDependsOnTheValuesAndNotOnTheNotation)
 {
   const std::uint64_t hash = loadScene(kBench).hash();
   EXPECT_EQ(loadScene(kBench, {"duration=1.0e0"}).hash(), hash);
@@ -203,7 +203,7 @@ TEST(Scene, HashChangesWithEveryValueAndNotWithTheWayItIsWritten)
   EXPECT_NE(loadScene(kBench, {"instrument.sections.0.friction=0.1"}).hash(), hash);
 }
 
-TEST(Scene, HashDoesNotDependOnWhereThePackageLies)
+TEST(Scene, HashDoesNotDependOnThePathOfThePackage)
 {
   const Scene scene = loadScene(kScenes + "straight_wire.yaml");
   EXPECT_EQ(scene.resolved_yaml.find(PROJECT_DIR), std::string::npos);
@@ -220,7 +220,7 @@ TEST(Scene, AppliesOverridesInOrderAndByListIndex)
   EXPECT_EQ(scene.loads.gravity.z(), -9.81);
 }
 
-/** Leaves the data folder to the tests that follow as it was. */
+/** Restores ENDOVASCULAR_DATA_DIR for the following tests. */
 class DataFolderAsItWas
 {
 public:
@@ -233,7 +233,7 @@ private:
   std::string was_;
 };
 
-TEST(Scene, SeeksPathsInTheConfigFolderBesideTheSceneAndInTheDataFolder)
+TEST(Scene, SearchesPathsNextToTheSceneInTheConfigFolderAndInTheDataFolder)
 {
   const DataFolderAsItWas as_it_was;
   const std::string mesh = someMesh();
@@ -248,7 +248,7 @@ TEST(Scene, SeeksPathsInTheConfigFolderBesideTheSceneAndInTheDataFolder)
   EXPECT_NO_THROW(loadScene(kBench, {"instrument=../../../config/instruments/peer_j_wire.yaml"}));
 }
 
-TEST(Scene, StartsOnlyTheNodesThatItNames)
+TEST(Scene, RequiresOnlyTheNodesOfItsParts)
 {
   EXPECT_EQ(requiredNodes(loadScene(kBench)), (Names{"rod_dynamics", "session"}));
   EXPECT_EQ(requiredNodes(loadScene(kScenes + "tube.yaml")),
@@ -257,7 +257,7 @@ TEST(Scene, StartsOnlyTheNodesThatItNames)
             (Names{"rod_dynamics", "haptic_device", "fluoroscopy", "session"}));
 }
 
-TEST(Scene, TurnsAMeshByHeadAndLeft)
+TEST(Scene, OrientsAMeshByHeadAndLeft)
 {
   const Scene scene = loadScene(
       kBench, {"vessel={mesh: " + someMesh() + ", unit: 0.001, friction: 0, head: [-1, 0, 0], left: [0, 0, 1]}",
@@ -268,7 +268,7 @@ TEST(Scene, TurnsAMeshByHeadAndLeft)
   EXPECT_NEAR(rotation.determinant(), 1.0, 1e-12);
 }
 
-TEST(Scene, OfThePeerHasItsWireAndMotion)
+TEST(Scene, OfTheReferenceSimulatorHasItsWireAndMotion)
 {
   const Scene scene = loadScene(kScenes + "peer_wire.yaml", {"vessel.mesh=" + someMesh()});
   const rod::Wire& wire = scene.instruments.front().instrument.wire;
@@ -276,7 +276,7 @@ TEST(Scene, OfThePeerHasItsWireAndMotion)
   EXPECT_NEAR(wire.curvedTipLength(), 12.1e-3 * 0.4 * M_PI, 1e-8);
   EXPECT_NEAR(wire.sections[0].bending_stiffness, 2463e-6, 1e-6);
   EXPECT_NEAR(wire.sections[1].bending_stiffness, 200e-6, 1e-6);
-  // Curvature vector κb = ω₁ d2 − ω₂ d1 reads +d1/12.1 mm.
+  // The curvature vector κb = ω₁ d2 − ω₂ d1 is +d1/12.1 mm.
   EXPECT_NEAR(wire.sections[1].rest_curvature.x(), 0.0, 1e-12);
   EXPECT_NEAR(wire.sections[1].rest_curvature.y(), -1.0 / 12.1e-3, 1e-9);
   // d1 = direction × (0, 0, −1).
@@ -288,7 +288,7 @@ TEST(Scene, OfThePeerHasItsWireAndMotion)
   EXPECT_TRUE(std::isinf(scene.vessel->stiffness));
 }
 
-TEST(DriveProfile, HoldsItsEndsAndIsLinearBetween)
+TEST(DriveProfile, IsLinearBetweenItsPointsAndConstantBeyondThem)
 {
   DriveProfile profile;
   profile.points = {{1.0, 2.0}, {3.0, 6.0}, {4.0, 0.0}};
@@ -301,7 +301,7 @@ TEST(DriveProfile, HoldsItsEndsAndIsLinearBetween)
   EXPECT_EQ(profile.at(9.0), 0.0);
 }
 
-TEST(DriveProfile, AddsItsSineToTheRamp)
+TEST(DriveProfile, AddsTheSineToThePoints)
 {
   DriveProfile profile;
   profile.points = {{0.0, 1.0}, {1.0, 2.0}};
@@ -313,7 +313,7 @@ TEST(DriveProfile, AddsItsSineToTheRamp)
   EXPECT_EQ(DriveProfile().at(1.0), 0.0);
 }
 
-TEST(DriveScene, AddsTheStartToItsProfiles)
+TEST(DriveScene, AddsTheInitialValuesToItsProfiles)
 {
   DriveScene drive;
   drive.source = DriveSource::kScript;
@@ -328,7 +328,7 @@ TEST(DriveScene, AddsTheStartToItsProfiles)
   EXPECT_EQ(drive.rotationAt(0.5), 0.2);
 }
 
-/** Keys of a resolved scene: the words before a colon. */
+/** Keys of a resolved scene, i.e. the words before a colon. */
 std::vector<std::string> keysOf(const std::string& yaml)
 {
   std::vector<std::string> keys;
@@ -341,7 +341,7 @@ std::vector<std::string> keysOf(const std::string& yaml)
   return keys;
 }
 
-TEST(Scene, HasEveryKeyInItsDocumentation)
+TEST(Scene, HasAllKeysInItsDocumentation)
 {
   std::ifstream file(std::string(PROJECT_DIR) + "/docs/SCENES.md");
   std::ostringstream docs;

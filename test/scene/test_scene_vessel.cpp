@@ -57,7 +57,7 @@ std::string refusal(Action action)
   return "";
 }
 
-TEST(SceneVessel, ATubeStandsInTheEntryPose)
+TEST(SceneVessel, PlacesATubeAtTheEntryPose)
 {
   EntryScene entry;
   entry.position = {0.1, 0.2, 0.3};
@@ -72,7 +72,7 @@ TEST(SceneVessel, ATubeStandsInTheEntryPose)
   EXPECT_EQ(pose.d1, entry.up);
 }
 
-TEST(SceneVessel, MakesTheMaterialDirectionOrthogonal)
+TEST(SceneVessel, MakesTheMaterialDirectorOrthogonal)
 {
   EntryScene entry;
   entry.direction = Eigen::Vector3d(0, 0, 1);
@@ -82,7 +82,7 @@ TEST(SceneVessel, MakesTheMaterialDirectionOrthogonal)
   EXPECT_NE(refusal([&] { resolveEntry(entry, "scene.yaml"); }).find("scene.yaml: entry.up"), std::string::npos);
 }
 
-TEST(SceneVessel, MovesAMeshIntoThePatientFrame)
+TEST(SceneVessel, TransformsAMeshToThePatientFrame)
 {
   VesselScene scene = meshScene("box_mm.obj");
   scene.transform.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -92,10 +92,10 @@ TEST(SceneVessel, MovesAMeshIntoThePatientFrame)
   EXPECT_TRUE(report.clean());
   EXPECT_LT((report.lower - Eigen::Vector3d(0.98, 2, 3)).norm(), 1e-12);
   EXPECT_LT((report.upper - Eigen::Vector3d(1, 2.02, 3.02)).norm(), 1e-12);
-  EXPECT_TRUE(vessel.centreline.branches.empty()) << "nobody asked for a centreline";
+  EXPECT_TRUE(vessel.centreline.branches.empty()) << "no centreline was required";
 }
 
-TEST(SceneVessel, RepairsOnlyWhereItMay)
+TEST(SceneVessel, RepairsOnlyIfAllowed)
 {
   VesselScene scene = meshScene("box_inward.obj");
   EXPECT_EQ(buildVessel(scene, EntryScene(), "scene.yaml").notes.size(), 1U);
@@ -104,7 +104,7 @@ TEST(SceneVessel, RepairsOnlyWhereItMay)
             std::string::npos);
 }
 
-TEST(SceneVessel, RefusesTheWrongUnit)
+TEST(SceneVessel, RejectsAWrongUnit)
 {
   VesselScene scene = meshScene("box_mm.obj");
   scene.unit = 1.0;
@@ -120,7 +120,7 @@ TEST(SceneVessel, SmoothsByLoopSubdivision)
   EXPECT_EQ(buildVessel(scene, EntryScene(), "scene.yaml").mesh.triangles.size(), 16 * before);
 }
 
-TEST(SceneVessel, RefusesAnEntryOutsideOfTheVessel)
+TEST(SceneVessel, RejectsAnEntryOutsideTheVessel)
 {
   const vessel::Vessel vessel = buildVessel(meshScene("box_mm.obj"), EntryScene(), "scene.yaml");
   EntryScene entry;
@@ -132,7 +132,7 @@ TEST(SceneVessel, RefusesAnEntryOutsideOfTheVessel)
   EXPECT_EQ(refusal([&] { resolveEntry(entry, vessel, "scene.yaml"); }), "");
 }
 
-TEST(SceneVessel, EntersAtANamedEndAlongTheCentreline)
+TEST(SceneVessel, PlacesTheEntryAtANamedCentrelineEnd)
 {
   EntryScene entry;
   entry.centreline_end = "right";
@@ -148,7 +148,7 @@ TEST(SceneVessel, EntersAtANamedEndAlongTheCentreline)
   EXPECT_GT(geometry::windingNumber(vessel.mesh, pose.position), 0.5);
 }
 
-TEST(SceneVessel, EntersAtTheNearestEnd)
+TEST(SceneVessel, PlacesTheEntryAtTheNearestCentrelineEnd)
 {
   EntryScene entry;
   entry.nearest_centreline_end = true;
@@ -159,7 +159,7 @@ TEST(SceneVessel, EntersAtTheNearestEnd)
   EXPECT_GT(pose.direction.z(), 0.9);
 }
 
-TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileWhenItIsWanted)
+TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileIfRequired)
 {
   const std::string file = testing::TempDir() + "/scene_vessel_tube.obj";
   vessel::writeObj(buildVessel(tubeScene(), EntryScene(), "scene.yaml").mesh, file);
@@ -179,7 +179,7 @@ TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileWhenItIsWanted)
   std::filesystem::remove(file);
 }
 
-TEST(SceneVessel, ListsTheEndsWhenTheNamedOneDoesNotExist)
+TEST(SceneVessel, ListsTheEndsIfTheNamedOneDoesNotExist)
 {
   EntryScene entry;
   entry.centreline_end = "middle";
@@ -189,7 +189,7 @@ TEST(SceneVessel, ListsTheEndsWhenTheNamedOneDoesNotExist)
   EXPECT_NE(text.find("trunk, left, right"), std::string::npos) << text;
 }
 
-TEST(SceneVessel, RefusesAnOffsetLongerThanTheBranch)
+TEST(SceneVessel, RejectsAnOffsetLongerThanTheBranch)
 {
   EntryScene entry;
   entry.centreline_end = "right";
@@ -198,13 +198,13 @@ TEST(SceneVessel, RefusesAnOffsetLongerThanTheBranch)
   EXPECT_NE(refusal([&] { resolveEntry(entry, vessel, "scene.yaml"); }).find("entry.offset"), std::string::npos);
 }
 
-/** A tube that bends after 50 mm. */
+/** Tube with a bend after 50 mm. */
 Scene bentScene(const std::string& initial_insertion)
 {
   return loadScene(PROJECT_DIR "/config/scenes/tube.yaml", {"drive.initial_insertion=" + initial_insertion});
 }
 
-TEST(SceneVessel, LetsInstrumentsBeginAsFarInAsTheyLieStraight)
+TEST(SceneVessel, AcceptsInitialInsertionsUpToTheWall)
 {
   for (const char* insertion : {"0.005", "0.01", "0.05"})
   {
@@ -214,14 +214,14 @@ TEST(SceneVessel, LetsInstrumentsBeginAsFarInAsTheyLieStraight)
   }
 }
 
-TEST(SceneVessel, RefusesAnInstrumentThatWouldBeginThroughTheWallAndTellsHowFarInItMayBe)
+TEST(SceneVessel, RejectsAnInitialInsertionThroughTheWallAndReportsTheLimit)
 {
   const Scene scene = bentScene("0.12");
   const vessel::Vessel vessel = buildVessel(*scene.vessel, scene.entry, scene.file);
   const std::string message = refusal([&] { resolveStart(scene, vessel); });
   EXPECT_NE(message.find("tube.yaml"), std::string::npos) << message;
   EXPECT_NE(message.find("drive.initial_insertion"), std::string::npos) << message;
-  // The tube's outer side is met where the bend of radius R has gone sideways by its own radius r.
+  // The wire meets the outer wall where the bend of radius R has a lateral offset equal to the tube's radius r.
   const double bend = 0.03;
   const double side = scene.vessel->tube->radius;
   const double most = 0.05 + std::sqrt((bend + side) * (bend + side) - bend * bend);

@@ -149,7 +149,8 @@ TEST(Instruments, AreRefusedWithAReason)
   EXPECT_NE(refusalOf(stack(layer(kWire, -0.1) + layer(kCatheter, -0.1))).find("leaves no instrument"),
             std::string::npos);
   EXPECT_NE(refusalOf(stack(both, "solver: {scheme: paper}\n")).find("solver.scheme"), std::string::npos);
-  EXPECT_NE(refusalOf(stack(both, "instrument: " + kWire + "\n")).find("given besides instruments"), std::string::npos);
+  EXPECT_NE(refusalOf(stack(both, "instrument: " + kWire + "\n")).find("conflicts with instruments"),
+            std::string::npos);
 }
 
 TEST(Instruments, ABalloonGetsThePressureOfItsDriveAndNothingElseDoes)

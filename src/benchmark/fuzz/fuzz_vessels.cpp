@@ -210,7 +210,7 @@ scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, doubl
   if (vessel.name == "channel")
   {
     scene::EntryPose pose;  // its mesh begins behind the origin
-    pose.room = scene::roomAround(pose.position, vessel.vessel.mesh);
+    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
     return pose;
   }
   const std::vector<vessel::CentrelineEnd> ends = vessel::centrelineEnds(vessel.vessel.centreline);
@@ -224,7 +224,7 @@ scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, doubl
     bool free = true;
     for (int k = 0; k <= 10 && free; ++k)
       free = vessel.check->signedDistance(pose.position + 0.1 * k * length * pose.direction) > room;
-    pose.room = scene::roomAround(pose.position, vessel.vessel.mesh);
+    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
     if (free)
       return pose;
   }

@@ -11,10 +11,10 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-constexpr std::size_t kDeviceFifo = 512;   // what a microcontroller's library buffers [bytes]
-constexpr std::size_t kHostBuffer = 4096;  // what an operating system buffers [bytes]
-constexpr double kMostSamplesLate = 10.0;  // beyond, samples are skipped instead of sent in a burst
-constexpr std::size_t kMostUnanswered = 8192;
+constexpr std::size_t kDeviceFifo = 512;      // transmit buffer of a microcontroller's library [bytes]
+constexpr std::size_t kHostBuffer = 4096;     // receive buffer of an operating system [bytes]
+constexpr double kMaxLateSamples = 10.0;      // backlog beyond which samples are skipped, not sent in a burst
+constexpr std::size_t kMaxUnanswered = 8192;  // samples retained for the measurement of motion to force
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void DeviceSimulator::step(double now)
   takeSample(now);
   const double period = 1.0 / options_.rate;
   next_sample_at_ += period;
-  if (now - next_sample_at_ > kMostSamplesLate * period)
+  if (now - next_sample_at_ > kMaxLateSamples * period)
   {
     const double missed = std::floor((now - next_sample_at_) / period);
     report_.samples_skipped += static_cast<std::uint64_t>(missed);
@@ -73,7 +73,7 @@ void DeviceSimulator::step(double now)
 
 void DeviceSimulator::takeSample(double now)
 {
-  const HandMotion before = hand_;
+  const HandMotion previous = hand_;
   const double time = motionTime(now);
   hand_ = options_.motion(time);
   HapticSample sample;
@@ -85,10 +85,10 @@ void DeviceSimulator::takeSample(double now)
     sample.flags |= HapticSample::kEndOfScript;
   device_->sendSample(sample);
   ++report_.samples;
-  if (hand_.insertion == before.insertion && hand_.rotation == before.rotation)
+  if (hand_.insertion == previous.insertion && hand_.rotation == previous.rotation)
     return;
   moved_times_.push_back(sample.time);
-  if (moved_times_.size() > kMostUnanswered)
+  if (moved_times_.size() > kMaxUnanswered)
     moved_times_.pop_front();
 }
 
@@ -100,7 +100,7 @@ void DeviceSimulator::moveBytes(double now)
     pty_.write(sent.data(), sent.size());
 
   std::array<std::uint8_t, kHostBuffer> bytes;
-  const std::size_t count = pty_.read(bytes.data(), std::min(bytes.size(), from_host_.room()));
+  const std::size_t count = pty_.read(bytes.data(), std::min(bytes.size(), from_host_.freeSpace()));
   from_host_.push(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count)), now);
   const Bytes received = from_host_.pull(now);
   for (const HapticForce& force : device_->receive(received.data(), received.size(), now))
@@ -121,7 +121,7 @@ void DeviceSimulator::record(const HapticForce& force, double now)
   enabled_seen_ = true;
   ++report_.enabled_forces;
   if (force.sample_time == 0)
-    return;  // answers no sample yet
+    return;  // not yet a response to a sample
   const double age = 1e-6 * static_cast<double>(clock(now) - force.sample_time);
   report_.latency.add(age);
   while (!moved_times_.empty() && moved_times_.front() < force.sample_time)

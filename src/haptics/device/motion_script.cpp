@@ -36,7 +36,7 @@ MotionScript MotionScript::load(const std::string& file)
     script.points_.push_back(point);
   }
   if (script.points_.empty())
-    throw InputError(file, "", "holds no row; give at least one of time [s], insertion [m], rotation [rad]");
+    throw InputError(file, "", "contains no row; give at least one of time [s], insertion [m], rotation [rad]");
   return script;
 }
 

@@ -8,15 +8,18 @@
 namespace endovascular_sim::haptics
 {
 
-/** A recorded or written motion of the hand: rows of time [s], insertion [m], rotation [rad]; linear in between,
- *  held before the first and after the last row. */
+/** Scripted motion of the hand: rows of time [s], insertion [m], rotation [rad].
+ *
+ *  Positions are interpolated linearly, and constant before the first and after the last row. */
 class MotionScript
 {
 public:
-  /** @param file CSV with one row per point, times increasing; lines that begin with # or a letter are skipped
-   *  @throws InputError naming file and line */
+  /** Reads a script.
+   *  @param file CSV file with one row per point at increasing times; lines that begin with # or a letter are skipped
+   *  @throws InputError with file and line */
   static MotionScript load(const std::string& file);
 
+  /** Interpolated position at @p time [s]. */
   HandMotion at(double time) const;
   /** Time of the last row [s]. */
   double duration() const { return points_.back().time; }

@@ -21,7 +21,7 @@ std::vector<HapticForce> RosserialDevice::receive(const std::uint8_t* data, std:
     }
     catch (const PayloadError&)
     {
-      // As firmware does: a payload that is not what it should be is dropped, the watchdog covers the rest.
+      // As in the firmware, a malformed payload is dropped. The watchdog handles the missing force.
     }
   }
   return forces;
@@ -57,7 +57,7 @@ std::optional<HapticForce> RosserialDevice::handle(const Frame& frame, double no
       force.torque = static_cast<float>(wrench.torque[0]);
       force.state = DeviceState::kEnabled;
     }
-    shown_ = force;
+    rendered_force_ = force;
     force_at_ = now;
     force_seen_ = true;
     return force;
@@ -67,7 +67,7 @@ std::optional<HapticForce> RosserialDevice::handle(const Frame& frame, double no
 
 void RosserialDevice::announce(double now)
 {
-  askTime(now);
+  requestTime(now);
   TopicInfo sample{kSampleId, "haptic/sample", options_.sample.type, options_.sample.md5, options_.buffer_size};
   TopicInfo force{kForceId, "haptic/force", options_.force.type, options_.force.md5, options_.buffer_size};
   append(encodeFrame(kPublisher, encode(sample)));
@@ -75,20 +75,20 @@ void RosserialDevice::announce(double now)
   announced_ = true;
 }
 
-void RosserialDevice::askTime(double now)
+void RosserialDevice::requestTime(double now)
 {
-  time_asked_at_ = now;
+  time_requested_at_ = now;
   append(encodeFrame(kTime, encode(WallTime())));
 }
 
 void RosserialDevice::tick(double now)
 {
-  if (announced_ && now - time_asked_at_ >= options_.time_period)
-    askTime(now);
+  if (announced_ && now - time_requested_at_ >= options_.time_period)
+    requestTime(now);
   if (force_seen_ && now - force_at_ >= options_.force_timeout)
   {
     force_seen_ = false;
-    shown_ = HapticForce();
+    rendered_force_ = HapticForce();
     ++watchdog_trips_;
   }
 }

@@ -16,12 +16,12 @@ struct DeviceOptions
 {
   TopicType sample{PayloadFormat::kHapticSample, "endovascular_sim/HapticSample", ""};
   TopicType force{PayloadFormat::kHapticForce, "endovascular_sim/HapticForce", ""};
-  std::int32_t buffer_size = 256;  ///< announced, both directions [bytes]
-  double time_period = 2.5;        ///< between questions for the time [s]
-  double force_timeout = 0.1;      ///< silence from which the device renders no force [s]
+  std::int32_t buffer_size = 256;  ///< announced buffer size of both directions [bytes]
+  double time_period = 2.5;        ///< period of the time requests [s]
+  double force_timeout = 0.1;      ///< age of the newest force at which the device's watchdog sets zero force [s]
 };
 
-/** The device's side of rosserial: what a microcontroller with the original client library says and does. */
+/** Device side of the rosserial protocol, equivalent to a microcontroller with the original client library. */
 class RosserialDevice
 {
 public:
@@ -30,27 +30,28 @@ public:
 
   explicit RosserialDevice(DeviceOptions options) : options_(std::move(options)) {}
 
-  /** Takes bytes from the host. @return the forces among them, in order */
+  /** Handles bytes from the host.
+   *  @return received forces, in order */
   std::vector<HapticForce> receive(const std::uint8_t* data, std::size_t size, double now);
-  /** Own watchdog and the periodic question for the time. */
+  /** Runs the force watchdog and the periodic time request. */
   void tick(double now);
-  /** Sends a sample when the host has asked for the topics; a JointState device sends it as one. */
+  /** Sends a sample in the format of the options, once the host has requested the topics. */
   void sendSample(const HapticSample& sample);
   void sendLog(std::uint8_t level, const std::string& text);
   /** Bytes for the host since the last call. */
   Bytes takeOutput();
 
-  /** The host has asked for the topics and answered the question for the time. */
+  /** True after the host has requested the topics and answered the time request. */
   bool isSubscribed() const { return announced_ && time_known_; }
-  /** Force that the motors show now: zero after the watchdog. */
-  const HapticForce& shown() const { return shown_; }
+  /** Force rendered by the motors at present; zero after a timeout. */
+  const HapticForce& renderedForce() const { return rendered_force_; }
   std::uint64_t watchdogTrips() const { return watchdog_trips_; }
-  std::uint64_t stops() const { return stops_; }  ///< TX_STOP received
+  std::uint64_t stops() const { return stops_; }  ///< number of TX_STOP frames received
   const ParserCounters& parserCounters() const { return parser_.counters(); }
 
 private:
   void announce(double now);
-  void askTime(double now);
+  void requestTime(double now);
   std::optional<HapticForce> handle(const Frame& frame, double now);
   void append(const Bytes& frame);
 
@@ -59,8 +60,8 @@ private:
   Bytes output_;
   bool announced_ = false;
   bool time_known_ = false;
-  double time_asked_at_ = 0.0;
-  HapticForce shown_;
+  double time_requested_at_ = 0.0;
+  HapticForce rendered_force_;
   bool force_seen_ = false;
   double force_at_ = 0.0;
   std::uint32_t sequence_ = 0;

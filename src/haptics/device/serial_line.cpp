@@ -11,7 +11,7 @@ void SerialLine::push(const Bytes& bytes, double now)
     return;
   if (fifo_.empty())
     head_at_ = std::max(now, idle_at_) + byte_time_;
-  const std::size_t taken = std::min(bytes.size(), room());
+  const std::size_t taken = std::min(bytes.size(), freeSpace());
   fifo_.insert(fifo_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(taken));
   lost_ += bytes.size() - taken;
 }

@@ -5,19 +5,20 @@
 namespace endovascular_sim::haptics
 {
 
-/** Low pass of second order (Butterworth) on the force for the hand: y'' = ω²(u − y) − √2 ω y', by implicit Euler at
- * the times at which forces come, so that it is stable at any rate.
+/** Second-order Butterworth low-pass filter of the rendered force: y'' = ω²(u − y) − √2 ω y'.
  *
- *  It delays slow forces by √2/ω, 2.3 ms at 100 Hz, and a delay takes from the stiffness that a device renders stably.
- *  A cut-off of 0 passes every force on unchanged. */
+ *  Implicit Euler integrates it at the arrival times of the forces and is stable at any rate. The group delay at low
+ *  frequency is √2/ω, i.e. 2.3 ms at 100 Hz. Delay reduces the stiffness that a device renders stably. With a cutoff
+ *  frequency of 0 the filter is off and forces pass unchanged. */
 class ForceFilter
 {
 public:
-  /** @param cutoff −3 dB [Hz]; 0: none */
+  /** @param cutoff −3 dB frequency [Hz]; 0: filter off */
   explicit ForceFilter(double cutoff = 0.0) : cutoff_(cutoff) {}
 
+  /** Filters the force that arrives at time @p now [s]. */
   HandForce next(const HandForce& force, double now);
-  /** The next force passes as it is. */
+  /** Restarts the filter: the next force passes unchanged. */
   void reset() { started_ = false; }
 
 private:

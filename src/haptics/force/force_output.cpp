@@ -9,7 +9,7 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-// After a pause the rate limit grants at most this much time, else it would grant a jump [s].
+// Longest interval that the rate limiter integrates. It prevents a jump of the force after a pause [s].
 constexpr double kLongestStep = 10e-3;
 
 double approach(double value, double target, double largest_change)

@@ -3,50 +3,51 @@
 namespace endovascular_sim::haptics
 {
 
-/** Force and torque at the hand. */
+/** Force and torque rendered to the user's hand. */
 struct HandForce
 {
   double force = 0.0;   ///< positive against insertion [N]
   double torque = 0.0;  ///< positive against rotation [N·m]
 };
 
-/** What a device may be asked to render. */
+/** Limits of the force and torque sent to a device. */
 struct ForceLimits
 {
-  double force = 5.0;         ///< [N]
-  double torque = 0.05;       ///< [N·m]
-  double force_rate = 500.0;  ///< [N/s]
-  double torque_rate = 5.0;   ///< [N·m/s]
-  double ramp_time = 15e-3;   ///< from any force to zero after release() [s]
+  double force = 5.0;         ///< largest force [N]
+  double torque = 0.05;       ///< largest torque [N·m]
+  double force_rate = 500.0;  ///< largest rate of change of the force [N/s]
+  double torque_rate = 5.0;   ///< largest rate of change of the torque [N·m/s]
+  double ramp_time = 15e-3;   ///< duration of the ramp from any force to zero after release() [s]
 };
 
-/** The last station before the hand: clamps, limits the rate of change, and takes the force away on any doubt.
- *  What it gives is always finite and within the limits. */
+/** Safety stage before the device: clamps the force, limits its rate of change, and ramps it to zero on release.
+ *  Its output is always finite and within the limits. */
 class ForceOutput
 {
 public:
   explicit ForceOutput(const ForceLimits& limits = {}) : limits_(limits) {}
 
-  /** A new force from the simulation.
-   *  @return false when it is not finite: the output is released */
+  /** Sets the target force.
+   *  @return false if the force is not finite; the output is then released */
   bool command(const HandForce& wanted, double now);
-  /** Begins the linear ramp to zero; does nothing while one is under way. */
+  /** Starts the linear ramp to zero; has no effect during a ramp. */
   void release(double now);
-  /** Zero at once. */
+  /** Sets the force to zero immediately. */
   void cut();
-  /** Moves on to time @p now [s] and returns the force there. */
+  /** Advances to time @p now [s].
+   *  @return force at that time */
   HandForce advance(double now);
 
   const HandForce& value() const { return value_; }
   bool isZero() const { return value_.force == 0.0 && value_.torque == 0.0; }
-  /** The value still differs from where it is going. */
+  /** True while the value differs from its target. */
   bool isMoving() const { return value_.force != target_.force || value_.torque != target_.torque; }
 
 private:
   ForceLimits limits_;
   HandForce value_;
   HandForce target_;
-  double time_ = 0.0;  ///< of value_ [s]
+  double time_ = 0.0;  ///< time of value_ [s]
   bool releasing_ = true;
   HandForce release_from_;
   double release_time_ = 0.0;

@@ -12,7 +12,7 @@ void ForceShaper::sample(const HandMotion& motion, std::uint32_t device_time, do
 {
   if (!settings_.passivity)
     return;
-  // The device's own clock, free of the line's jitter; a device without one is timed by arrival.
+  // The device's clock is free of the jitter of the serial line. Without a device clock, arrival times are used.
   const std::uint32_t elapsed = device_time - device_time_;
   const double dt = elapsed > 0 ? 1e-6 * static_cast<double>(elapsed) : now - arrival_;
   device_time_ = device_time;

@@ -10,29 +10,31 @@
 namespace endovascular_sim::haptics
 {
 
-/** What is done to a force before it is limited. */
+/** Settings of the force shaper. */
 struct ShaperSettings
 {
   bool passivity = true;
   PassivitySettings insertion;
   PassivitySettings rotation{5e-3, 2e-5, 5e-4, 0.02, 2e-3};
-  double cutoff = 0.0;  ///< of the low pass [Hz]; 0: none
+  double cutoff = 0.0;  ///< cutoff frequency of the low-pass filter [Hz]; 0: filter off
 };
 
-/** From the simulation's force to the one that ForceOutput limits: low pass, then passivity controller per direction.
- *  ForceOutput comes last, so nothing here can exceed the limits. */
+/** Force shaping between simulation and ForceOutput: a low-pass filter, then one passivity controller per direction.
+ *  ForceOutput runs after it and enforces the limits. */
 class ForceShaper
 {
 public:
   explicit ForceShaper(const ShaperSettings& settings = {});
 
-  /** A sample of the motion. @param device_time [µs], wraps @param now its arrival [s] */
+  /** Adds a sample of the motion.
+   *  @param device_time time on the device's clock, which wraps [µs]
+   *  @param now arrival time [s] */
   void sample(const HandMotion& motion, std::uint32_t device_time, double now);
-  /** @return the force to ask of ForceOutput */
+  /** @return shaped force, the input of ForceOutput */
   HandForce shape(const HandForce& wanted, double now);
-  /** What was sent to the device at @p now. */
+  /** Records the force that was sent to the device at time @p now [s]. */
   void rendered(const HandForce& force, double now);
-  /** The hand has let go, or the link: what comes is no continuation. */
+  /** Discards the history of motion and force, after the user released the handle or the link was lost. */
   void reset();
 
   const PassivityReport& insertion() const { return insertion_.report(); }

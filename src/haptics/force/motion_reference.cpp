@@ -31,7 +31,8 @@ std::optional<HandMotion> MotionReference::update(const HandMotion& count)
   }
   if (!isNear(count, last_))
   {
-    // One wrong sample that passed the 8-bit sum is skipped; a second that agrees with it is a restarted device.
+    // A single outlier is a corrupt sample that passed the 8-bit checksum. A second, consistent one indicates a device
+    // restart.
     if (!suspect_ || !isNear(count, *suspect_))
     {
       suspect_ = count;

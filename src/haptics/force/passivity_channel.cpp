@@ -8,12 +8,12 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-constexpr double kSlow = 0.15;          // s: slower motion is no oscillation
-constexpr double kCreditTime = 1.0;     // s in which the credit falls to 1/e
-constexpr double kSpeedTime = 2e-3;     // s over which the velocity is averaged
-constexpr double kFadeTime = 50e-3;     // s in which an injected damping falls to 1/e
-constexpr double kNoDamping = 1e-3;     // of the limit: then it ends
-constexpr double kLongestStep = 20e-3;  // s without a sample after which nothing is known of the way between
+constexpr double kHighPassTime = 0.15;     // time constant of the high-pass filter [s]
+constexpr double kCreditTime = 1.0;        // time constant of the decay of the energy bound [s]
+constexpr double kSpeedTime = 2e-3;        // time constant of the velocity filter [s]
+constexpr double kFadeTime = 50e-3;        // time constant of the decay of the injected damping [s]
+constexpr double kNegligibleShare = 1e-3;  // share of the damping limit below which the injection ends
+constexpr double kLongestStep = 20e-3;     // interval without a sample after which the observer restarts [s]
 
 }  // namespace
 
@@ -22,7 +22,7 @@ double PassivityChannel::HighPass::next(double value, double dt)
   if (!started)
     low = value;
   started = true;
-  low += dt / (kSlow + dt) * (value - low);
+  low += dt / (kHighPassTime + dt) * (value - low);
   return value - low;
 }
 
@@ -65,11 +65,11 @@ void PassivityChannel::observe(double position, double dt, double now)
   const double travel = position - last_;
   last_ = position;
   speed_ += dt / (kSpeedTime + dt) * (travel / dt - speed_);
-  const double met = forceAt(now - dt - settings_.delay);
-  const double force = force_high_.next(met, dt);
-  const double before = position_;
+  const double delayed = forceAt(now - dt - settings_.delay);
+  const double force = force_high_.next(delayed, dt);
+  const double previous = position_;
   position_ = position_high_.next(position, dt);
-  report_.energy += force * (position_ - before) + settings_.damping * speed_ * speed_ * dt;
+  report_.energy += force * (position_ - previous) + settings_.damping * speed_ * speed_ * dt;
   credit_ = std::max(std::abs(force * position_), credit_ * (1.0 - dt / kCreditTime));
   report_.energy = std::clamp(report_.energy, -credit_, credit_);
   if (report_.injected_damping > 0.0)
@@ -83,7 +83,7 @@ void PassivityChannel::inject(double dt)
 {
   const double deficit = -report_.energy - settings_.resolution * std::abs(force_);
   double damping = report_.injected_damping * (1.0 - std::min(1.0, dt / kFadeTime));
-  if (damping < kNoDamping * settings_.damping_limit)
+  if (damping < kNegligibleShare * settings_.damping_limit)
     damping = 0.0;
   if (deficit > 0.0 && speed_ != 0.0)
   {

@@ -7,58 +7,64 @@
 namespace endovascular_sim::haptics
 {
 
-/** What is known of one direction of a device. Units: m and N, or rad and N·m. */
+/** Parameters of one direction of a device. Units: m and N for translation, rad and N·m for rotation. */
 struct PassivitySettings
 {
-  double resolution = 0.1e-3;   ///< of the encoder [m or rad]
-  double damping = 0.2;         ///< that the device and the hand have at least [N·s/m or N·m·s/rad]
-  double damping_limit = 15.0;  ///< of what is injected; below π/2 · moving mass / delay [the same]
-  double force_limit = 2.0;     ///< of the injected force [N or N·m]
-  double delay = 2e-3;          ///< from sending a force to the sample of the motion that it met [s]
+  double resolution = 0.1e-3;   ///< resolution of the encoder [m or rad]
+  double damping = 0.2;         ///< lower bound of the damping of device and hand [N·s/m or N·m·s/rad]
+  double damping_limit = 15.0;  ///< largest injected damping; below π/2 · moving mass / delay [N·s/m or N·m·s/rad]
+  double force_limit = 2.0;     ///< largest injected force [N or N·m]
+  double delay = 2e-3;          ///< delay from sending a force to the first sample of the motion under it [s]
 };
 
-/** What the observer has seen. */
+/** State of a passivity observer. */
 struct PassivityReport
 {
-  double energy = 0.0;          ///< taken in by the port, slow motion and forgotten surplus left out [J]
-  double injected_damping = 0;  ///< now [N·s/m or N·m·s/rad]
-  double dissipated = 0.0;      ///< by what was injected, so far [J]
-  std::uint64_t activations = 0;
+  double energy = 0.0;            ///< energy absorbed by the port after high-pass filtering and bounding [J]
+  double injected_damping = 0;    ///< present injected damping [N·s/m or N·m·s/rad]
+  double dissipated = 0.0;        ///< energy dissipated by the injected damping so far [J]
+  std::uint64_t activations = 0;  ///< number of activations of the controller
 };
 
 /** Passivity observer and controller of one direction in the time domain (Hannaford and Ryu, IEEE Trans. Robotics and
  *  Automation 18(1), 2002; on forgetting: Ryu, Preusche, Hannaford and Hirzinger, IEEE Trans. Control Systems
  *  Technology 13(4), 2005).
  *
- *  Observed is E = Σ f_k (x_k+1 − x_k) + Σ b v² dt: the exact work of a held force over the measured motion, f_k being
- *  what was sent a delay earlier, plus what device and hand are known to dissipate. Force and position pass the same
- *  high pass (0.15 s) first: a linear passive port stays passive under it, and what friction took in over a long way or
- *  a spring has held for long is no credit for an oscillation. E stays within ± the largest f·x of the last second, of
- *  which a spring holds at most half: neither old credit nor a debt that could not be taken back lasts.
- *  E < −resolution·|f| means that the port has produced energy: then a damping is injected that takes the deficit back
- *  within a step, up to the limits, and fades (50 ms). Velocity is a mean over 2 ms, because one count of a coarse
- *  encoder in one sample says nothing.
+ *  Observer: E = Σ f_k (x_k+1 − x_k) + Σ b v² dt. The first sum is the exact work of a zero-order-hold force over the
+ *  measured motion; f_k is the force sent one delay earlier. The second sum is the known dissipation of device and
+ * hand.
  *
- *  While never active, the force passes unchanged. Not for more than one thread. */
+ *  Force and position pass the same high-pass filter (0.15 s) before. A linear passive port stays passive under this
+ *  filter. Energy absorbed by friction over a long path, or stored in a spring for long, then gives no credit to an
+ *  oscillation. E is clamped to ± the largest |f·x|, which decays with a time constant of 1 s; a spring stores at most
+ *  half of f·x. So neither old credit nor an unrecoverable debt persists.
+ *
+ *  Controller: E < −resolution·|f| shows that the port has generated energy. The controller then injects the damping
+ *  that recovers the deficit within one step, up to the limits, and lets it decay (50 ms). The velocity is averaged
+ * over 2 ms, because a single count of a coarse encoder carries too little information.
+ *
+ *  Without an activation the force passes unchanged. Not thread-safe. */
 class PassivityChannel
 {
 public:
   explicit PassivityChannel(const PassivitySettings& settings = {}) : settings_(settings) {}
 
-  /** A sample of the motion. @param position [m or rad] @param dt since the last sample [s] @param now [s] */
+  /** Adds a sample of the motion.
+   *  @param position measured position [m or rad]
+   *  @param dt interval since the previous sample [s]
+   *  @param now arrival time [s] */
   void observe(double position, double dt, double now);
-  /** @return the force to render for @p force [N or N·m] */
+  /** @return force to render for the input @p force [N or N·m] */
   double control(double force) const;
-  /** What was rendered, limits included, from @p now [s] on. */
+  /** Records the force sent to the device, limits included, from time @p now [s]. */
   void rendered(double force, double now);
-  /** The motion is no continuation of what was seen. */
+  /** Restarts the observer after a discontinuity of the motion; the totals of the report remain. */
   void reset();
 
-  bool isActive() const { return report_.injected_damping > 0.0; }
   const PassivityReport& report() const { return report_; }
 
 private:
-  /** x − low pass of x. */
+  /** First-order high-pass filter: x minus its low-pass filtered value. */
   struct HighPass
   {
     double low = 0.0;
@@ -77,15 +83,15 @@ private:
   PassivitySettings settings_;
   PassivityReport report_;
   std::array<Sent, 64> sent_ = {};
-  std::size_t sent_count_ = 0;  ///< ever
+  std::size_t sent_count_ = 0;  ///< number of forces ever recorded
   HighPass force_high_;
   HighPass position_high_;
-  double force_ = 0.0;     ///< high-passed, over the coming interval
-  double position_ = 0.0;  ///< high-passed
-  double last_ = 0.0;      ///< position as measured
+  double force_ = 0.0;     ///< high-pass filtered force [N or N·m]
+  double position_ = 0.0;  ///< high-pass filtered position [m or rad]
+  double last_ = 0.0;      ///< last measured position [m or rad]
   bool started_ = false;
-  double speed_ = 0.0;   ///< smoothed
-  double credit_ = 0.0;  ///< most that the energy may be, either way [J]
+  double speed_ = 0.0;   ///< low-pass filtered velocity [m/s or rad/s]
+  double credit_ = 0.0;  ///< bound of the absolute value of the energy [J]
 };
 
 }  // namespace endovascular_sim::haptics

@@ -10,8 +10,8 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-constexpr double kReopenPeriod = 0.2;   // between attempts to open the line [s]
-constexpr std::size_t kMostReads = 16;  // per service: a line that never falls silent must not starve the rest
+constexpr double kReopenPeriod = 0.2;  // period of the attempts to open the line [s]
+constexpr std::size_t kMaxReads = 16;  // reads per service(); a busy line must not starve the other tasks
 
 HostOptions withBaud(HostOptions options, int baud)
 {
@@ -54,7 +54,7 @@ void HapticLink::tryToOpen(double now)
 void HapticLink::readAll(double now, const WallTime& wall)
 {
   std::array<std::uint8_t, 4096> bytes;
-  for (std::size_t i = 0; i < kMostReads; ++i)
+  for (std::size_t i = 0; i < kMaxReads; ++i)
   {
     const std::size_t count = port_.read(bytes.data(), bytes.size());
     if (count == 0)
@@ -91,7 +91,7 @@ void HapticLink::dropLostLine(double now)
     return;
   last_error_ = options_.port + ": " + port_.error();
   port_.close();
-  host_.lineClosed("unplugged (" + last_error_ + "); trying to open it again");
+  host_.lineClosed("unplugged (" + last_error_ + "); trying to reopen it");
   open_at_ = now + kReopenPeriod;
 }
 

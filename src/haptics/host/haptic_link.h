@@ -10,31 +10,33 @@ namespace endovascular_sim::haptics
 
 struct LinkOptions
 {
-  std::string port;   ///< device file or a link to one
-  int baud = 230400;  ///< [bit/s]
-  HostOptions host;   ///< its baud is set from the one above
+  std::string port;   ///< path of the device file, or of a symbolic link to it
+  int baud = 230400;  ///< speed of the line [bit/s]
+  HostOptions host;   ///< options of the host; its baud is overwritten by the one above
 };
 
-/** A rosserial host on a serial line that may come and go: opens it, serves it, opens it again after an unplug.
+/** Rosserial host on a hot-pluggable serial line: opens the line, serves it, and reopens it after an unplug.
  *
- *  Times `now` are seconds of a steady clock. Not thread-safe; nothing here blocks. */
+ *  Times `now` are seconds of a steady clock. Not thread-safe. No call blocks. */
 class HapticLink
 {
 public:
-  /** @throws InputError when the speed is not one of a serial line */
+  /** @throws InputError if the baud rate is not a standard one */
   explicit HapticLink(LinkOptions options);
 
-  /** Opens, reads, watches, writes: everything that is due. */
+  /** Performs all pending work: opens the line, reads, runs the watchdogs, writes. */
   void service(double now, const WallTime& wall);
-  /** A new force from the simulation: goes out at once when the line is free. */
+  /** Sets the force computed for the motion @p caused_by, and sends it at once if the line is free. */
   void commandForce(const HandForce& force, const HandMotion& caused_by, double now, const WallTime& wall);
-  /** Queues zero force and TX_STOP; service the output with flush() until isIdle(). */
+  /** Queues zero force and TX_STOP; call flush() afterwards until isIdle(). */
   void shutDown(double now, const WallTime& wall);
+  /** Writes queued frames to the line. */
   void flush(double now);
   bool isIdle() const { return host_.output().empty() || !port_.isOpen(); }
 
-  /** What to poll: the descriptor (negative when closed), whether to wait until it takes bytes. */
+  /** Descriptor to poll; negative while the line is closed. */
   int descriptor() const { return port_.descriptor(); }
+  /** True if the caller should poll for writability. */
   bool waitsForWrite() const { return host_.output().blocked(); }
   /** Latest time for the next service() [s]. */
   double wakeAt() const;
@@ -42,7 +44,7 @@ public:
   RosserialHost& host() { return host_; }
   const RosserialHost& host() const { return host_; }
   bool isOpen() const { return port_.isOpen(); }
-  std::uint64_t opened() const { return opened_; }  ///< times that the line was opened; reconnects are one less
+  std::uint64_t opened() const { return opened_; }  ///< number of openings of the line; one more than reconnections
   const std::string& lastError() const { return last_error_; }
   const std::string& portName() const { return options_.port; }
 
@@ -54,7 +56,7 @@ private:
   LinkOptions options_;
   SerialPort port_;
   RosserialHost host_;
-  double open_at_ = 0.0;  ///< next attempt [s]
+  double open_at_ = 0.0;  ///< time of the next attempt to open the line [s]
   std::uint64_t opened_ = 0;
   std::string last_error_;
 };

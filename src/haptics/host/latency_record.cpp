@@ -12,9 +12,9 @@ double LatencyRecord::percentile(double fraction) const
     return 0.0;
   const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values_.size())));
   std::vector<double> sorted = values_;
-  const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(sorted.begin(), place, sorted.end());
-  return *place;
+  const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(sorted.begin(), nth, sorted.end());
+  return *nth;
 }
 
 }  // namespace endovascular_sim::haptics

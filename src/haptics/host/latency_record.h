@@ -6,13 +6,13 @@
 namespace endovascular_sim::haptics
 {
 
-/** Durations, kept whole, for exact percentiles. */
+/** Record of all durations, for exact percentiles. */
 class LatencyRecord
 {
 public:
   void add(double seconds) { values_.push_back(seconds); }
   std::size_t count() const { return values_.size(); }
-  /** Smallest value that at least @p fraction of all values do not exceed [s]; 0 without values. */
+  /** Nearest-rank percentile: smallest value that at least @p fraction of all values do not exceed [s]; 0 if empty. */
   double percentile(double fraction) const;
 
 private:

@@ -20,17 +20,17 @@ std::string milliseconds(double seconds)
   return std::to_string(std::lround(seconds * 1e3)) + " ms";
 }
 
-/** An empty rosserial_msgs/RequestParamResponse: the host has no parameters for the device. */
+/** Empty rosserial_msgs/RequestParamResponse: the host has no parameters for the device. */
 Bytes emptyParameters()
 {
   return Bytes(12, 0);
 }
 
-/** Place of a joint by name; devices that name their joints otherwise send insertion first, rotation second. */
-std::size_t jointIndex(const JointState& state, const char* name, std::size_t otherwise)
+/** Index of a joint by name, or else @p fallback: joints under other names are in the order insertion, rotation. */
+std::size_t jointIndex(const JointState& state, const char* name, std::size_t fallback)
 {
   const auto found = std::find(state.names.begin(), state.names.end(), name);
-  return found == state.names.end() ? otherwise : static_cast<std::size_t>(found - state.names.begin());
+  return found == state.names.end() ? fallback : static_cast<std::size_t>(found - state.names.begin());
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void RosserialHost::lineClosed(const std::string& reason)
   motion_.hold();
   shaper_.reset();
   force_.cut();
-  forgetDeviceClock();
+  clearDeviceClock();
   updateState(0.0);
 }
 
@@ -151,7 +151,7 @@ void RosserialHost::handleApplication(const Frame& frame, double now)
   }
   else
   {
-    // A device that was connected to an earlier host: it does not announce its topics unasked.
+    // The device was connected to an earlier host. It announces its topics on request only.
     ++counters_.unknown_ids;
     if (now >= request_at_ + options_.timing.request_period)
       requestTopics(now);
@@ -180,8 +180,8 @@ void RosserialHost::takeSample(const HandMotion& count, std::uint32_t time, std:
   sample_at_ = now;
   linked_ = true;
   flags_ = flags;
-  const bool holds_wire = (flags & HapticSample::kEnabled) != 0 && (flags & HapticSample::kFault) == 0;
-  if (!holds_wire)
+  const bool is_held = (flags & HapticSample::kEnabled) != 0 && (flags & HapticSample::kFault) == 0;
+  if (!is_held)
   {
     motion_.hold();
     shaper_.reset();
@@ -220,9 +220,9 @@ void RosserialHost::commandForce(const HandForce& force, const HandMotion& cause
 
 bool RosserialHost::isTrusted(double now) const
 {
-  const bool holds_wire = (flags_ & HapticSample::kEnabled) != 0 && (flags_ & HapticSample::kFault) == 0;
-  return open_ && linked_ && holds_wire && topics_.samples() && topics_.force() &&
-         now < sample_at_ + options_.timing.sample_doubt && now < force_at_ + options_.timing.force_doubt &&
+  const bool is_held = (flags_ & HapticSample::kEnabled) != 0 && (flags_ & HapticSample::kFault) == 0;
+  return open_ && linked_ && is_held && topics_.samples() && topics_.force() &&
+         now < sample_at_ + options_.timing.sample_ramp_age && now < force_at_ + options_.timing.force_ramp_age &&
          now >= not_finite_at_ + options_.timing.fault_hold;
 }
 
@@ -236,7 +236,7 @@ void RosserialHost::tick(double now, const WallTime& wall)
     motion_.hold();
     shaper_.reset();
     force_.cut();
-    forgetDeviceClock();
+    clearDeviceClock();
     urgent_ = true;
   }
   const bool trusted = isTrusted(now);
@@ -266,7 +266,7 @@ double RosserialHost::wakeAt() const
   if (linked_)
     wake = std::min(wake, sample_at_ + timing.sample_timeout);
   if (trusted_)
-    wake = std::min({wake, sample_at_ + timing.sample_doubt, force_at_ + timing.force_doubt});
+    wake = std::min({wake, sample_at_ + timing.sample_ramp_age, force_at_ + timing.force_ramp_age});
   return wake;
 }
 
@@ -278,13 +278,13 @@ void RosserialHost::shutDown(double now, const WallTime& wall)
   open_ = false;
   closed_reason_ = "the host was shut down";
   updateState(now);
-  Bytes last_words = topics_.force() ? forceFrame(now, wall) : Bytes();
+  Bytes final_frames = topics_.force() ? forceFrame(now, wall) : Bytes();
   const Bytes stop = encodeFrame(kTxStop, {});
-  last_words.insert(last_words.end(), stop.begin(), stop.end());
-  output_.setLatest(std::move(last_words));
+  final_frames.insert(final_frames.end(), stop.begin(), stop.end());
+  output_.setLatest(std::move(final_frames));
 }
 
-void RosserialHost::forgetDeviceClock()
+void RosserialHost::clearDeviceClock()
 {
   sample_times_.clear();
   answered_time_ = 0;
@@ -300,35 +300,35 @@ void RosserialHost::requestTopics(double now)
 void RosserialHost::updateState(double now)
 {
   const HostTiming& timing = options_.timing;
-  const auto become = [this](DeviceState state, const std::string& reason)
+  const auto enter = [this](DeviceState state, const std::string& reason)
   {
     urgent_ = urgent_ || state != state_;
     state_ = state;
     reason_ = reason;
   };
   if (!open_)
-    become(DeviceState::kDisabled, closed_reason_);
+    enter(DeviceState::kDisabled, closed_reason_);
   else if (!topics_.samples())
-    become(DeviceState::kDisabled, topics_.refused().empty()
-                                       ? "the device has not announced its topics"
-                                       : "no topic with samples; " + topics_.refused().begin()->second.topic.name +
-                                             " refused: " + topics_.refused().begin()->second.reason);
+    enter(DeviceState::kDisabled, topics_.refused().empty()
+                                      ? "the device has not announced its topics"
+                                      : "no topic with samples; " + topics_.refused().begin()->second.topic.name +
+                                            " refused: " + topics_.refused().begin()->second.reason);
   else if (counters_.samples == samples_at_opening_)
-    become(DeviceState::kDisabled, "the device has not sent a sample");
+    enter(DeviceState::kDisabled, "the device has not sent a sample");
   else if (!linked_)
-    become(DeviceState::kDisabled, "no sample for " + milliseconds(timing.sample_timeout));
+    enter(DeviceState::kDisabled, "no sample for " + milliseconds(timing.sample_timeout));
   else if ((flags_ & HapticSample::kFault) != 0)
-    become(DeviceState::kFault, "the device reports a fault");
+    enter(DeviceState::kFault, "the device reports a fault");
   else if (now < not_finite_at_ + timing.fault_hold)
-    become(DeviceState::kFault, "the simulation sent a force that is not a number");
+    enter(DeviceState::kFault, "the simulation sent a force that is not a number");
   else if ((flags_ & HapticSample::kEnabled) == 0)
-    become(DeviceState::kDisabled, "the hand does not hold the instrument");
+    enter(DeviceState::kDisabled, "the hand does not hold the instrument");
   else if (!topics_.force())
-    become(DeviceState::kPaused, "the device takes no force");
+    enter(DeviceState::kPaused, "the device takes no force");
   else if (now >= force_at_ + timing.force_timeout)
-    become(DeviceState::kPaused, "no force from the simulation for " + milliseconds(timing.force_timeout));
+    enter(DeviceState::kPaused, "no force from the simulation for " + milliseconds(timing.force_timeout));
   else
-    become(DeviceState::kEnabled, "");
+    enter(DeviceState::kEnabled, "");
 }
 
 Bytes RosserialHost::forceFrame(double now, const WallTime& wall)

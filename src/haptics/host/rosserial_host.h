@@ -15,17 +15,17 @@
 namespace endovascular_sim::haptics
 {
 
-/** Times after which the host stops trusting; all [s]. */
+/** Watchdog times and frame periods of the host, all in seconds. */
 struct HostTiming
 {
-  double request_period = 0.5;     ///< between requests for topics while there are none
-  double sample_doubt = 80e-3;     ///< age of the newest sample from which the force ramps down
-  double sample_timeout = 100e-3;  ///< age from which the link is lost and the force is zero
-  double force_doubt = 30e-3;      ///< silence of the simulation from which the force ramps down
-  double force_timeout = 50e-3;    ///< silence from which the device is paused; the ramp has ended by then
-  double fault_hold = 0.5;         ///< a fault stays at least this long
-  double ramp_period = 5e-3;       ///< between force frames while the force moves without news
-  double keep_alive = 20e-3;       ///< between force frames else
+  double request_period = 0.5;     ///< period of topic requests while topics are missing
+  double sample_ramp_age = 80e-3;  ///< age of the newest sample at which the force begins to ramp down
+  double sample_timeout = 100e-3;  ///< age of the newest sample at which the link counts as lost and the force is zero
+  double force_ramp_age = 30e-3;   ///< age of the newest force at which the force begins to ramp down
+  double force_timeout = 50e-3;    ///< age of the newest force at which the device is paused, after the ramp has ended
+  double fault_hold = 0.5;         ///< shortest duration of a fault
+  double ramp_period = 5e-3;       ///< period of force frames during a ramp without new forces
+  double keep_alive = 20e-3;       ///< period of force frames otherwise
 };
 
 struct HostOptions
@@ -34,66 +34,69 @@ struct HostOptions
   ForceLimits limits;
   ShaperSettings shaping;
   HostTiming timing;
-  HandMotion start;   ///< the command at the first sample
-  double baud = 0.0;  ///< of the line, to pace the frames; 0: not paced [bit/s]
+  HandMotion start;   ///< command at the first sample
+  double baud = 0.0;  ///< speed of the line, for pacing the frames [bit/s]; 0: no pacing
 };
 
-/** A command for the instrument, made from one sample of the device. */
+/** Command for the instrument from one sample of the device. */
 struct MotionSample
 {
   HandMotion command;
-  std::uint32_t device_time = 0;  ///< [us]
+  std::uint32_t device_time = 0;  ///< time of the sample on the device's clock [µs]
 };
 
 struct HostCounters
 {
-  std::uint64_t samples = 0;          ///< that became motion or were held back by the device's flags
-  std::uint64_t unknown_ids = 0;      ///< frames of a topic that was never announced
-  std::uint64_t unused_frames = 0;    ///< frames of a refused topic or a service
-  std::uint64_t malformed = 0;        ///< valid frames whose payload is not what its type says
-  std::uint64_t topic_requests = 0;   ///< sent
-  std::uint64_t times_answered = 0;   ///< clock requests of the device
-  std::uint64_t forces_received = 0;  ///< from the simulation
-  std::uint64_t forces_not_finite = 0;
-  std::uint64_t links_lost = 0;  ///< samples stopped for longer than the timeout
+  std::uint64_t samples = 0;            ///< samples received, including those withheld because of the device's flags
+  std::uint64_t unknown_ids = 0;        ///< frames of a topic that was not announced
+  std::uint64_t unused_frames = 0;      ///< frames of a rejected topic or of a service
+  std::uint64_t malformed = 0;          ///< valid frames with a payload that does not match its type
+  std::uint64_t topic_requests = 0;     ///< topic requests sent
+  std::uint64_t times_answered = 0;     ///< time requests of the device answered
+  std::uint64_t forces_received = 0;    ///< forces received from the simulation
+  std::uint64_t forces_not_finite = 0;  ///< forces from the simulation that were not finite
+  std::uint64_t links_lost = 0;         ///< number of times that samples were missing for longer than the timeout
 };
 
-/** The host's side of rosserial for one haptic device: bytes in, bytes out, time always an argument.
+/** Host side of the rosserial protocol for one haptic device: a state machine from bytes to bytes.
  *
- *  Times `now` are seconds of any clock that never steps back. Not thread-safe. */
+ *  It reads no clock: times `now` are seconds of any monotonic clock. Not thread-safe. */
 class RosserialHost
 {
 public:
   explicit RosserialHost(HostOptions options);
 
-  /** The line is open: asks the device for its topics. */
+  /** Handles the opening of the line: requests the device's topics. */
   void lineOpened(double now);
-  /** The line is gone. @param reason is shown until the device is back */
+  /** Handles the loss of the line.
+   *  @param reason reported by reason() until the device is connected again */
   void lineClosed(const std::string& reason);
 
-  /** Takes bytes from the line. @param wall answers the device's question for the time */
+  /** Handles bytes from the line.
+   *  @param wall reply to a time request of the device */
   void receive(const std::uint8_t* data, std::size_t size, double now, const WallTime& wall);
-  /** Takes a new force from the simulation, computed for the motion @p caused_by. */
+  /** Sets the force from the simulation, computed for the motion @p caused_by. */
   void commandForce(const HandForce& force, const HandMotion& caused_by, double now);
-  /** Watchdogs and everything that is due. To be called at wakeAt() or earlier. */
+  /** Runs the watchdogs and queues due frames; to be called at wakeAt() or earlier. */
   void tick(double now, const WallTime& wall);
-  /** When tick() has something to do [s]. */
+  /** Time at which tick() is due [s]. */
   double wakeAt() const;
-  /** Zero force and TX_STOP: the last words before the line is closed. */
+  /** Queues zero force and TX_STOP, the final frames before the line is closed. */
   void shutDown(double now, const WallTime& wall);
 
-  /** Motion and log lines since the last call. */
+  /** Motion since the last call. */
   std::vector<MotionSample> takeMotion();
+  /** Log lines of the device since the last call. */
   std::vector<LogLine> takeLog();
 
   WriteQueue& output() { return output_; }
   const WriteQueue& output() const { return output_; }
   DeviceState state() const { return state_; }
-  /** Why it is in this state; empty when enabled. */
+  /** Reason of the state; empty when enabled. */
   const std::string& reason() const { return reason_; }
-  /** What the device renders now. */
+  /** Force rendered by the device at present. */
   const HandForce& renderedForce() const { return force_.value(); }
-  /** What the passivity controllers see and do. */
+  /** Force shaper with the reports of its passivity controllers. */
   const ForceShaper& shaper() const { return shaper_; }
   const TopicRegistry& topics() const { return topics_; }
   const HostCounters& counters() const { return counters_; }
@@ -111,8 +114,8 @@ private:
   bool isTrusted(double now) const;
   void requestTopics(double now);
   void updateState(double now);
-  void forgetDeviceClock();
-  /** The force as it is now, as a frame; the device must take force. */
+  void clearDeviceClock();
+  /** Frame with the present force; the device must have subscribed to the force. */
   Bytes forceFrame(double now, const WallTime& wall);
 
   HostOptions options_;
@@ -126,20 +129,20 @@ private:
   HostCounters counters_;
 
   bool open_ = false;
-  bool linked_ = false;   ///< samples arrive
+  bool linked_ = false;   ///< samples arrive within the timeout
   bool trusted_ = false;  ///< isTrusted() at the last tick
-  bool urgent_ = false;   ///< a force frame must go out now
+  bool urgent_ = false;   ///< a force frame is due immediately
   std::string closed_reason_ = "the line was not opened yet";
   DeviceState state_ = DeviceState::kDisabled;
   std::string reason_;
-  std::uint8_t flags_ = 0;  ///< of the newest sample
-  std::uint64_t samples_at_opening_ = 0;
-  double sample_at_;      ///< arrival of the newest sample
-  double force_at_;       ///< arrival of the newest force
-  double not_finite_at_;  ///< arrival of the newest force that was not finite
-  double request_at_;     ///< newest request for topics
-  double sent_at_;        ///< newest force frame
-  std::uint32_t answered_time_ = 0;
+  std::uint8_t flags_ = 0;                ///< flags of the newest sample
+  std::uint64_t samples_at_opening_ = 0;  ///< sample counter when the line was opened
+  double sample_at_;                      ///< arrival time of the newest sample [s]
+  double force_at_;                       ///< arrival time of the newest force [s]
+  double not_finite_at_;                  ///< arrival time of the newest force that was not finite [s]
+  double request_at_;                     ///< time of the newest topic request [s]
+  double sent_at_;                        ///< time of the newest force frame [s]
+  std::uint32_t answered_time_ = 0;       ///< device time of the sample that the newest force responds to [µs]
   std::vector<MotionSample> motion_out_;
   std::vector<LogLine> log_out_;
 };

@@ -10,17 +10,18 @@
 
 #include "haptics/rosserial/rosserial_protocol.h"
 
-/** ROS 1 serialisation: little-endian scalars, strings and arrays behind a uint32 count. */
+/** ROS 1 serialisation: little-endian scalars; strings and arrays with a uint32 count in front. */
 namespace endovascular_sim::haptics
 {
 
-/** A payload that does not hold what its type announces. */
+/** Error: a payload does not match its message type. */
 class PayloadError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
+/** Writer of serialised scalars and strings. */
 class ByteWriter
 {
 public:
@@ -52,7 +53,7 @@ private:
   Bytes bytes_;
 };
 
-/** Reads scalars and strings; every read past the end throws PayloadError. */
+/** Reader of serialised scalars and strings. Each read past the end throws PayloadError. */
 class ByteReader
 {
 public:
@@ -62,7 +63,7 @@ public:
   Scalar get()
   {
     static_assert(std::is_arithmetic_v<Scalar>, "scalars only");
-    need(sizeof(Scalar));
+    require(sizeof(Scalar));
     std::uint8_t raw[sizeof(Scalar)];
     for (std::size_t i = 0; i < sizeof raw; ++i)
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -79,13 +80,13 @@ public:
   std::string getString()
   {
     const std::size_t size = get<std::uint32_t>();
-    need(size);
+    require(size);
     const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
     position_ += size;
     return {first, first + static_cast<std::ptrdiff_t>(size)};
   }
 
-  /** A uint32 count, checked against the bytes that are left. */
+  /** Reads a uint32 count and checks it against the remaining bytes. */
   std::size_t getCount(std::size_t smallest_element)
   {
     const std::size_t count = get<std::uint32_t>();
@@ -94,15 +95,15 @@ public:
     return count;
   }
 
-  /** Throws unless everything was read. */
+  /** Throws PayloadError if bytes remain. */
   void finish() const
   {
     if (position_ != bytes_.size())
-      throw PayloadError(std::to_string(bytes_.size() - position_) + " bytes behind the end of the message");
+      throw PayloadError(std::to_string(bytes_.size() - position_) + " bytes after the end of the message");
   }
 
 private:
-  void need(std::size_t size) const
+  void require(std::size_t size) const
   {
     if (size > bytes_.size() - position_)
       throw PayloadError("payload of " + std::to_string(bytes_.size()) + " bytes ends inside a field");

@@ -7,7 +7,7 @@
 
 #include "haptics/rosserial/rosserial_protocol.h"
 
-/** The messages that cross the serial line, as plain structures. The decoders throw PayloadError. */
+/** Messages of the serial line as plain structures. The decoders throw PayloadError. */
 namespace endovascular_sim::haptics
 {
 
@@ -18,14 +18,14 @@ struct TopicInfo
   std::string name;
   std::string type;  ///< e.g. "sensor_msgs/JointState"
   std::string md5;
-  std::int32_t buffer_size = 0;  ///< the device's buffer for this direction [bytes]
+  std::int32_t buffer_size = 0;  ///< size of the device's buffer for this direction [bytes]
 };
 
-/** A clock reading: of the wall in the host's answers, never of a simulation. */
+/** Reading of a clock. The host answers time requests with wall-clock time, not with simulation time. */
 struct WallTime
 {
-  std::uint32_t seconds = 0;      ///< since 1970 [s]
-  std::uint32_t nanoseconds = 0;  ///< [ns]
+  std::uint32_t seconds = 0;      ///< full seconds since 1970 [s]
+  std::uint32_t nanoseconds = 0;  ///< remainder [ns]
 };
 
 /** rosserial_msgs/Log. */
@@ -47,13 +47,13 @@ struct LogLine
 struct HapticSample
 {
   static constexpr std::size_t kSize = 13;
-  static constexpr std::uint8_t kEnabled = 1;      ///< the hand holds the wire
+  static constexpr std::uint8_t kEnabled = 1;      ///< the user's hand holds the instrument
   static constexpr std::uint8_t kFault = 2;        ///< the device reports a fault
   static constexpr std::uint8_t kEndOfScript = 4;  ///< a scripted operator has finished
 
-  std::uint32_t time = 0;  ///< the device's clock [us]
-  float insertion = 0;     ///< since the device started [m]
-  float rotation = 0;      ///< since the device started [rad]
+  std::uint32_t time = 0;  ///< time on the device's clock [µs]
+  float insertion = 0;     ///< insertion since the start of the device [m]
+  float rotation = 0;      ///< rotation since the start of the device [rad]
   std::uint8_t flags = kEnabled;
 };
 
@@ -71,16 +71,16 @@ struct HapticForce
 {
   static constexpr std::size_t kSize = 13;
 
-  std::uint32_t sample_time = 0;  ///< clock of the newest sample whose motion is in this force [us]
-  float force = 0;                ///< positive against insertion [N]
-  float torque = 0;               ///< positive against rotation [N·m]
+  std::uint32_t sample_time = 0;  ///< device time of the newest sample that this force responds to [µs]
+  float force = 0;                ///< force, positive against insertion [N]
+  float torque = 0;               ///< torque, positive against rotation [N·m]
   DeviceState state = DeviceState::kDisabled;
 };
 
 /** sensor_msgs/JointState. */
 struct JointState
 {
-  static constexpr std::size_t kSmallestSize = 48;  ///< two positions, no names, no frame [bytes]
+  static constexpr std::size_t kSmallestSize = 48;  ///< size with two positions, no names and no frame [bytes]
 
   std::uint32_t sequence = 0;
   WallTime stamp;
@@ -91,14 +91,14 @@ struct JointState
   std::vector<double> efforts;
 };
 
-/** geometry_msgs/Wrench: force and torque along the wire's axis are x, REP-103's forward. */
+/** geometry_msgs/Wrench. The x axis is the axis of the wire, forward by REP-103. */
 struct Wrench
 {
   static constexpr std::size_t kSize = 48;
-  static constexpr std::size_t kStampedSize = kSize + 16;  ///< WrenchStamped with an empty frame [bytes]
+  static constexpr std::size_t kStampedSize = kSize + 16;  ///< size of WrenchStamped with an empty frame [bytes]
 
-  std::array<double, 3> force = {};   ///< [N]
-  std::array<double, 3> torque = {};  ///< [N·m]
+  std::array<double, 3> force = {};   ///< force [N]
+  std::array<double, 3> torque = {};  ///< torque [N·m]
 };
 
 Bytes encode(const TopicInfo& info);
@@ -108,7 +108,7 @@ Bytes encode(const HapticSample& sample);
 Bytes encode(const HapticForce& force);
 Bytes encode(const JointState& state);
 Bytes encode(const Wrench& wrench);
-/** WrenchStamped with an empty frame and sequence 0. */
+/** Encodes a WrenchStamped with an empty frame and sequence number 0. */
 Bytes encodeStamped(const Wrench& wrench, const WallTime& stamp);
 
 TopicInfo decodeTopicInfo(const Bytes& payload);

@@ -12,9 +12,9 @@ namespace
 
 constexpr std::uint8_t kSync = 0xff;
 constexpr std::uint8_t kVersion = 0xfe;
-constexpr std::size_t kLengthCheckEnd = 5;  // sync, version, length, its check
+constexpr std::size_t kLengthCheckEnd = 5;  // bytes of sync, version, length and length checksum
 
-/** The byte that completes a sum to 255 (mod 256). */
+/** Checksum: the byte that completes a sum to 255 (mod 256). */
 std::uint8_t complement(unsigned sum)
 {
   return static_cast<std::uint8_t>(255U - (sum & 0xffU));

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-/** rosserial's wire protocol, version 2 (docs/HAPTIC_DEVICE.md):
+/** Wire protocol of rosserial, version 2 (docs/HAPTIC_DEVICE.md):
  *
  *      FF FE | lenLo lenHi | lenChk | idLo idHi | payload (len bytes) | msgChk
  *
@@ -14,10 +14,10 @@ namespace endovascular_sim::haptics
 
 using Bytes = std::vector<std::uint8_t>;
 
-/** Topic ids with a fixed meaning; a device numbers its own topics from kFirstApplicationId. */
+/** Topic ids with a fixed meaning. A device numbers its own topics from kFirstApplicationId. */
 enum TopicId : std::uint16_t
 {
-  kPublisher = 0,  ///< from the device: it publishes a topic; from the host, empty: announce all topics
+  kPublisher = 0,  ///< announcement of a published topic by the device; if empty, topic request by the host
   kSubscriber = 1,
   kServiceServerPublisher = 2,
   kServiceServerSubscriber = 3,
@@ -30,9 +30,9 @@ enum TopicId : std::uint16_t
   kFirstApplicationId = 100,
 };
 
-constexpr std::size_t kHeaderSize = 7;                   ///< bytes before the payload
-constexpr std::size_t kFrameOverhead = kHeaderSize + 1;  ///< bytes around the payload
-constexpr std::size_t kDefaultPayloadCap = 1024;         ///< longest payload that a parser accepts by default [bytes]
+constexpr std::size_t kHeaderSize = 7;                   ///< size of the header [bytes]
+constexpr std::size_t kFrameOverhead = kHeaderSize + 1;  ///< size of header and message checksum [bytes]
+constexpr std::size_t kDefaultPayloadCap = 1024;         ///< default limit of the payload in a parser [bytes]
 
 struct Frame
 {
@@ -40,38 +40,39 @@ struct Frame
   Bytes payload;
 };
 
-/** The bytes of one frame. @throws std::length_error when the payload is longer than 65535 bytes */
+/** Encodes one frame.
+ *  @throws std::length_error if the payload is longer than 65535 bytes */
 Bytes encodeFrame(std::uint16_t id, const Bytes& payload);
 
-/** The host's question for all topics: ff fe 00 00 ff 00 00 ff. */
+/** Encodes the host's topic request: ff fe 00 00 ff 00 00 ff. */
 Bytes encodeTopicRequest();
 
-/** What a parser has seen since it was made. */
+/** Statistics of a parser since its construction. */
 struct ParserCounters
 {
-  std::uint64_t bytes = 0;          ///< bytes fed
+  std::uint64_t bytes = 0;          ///< bytes received
   std::uint64_t frames = 0;         ///< valid frames
-  std::uint64_t bad_lengths = 0;    ///< headers whose length check fails
-  std::uint64_t over_long = 0;      ///< headers that announce more than the cap
-  std::uint64_t bad_sums = 0;       ///< frames whose message check fails
-  std::uint64_t resyncs = 0;        ///< times that synchronisation was lost
-  std::uint64_t skipped_bytes = 0;  ///< bytes that belong to no valid frame
+  std::uint64_t bad_lengths = 0;    ///< headers with a wrong length checksum
+  std::uint64_t over_long = 0;      ///< headers with a length above the limit
+  std::uint64_t bad_sums = 0;       ///< frames with a wrong message checksum
+  std::uint64_t resyncs = 0;        ///< losses of synchronisation
+  std::uint64_t skipped_bytes = 0;  ///< bytes outside valid frames
 };
 
-/** Finds frames in a stream of bytes, fed in pieces of any size.
+/** Incremental parser that extracts frames from a stream of bytes.
  *
- *  After any failure the search goes on at the byte after the false sync, so a valid frame behind garbage is found
- *  once payloadCap + kFrameOverhead bytes behind the garbage's start of frame have come. The result does not depend on
- *  how the stream is cut. Memory is bounded by the cap and the largest piece. */
+ *  After a failure, the search continues at the byte after the false start of frame. A valid frame after garbage is
+ *  therefore found at the latest payloadCap + kFrameOverhead bytes after that false start. The result does not depend
+ *  on the division of the stream into pieces. Memory is bounded by the payload limit and the largest piece. */
 class FrameParser
 {
 public:
   explicit FrameParser(std::size_t payloadCap = kDefaultPayloadCap) : payload_cap_(payloadCap) {}
 
-  /** Takes bytes and appends the frames they complete to @p frames. */
+  /** Parses bytes and appends the completed frames to @p frames. */
   void feed(const std::uint8_t* data, std::size_t size, std::vector<Frame>& frames);
 
-  /** Forgets a half-read frame (the line was closed); the counters stay. */
+  /** Discards an incomplete frame after the line was closed; the counters remain. */
   void reset();
 
   const ParserCounters& counters() const { return counters_; }
@@ -84,14 +85,14 @@ private:
     kFalseSync,
   };
 
-  /** Judges what begins at begin_. */
+  /** Classifies the bytes from begin_. */
   Verdict examine();
   void skipByte();
 
   std::size_t payload_cap_;
   Bytes buffer_;
   std::size_t begin_ = 0;  ///< first byte of buffer_ that is not consumed
-  bool in_sync_ = true;    ///< the last byte consumed ended a valid frame
+  bool in_sync_ = true;    ///< true if the last consumed byte ended a valid frame
   ParserCounters counters_;
 };
 

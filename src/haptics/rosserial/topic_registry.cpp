@@ -8,7 +8,7 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-constexpr std::size_t kMostRefused = 64;  // a broken device must not fill the memory
+constexpr std::size_t kMaxRefused = 64;  // bounds the memory that a faulty device can occupy
 
 bool isForce(PayloadFormat format)
 {
@@ -44,8 +44,8 @@ std::string TopicRegistry::check(const TopicInfo& topic, bool device_publishes, 
   if (type == types_.end())
     return "type " + topic.type + " is not one that the host uses";
   if (isForce(type->format) == device_publishes)
-    return topic.type + (device_publishes ? " is what the device receives, it must subscribe to it"
-                                          : " is what the device sends, it must publish it");
+    return topic.type + (device_publishes ? " is an input of the device, it must subscribe to it"
+                                          : " is an output of the device, it must publish it");
   if (type->md5 != topic.md5)
     return "md5 of " + topic.type + " is " + topic.md5 + " on the device and " + type->md5 +
            " here; build the firmware with this version's message headers";
@@ -64,22 +64,22 @@ std::string TopicRegistry::announce(const TopicInfo& topic, bool device_publishe
 {
   std::optional<Channel> channel;
   std::string reason = check(topic, device_publishes, channel);
-  std::optional<Channel>& place = device_publishes ? samples_ : force_;
+  std::optional<Channel>& slot = device_publishes ? samples_ : force_;
   if (reason.empty())
   {
-    place = std::move(channel);
+    slot = std::move(channel);
     refused_.erase(topic.id);
     return reason;
   }
-  if (place && place->topic.id == topic.id)
-    place.reset();  // the device that is there now announces something else under this id
+  if (slot && slot->topic.id == topic.id)
+    slot.reset();  // the device has re-announced this id as another topic
   refuse(topic, reason);
   return reason;
 }
 
 void TopicRegistry::refuse(const TopicInfo& topic, const std::string& reason)
 {
-  if (refused_.size() < kMostRefused || isRefused(topic.id))
+  if (refused_.size() < kMaxRefused || isRefused(topic.id))
     refused_[topic.id] = RefusedTopic{topic, reason};
 }
 

@@ -11,7 +11,7 @@
 namespace endovascular_sim::haptics
 {
 
-/** Payloads that this host understands. */
+/** Payload formats that the host supports. */
 enum class PayloadFormat
 {
   kHapticSample,
@@ -21,7 +21,7 @@ enum class PayloadFormat
   kWrenchStamped,
 };
 
-/** A message type as the host was built with it. */
+/** Message type as compiled into the host. */
 struct TopicType
 {
   PayloadFormat format = PayloadFormat::kHapticSample;
@@ -29,17 +29,17 @@ struct TopicType
   std::string md5;   ///< 32 hexadecimal digits
 };
 
-/** Bytes of the smallest frame of a format, framing included: what a device's buffer must hold at least. */
+/** Size of the smallest frame of a format, framing included: lower bound of a device's buffer [bytes]. */
 std::size_t smallestFrame(PayloadFormat format);
 
-/** A topic that was turned down. */
+/** Refused topic with the reason. */
 struct RefusedTopic
 {
   TopicInfo topic;
   std::string reason;
 };
 
-/** The topics of the connected device: which id carries the samples, which takes the force, and what was refused. */
+/** Topics of the connected device: the channel of the samples, the channel of the force, and the refused topics. */
 class TopicRegistry
 {
 public:
@@ -51,15 +51,16 @@ public:
 
   explicit TopicRegistry(std::vector<TopicType> types) : types_(std::move(types)) {}
 
-  /** Takes an announcement. @return empty when it is accepted, else the reason why not */
+  /** Checks and registers an announced topic.
+   *  @return reason of a refusal; empty if the topic is accepted */
   std::string announce(const TopicInfo& topic, bool device_publishes);
-  /** Turns down an announcement for a reason found elsewhere. */
+  /** Registers a topic as refused for the given reason. */
   void refuse(const TopicInfo& topic, const std::string& reason);
   void clear();
 
   const std::optional<Channel>& samples() const { return samples_; }
   const std::optional<Channel>& force() const { return force_; }
-  /** Keyed by topic id. */
+  /** Refused topics by topic id. */
   const std::map<std::uint16_t, RefusedTopic>& refused() const { return refused_; }
   bool isRefused(std::uint16_t id) const { return refused_.count(id) != 0; }
 

@@ -18,11 +18,11 @@ namespace endovascular_sim::haptics
 void Pty::plug(const std::string& link)
 {
   unplug();
-  // Nothing but a link is ever replaced.
+  // Only a symbolic link may be replaced.
   std::error_code error;
   const auto status = std::filesystem::symlink_status(link, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_symlink(status))
-    throw InputError(link, "", "exists and is not a link; choose another path for the device's name");
+    throw InputError(link, "", "exists and is not a symbolic link; choose another path for the device");
   master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   char name[128];
   if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 || ptsname_r(master_, name, sizeof name) != 0)
@@ -38,7 +38,8 @@ void Pty::plug(const std::string& link)
   std::filesystem::remove(link, error);
   std::filesystem::create_symlink(host_path_, link, error);
   if (error)
-    throw InputError(link, "", "the link cannot be made: " + error.message() + "; choose a folder that can be written");
+    throw InputError(link, "",
+                     "the symbolic link cannot be created: " + error.message() + "; choose a writable folder");
   link_ = link;
 }
 
@@ -46,7 +47,7 @@ void Pty::unplug()
 {
   if (!link_.empty())
   {
-    // Another device may have taken the name over.
+    // Another device may have replaced the link.
     std::error_code error;
     if (std::filesystem::read_symlink(link_, error) == host_path_)
       std::filesystem::remove(link_, error);

@@ -7,8 +7,8 @@
 namespace endovascular_sim::haptics
 {
 
-/** The device's end of a pseudo-terminal, raw and non-blocking, with a link that names the host's end: to the host it
- *  is a serial line that can be unplugged. */
+/** Device end of a pseudo-terminal pair, raw and non-blocking. A symbolic link names the host end, which appears to the
+ *  host as a hot-pluggable serial line. */
 class Pty : public ByteSink
 {
 public:
@@ -17,25 +17,25 @@ public:
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
 
-  /** Opens a new pair and makes the link, replacing a stale one.
-   *  @throws InputError when the pair or the link cannot be made */
+  /** Opens a new pair and creates the symbolic link, replacing a stale one.
+   *  @throws InputError if the pair or the link cannot be created */
   void plug(const std::string& link);
-  /** Removes the link and closes: the host sees a hang-up. */
+  /** Removes the link and closes the pair: a hang-up for the host. */
   void unplug();
 
   bool isPlugged() const { return master_ >= 0; }
   int descriptor() const { return master_; }
-  /** Path of the host's end, e.g. /dev/pts/3. */
+  /** Path of the host end, e.g. /dev/pts/3. */
   const std::string& hostPath() const { return host_path_; }
 
-  /** @return bytes read, 0 when there are none now */
+  /** @return number of bytes read; 0 if none are available */
   std::size_t read(std::uint8_t* data, std::size_t size);
-  /** @return bytes taken; what the terminal has no room for is not */
+  /** @return number of bytes accepted; fewer than @p size if the terminal's buffer is full */
   std::size_t write(const std::uint8_t* data, std::size_t size) override;
 
 private:
   int master_ = -1;
-  int slave_ = -1;  ///< held open so that the pair survives a host that comes and goes
+  int slave_ = -1;  ///< held open so that the pair outlives a host that disconnects
   std::string link_;
   std::string host_path_;
 };

@@ -37,12 +37,12 @@ const Speed* findSpeed(int baud)
   return found == std::end(kSpeeds) ? nullptr : found;
 }
 
-/** Asks the driver of a USB adapter to hand bytes over at once; an FTDI holds them for 16 ms otherwise. */
+/** Requests low-latency mode from the driver of a USB adapter. An FTDI adapter buffers bytes for 16 ms otherwise. */
 void requestLowLatency(int descriptor)
 {
   serial_struct settings = {};
   if (ioctl(descriptor, TIOCGSERIAL, &settings) != 0)
-    return;  // a pty or a driver without the setting
+    return;  // pty, or driver without this setting
   settings.flags |= ASYNC_LOW_LATENCY;
   ioctl(descriptor, TIOCSSERIAL, &settings);
 }
@@ -56,7 +56,7 @@ void SerialPort::checkBaud(int baud, const std::string& where)
   std::string list;
   for (const Speed& speed : kSpeeds)
     list += (list.empty() ? "" : ", ") + std::to_string(speed.baud);
-  throw InputError(where, std::to_string(baud), "is not a speed of a serial line; choose one of " + list + " [bit/s]");
+  throw InputError(where, std::to_string(baud), "is not a standard baud rate; choose one of " + list + " [bit/s]");
 }
 
 bool SerialPort::open(const std::string& path, int baud)
@@ -89,7 +89,7 @@ bool SerialPort::configure(int baud)
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
-  settings.c_cc[VMIN] = 1;  // so that a read of 0 bytes means hang-up, never "nothing yet"
+  settings.c_cc[VMIN] = 1;  // a read of 0 bytes then indicates a hang-up, not an empty buffer
   settings.c_cc[VTIME] = 0;
   if (cfsetspeed(&settings, speed->code) != 0 || tcsetattr(descriptor_, TCSANOW, &settings) != 0)
     return false;
@@ -107,7 +107,7 @@ void SerialPort::close()
   lost_ = false;
 }
 
-void SerialPort::lose(const std::string& reason)
+void SerialPort::markLost(const std::string& reason)
 {
   lost_ = true;
   error_ = reason;
@@ -121,9 +121,9 @@ std::size_t SerialPort::read(std::uint8_t* data, std::size_t size)
   if (count > 0)
     return static_cast<std::size_t>(count);
   if (count == 0)
-    lose("hung up");
+    markLost("hung up");
   else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
-    lose(std::strerror(errno));
+    markLost(std::strerror(errno));
   return 0;
 }
 
@@ -135,7 +135,7 @@ std::size_t SerialPort::write(const std::uint8_t* data, std::size_t size)
   if (count >= 0)
     return static_cast<std::size_t>(count);
   if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
-    lose(std::strerror(errno));
+    markLost(std::strerror(errno));
   return 0;
 }
 

@@ -7,7 +7,7 @@
 namespace endovascular_sim::haptics
 {
 
-/** A serial line or pty: raw (no byte is changed), non-blocking, opened exclusively. */
+/** Serial line or pseudo-terminal in raw, non-blocking mode, opened exclusively. */
 class SerialPort : public ByteSink
 {
 public:
@@ -16,27 +16,30 @@ public:
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  /** @throws InputError for a speed that termios does not have; @p where names the parameter it came from */
+  /** Checks a baud rate.
+   *  @param where name of the parameter, for the error message
+   *  @throws InputError for a baud rate that termios does not support */
   static void checkBaud(int baud, const std::string& where);
 
-  /** @param path device file or a link to one, e.g. /dev/serial/by-id/...
-   *  @return false when it cannot be opened now; error() says why */
+  /** Opens the line.
+   *  @param path device file or symbolic link to it, e.g. /dev/serial/by-id/...
+   *  @return false on failure, with the reason in error() */
   bool open(const std::string& path, int baud);
   void close();
 
-  /** @return bytes read, 0 when there are none now or the line is lost */
+  /** @return number of bytes read; 0 if none are available or the line is lost */
   std::size_t read(std::uint8_t* data, std::size_t size);
   std::size_t write(const std::uint8_t* data, std::size_t size) override;
 
   bool isOpen() const { return descriptor_ >= 0; }
-  /** The other side is gone (unplugged): close and open again. */
+  /** True after the peer has disconnected; the line must be closed and reopened. */
   bool isLost() const { return lost_; }
   int descriptor() const { return descriptor_; }
   const std::string& error() const { return error_; }
 
 private:
   bool configure(int baud);
-  void lose(const std::string& reason);
+  void markLost(const std::string& reason);
 
   int descriptor_ = -1;
   bool lost_ = false;

@@ -11,7 +11,7 @@ namespace
 
 constexpr std::size_t kControlDepth = 16;
 constexpr double kBitsPerByte = 10.0;  // start bit, 8 data bits, stop bit
-constexpr double kLead = 0.2e-3;       // handed over this much before the line falls idle [s]
+constexpr double kLead = 0.2e-3;       // lead of the next write before the line becomes idle [s]
 
 }  // namespace
 

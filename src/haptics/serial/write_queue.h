@@ -10,51 +10,51 @@
 namespace endovascular_sim::haptics
 {
 
-/** Something that takes bytes without blocking. */
+/** Interface of a non-blocking sink of bytes. */
 class ByteSink
 {
 public:
   virtual ~ByteSink() = default;
-  /** @return how many bytes were taken, 0 when none can be taken now */
+  /** @return number of bytes accepted; 0 if the sink is full */
   virtual std::size_t write(const std::uint8_t* data, std::size_t size) = 0;
 };
 
-/** Orders what goes out on the line: one frame at a time, never interleaved.
+/** Priority queue of outgoing frames, written one at a time and never interleaved.
  *
- *  Protocol frames (time, topic request) go in order and first; of the force frames only the latest is kept. A frame
- *  that has begun is completed. The queue keeps to the line's speed, so that forces do not age in the
- *  operating system's buffer: a frame is handed over when the one before has left the line. */
+ *  Protocol frames (time, topic request) precede force frames and retain their order. Only the latest force frame is
+ *  retained. A partially written frame is always completed. The queue is paced: a frame is written when the previous
+ *  one has left the line, so that forces do not age in the operating system's buffer. */
 class WriteQueue
 {
 public:
-  /** @param baud speed of the line, 10 bits per byte; 0: not paced [bit/s] */
+  /** @param baud speed of the line at 10 bits per byte [bit/s]; 0: no pacing */
   explicit WriteQueue(double baud = 0.0) : baud_(baud) {}
 
-  /** Appends a protocol frame; beyond 16 waiting ones it is dropped and counted. */
+  /** Appends a protocol frame; it is dropped and counted if 16 are queued already. */
   void pushControl(Bytes frame);
-  /** Replaces the force frame that waits, if any. */
+  /** Queues a force frame and replaces a queued one. */
   void setLatest(Bytes frame);
-  /** Hands over what the line takes at time @p now [s]. */
+  /** Writes the frames that are due at time @p now [s]. */
   void flush(ByteSink& sink, double now);
-  /** Forgets everything, also a half-written frame (the line was closed). */
+  /** Discards all frames, including a partially written one, after the line was closed. */
   void clear();
 
   bool empty() const { return current_.empty() && control_.empty() && !latest_; }
-  /** A frame has begun and the sink took only a part of it. */
+  /** True if the sink accepted only a part of the current frame. */
   bool blocked() const { return blocked_; }
-  /** When the line has carried what it was given [s]. */
+  /** Time at which the line has transmitted all written bytes [s]. */
   double lineFreeAt() const { return line_free_at_; }
 
-  std::uint64_t superseded() const { return superseded_; }  ///< forces replaced before they left
+  std::uint64_t superseded() const { return superseded_; }  ///< force frames replaced before they were written
   std::uint64_t dropped() const { return dropped_; }        ///< protocol frames dropped
-  std::uint64_t sent() const { return sent_; }              ///< frames handed over completely
+  std::uint64_t sent() const { return sent_; }              ///< frames written completely
 
 private:
   bool takeNext();
 
   double baud_;
   Bytes current_;
-  std::size_t written_ = 0;  ///< of current_
+  std::size_t written_ = 0;  ///< bytes of current_ already written
   std::deque<Bytes> control_;
   std::optional<Bytes> latest_;
   bool blocked_ = false;

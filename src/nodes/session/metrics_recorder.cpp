@@ -43,10 +43,10 @@ Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
 }  // namespace
 
 procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
-                                       const procedure::BranchPlaces& places, const std::vector<double>& pressures)
+                                       const procedure::BranchLocator& locator, const std::vector<double>& pressures)
 {
-  procedure::Observation seen;
-  seen.time = rod.time;
+  procedure::Observation observation;
+  observation.time = rod.time;
   const double furthest = *std::max_element(rod.insertion.begin(), rod.insertion.end());
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
@@ -56,15 +56,15 @@ procedure::Observation observationFrom(const RodStateVisual& rod, const scene::S
     view.outside = view.hand.insertion < -kOutside;
     view.tip = pointBehindTip(rod, furthest - std::max(0.0, view.hand.insertion));
     if (view.hand.insertion > 0.0)
-      view.place = places.at(view.tip);
+      view.branch_position = locator.at(view.tip);
     const auto& balloon = scene.instruments[k].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (middle > 0.0)
       view.balloon = pointBehindTip(rod, furthest - middle);
-    seen.instruments.push_back(view);
+    observation.instruments.push_back(view);
   }
-  procedure::markCovered(seen);
-  return seen;
+  procedure::markCovered(observation);
+  return observation;
 }
 
 void MetricsRecorder::add(const VesselMesh& mesh)
@@ -99,7 +99,7 @@ void MetricsRecorder::add(const RodStateVisual& rod)
   if (!metrics_ || rod.nodes.empty() || rod.insertion.size() != scene_.instruments.size() || !metrics_->wants(rod.time))
     return;
   results::Sample sample;
-  sample.seen = observationFrom(rod, scene_, metrics_->places(), pressures_);
+  sample.observation = observationFrom(rod, scene_, metrics_->locator(), pressures_);
   for (const auto& [position, force] : contacts_)
     sample.addContact(position, force);
   metrics_->add(std::move(sample));

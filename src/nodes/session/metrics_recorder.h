@@ -56,6 +56,6 @@ private:
 /** The observation that a message holds.
  *  @param pressures per instrument; may be empty */
 procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
-                                       const procedure::BranchPlaces& places, const std::vector<double>& pressures);
+                                       const procedure::BranchLocator& locator, const std::vector<double>& pressures);
 
 }  // namespace endovascular_sim::nodes

@@ -25,152 +25,154 @@ enum class EndCondition
   kClamped,  ///< position, direction and twist held
 };
 
-/** The vessel of a scene, or none. Exactly one of mesh, anatomy, tube is set. */
+/** Vessel of a scene. Exactly one of mesh, anatomy and tube is set. */
 struct VesselScene
 {
   std::string mesh;   ///< path of an OBJ, STL or PLY file
   double unit = 1.0;  ///< metres per unit of the mesh file (0.001 for millimetres)
-  /** From the mesh file's frame (after the unit) to the patient frame: x left, y posterior, z head. */
+  /** Transform from the frame of the mesh file, after the unit, to the patient frame: x left, y posterior, z head. */
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  int smoothing = 0;   ///< Loop subdivisions of the mesh, 0 to 3
-  bool repair = true;  ///< repair what is safe; false refuses every defect
+  int smoothing = 0;   ///< number of Loop subdivisions of the mesh, 0 to 3
+  bool repair = true;  ///< true: repair defects that are safe to repair; false: reject a mesh with defects
 
-  std::string anatomy;  ///< path of an anatomy YAML file, for the generated vessel
+  std::string anatomy;  ///< path of an anatomy YAML file, for a generated vessel
 
-  /** A channel of circular cross-section: straight pieces and arcs, starting at the entry. */
+  /** Straight or circular piece of a tube. */
   struct TubePiece
   {
     double length = 0.0;       ///< arc length [m]
-    double curvature = 0.0;    ///< 1/m, 0 for a straight piece
-    double plane_angle = 0.0;  ///< direction in which it bends, about the tube's axis at the start of the piece [rad]
+    double curvature = 0.0;    ///< curvature [1/m]; 0 for a straight piece
+    double plane_angle = 0.0;  ///< direction of the bend about the tube's axis at the start of the piece [rad]
   };
+  /** Channel of circular cross-section that starts at the entry. */
   struct Tube
   {
-    double radius = 0.0;        ///< [m]
-    double facet_length = 0.0;  ///< longest facet along the axis [m]
-    int facets_around = 32;     ///< facets around the circumference
+    double radius = 0.0;        ///< radius of the lumen [m]
+    double facet_length = 0.0;  ///< largest length of a facet along the axis [m]
+    int facets_around = 32;     ///< number of facets around the circumference
     std::vector<TubePiece> pieces;
   };
   std::optional<Tube> tube;
 
-  double stiffness =
-      std::numeric_limits<double>::infinity();  ///< of the wall per length of wire [N/m²]; infinite: rigid
-  double friction = 0.0;                        ///< Coulomb coefficient [1]
+  /** Stiffness of the wall per length of wire [N/m²]; infinite: rigid. */
+  double stiffness = std::numeric_limits<double>::infinity();
+  double friction = 0.0;  ///< Coulomb coefficient of the wall [1]
 
-  /** A ball within which the wall has a coefficient of its own. Of several that hold a place, the last counts. */
+  /** Ball with its own friction coefficient. Where several overlap, the last one applies. */
   struct FrictionRegion
   {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< patient frame [m]
-    double radius = 0.0;                               ///< [m]
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre in the patient frame [m]
+    double radius = 0.0;                               ///< radius of the ball [m]
     double friction = 0.0;                             ///< Coulomb coefficient [1]
   };
   std::vector<FrictionRegion> friction_regions;
 
-  std::vector<vessel::Lesion> lesions;  ///< put on the smoothed vessel
+  std::vector<vessel::Lesion> lesions;  ///< lesions added to the smoothed vessel
 };
 
-/** Where the wire enters. A pose, or the centreline end nearest to a point. */
+/** Entry of the wire into the vessel: a pose, or an end of the centreline. */
 struct EntryScene
 {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< patient frame [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< position in the patient frame [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector into the vessel
-  Eigen::Vector3d up =
-      Eigen::Vector3d::UnitX();  ///< material direction d1 of the wire at rotation 0, made orthogonal to direction
-  bool nearest_centreline_end = false;  ///< replace position and direction by the nearest end of the centreline
-  std::string centreline_end;           ///< or by the end of the branch of this name; empty: not used
-  double offset = 0.0;                  ///< how far inside that end the wire starts [m]
-  double valve_friction = 0.0;          ///< dry friction of the introducer's valve on the wire [N]
+  /** Material director d1 of the wire at rotation 0; made orthogonal to direction. */
+  Eigen::Vector3d up = Eigen::Vector3d::UnitX();
+  bool nearest_centreline_end = false;  ///< true: use the centreline end nearest to position
+  std::string centreline_end;           ///< name of a branch, to use its end; empty: not used
+  double offset = 0.0;                  ///< distance of the entry from that end along the centreline [m]
+  double valve_friction = 0.0;          ///< dry friction of the introducer's hemostatic valve on the wire [N]
 };
 
-/** Piece-wise linear function of time plus a sine: offset + ramp(t) + amplitude·sin(2π·frequency·t + phase). */
+/** Function of time: piecewise linear interpolation of points plus amplitude·sin(2π·frequency·t + phase). */
 struct DriveProfile
 {
   struct Point
   {
-    double time = 0.0;   ///< [s]
-    double value = 0.0;  ///< [m] or [rad]
+    double time = 0.0;   ///< time [s]
+    double value = 0.0;  ///< value in the unit of the profile
   };
-  std::vector<Point> points;  ///< increasing in time; held before the first and after the last
-  double amplitude = 0.0;     ///< [m] or [rad]
-  double frequency = 0.0;     ///< [Hz]
-  double phase = 0.0;         ///< [rad]
+  std::vector<Point> points;  ///< increasing in time; constant before the first and after the last
+  double amplitude = 0.0;     ///< amplitude in the unit of the profile
+  double frequency = 0.0;     ///< frequency [Hz]
+  double phase = 0.0;         ///< phase [rad]
 
   /** Value at time t [s]. */
   double at(double t) const;
 };
 
+/** Source of the commands for an instrument. */
 enum class DriveSource
 {
-  kNone,       ///< bench scene: nothing is driven
-  kScript,     ///< the scene's own profiles
-  kDevice,     ///< the haptic device (in the graph); offline, the profiles stand in for the operator
-  kTopic,      ///< /instruments/<name>/servo_jp from elsewhere (a robot, a bag)
-  kProcedure,  ///< the scripted operator of the scene's procedure
+  kNone,       ///< no drive (bench scene)
+  kScript,     ///< profiles of the scene
+  kDevice,     ///< haptic device (in the node graph); offline, the profiles replace the operator
+  kTopic,      ///< /instruments/<name>/servo_jp from another source, e.g. a robot or a bag
+  kProcedure,  ///< scripted operator of the scene's procedure
 };
 
-/** Where the motion at the hand comes from. */
+/** Drive of an instrument at its handle. */
 struct DriveScene
 {
   DriveSource source = DriveSource::kNone;
-  /** Constant pushing speed until `travel` is reached; NaN: use the insertion profile [m/s]. */
+  /** Constant insertion speed until `travel` is reached [m/s]; NaN: use the insertion profile. */
   double speed = std::numeric_limits<double>::quiet_NaN();
-  double travel = 0.0;             ///< how far `speed` pushes beyond initial_insertion [m]
-  double initial_insertion = 0.0;  ///< wire beyond the introducer at the start [m]
-  double initial_rotation = 0.0;   ///< added to the rotation at all times [rad]
-  DriveProfile insertion;          ///< [m], added to initial_insertion
-  DriveProfile rotation;           ///< [rad], added to initial_rotation
-  DriveProfile pressure;           ///< at the inflator of the instrument's balloon [Pa]
-  double force_limit = 5.0;        ///< axial force at which the hand slips [N]
-  double torque_limit = 0.05;      ///< torque at which the hand slips [N·m]
+  double travel = 0.0;             ///< distance covered at `speed` beyond initial_insertion [m]
+  double initial_insertion = 0.0;  ///< length of the wire beyond the introducer at the start [m]
+  double initial_rotation = 0.0;   ///< rotation at the start, added to the profile [rad]
+  DriveProfile insertion;          ///< insertion relative to initial_insertion [m]
+  DriveProfile rotation;           ///< rotation relative to initial_rotation [rad]
+  DriveProfile pressure;           ///< pressure at the inflator of the instrument's balloon [Pa]
+  double force_limit = 5.0;        ///< axial force at which the grip slips [N]
+  double torque_limit = 0.05;      ///< torque at which the grip slips [N·m]
 
   /** Commanded insertion at time t [s]: initial_insertion + min(speed·t, travel), or + insertion.at(t) without a speed;
-   *  initial_insertion where the source is kNone [m]. */
+   *  initial_insertion if the source is kNone [m]. */
   double insertionAt(double t) const;
-  /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation where the source is kNone
+  /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation if the source is kNone
    * [rad]. */
   double rotationAt(double t) const;
-  /** Commanded pressure of the balloon at time t [s]; 0 where the source is kNone [Pa, above that of the blood]. */
+  /** Commanded pressure of the balloon above blood pressure at time t [s]; 0 if the source is kNone [Pa]. */
   double pressureAt(double t) const;
 };
 
-/** One instrument, and the hand that drives it. Several lie one inside the other (docs/PHYSICS.md, "Concentric stack"):
- *  an outer one can only be inserted over an inner one that fits into its lumen. */
+/** Instrument with its drive. Several instruments are concentric (docs/PHYSICS.md, "Concentric stack"): an outer one
+ * can be inserted only over an inner one that fits into its lumen. */
 struct DrivenInstrument
 {
   instrument::Instrument instrument;
   DriveScene drive;
   double friction = 0.05;  ///< Coulomb coefficient with the next outer instrument [1]
-  double fit_load = 0.0;   ///< with which the two press on each other even when nothing bends [N/m]
+  double fit_load = 0.0;   ///< normal load per length between the two when both are straight [N/m]
 };
 
-/** What a held distal end does besides staying where it began. */
+/** Prescribed motion of a held distal end. */
 struct DistalScene
 {
-  bool twist_held = false;  ///< of a clamped end
-  /** Direction of the displacement; zero: the wire's own, so that negative values bring the ends together. */
+  bool twist_held = false;  ///< true: a clamped end also holds the twist
+  /** Direction of the displacement; zero: the direction of the wire, so that negative values compress the wire. */
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  DriveProfile displacement;  ///< [m]
-  Eigen::Vector3d tilt_axis = Eigen::Vector3d::Zero();
-  DriveProfile tilt;      ///< of a clamp's direction about tilt_axis [rad]
-  DriveProfile rotation;  ///< of a clamp that holds the twist, about the wire's axis [rad]
+  DriveProfile displacement;                            ///< displacement along direction [m]
+  Eigen::Vector3d tilt_axis = Eigen::Vector3d::Zero();  ///< axis of the tilt
+  DriveProfile tilt;                                    ///< rotation of the clamp's direction about tilt_axis [rad]
+  DriveProfile rotation;  ///< rotation of a clamp with held twist about the wire's axis [rad]
 };
 
-/** A force or a torque held on a place of the wire (bench scenes). */
+/** Force or torque on a point of the wire (bench scenes). */
 struct PointLoad
 {
   double position = 0.0;                            ///< distance from the proximal end [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
-  double torque = 0.0;                              ///< about the wire's axis [N·m]; at the tip only
-  double ramp_time = 0.0;                           ///< the load grows linearly over this time [s]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< force [N]
+  double torque = 0.0;                              ///< torque about the wire's axis, at the tip only [N·m]
+  double ramp_time = 0.0;                           ///< duration of the linear ramp from zero [s]
 };
 
-/** What acts on the wire besides the wall and the hand. */
+/** Loads on the wire other than contact and the drive. */
 struct LoadScene
 {
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
-  double fluid_density = 0.0;     ///< of the fluid around the wire, for drag and buoyancy; 0 computes none [kg/m³]
-  double drag_coefficient = 1.2;  ///< of a cylinder across the stream [1]
-  double damping = 0.0;           ///< mass-proportional, for quasi-static bench scenes [1/s]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< gravitational acceleration [m/s²]
+  double fluid_density = 0.0;     ///< density of the surrounding fluid [kg/m³]; 0: neither drag nor buoyancy
+  double drag_coefficient = 1.2;  ///< drag coefficient of a cylinder in cross flow [1]
+  double damping = 0.0;           ///< mass-proportional damping, for quasi-static bench scenes [1/s]
   std::vector<PointLoad> point_loads;
 };
 
@@ -180,16 +182,16 @@ enum class SamplingKind
   kAdaptive,
 };
 
-/** Discretisation of the wire in space. */
+/** Spatial discretisation of the wire. */
 struct SamplingScene
 {
   SamplingKind kind = SamplingKind::kUniform;
-  int nodes = 240;  ///< over the whole wire, uniform sampling
+  int nodes = 240;  ///< number of nodes of the whole wire, uniform sampling
   // Adaptive sampling:
-  double min_edge = 0.5e-3;     ///< an edge this long or shorter is not split for its curvature [m]
-  double max_edge = 2.0e-3;     ///< no edge is longer [m]
-  double turn_per_edge = 0.05;  ///< an edge that turns by more is split [rad]
-  double min_age = 0.05;        ///< that edges must have lived before they are merged [s]
+  double min_edge = 0.5e-3;     ///< edge length at or below which curvature causes no further split [m]
+  double max_edge = 2.0e-3;     ///< largest edge length [m]
+  double turn_per_edge = 0.05;  ///< turning angle of an edge above which it is split [rad]
+  double min_age = 0.05;        ///< age from which edges may be merged [s]
 };
 
 /** Time stepping. */
@@ -206,55 +208,56 @@ struct SolverScene
   double guide_length = 19e-3;              ///< over which the introducer's guide fades [m]
 };
 
-/** C-arm and X-ray, or none. */
+/** C-arm and X-ray imaging. */
 struct FluoroscopyScene
 {
-  double rate = 15.0;                        ///< [Hz]
-  int pixels = 512;                          ///< width and height of the image
-  double primary_angle = 0.0;                ///< positive LAO [rad]
-  double secondary_angle = 0.0;              ///< positive cranial [rad]
-  double source_to_detector = 1.2;           ///< SID [m]
-  double source_to_patient = 0.75;           ///< SOD [m]
-  double detector_width = 0.30;              ///< [m]
-  std::optional<Eigen::Vector3d> isocentre;  ///< patient frame [m]; empty: the centre of the vessel's bounding box
-  double energy = 60.0;                      ///< effective photon energy [keV]
-  double iodine = 150.0;                     ///< concentration in the vessel [mgI/ml]
-  double tissue_thickness = 0.20;            ///< slab of soft tissue [m]
-  bool follow_tip = true;                    ///< the isocentre follows the wire's tip
+  double rate = 15.0;               ///< frame rate [Hz]
+  int pixels = 512;                 ///< width and height of the image [pixels]
+  double primary_angle = 0.0;       ///< primary C-arm angle, positive LAO [rad]
+  double secondary_angle = 0.0;     ///< secondary C-arm angle, positive cranial [rad]
+  double source_to_detector = 1.2;  ///< source-to-image distance (SID) [m]
+  double source_to_patient = 0.75;  ///< source-to-object distance (SOD) [m]
+  double detector_width = 0.30;     ///< width of the detector [m]
+  /** Isocentre in the patient frame [m]; if empty, the centre of the vessel's bounding box. */
+  std::optional<Eigen::Vector3d> isocentre;
+  double energy = 60.0;            ///< effective photon energy [keV]
+  double iodine = 150.0;           ///< iodine concentration in the vessel [mgI/ml]
+  double tissue_thickness = 0.20;  ///< thickness of the soft tissue [m]
+  bool follow_tip = true;          ///< true: the isocentre follows the tip of the wire
 };
 
-/** What is written down. */
+/** Recording of results. */
 struct RecordScene
 {
-  double pose_rate = 30.0;         ///< [Hz]
+  double pose_rate = 30.0;         ///< rate of the recorded poses [Hz]
   double trajectory_rate = 100.0;  ///< rows of trajectory.csv per second [Hz]
-  /** Normal force of one contact above which its time is counted [N]. 0.1 N is about the tip load (10 gf) of wires that
-   *  are made to penetrate occlusions; what steers through a healthy vessel should stay well below it. */
+  /** Normal force of one contact above which its duration is counted [N]. The default of 0.1 N is about the tip load
+   *  (10 gf) of wires for penetrating occlusions. Navigation in a healthy vessel should stay well below it. */
   double wall_force_threshold = 0.1;
 };
 
-/** One scene: everything a run depends on. Read from one YAML file; docs/SCENES.md lists every key. */
+/** Scene: all inputs of a run. docs/SCENES.md lists the keys of its YAML file. */
 struct Scene
 {
   std::string name;
-  std::string file;  ///< where it was read from
+  std::string file;  ///< path of the scene file
   std::uint64_t seed = 0;
-  double duration = 10.0;  ///< [s]
+  double duration = 10.0;  ///< simulated time [s]
   std::optional<VesselScene> vessel;
   EntryScene entry;
-  std::vector<DrivenInstrument> instruments;        ///< from the inside out; at least one
-  std::optional<ProcedureScene> procedure;          ///< of a scripted operator
+  std::vector<DrivenInstrument> instruments;        ///< ordered from the inside out; at least one
+  std::optional<ProcedureScene> procedure;          ///< procedure of the scripted operator
   EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
   EndCondition distal_end = EndCondition::kFree;
-  DistalScene distal;      ///< the motion of a held distal end
-  bool introducer = true;  ///< wire born at the introducer; false: bench, the whole wire is there from the start
+  DistalScene distal;      ///< motion of a held distal end
+  bool introducer = true;  ///< true: the wire enters through an introducer; false: bench scene with the whole wire
   LoadScene loads;
   SamplingScene sampling;
   SolverScene solver;
   std::optional<FluoroscopyScene> fluoroscopy;
-  bool haptic_device = false;  ///< start the haptic device node
+  bool haptic_device = false;  ///< true: start the haptic device node
   RecordScene record;
-  std::string resolved_yaml;  ///< canonical text of the scene with overrides and included files merged in
+  std::string resolved_yaml;  ///< canonical text of the scene, with overrides and included files merged
 
   /** Length of the longest instrument [m]. */
   double longest() const;
@@ -263,7 +266,7 @@ struct Scene
   std::uint64_t hash() const;
 };
 
-/** The nodes that a scene needs, by executable name, in the order in which they are started. */
+/** Nodes that a scene requires, by executable name, in the order of their start. */
 std::vector<std::string> requiredNodes(const Scene& scene);
 
 }  // namespace endovascular_sim::scene

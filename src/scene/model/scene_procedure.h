@@ -9,90 +9,95 @@
 namespace endovascular_sim::scene
 {
 
-/** What one step of a procedure does. */
+/** Action of one step of a procedure. */
 enum class StepAction
 {
-  kAdvance,   ///< pushes an instrument, turning it where turn_speed says so
-  kWithdraw,  ///< draws it back
-  kRotate,    ///< turns it in place
-  kInflate,   ///< sets its balloon's pressure and waits; 0 deflates
-  kExchange,  ///< draws one instrument out, then pushes another one in
-  kWait,
+  kAdvance,   ///< advance an instrument, with rotation at turn_speed
+  kWithdraw,  ///< withdraw an instrument, with rotation at turn_speed
+  kRotate,    ///< rotate an instrument in place
+  kInflate,   ///< set the pressure of a balloon and wait; 0 deflates
+  kExchange,  ///< withdraw one instrument completely, then advance another one
+  kWait,      ///< wait for a duration
 };
 
-/** When a step is done: every condition that is given holds. */
+/** Goal of a step. The step is complete when all given conditions hold. */
 struct GoalScene
 {
-  std::string tip_in;      ///< branch that holds the instrument's tip; empty: not asked
-  std::string balloon_in;  ///< branch that holds the middle of its balloon; empty: not asked
-  double beyond = std::numeric_limits<double>::quiet_NaN();     ///< at least so far from the ostium; NaN: anywhere [m]
-  bool outside = false;                                         ///< the instrument has left the introducer
-  double insertion = std::numeric_limits<double>::quiet_NaN();  ///< reached, in the step's direction [m]
-  double by = std::numeric_limits<double>::quiet_NaN();         ///< moved at the hand since the step began [m]
-  double turned = std::numeric_limits<double>::quiet_NaN();     ///< since the step began, with its sign [rad]
-  double held = 0.0;                                            ///< for which the goal must hold [s]
+  std::string tip_in;      ///< branch that must contain the tip of the instrument; empty: no condition
+  std::string balloon_in;  ///< branch that must contain the centre of the balloon; empty: no condition
+  /** Minimum distance from the ostium along the branch, maximum while withdrawing [m]; NaN: no condition. */
+  double beyond = std::numeric_limits<double>::quiet_NaN();
+  bool outside = false;  ///< true: the instrument must have left the introducer
+  /** Insertion to reach in the direction of the step [m]; NaN: no condition. */
+  double insertion = std::numeric_limits<double>::quiet_NaN();
+  /** Displacement of the handle since the start of the step [m]; NaN: no condition. */
+  double by = std::numeric_limits<double>::quiet_NaN();
+  /** Signed rotation of the handle since the start of the step [rad]; NaN: no condition. */
+  double turned = std::numeric_limits<double>::quiet_NaN();
+  double held = 0.0;  ///< duration for which the other conditions must hold [s]
 };
 
-/** What a person does when an instrument makes no way or enters a wrong branch: pull back, turn, try again. */
+/** Recovery of an instrument that makes no progress or enters a wrong branch: pull back, rotate, retry. */
 struct RetryScene
 {
-  double back = 0.01;  ///< [m]
-  double turn = 1.0;   ///< about the instrument's axis [rad]
-  int times = 5;
-  /** Insertion beyond which he has missed the goal and tries again; NaN: none [m]. */
+  double back = 0.01;  ///< distance to pull back [m]
+  double turn = 1.0;   ///< rotation about the axis of the instrument [rad]
+  int times = 5;       ///< largest number of retries
+  /** Insertion beyond which the goal counts as missed and the step is retried [m]; NaN: no limit. */
   double deepest = std::numeric_limits<double>::quiet_NaN();
 };
 
-/** What leads a step's instrument to its way, as a guide in its ostium; and what a person does when the instrument
- * comes out of it elsewhere: draws it back and goes on from an earlier phase. */
+/** Support of an advancing instrument by an outer one, e.g. by a guiding catheter in an ostium.
+ *
+ *  If the support is lost, the operator withdraws the instrument and resumes from an earlier phase. */
 struct SupportScene
 {
-  std::string instrument;  ///< that supports; empty: nothing is asked
-  std::string tip_in;      ///< branch in which its tip or that of the step's instrument has to be, or beyond
-  std::string again_from;  ///< phase
-  int times = 3;           ///< then the procedure has failed
+  std::string instrument;  ///< supporting instrument; empty: none
+  std::string tip_in;      ///< branch at or beyond which the tip of either of the two instruments must be
+  std::string again_from;  ///< phase to resume from after a loss of support
+  int times = 3;           ///< number of losses after which the procedure fails
 };
 
 /** One step of a procedure. */
 struct StepScene
 {
-  std::string phase;  ///< what it is for, in words
+  std::string phase;  ///< name of the phase for reports; empty: phase of the previous step
   StepAction action = StepAction::kWait;
-  std::string instrument;   ///< that it moves; of an exchange: that comes out
-  std::string replacement;  ///< of an exchange: that goes in
+  std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one
+  std::string replacement;  ///< instrument that an exchange advances
   GoalScene until;
-  double speed = 0.02;       ///< [m/s]
-  double turn_speed = 0.0;   ///< while it advances, or of a rotation [rad/s]
-  double pressure = 0.0;     ///< of an inflation [Pa]
-  double duration = 0.0;     ///< of an inflation or a wait [s]
-  double time_limit = 30.0;  ///< then the step has failed [s]
-  bool any_branch = false;   ///< branches that do not lead to the goal are not left again
+  double speed = 0.02;       ///< insertion speed [m/s]
+  double turn_speed = 0.0;   ///< rotation speed [rad/s]
+  double pressure = 0.0;     ///< pressure of an inflation [Pa]
+  double duration = 0.0;     ///< duration of an inflation or a wait [s]
+  double time_limit = 30.0;  ///< duration after which the step fails [s]
+  bool any_branch = false;   ///< true: no branch counts as wrong
   RetryScene retry;
   SupportScene support;
 };
 
-/** What the operator's hands and eyes can do. */
+/** Limits of the operator's motion and perception. */
 struct HandScene
 {
-  double max_speed = 0.05;          ///< [m/s]
-  double max_turn = 6.0;            ///< [rad/s]
-  double acceleration = 0.2;        ///< [m/s²]
-  double turn_acceleration = 20.0;  ///< [rad/s²]
-  double reaction = 0.05;           ///< between two looks [s]
-  double push_force = 2.0;          ///< at which he stops pushing [N]
-  double pull_force = 3.0;          ///< at which he stops pulling [N]
-  double patience = 1.5;            ///< without progress, before he tries again [s]
-  double speed_scale = 1.0;         ///< on every speed of the steps [1]
+  double max_speed = 0.05;          ///< largest insertion speed [m/s]
+  double max_turn = 6.0;            ///< largest rotation speed [rad/s]
+  double acceleration = 0.2;        ///< acceleration of the insertion [m/s²]
+  double turn_acceleration = 20.0;  ///< acceleration of the rotation [rad/s²]
+  double reaction = 0.05;           ///< period of the observations [s]
+  double push_force = 2.0;          ///< force at which the operator stops pushing [N]
+  double pull_force = 3.0;          ///< force at which the operator stops pulling [N]
+  double patience = 1.5;            ///< time without progress after which the operator retries [s]
+  double speed_scale = 1.0;         ///< factor on all speeds of the steps [1]
 };
 
-/** A name for the branch that is nearest to a point, where the vessel's own names say nothing. */
+/** Name for the branch nearest to a point, for vessels without meaningful branch names. */
 struct NamedBranch
 {
   std::string name;
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< patient frame, in the branch [m]
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< point in the branch, patient frame [m]
 };
 
-/** What a scripted operator does, and how. */
+/** Procedure of a scripted operator. */
 struct ProcedureScene
 {
   std::string name;

@@ -15,7 +15,7 @@ std::string inMillimetres(double length)
   return text;
 }
 
-/** A table of two columns, kept as a vector of structs with two numbers. */
+/** Visits a table of two columns, stored as a vector of structures with two numbers. */
 template <typename Row>
 void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& table, double Row::*x, double Row::*y,
                 const std::string& unit)
@@ -40,19 +40,19 @@ void checkCompliance(const SceneFields& fields, const instrument::Balloon& ballo
 {
   if (balloon.compliance.size() < 2)
     fields.refuse("compliance", "needs two rows or more of [pressure in Pa, diameter in m]");
-  instrument::Balloon::Compliance below{0.0, balloon.folded_diameter};
+  instrument::Balloon::Compliance previous{0.0, balloon.folded_diameter};
   for (std::size_t k = 0; k < balloon.compliance.size(); ++k)
   {
     const instrument::Balloon::Compliance& row = balloon.compliance[k];
     const std::string key = "compliance." + std::to_string(k);
-    if (row.pressure <= below.pressure)
-      fields.refuse(key, k == 0 ? "the pressure must be positive, in Pa above that of the blood"
+    if (row.pressure <= previous.pressure)
+      fields.refuse(key, k == 0 ? "the pressure must be positive, in Pa above blood pressure"
                                 : "pressures must increase from row to row; sort the rows");
-    if (row.diameter <= below.diameter)
+    if (row.diameter <= previous.diameter)
       fields.refuse(
           key, k == 0 ? "the diameter must be greater than folded_diameter, " + inMillimetres(balloon.folded_diameter)
                       : "a balloon does not shrink under pressure: diameters must increase from row to row");
-    below = row;
+    previous = row;
   }
 }
 
@@ -60,7 +60,7 @@ void checkPressures(const SceneFields& fields, const instrument::Balloon& balloo
 {
   if (balloon.nominal_pressure < balloon.compliance.front().pressure ||
       balloon.nominal_pressure > balloon.compliance.back().pressure)
-    fields.refuse("nominal_pressure", "lies outside the chart; must be between its first and last pressure");
+    fields.refuse("nominal_pressure", "lies outside the compliance table; must be between its first and last pressure");
   if (balloon.rated_burst_pressure < balloon.nominal_pressure)
     fields.refuse("rated_burst_pressure", "must be at least nominal_pressure");
   if (balloon.burst_pressure < balloon.rated_burst_pressure)
@@ -78,7 +78,7 @@ void checkStent(const SceneFields& fields, const instrument::Stent& stent)
     if (k > 0 && row.diameter <= stent.expansion[k - 1].diameter)
       fields.refuse(key, "diameters must increase from row to row; sort the rows");
     if (k > 0 && row.length > stent.expansion[k - 1].length)
-      fields.refuse(key, "a stent does not grow longer as it opens: lengths must not increase from row to row");
+      fields.refuse(key, "a stent does not lengthen as it opens: lengths must not increase from row to row");
   }
   if (stent.expansion.size() < 2)
     fields.refuse("expansion", "needs two rows or more of [inner diameter in m, length in m]");

@@ -7,21 +7,21 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Numbers of EndCondition, and of whether a twist is held.
+// Words of EndCondition, in the order of the enumerators, and of the twist.
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kTwists = {"free", "held"};
 
-/** Whether the distal end needs more words than the name of its hold. */
+/** True if the distal end has no motion and no held twist, so that the name of its hold describes it completely. */
 bool isPlain(const DistalScene& distal)
 {
   return !distal.twist_held && isTrivial(distal.displacement) && isTrivial(distal.tilt) && isTrivial(distal.rotation);
 }
 
-/** The wire begins straight, so what moves its end begins at zero. */
-void refuseMovedStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
+/** Rejects a profile that is not zero at time 0. The wire is straight at the start. */
+void requireZeroStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
 {
   if (profile.at(0.0) != 0.0)
-    fields.refuse(key, "is not 0 at time 0, but the wire begins straight; let the profile begin at [0, 0]");
+    fields.refuse(key, "is not 0 at time 0, but the wire is straight at the start; start the profile at [0, 0]");
 }
 
 void checkDistalEnd(SceneFields& fields, const Scene& scene)
@@ -31,15 +31,15 @@ void checkDistalEnd(SceneFields& fields, const Scene& scene)
   if (distal.twist_held && !clamped)
     fields.refuse("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
   if (!isTrivial(distal.displacement) && scene.distal_end == EndCondition::kFree)
-    fields.refuse("displacement", "moves an end that nothing holds; set hold: pinned or hold: clamped");
+    fields.refuse("displacement", "requires a held end; set hold: pinned or hold: clamped");
   if (!isTrivial(distal.tilt) && !clamped)
-    fields.refuse("tilt", "turns a direction that nothing holds; set hold: clamped");
+    fields.refuse("tilt", "requires a held direction; set hold: clamped");
   if (!isTrivial(distal.rotation) && !distal.twist_held)
-    fields.refuse("rotation", "turns a twist that nothing holds; set hold: clamped and twist: held");
+    fields.refuse("rotation", "requires a held twist; set hold: clamped and twist: held");
   if (!isTrivial(distal.tilt) && distal.tilt_axis.isZero())
     fields.refuse("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
-  refuseMovedStart(fields, "displacement", distal.displacement);
-  refuseMovedStart(fields, "tilt", distal.tilt);
+  requireZeroStart(fields, "displacement", distal.displacement);
+  requireZeroStart(fields, "tilt", distal.tilt);
 }
 
 void visitDistalEnd(SceneFields& fields, Scene& scene)
@@ -66,8 +66,8 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
     checkDistalEnd(fields, scene);
 }
 
-/** Whether anything turns a straight bench wire out of its line. */
-bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
+/** True if the vessel, the wire or a load bends an initially straight bench wire. */
+bool hasBendingCause(const Scene& scene, const Eigen::Vector3d& along)
 {
   bool bent = scene.vessel.has_value() || !isTrivial(scene.distal.tilt) ||
               scene.instruments.front().instrument.wire.curvedTipLength() > 0.0 ||
@@ -77,7 +77,8 @@ bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
   return bent;
 }
 
-/** A bench wire does not stretch, and one that is exactly straight does not know which way to buckle. */
+/** Rejects a displacement that would stretch the inextensible wire, or that compresses a perfectly straight one. The
+ *  buckling direction of a perfectly straight wire is undefined. */
 void checkDisplacement(const SceneFields& fields, const Scene& scene)
 {
   const double length = scene.longest();
@@ -88,10 +89,10 @@ void checkDisplacement(const SceneFields& fields, const Scene& scene)
     if ((length * along + value * direction).norm() > length + 1e-9)
       fields.refuse("distal_end.displacement",
                     "would stretch the wire; keep its ends no further apart than its length, " +
-                        std::to_string(length) + " m: negative values bring them together");
-  if (direction.cross(along).isZero(1e-9) && !isBentByAnything(scene, along))
+                        std::to_string(length) + " m; negative values compress it");
+  if (direction.cross(along).isZero(1e-9) && !hasBendingCause(scene, along))
     fields.refuse("distal_end.displacement",
-                  "shortens a straight wire that nothing bends, so that it cannot buckle to any side; add "
+                  "compresses a perfectly straight wire, whose buckling direction is undefined; add "
                   "loads.gravity, or a small force in loads.point_loads");
 }
 

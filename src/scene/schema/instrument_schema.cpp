@@ -11,17 +11,16 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Beyond these a length was meant in millimetres and an angle in degrees.
-constexpr double kLongest = 10.0;    // m
-constexpr double kThickest = 20e-3;  // m
-constexpr double kFullTurn = 6.284;  // rad
+// Plausibility limits. Larger values are probably millimetres or degrees.
+constexpr double kLongest = 10.0;    // largest length [m]
+constexpr double kThickest = 20e-3;  // largest radius [m]
+constexpr double kFullTurn = 6.284;  // largest angle [rad]
 
-// Numbers of instrument::Material.
+// Words of instrument::Material and instrument::Kind, in the order of the enumerators.
 const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer", "filled_polymer"};
-// Numbers of instrument::Kind.
 const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
 
-/** EI, GJ and EA, each given directly or derived as for a cylinder with this lumen. */
+/** Reads EI, GJ and EA. Each is given directly or derived for a hollow cylinder with this lumen. */
 void readStiffness(SceneFields& fields, rod::Section& section, double inner_radius)
 {
   const auto exactly_one = [&fields](const std::vector<std::string>& keys)
@@ -33,7 +32,7 @@ void readStiffness(SceneFields& fields, rod::Section& section, double inner_radi
       words += (words.empty() ? "" : " or ") + key;
     if (given != 1)
       fields.refuse(given == 0 ? keys.front() : keys.back(),
-                    given == 0 ? "missing; give " + words : "given twice over; keep one of " + words);
+                    given == 0 ? "missing; give " + words : "conflicts; keep one of " + words);
   };
   exactly_one({"bending_stiffness", "young_modulus"});
   exactly_one({"torsional_stiffness", "shear_modulus", "poisson_ratio"});
@@ -73,7 +72,7 @@ void visitRestCurvature(SceneFields& fields, rod::Section& section)
                  section.rest_curvature = instrument::arcCurvature(radius, direction);
                });
   if (fields.reading() && section.rest_curvature.norm() * section.radius >= 1.0)
-    fields.refuse(key, "bends more tightly than the wire's own radius; must be less than 1/radius in 1/m");
+    fields.refuse(key, "exceeds the curvature limit of the wire; must be less than 1/radius in 1/m");
 }
 
 void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
@@ -81,7 +80,7 @@ void visitSection(SceneFields& fields, rod::Section& section, instrument::Materi
   fields.number("length", section.length, "m", Range::positiveUpTo(kLongest), Need::kRequired);
   fields.number("radius", section.radius, "m", Range::positiveUpTo(kThickest), Need::kRequired);
   if (fields.reading() && section.radius <= inner_radius)
-    fields.refuse("radius", "the lumen leaves no wall; must be greater than inner_radius, " +
+    fields.refuse("radius", "is not larger than the lumen; must be greater than inner_radius, " +
                                 std::to_string(1e3 * inner_radius) + "e-3 m");
   fields.option("material", material, kMaterials, Need::kRequired);
   fields.number("density", section.density, "kg/m³", Range::positive(), Need::kRequired);
@@ -97,7 +96,8 @@ void visitSection(SceneFields& fields, rod::Section& section, instrument::Materi
   visitRestCurvature(fields, section);
 }
 
-/** The tip's shape exists only in what the user writes: reading turns it into rest curvature of the last sections. */
+/** Reads the shape of the tip and converts it to rest curvature of the distal sections. The resolved text contains the
+ *  rest curvature only. */
 void readTip(SceneFields& fields, instrument::Instrument& instrument)
 {
   const std::vector<std::string> shapes = {"straight", "angled", "semicircle", "j"};
@@ -108,7 +108,7 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
   if (straight || semicircle)
     for (const char* key : {"angle", "radius", "straight", "direction"})
       if (fields.has(key) && (straight || std::string(key) == "angle"))
-        fields.refuse(key, "a " + shapes[static_cast<std::size_t>(shape)] + " tip has none; remove it");
+        fields.refuse(key, "does not apply to a " + shapes[static_cast<std::size_t>(shape)] + " tip; remove it");
   if (straight)
     return;
   instrument::TipShape tip;
@@ -186,7 +186,7 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
 {
   fields.text("name", instrument.name, Need::kRequired);
   if (fields.reading() && !isTopicName(instrument.name))
-    fields.refuse("name", "names topics, so it must be letters, digits and _ with a letter first");
+    fields.refuse("name", "names topics; must consist of letters, digits and _, with a letter first");
   fields.option("kind", instrument.kind, kKinds);
   const bool is_stent = instrument.kind == instrument::Kind::kStent;
   const bool is_balloon = instrument.kind == instrument::Kind::kBalloonCatheter;
@@ -195,18 +195,18 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
   if (is_balloon)
     visitBalloon(fields, instrument);
   else if (fields.has("balloon"))
-    fields.refuse("balloon", "belongs to another kind; remove it, or set kind: balloon_catheter");
+    fields.refuse("balloon", "does not apply to this kind; remove it, or set kind: balloon_catheter");
   if (is_stent || (is_balloon && (fields.reading() ? fields.has("stent") : instrument.stent.has_value())))
     visitStent(fields, instrument);
   else if (!is_balloon && fields.has("stent"))
-    fields.refuse("stent", "needs a balloon that carries it; set kind: balloon_catheter, or stent");
+    fields.refuse("stent", "requires a balloon; set kind: balloon_catheter, or stent");
 }
 
 void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument)
 {
   visitInstrument(fields, instrument);
   if (fields.reading() && instrument.kind == instrument::Kind::kStent)
-    fields.refuse("kind", "a stent has no shaft to push; name a balloon_catheter that carries it");
+    fields.refuse("kind", "a stent has no shaft to drive; name a balloon_catheter that carries it");
 }
 
 }  // namespace endovascular_sim::scene

@@ -3,15 +3,15 @@
 
 #include "scene/schema/scene_schema.h"
 
-// The part of the schema that tells one instrument from several, one inside the other.
+// Schema of a single instrument or of several concentric instruments.
 
 namespace endovascular_sim::scene
 {
 namespace
 {
 
-// Of an instrument among several, m: it can begin well before the introducer.
-const Range kAnywhere = {-1.0, std::numeric_limits<double>::max(), false, false};
+// Initial insertion of one of several instruments [m]. A negative value keeps the instrument outside the introducer.
+const Range kStackInsertion = {-1.0, std::numeric_limits<double>::max(), false, false};
 
 void visitLayer(SceneFields& fields, DrivenInstrument& driven)
 {
@@ -19,7 +19,7 @@ void visitLayer(SceneFields& fields, DrivenInstrument& driven)
     fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
   fields.map("instrument", [&driven](SceneFields& wire) { visitDrivenInstrument(wire, driven.instrument); });
   fields.map("drive", [&driven](SceneFields& drive)
-             { visitDrive(drive, driven.drive, kAnywhere, driven.instrument.balloon.has_value()); });
+             { visitDrive(drive, driven.drive, kStackInsertion, driven.instrument.balloon.has_value()); });
   fields.number("friction", driven.friction, "1", Range::nonNegative());
   fields.number("fit_load", driven.fit_load, "N/m", Range::nonNegative());
 }
@@ -29,7 +29,7 @@ std::string number(std::size_t k)
   return "instruments." + std::to_string(k);
 }
 
-/** Two that are both in the vessel at the start must fit into each other. */
+/** Rejects two instruments that are both in the vessel at the start and do not fit into each other. */
 void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, std::size_t outer)
 {
   const DrivenInstrument& in = scene.instruments[inner];
@@ -40,8 +40,8 @@ void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, 
   fields.refuse(
       number(outer) + ".drive.initial_insertion",
       "'" + in.instrument.name + "' does not fit through '" + out.instrument.name +
-          "', so only one of the two can be inside; list instruments from the inside out, and begin the other "
-          "one before the introducer, e.g. at -0.1");
+          "', so only one of the two can be inside; list instruments from the inside out, and start the other "
+          "one outside the introducer, e.g. at -0.1");
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void visitInstruments(SceneFields& fields, Scene& scene)
   for (const char* key : {"instrument", "drive"})
     if (fields.has(key))
       fields.refuse(key,
-                    "given besides instruments; name all of them there (instruments.N.instrument, counted from 0)");
+                    "conflicts with instruments; list all of them there (instruments.N.instrument, counted from 0)");
   fields.list(
       "instruments", scene.instruments.size(), [&scene](std::size_t size) { scene.instruments.resize(size); },
       [&scene](SceneFields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });
@@ -83,14 +83,15 @@ void checkStack(const SceneFields& fields, const Scene& scene)
     const DrivenInstrument& driven = scene.instruments[k];
     if (driven.drive.source == DriveSource::kNone)
       fields.refuse(number(k) + ".drive.source",
-                    "missing; every one of several instruments is driven: script, topic, device or procedure");
+                    "missing; each of several instruments needs a drive: script, topic, device or procedure");
     devices += driven.drive.source == DriveSource::kDevice;
     if (devices > 1)
-      fields.refuse(number(k) + ".drive.source", "is device, like another one's; a device drives one instrument");
+      fields.refuse(number(k) + ".drive.source", "is device for a second instrument; a device drives one instrument");
     for (std::size_t inner = 0; inner < k; ++inner)
     {
       if (scene.instruments[inner].instrument.name == driven.instrument.name)
-        fields.refuse(number(k) + ".instrument.name", "is another one's too; give each its own, it names topics");
+        fields.refuse(number(k) + ".instrument.name",
+                      "is not unique; give each instrument its own name, which names topics");
       checkFit(fields, scene, inner, k);
     }
   }
@@ -99,12 +100,12 @@ void checkStack(const SceneFields& fields, const Scene& scene)
   if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
                    [](const DrivenInstrument& driven) { return driven.drive.insertionAt(0.0) >= 0.0; }))
     fields.refuse("instruments.0.drive.initial_insertion",
-                  "leaves no instrument in the introducer; begin one at 0 or more");
+                  "leaves no instrument in the introducer; start one at 0 or more");
   if (scene.entry.valve_friction > 0.0)
     fields.refuse("entry.valve_friction",
-                  "works on one instrument; remove it, or give instruments friction with each other");
+                  "applies to a single instrument; remove it, or set the friction between the instruments");
   if (!scene.introducer)
-    fields.refuse("introducer", "several instruments need one; set introducer: true");
+    fields.refuse("introducer", "is required for several instruments; set introducer: true");
 }
 
 }  // namespace endovascular_sim::scene

@@ -4,14 +4,14 @@
 
 #include "scene/schema/scene_schema.h"
 
-// The part of the schema that reads what a scripted operator does.
+// Schema of the procedure of a scripted operator.
 
 namespace endovascular_sim::scene
 {
 namespace
 {
 
-/** Keys of the actions, in the order of StepAction. */
+// Keys of the actions, in the order of StepAction.
 const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait"};
 
 void visitGoal(SceneFields& fields, GoalScene& goal)
@@ -21,21 +21,21 @@ void visitGoal(SceneFields& fields, GoalScene& goal)
   if (fields.reading() || !goal.balloon_in.empty())
     fields.text("balloon_in", goal.balloon_in);
   if (fields.reading() || !goal.tip_in.empty() || !goal.balloon_in.empty())
-    fields.maybeNumber("beyond", goal.beyond, "m", Range::any());
+    fields.optionalNumber("beyond", goal.beyond, "m", Range::any());
   fields.boolean("outside", goal.outside);
-  fields.maybeNumber("insertion", goal.insertion, "m", Range::any());
-  fields.maybeNumber("by", goal.by, "m", Range::positive());
-  fields.maybeNumber("turned", goal.turned, "rad", Range::any());
+  fields.optionalNumber("insertion", goal.insertion, "m", Range::any());
+  fields.optionalNumber("by", goal.by, "m", Range::positive());
+  fields.optionalNumber("turned", goal.turned, "rad", Range::any());
   fields.number("held", goal.held, "s", Range::nonNegative());
   if (!fields.reading())
     return;
   if (!goal.tip_in.empty() && !goal.balloon_in.empty())
-    fields.refuse("balloon_in", "given besides tip_in; keep one of the two");
+    fields.refuse("balloon_in", "conflicts with tip_in; keep one of the two");
   if (fields.has("beyond") && goal.tip_in.empty() && goal.balloon_in.empty())
-    fields.refuse("beyond", "needs a branch; give tip_in or balloon_in, or remove it");
+    fields.refuse("beyond", "requires a branch; give tip_in or balloon_in, or remove it");
 }
 
-bool asksNothing(const GoalScene& goal)
+bool isEmpty(const GoalScene& goal)
 {
   return goal.tip_in.empty() && goal.balloon_in.empty() && !goal.outside && std::isnan(goal.insertion) &&
          std::isnan(goal.by) && std::isnan(goal.turned);
@@ -47,11 +47,11 @@ void visitRetry(SceneFields& fields, StepScene& step)
   fields.number("back", retry.back, "m", Range::nonNegative());
   fields.number("turn", retry.turn, "rad", Range::any());
   fields.integer("times", retry.times, 0, 1000);
-  fields.maybeNumber("deepest", retry.deepest, "m", Range::positive());
+  fields.optionalNumber("deepest", retry.deepest, "m", Range::positive());
   if (fields.has("deepest") && step.action != StepAction::kAdvance)
-    fields.refuse("deepest", "only an instrument that advances passes its goal; remove it");
+    fields.refuse("deepest", "applies to advance only; remove it");
   if (fields.has("deepest") && retry.deepest <= step.until.insertion)
-    fields.refuse("deepest", "is no deeper than until.insertion; give more, or remove it");
+    fields.refuse("deepest", "is not deeper than until.insertion; give a larger value, or remove it");
 }
 
 void visitSupport(SceneFields& fields, SupportScene& support)
@@ -62,7 +62,7 @@ void visitSupport(SceneFields& fields, SupportScene& support)
   fields.integer("times", support.times, 0, 1000);
 }
 
-/** The key that says what the step does, and with what. */
+/** Visits the key that names the action of a step and its instrument. */
 void visitAction(SceneFields& fields, StepScene& step)
 {
   if (fields.reading())
@@ -73,12 +73,12 @@ void visitAction(SceneFields& fields, StepScene& step)
       if (!fields.has(kActions[k]))
         continue;
       if (found >= 0)
-        fields.refuse(kActions[k], "given besides " + kActions[static_cast<std::size_t>(found)] +
-                                       "; a step does one thing, make two of it");
+        fields.refuse(kActions[k], "conflicts with " + kActions[static_cast<std::size_t>(found)] +
+                                       "; a step has one action, split it into two");
       found = static_cast<int>(k);
     }
     if (found < 0)
-      fields.refuse("", "says nothing to do; give one of advance, withdraw, rotate, inflate, exchange, wait");
+      fields.refuse("", "has no action; give one of advance, withdraw, rotate, inflate, exchange, wait");
     step.action = static_cast<StepAction>(found);
   }
   const std::string& key = kActions[static_cast<std::size_t>(step.action)];
@@ -104,8 +104,8 @@ void visitStep(SceneFields& fields, StepScene& step)
   if (step.action == StepAction::kExchange)
     fields.text("for", step.replacement, Need::kRequired);
   fields.map("until", [&step](SceneFields& goal) { visitGoal(goal, step.until); });
-  if (fields.reading() && asksNothing(step.until))
-    fields.refuse("until", "missing; say when the step is done, e.g. until: {tip_in: aortic_arch}");
+  if (fields.reading() && isEmpty(step.until))
+    fields.refuse("until", "missing; give the goal of the step, e.g. until: {tip_in: aortic_arch}");
   if (step.action != StepAction::kRotate)
     fields.number("speed", step.speed, "m/s", Range::positive());
   else if (fields.reading())
@@ -131,7 +131,7 @@ void visitHand(SceneFields& fields, HandScene& hand)
   fields.number("speed_scale", hand.speed_scale, "1", Range::positive());
 }
 
-/** The instrument of this name, if the procedure drives it; else null. */
+/** Instrument of this name if the procedure drives it, otherwise null. */
 const DrivenInstrument* scripted(const Scene& scene, const std::string& instrument)
 {
   for (const DrivenInstrument& driven : scene.instruments)
@@ -148,18 +148,18 @@ void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
     return;
   const std::string path = "procedure.steps." + std::to_string(k) + ".support.";
   if (steps[k].action != StepAction::kAdvance)
-    fields.refuse(path + "instrument", "only an instrument that advances is supported; remove it");
-  // From the inside out.
+    fields.refuse(path + "instrument", "applies to advance only; remove it");
+  // Instruments are listed from the inside out, so the supporting one must come later.
   const auto named = [](const std::string& name)
   { return [&name](const DrivenInstrument& driven) { return driven.instrument.name == name; }; };
   const auto inner = std::find_if(scene.instruments.begin(), scene.instruments.end(), named(steps[k].instrument));
   if (std::none_of(inner + 1, scene.instruments.end(), named(support.instrument)))
-    fields.refuse(path + "instrument", "'" + support.instrument + "' is no instrument around '" + steps[k].instrument +
-                                           "'; name one that the scene lists behind it");
+    fields.refuse(path + "instrument", "'" + support.instrument + "' is not outside '" + steps[k].instrument +
+                                           "'; name an instrument that the scene lists after it");
   const auto end = steps.begin() + static_cast<std::ptrdiff_t>(k + 1);
   if (std::none_of(steps.begin(), end, [&support](const StepScene& step) { return step.phase == support.again_from; }))
     fields.refuse(path + "again_from",
-                  "no step so far has the phase '" + support.again_from + "'; name one that has begun before");
+                  "no step so far has the phase '" + support.again_from + "'; name an earlier phase");
 }
 
 }  // namespace
@@ -187,17 +187,17 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kProcedure && !scene.procedure)
       fields.refuse(drivePath(scene, k) + "drive.source",
-                    "is procedure, but the scene has none; give procedure: FILE, or another source");
+                    "is procedure, but the scene has no procedure; give procedure: FILE, or another source");
   if (!scene.procedure)
     return;
   if (!scene.vessel)
-    fields.refuse("procedure", "needs a vessel: its goals are places in one");
+    fields.refuse("procedure", "requires a vessel, because its goals are branches");
   for (std::size_t k = 0; k < scene.procedure->steps.size(); ++k)
   {
     const StepScene& step = scene.procedure->steps[k];
     const std::string path = "procedure.steps." + std::to_string(k) + ".";
     const std::string remedy =
-        "' is no instrument that the procedure drives; name one of the scene's and set its "
+        "' is not driven by the procedure; name an instrument of the scene and set its "
         "drive.source: procedure";
     if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
       fields.refuse(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);

@@ -8,23 +8,17 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Numbers of DriveSource, SamplingKind.
+// Words of DriveSource and SamplingKind, in the order of the enumerators.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
-const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // as rod::LinearSolver
+const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // order of rod::LinearSolver
 
-// Lengths that differ by less than this were meant to be equal [m].
-constexpr double kSameLength = 1e-9;
-
-// Least edge of adaptive sampling over the hand's travel in a sub-step.
-constexpr double kTravelsPerEdge = 4.0;
-constexpr double kEdgePerGuide = 0.5;
-
-constexpr double kAtmosphere = 101325.0;  // Pa
-
-// Of the wire's length: the shortest edge that sampling may make.
-constexpr double kShortestEdge = 2e-5;
+constexpr double kSameLength = 1e-9;      // tolerance for the equality of lengths [m]
+constexpr double kTravelsPerEdge = 4.0;   // smallest ratio of edge length to travel per sub-step
+constexpr double kEdgePerGuide = 0.5;     // largest ratio of edge length to guide length
+constexpr double kAtmosphere = 101325.0;  // standard atmosphere [Pa]
+constexpr double kShortestEdge = 2e-5;    // smallest ratio of edge length to wire length
 
 void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_length)
 {
@@ -49,7 +43,7 @@ void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_len
   if (sampling.max_edge < sampling.min_edge)
     fields.refuse("max_edge", "is less than min_edge");
   if (sampling.min_edge < kShortestEdge * wire_length)
-    fields.refuse("min_edge", "makes more than 100000 nodes of the wire; must be at least " +
+    fields.refuse("min_edge", "gives more than 100000 nodes; must be at least " +
                                   std::to_string(kShortestEdge * wire_length) + " m");
   if (sampling.max_edge > 0.5 * wire_length)
     fields.refuse("max_edge",
@@ -63,8 +57,8 @@ void visitRecord(SceneFields& fields, RecordScene& record)
   fields.number("wall_force_threshold", record.wall_force_threshold, "N", Range::nonNegative());
 }
 
-/** A driven wire can neither be pushed beyond its own length nor pulled out behind its introducer.
- *  @param path of the map that holds `drive`, ending with a dot; empty for the only instrument, which cannot leave */
+/** Rejects a drive that inserts a wire beyond its length, or that pulls a single wire out of the introducer.
+ *  @param path path of the map that contains `drive`, with a final dot; empty for a single instrument */
 void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, const std::string& path)
 {
   const DriveScene& drive = driven.drive;
@@ -73,13 +67,13 @@ void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, c
   const double length = driven.instrument.wire.length();
   const std::string key = path + (by_speed ? "drive.travel" : "drive.insertion");
   if (drive.initial_insertion + high > length + kSameLength)
-    fields.refuse(key, "pushes the wire " + std::to_string(drive.initial_insertion + high) + " m in, but it is " +
+    fields.refuse(key, "inserts the wire by " + std::to_string(drive.initial_insertion + high) + " m, but it is " +
                            std::to_string(length) + " m long; must be at most the wire's length");
   if (path.empty() && drive.initial_insertion + low < -kSameLength)
     fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
 }
 
-/** Without an introducer the whole wire is there: all that the hand can do is turn its clamp. */
+/** Rejects an insertion in a bench scene. Without an introducer, the drive can only rotate the proximal clamp. */
 void checkBenchDrive(const SceneFields& fields, const Scene& scene)
 {
   const DriveScene& drive = scene.instruments.front().drive;
@@ -87,11 +81,13 @@ void checkBenchDrive(const SceneFields& fields, const Scene& scene)
     fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
                   "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
   if (drive.source != DriveSource::kNone && scene.proximal_end != EndCondition::kClamped)
-    fields.refuse("proximal_end", "is not clamped, so that the drive has no hold; set proximal_end: clamped");
+    fields.refuse("proximal_end", "is not clamped, so that the drive has no effect; set proximal_end: clamped");
 }
 
-/** Nodes pass the end of the introducer's guide one after another: an edge must outlast the hand's travel, and a guide
- *  that holds the wire at less than two nodes lets go of it in jumps. */
+/** Rejects edge lengths that do not suit the introducer's guide.
+ *
+ *  Nodes leave the guide one after another. An edge must be longer than the travel per sub-step. A guide that holds
+ *  fewer than two edges releases the wire in jumps. */
 void checkEdges(const SceneFields& fields, const Scene& scene)
 {
   if (!scene.introducer)
@@ -102,20 +98,20 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
     const auto fewest = static_cast<int>(std::ceil(scene.longest() / longest)) + 1;
     if (scene.sampling.nodes < fewest)
       fields.refuse("sampling.nodes",
-                    "makes edges too long for the introducer's guide, which is to hold two; must be "
+                    "makes edges too long for the introducer's guide, which must contain two; must be "
                     "at least " +
                         std::to_string(fewest));
     return;
   }
   if (scene.sampling.max_edge > longest)
     fields.refuse("sampling.max_edge",
-                  "is too long for the introducer's guide, which is to hold two edges; must be at "
+                  "is too long for the introducer's guide, which must contain two edges; must be at "
                   "most half of solver.guide_length, " +
                       std::to_string(longest) + " m");
   const double shortest = kTravelsPerEdge * scene.solver.max_travel_per_substep;
   if (scene.sampling.min_edge < shortest - kSameLength)
     fields.refuse("sampling.min_edge",
-                  "is too short for what the hand may travel in a sub-step; must be at least 4 times "
+                  "is too short for the travel per sub-step; must be at least 4 times "
                   "solver.max_travel_per_substep, " +
                       std::to_string(shortest) + " m");
 }
@@ -128,7 +124,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     fields.refuse("proximal_end",
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
   if (!scene.introducer && scene.entry.valve_friction > 0.0)
-    fields.refuse("entry.valve_friction", "is an introducer's, and there is none; set introducer: true, or 0");
+    fields.refuse("entry.valve_friction", "requires an introducer; set introducer: true, or 0");
   for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
     checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
@@ -199,7 +195,7 @@ std::pair<double, double> bounds(const DriveProfile& profile)
 namespace
 {
 
-/** The inflator of a balloon. */
+/** Schema of the pressure at a balloon's inflator. */
 void visitPressure(SceneFields& fields, DriveProfile& pressure)
 {
   fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, "Pa"); });
@@ -212,24 +208,24 @@ void visitPressure(SceneFields& fields, DriveProfile& pressure)
 void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
 {
   fields.option("source", drive.source, kDriveSources);
-  fields.maybeNumber("speed", drive.speed, "m/s", Range::nonNegative());
+  fields.optionalNumber("speed", drive.speed, "m/s", Range::nonNegative());
   const bool by_speed = !std::isnan(drive.speed);
   if (by_speed)
     fields.number("travel", drive.travel, "m", Range::nonNegative(), Need::kRequired);
   else if (fields.has("travel"))
-    fields.refuse("travel", "has no meaning without speed; give speed in m/s, or remove it");
+    fields.refuse("travel", "requires speed; give speed in m/s, or remove it");
   fields.number("initial_insertion", drive.initial_insertion, "m", initial_insertion);
   fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
   if (fields.reading() && by_speed && fields.has("insertion"))
     fields.refuse("insertion",
-                  "given besides speed; keep one of the two (null removes a key: --set drive.insertion=null)");
+                  "conflicts with speed; keep one of the two (null removes a key: --set drive.insertion=null)");
   if (!by_speed)
     fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
   fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
   if (balloon)
     visitPressure(fields, drive.pressure);
   else if (fields.has("pressure"))
-    fields.refuse("pressure", "has no balloon to inflate; use a balloon_catheter, or remove it");
+    fields.refuse("pressure", "requires a balloon; use a balloon_catheter, or remove it");
   fields.number("force_limit", drive.force_limit, "N", Range::positive());
   fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
   const bool moves =
@@ -299,7 +295,7 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
       fluoroscopy.isocentre = Eigen::Vector3d::Zero();
     fields.vector3("isocentre", *fluoroscopy.isocentre, "m");
   }
-  // The span of the attenuation tables.
+  // The limits are those of the attenuation tables.
   fields.number("energy", fluoroscopy.energy, "keV", Range::between(30.0, 100.0));
   fields.number("iodine", fluoroscopy.iodine, "mgI/ml", Range::between(0.0, 500.0));
   fields.number("tissue_thickness", fluoroscopy.tissue_thickness, "m", Range::nonNegative());

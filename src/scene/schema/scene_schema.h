@@ -9,30 +9,32 @@
 namespace endovascular_sim::scene
 {
 
-/** The schema of a scene: visits every key, and while reading refuses values that contradict each other.
- *  docs/SCENES.md lists the same keys for the user. */
+/** Schema of a scene: visits each key and, while reading, rejects inconsistent values. docs/SCENES.md documents the
+ * same keys for the user. */
 void visitScene(SceneFields& fields, Scene& scene);
 
 /** Parts of the schema. */
 void visitVessel(SceneFields& fields, VesselScene& vessel);
-/** The key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. Optional, it may stay NaN. */
+/** Key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. If optional, it may remain NaN. */
 void visitFriction(SceneFields& fields, double& friction, Need need);
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
-/** Any instrument of the library. */
+/** Schema of any instrument of the library. */
 void visitInstrument(SceneFields& fields, instrument::Instrument& instrument);
-/** One that a hand or a drive pushes: any but a stent by itself. */
+/** Schema of an instrument with a drive: any kind except a separate stent. */
 void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument);
-/** The balloon of a balloon catheter, and the stent on it or by itself. */
+/** Schema of the balloon of a balloon catheter. */
 void visitBalloon(SceneFields& fields, instrument::Instrument& instrument);
+/** Schema of a stent, on a balloon or separate. */
 void visitStent(SceneFields& fields, instrument::Instrument& instrument);
-/** `instrument` and `drive` of one, or the list `instruments` of several. */
+/** Schema of `instrument` and `drive` of a single instrument, or of the list `instruments`. */
 void visitInstruments(SceneFields& fields, Scene& scene);
-/** Path of the map that holds the drive of an instrument: empty for the only one, else `instruments.<k>.`. */
+/** Path of the map that contains the drive of an instrument: empty for a single one, otherwise `instruments.<k>.`. */
 std::string drivePath(const Scene& scene, std::size_t k);
-/** Refuses what several instruments on one centreline cannot be. */
+/** Rejects invalid combinations of concentric instruments. */
 void checkStack(const SceneFields& fields, const Scene& scene);
-/** @param initial_insertion what it may be [m]
- *  @param balloon whether the instrument has one, which the drive can inflate */
+/** Schema of a drive.
+ *  @param initial_insertion valid range of the initial insertion [m]
+ *  @param balloon true if the instrument has a balloon that the drive can inflate */
 void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
 void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
 void visitEnds(SceneFields& fields, Scene& scene);
@@ -41,16 +43,16 @@ void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
 void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
 
-/** Refuses a procedure that the scene cannot carry out. */
+/** Rejects a procedure that is inconsistent with the scene. */
 void checkProcedure(const SceneFields& fields, const Scene& scene);
 
-/** Whether a profile is zero at all times. */
+/** True if a profile is zero at all times. */
 bool isTrivial(const DriveProfile& profile);
 
-/** Lowest and highest value of a profile. */
+/** Lower and upper bound of a profile. */
 std::pair<double, double> bounds(const DriveProfile& profile);
 
-/** Refuses what the held ends, the wire and the loads cannot do together. */
+/** Rejects inconsistent end conditions, wires and loads. */
 void checkEnds(const SceneFields& fields, const Scene& scene);
 
 }  // namespace endovascular_sim::scene

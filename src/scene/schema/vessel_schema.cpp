@@ -8,12 +8,12 @@ namespace endovascular_sim::scene
 namespace
 {
 
-/** Coefficients of wet surfaces on a vessel's wall, the middles of the measured ranges: hydrophilic coatings 0.02–0.05,
- *  PTFE 0.08–0.15, uncoated metal or polymer 0.2–0.3 (docs/SCENES.md). */
+/** Friction coefficients of wet surfaces on a vessel wall: centres of the measured ranges of hydrophilic coatings
+ *  (0.02–0.05), PTFE (0.08–0.15), and uncoated metal or polymer (0.2–0.3); see docs/SCENES.md. */
 const std::vector<std::string> kSurfaces = {"hydrophilic", "ptfe", "bare"};
 constexpr std::array<double, 3> kSurfaceFriction = {0.035, 0.115, 0.25};
 
-/** Rows of the rotation from the mesh's frame to the patient's, from head and left as seen in the mesh's frame. */
+/** Rotation from the frame of the mesh to the patient frame, from the directions head and left in the mesh frame. */
 Eigen::Matrix3d rotationFromBody(SceneFields& fields)
 {
   Eigen::Vector3d head = Eigen::Vector3d::Zero();
@@ -34,7 +34,7 @@ void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
   if (fields.has("head") || fields.has("left"))
   {
     if (fields.has("rotation"))
-      fields.refuse("rotation", "given besides head and left; keep one of the two");
+      fields.refuse("rotation", "conflicts with head and left; keep one of the two");
     transform.linear() = rotationFromBody(fields);
     return;
   }
@@ -51,7 +51,7 @@ void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
       transform(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   const Eigen::Matrix3d& r = transform.linear();
   if (!(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
-    fields.refuse("rotation", "is not a rotation; rows must be unit vectors at right angles, right-handed");
+    fields.refuse("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
 }
 
 void visitTube(SceneFields& fields, VesselScene::Tube& tube)
@@ -70,7 +70,7 @@ void visitTube(SceneFields& fields, VesselScene::Tube& tube)
         piece_fields.number("curvature", piece.curvature, "1/m", Range::nonNegative());
         piece_fields.number("plane_angle", piece.plane_angle, "rad", Range::any());
         if (piece_fields.reading() && piece.curvature * tube.radius >= 1.0)
-          piece_fields.refuse("curvature", "bends more tightly than the tube is wide; must be less than 1/radius");
+          piece_fields.refuse("curvature", "exceeds the curvature limit of the tube; must be less than 1/radius");
       },
       Need::kRequired);
 }
@@ -102,13 +102,13 @@ void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
       });
 }
 
-void visitPlace(SceneFields& keys, vessel::Lesion& lesion)
+void visitPosition(SceneFields& keys, vessel::Lesion& lesion)
 {
   if (keys.reading() ? keys.has("at") : lesion.at.has_value())
   {
     for (const char* other : {"branch", "from_start", "fraction"})
       if (keys.has(other))
-        keys.refuse(other, "given besides at; keep one of the two");
+        keys.refuse(other, "conflicts with at; keep one of the two");
     Eigen::Vector3d at = lesion.at.value_or(Eigen::Vector3d::Zero());
     keys.vector3("at", at, "m", Need::kRequired);
     lesion.at = at;
@@ -116,8 +116,8 @@ void visitPlace(SceneFields& keys, vessel::Lesion& lesion)
   }
   keys.text("branch", lesion.branch, Need::kRequired);
   if (keys.has("from_start") && keys.has("fraction"))
-    keys.refuse("fraction", "given besides from_start; keep one of the two");
-  keys.maybeNumber("from_start", lesion.from_start, "m", Range::nonNegative());
+    keys.refuse("fraction", "conflicts with from_start; keep one of the two");
+  keys.optionalNumber("from_start", lesion.from_start, "m", Range::nonNegative());
   if (std::isnan(lesion.from_start))
     keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
 }
@@ -132,7 +132,7 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
       [&lesions](SceneFields& keys, std::size_t k)
       {
         vessel::Lesion& lesion = lesions[k];
-        visitPlace(keys, lesion);
+        visitPosition(keys, lesion);
         keys.number("length", lesion.length, "m", Range::positive(), Need::kRequired);
         keys.number("grade", lesion.grade, "share of the diameter", Range::between(0.0, 0.99), Need::kRequired);
         keys.number("eccentricity", lesion.eccentricity, "1", Range::between(0.0, 1.0));
@@ -140,7 +140,7 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
       });
 }
 
-/** Keys that only a mesh file has: told apart from unknown ones. */
+/** Rejects keys that apply to a mesh file only, with a more specific message than for unknown keys. */
 void refuseMeshKeys(SceneFields& fields)
 {
   for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair"})
@@ -152,11 +152,11 @@ void readDirection(SceneFields& fields, EntryScene& entry)
 {
   fields.vector3("direction", entry.direction, "1");
   if (entry.direction.norm() < 1e-9)
-    fields.refuse("direction", "has no length; give a direction into the vessel, e.g. [0, 0, 1]");
-  // A unit vector stays as it is, so that the resolved text reads back to the same bits.
+    fields.refuse("direction", "is zero; give a direction into the vessel, e.g. [0, 0, 1]");
+  // A unit vector is not normalised again, so that the resolved text reads back to the same bits.
   if (std::abs(entry.direction.squaredNorm() - 1.0) > 1e-12)
     entry.direction.normalize();
-  // The default of up must not lie along the direction.
+  // The default of up must not be parallel to the direction.
   entry.up = std::abs(entry.direction.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   fields.vector3("up", entry.up, "1");
   if (entry.up.cross(entry.direction).norm() < 1e-6 * entry.up.norm() || entry.up.norm() < 1e-9)
@@ -205,7 +205,7 @@ void visitFriction(SceneFields& fields, double& friction, Need need)
   else if (need == Need::kRequired)
     fields.number("friction", friction, "1", Range::nonNegative(), need);
   else
-    fields.maybeNumber("friction", friction, "1", Range::nonNegative());
+    fields.optionalNumber("friction", friction, "1", Range::nonNegative());
 }
 
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)
@@ -215,7 +215,7 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
   fields.boolean("nearest_centreline_end", entry.nearest_centreline_end);
   const bool at_end = entry.nearest_centreline_end || !entry.centreline_end.empty();
   if (fields.reading() && entry.nearest_centreline_end && !entry.centreline_end.empty())
-    fields.refuse("centreline_end", "given besides nearest_centreline_end; keep one of the two");
+    fields.refuse("centreline_end", "conflicts with nearest_centreline_end; keep one of the two");
   if (fields.reading() && at_end && !real_vessel)
     fields.refuse(entry.nearest_centreline_end ? "nearest_centreline_end" : "centreline_end",
                   "needs a vessel with a centreline (vessel.mesh or vessel.anatomy); give position and direction");
@@ -233,7 +233,7 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
   }
   fields.number("offset", entry.offset, "m", Range::nonNegative());
   if (fields.reading() && entry.offset != 0.0 && !at_end)
-    fields.refuse("offset", "belongs to a centreline end; move position instead");
+    fields.refuse("offset", "applies to a centreline end only; move position instead");
   fields.number("valve_friction", entry.valve_friction, "N", Range::nonNegative());
 }
 

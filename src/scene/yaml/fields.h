@@ -11,17 +11,17 @@
 namespace endovascular_sim::scene
 {
 
-/** Interval of permitted values. */
+/** Interval of valid values. */
 struct Range
 {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
-  bool open = false;      ///< min itself is excluded
-  bool infinite = false;  ///< infinity is permitted
+  bool open = false;      ///< true if min is excluded
+  bool infinite = false;  ///< true if infinity is valid
 
   bool contains(double value) const;
-  /** "positive", "between 0 and 1", … */
-  std::string words() const;
+  /** Description for messages, e.g. "positive" or "between 0 and 1". */
+  std::string description() const;
 
   static Range any() { return {}; }
   static Range positive() { return {0.0, std::numeric_limits<double>::max(), true, false}; }
@@ -32,52 +32,54 @@ struct Range
 
 enum class Need
 {
-  kOptional,  ///< an absent key leaves the value as it is
-  kRequired,  ///< an absent key is refused
+  kOptional,  ///< a missing key leaves the value unchanged
+  kRequired,  ///< a missing key is an error
 };
 
-/** The fields of one map of a scene: the schema is written once against this interface, and reading and writing
- *  follow it. Reading refuses with InputError what is missing, of the wrong type or out of range; every key that the
- * schema visits counts as known. Units are SI and serve the messages. */
+/** Visitor of the fields of one map of a scene.
+ *
+ *  The schema is written once against this interface, for both reading and writing. Reading throws InputError for a
+ *  value that is missing, of the wrong type or out of range. Each key that the schema visits counts as known. Units are
+ *  SI and appear in messages only. */
 class SceneFields
 {
 public:
   virtual ~SceneFields() = default;
 
   virtual bool reading() const = 0;
-  /** Whether the map holds a value for @p key; false while writing. */
+  /** True if the map contains a value for @p key; false while writing. */
   virtual bool has(const std::string& key) = 0;
-  /** Whether that value is a map. */
+  /** True if the value of @p key is a map. */
   virtual bool hasMap(const std::string& key) = 0;
-  /** Whether that value is a word: text that begins with a letter. */
+  /** True if the value of @p key is a word, i.e. text that begins with a letter. */
   virtual bool hasWord(const std::string& key) = 0;
 
   virtual void number(const std::string& key, double& value, const std::string& unit, const Range& range,
                       Need need = Need::kOptional) = 0;
-  /** A number that may be absent: NaN. */
-  virtual void maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range) = 0;
+  /** Visits a number that may be missing; NaN represents a missing one. */
+  virtual void optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range) = 0;
   virtual void integer(const std::string& key, int& value, int min, int max, Need need = Need::kOptional) = 0;
   virtual void bigInteger(const std::string& key, std::uint64_t& value) = 0;
   virtual void boolean(const std::string& key, bool& value) = 0;
   virtual void text(const std::string& key, std::string& value, Need need = Need::kOptional) = 0;
-  /** One of @p words; the value is its index. */
+  /** Visits one of @p words; the value is its index. */
   virtual void choice(const std::string& key, int& value, const std::vector<std::string>& words,
                       Need need = Need::kOptional) = 0;
-  /** @p size numbers, e.g. [0, 0, 1]. */
+  /** Visits a list of @p size numbers, e.g. [0, 0, 1]. */
   virtual void numbers(const std::string& key, double* values, int size, const std::string& unit,
                        Need need = Need::kOptional) = 0;
-  /** Any number of rows of @p width numbers each, e.g. [[0, 0], [1, 0.03]]. */
+  /** Visits a table of rows with @p width numbers each, e.g. [[0, 0], [1, 0.03]]. */
   virtual void rows(const std::string& key, std::vector<std::vector<double>>& values, int width,
                     const std::string& unit, Need need = Need::kOptional) = 0;
 
   using Visit = std::function<void(SceneFields&)>;
-  /** A map; an absent one is visited empty, so that its required keys are refused. */
+  /** Visits a map. A missing map is visited as an empty one, so that its missing required keys are reported. */
   virtual void map(const std::string& key, const Visit& visit) = 0;
-  /** A list of maps. @p resize is called with the length when reading; @p size gives the length when writing. */
+  /** Visits a list of maps. @p resize is called with the length while reading; @p size is the length while writing. */
   virtual void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
                     const std::function<void(SceneFields&, std::size_t)>& visit, Need need = Need::kOptional) = 0;
 
-  /** Throws InputError for @p key, which may be a path below this map (empty: the map itself). */
+  /** Throws InputError for @p key, which may be a path below this map; an empty key denotes the map itself. */
   [[noreturn]] virtual void refuse(const std::string& key, const std::string& remedy) const = 0;
 
   void vector3(const std::string& key, Eigen::Vector3d& value, const std::string& unit, Need need = Need::kOptional)

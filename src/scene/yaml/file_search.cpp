@@ -56,7 +56,7 @@ std::string configFolder()
 std::string findSceneFile(const SceneNode& node, const std::string& path, const std::string& scene_file)
 {
   if (node.kind != SceneNode::Kind::kScalar || node.text.empty())
-    throw InputError(node.file, path + node.place(), "expected the path of a file");
+    throw InputError(node.file, path + node.location(), "expected the path of a file");
   std::error_code error;
   const fs::path current = fs::current_path(error);
   std::vector<fs::path> folders = {fs::absolute(scene_file, error).parent_path(), configFolder(), current,
@@ -74,7 +74,7 @@ std::string findSceneFile(const SceneNode& node, const std::string& path, const 
     if (tried.find(folder.string() + ",") == std::string::npos)
       tried += folder.string() + ", ";
   }
-  throw InputError(node.file, path + node.place(),
+  throw InputError(node.file, path + node.location(),
                    "no such file \"" + node.text + "\"" +
                        (fs::path(node.text).is_absolute() ? "" : "; searched in " + tried.substr(0, tried.size() - 2)) +
                        "; give the path of an existing file");

@@ -28,7 +28,7 @@ std::string listed(const std::vector<std::string>& words)
 
 [[noreturn]] void refuseNode(const SceneNode& node, const std::string& path, const std::string& remedy)
 {
-  throw InputError(node.file, path + node.place(), remedy);
+  throw InputError(node.file, path + node.location(), remedy);
 }
 
 double toNumber(const SceneNode& node, const std::string& path, const std::string& unit, const Range& range)
@@ -45,12 +45,12 @@ double toNumber(const SceneNode& node, const std::string& path, const std::strin
     refuseNode(node, path, "is not a number (NaN); expected a finite number" + inUnit(unit));
   else
   {
-    // std::from_chars also knows "inf" and "nan", which are words in YAML.
-    const bool starts_well =
+    // std::from_chars also accepts "inf" and "nan", which are plain words in YAML.
+    const bool starts_with_digit =
         !magnitude.empty() && (std::isdigit(static_cast<unsigned char>(magnitude[0])) != 0 || magnitude[0] == '.');
     const char* end = magnitude.data() + magnitude.size();
     const auto result = std::from_chars(magnitude.data(), end, value);
-    if (!starts_well || result.ec != std::errc() || result.ptr != end)
+    if (!starts_with_digit || result.ec != std::errc() || result.ptr != end)
       refuseNode(node, path,
                  "\"" + text + "\" is not a number; expected a number" + inUnit(unit) +
                      (unit == "1" ? "" : ", written without the unit"));
@@ -58,7 +58,7 @@ double toNumber(const SceneNode& node, const std::string& path, const std::strin
   if (signed_text && text[0] == '-')
     value = -value;
   if (!range.contains(value))
-    refuseNode(node, path, "is " + text + "; must be " + range.words() + inUnit(unit));
+    refuseNode(node, path, "is " + text + "; must be " + range.description() + inUnit(unit));
   return value;
 }
 
@@ -102,7 +102,7 @@ bool Range::contains(double value) const
   return (open ? value > min : value >= min) && value <= max;
 }
 
-std::string Range::words() const
+std::string Range::description() const
 {
   const double unbounded = std::numeric_limits<double>::max();
   std::ostringstream text;
@@ -153,7 +153,7 @@ void SceneReader::finish() const
     const std::string nearest = nearestWord(key, known_);
     refuseNode(
         value, pathOf(key),
-        "unknown key; " + (nearest.empty() ? "known here: " + listed(known_) : "did you mean \"" + nearest + "\"?"));
+        "unknown key; " + (nearest.empty() ? "known keys: " + listed(known_) : "did you mean \"" + nearest + "\"?"));
   }
 }
 
@@ -198,7 +198,7 @@ void SceneReader::number(const std::string& key, double& value, const std::strin
     value = toNumber(*node, pathOf(key), unit, range);
 }
 
-void SceneReader::maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
+void SceneReader::optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
 {
   number(key, value, unit, range, Need::kOptional);
 }
@@ -308,19 +308,19 @@ void SceneReader::list(const std::string& key, std::size_t /*size*/, const std::
 
 void SceneReader::refuse(const std::string& key, const std::string& remedy) const
 {
-  refuseMisspelt();
-  // The key may be a path below this map: the place is the deepest value on it that exists.
-  const SceneNode* place = node_ == nullptr ? &parent_ : node_;
+  refuseMisspeltKey();
+  // The key may be a path below this map. The deepest existing value on the path supplies file and line.
+  const SceneNode* deepest = node_ == nullptr ? &parent_ : node_;
   std::istringstream path(key);
   for (std::string word; std::getline(path, word, '.');)
-    if (const SceneNode* next = place->find(word))
-      place = next;
+    if (const SceneNode* next = deepest->find(word))
+      deepest = next;
     else
       break;
-  throw InputError(place->file, (key.empty() ? path_ : pathOf(key)) + place->place(), remedy);
+  throw InputError(deepest->file, (key.empty() ? path_ : pathOf(key)) + deepest->location(), remedy);
 }
 
-void SceneReader::refuseMisspelt() const
+void SceneReader::refuseMisspeltKey() const
 {
   if (node_ == nullptr)
     return;

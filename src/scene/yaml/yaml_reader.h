@@ -9,16 +9,16 @@
 namespace endovascular_sim::scene
 {
 
-/** Reads the fields of one map of a scene file. finish() refuses what the schema did not visit. */
+/** Reader of the fields of one map of a scene file. finish() reports keys that the schema did not visit. */
 class SceneReader : public SceneFields
 {
 public:
-  /** @param node a map, or nullptr for an absent one
-   *  @param parent names file and line when the map is absent
-   *  @param path key path of the map, empty for the scene itself */
+  /** @param node map to read, or nullptr if it is missing
+   *  @param parent source of file and line in errors if the map is missing
+   *  @param path key path of the map; empty for the scene itself */
   SceneReader(const SceneNode* node, const SceneNode& parent, std::string path);
 
-  /** @throws InputError for a key that nobody asked for, with the nearest known one */
+  /** @throws InputError for an unknown key, suggesting the nearest known one */
   void finish() const;
 
   bool reading() const override { return true; }
@@ -26,7 +26,7 @@ public:
   bool hasMap(const std::string& key) override;
   bool hasWord(const std::string& key) override;
   void number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need) override;
-  void maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
+  void optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
   void integer(const std::string& key, int& value, int min, int max, Need need) override;
   void bigInteger(const std::string& key, std::uint64_t& value) override;
   void boolean(const std::string& key, bool& value) override;
@@ -41,9 +41,9 @@ public:
   [[noreturn]] void refuse(const std::string& key, const std::string& remedy) const override;
 
 private:
-  /** Refuses a key that looks like a known but absent one: it explains a missing value better than the missing value.
-   */
-  void refuseMisspelt() const;
+  /** Throws InputError for an unknown key within edit distance 2 of a missing known key. A misspelling is a better
+   *  explanation than the missing value. */
+  void refuseMisspeltKey() const;
   const SceneNode* visit(const std::string& key, Need need, const std::string& expected);
   std::string pathOf(const std::string& key) const;
 
@@ -53,7 +53,7 @@ private:
   std::vector<std::string> known_;
 };
 
-/** The word of @p known nearest to @p word in edit distance; empty when none is near. */
+/** Word of @p known nearest to @p word in edit distance; empty if none is close. */
 std::string nearestWord(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace endovascular_sim::scene

@@ -27,7 +27,7 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
   node.file = file;
   node.line = yaml.Mark().line + 1;
   if (depth > kMaxDepth)
-    throw InputError(file, path.substr(0, path.find('.')) + node.place(),
+    throw InputError(file, path.substr(0, path.find('.')) + node.location(),
                      "nested too deeply; an anchor must not contain itself");
   switch (yaml.Type())
   {
@@ -48,7 +48,7 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
       for (const auto& entry : yaml)
       {
         if (!entry.first.IsScalar())
-          throw InputError(file, path + node.place(), "a key must be a plain word");
+          throw InputError(file, path + node.location(), "a key must be a plain word");
         const std::string& key = entry.first.Scalar();
         const int line = entry.first.Mark().line + 1;
         for (const auto& earlier : node.fields)
@@ -72,8 +72,8 @@ YAML::Node parseYaml(const std::string& yaml, const std::string& origin, const s
   }
   catch (const YAML::Exception& error)
   {
-    const std::string place = where.empty() ? "line " + std::to_string(error.mark.line + 1) : where;
-    throw InputError(origin, place, "not valid YAML: " + error.msg + "; check indentation, colons and brackets");
+    const std::string location = where.empty() ? "line " + std::to_string(error.mark.line + 1) : where;
+    throw InputError(origin, location, "not valid YAML: " + error.msg + "; check indentation, colons and brackets");
   }
 }
 
@@ -95,12 +95,12 @@ SceneNode& descend(SceneNode& node, const std::string& key, const std::string& w
     const std::size_t index = is_index ? std::stoul(key) : node.items.size();
     if (index >= node.items.size())
       throw InputError(origin, where,
-                       "\"" + key + "\" is no element of this list; it has " + std::to_string(node.items.size()) +
-                           ", counted from 0");
+                       "\"" + key + "\" is not an index of this list; it has " + std::to_string(node.items.size()) +
+                           " elements, counted from 0");
     return node.items[index];
   }
   if (node.kind == SceneNode::Kind::kScalar)
-    throw InputError(origin, where, "\"" + key + "\" lies below \"" + node.text + "\", which has no keys");
+    throw InputError(origin, where, "\"" + key + "\" is below the scalar \"" + node.text + "\", which has no keys");
   node.kind = SceneNode::Kind::kMap;
   for (auto& field : node.fields)
     if (field.first == key)
@@ -121,7 +121,7 @@ const SceneNode* SceneNode::find(const std::string& key) const
   return nullptr;
 }
 
-std::string SceneNode::place() const
+std::string SceneNode::location() const
 {
   return line > 0 ? " (line " + std::to_string(line) + ")" : " (--set)";
 }

@@ -11,7 +11,7 @@ namespace endovascular_sim::scene
 namespace
 {
 
-std::string written(double value)
+std::string formatted(double value)
 {
   if (std::isinf(value))
     return value > 0.0 ? ".inf" : "-.inf";
@@ -20,11 +20,11 @@ std::string written(double value)
   return {buffer.data(), result.ptr};
 }
 
-std::string written(const double* values, std::size_t size)
+std::string formatted(const double* values, std::size_t size)
 {
   std::string text = "[";
   for (std::size_t i = 0; i < size; ++i)
-    text += (i == 0 ? "" : ", ") + written(values[i]);
+    text += (i == 0 ? "" : ", ") + formatted(values[i]);
   return text + "]";
 }
 
@@ -57,11 +57,11 @@ void SceneWriter::number(const std::string& key, double& value, const std::strin
                          Need /*need*/)
 {
   if (!range.contains(value))
-    refuse(key, "is " + std::to_string(value) + "; must be " + range.words());
-  line(key, written(value));
+    refuse(key, "is " + std::to_string(value) + "; must be " + range.description());
+  line(key, formatted(value));
 }
 
-void SceneWriter::maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
+void SceneWriter::optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
 {
   if (!std::isnan(value))
     number(key, value, unit, range, Need::kOptional);
@@ -95,7 +95,7 @@ void SceneWriter::choice(const std::string& key, int& value, const std::vector<s
 
 void SceneWriter::numbers(const std::string& key, double* values, int size, const std::string& /*unit*/, Need /*need*/)
 {
-  line(key, written(values, static_cast<std::size_t>(size)));
+  line(key, formatted(values, static_cast<std::size_t>(size)));
 }
 
 void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>& values, int /*width*/,
@@ -103,7 +103,7 @@ void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>&
 {
   std::string text;
   for (const std::vector<double>& row : values)
-    text += (text.empty() ? "" : ", ") + written(row.data(), row.size());
+    text += (text.empty() ? "" : ", ") + formatted(row.data(), row.size());
   line(key, "[" + text + "]");
 }
 

@@ -7,7 +7,7 @@
 namespace endovascular_sim::scene
 {
 
-/** Writes fields as canonical YAML: schema order, every value explicit, numbers in the shortest form that reads back
+/** Writer of fields as canonical YAML: schema order, all values explicit, numbers in the shortest form that reads back
  *  to the same bits. */
 class SceneWriter : public SceneFields
 {
@@ -21,7 +21,7 @@ public:
   bool hasMap(const std::string& /*key*/) override { return false; }
   bool hasWord(const std::string& /*key*/) override { return false; }
   void number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need) override;
-  void maybeNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
+  void optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
   void integer(const std::string& key, int& value, int min, int max, Need need) override;
   void bigInteger(const std::string& key, std::uint64_t& value) override;
   void boolean(const std::string& key, bool& value) override;

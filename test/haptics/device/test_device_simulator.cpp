@@ -22,7 +22,7 @@ std::filesystem::path temporary(const std::string& name)
   return std::filesystem::temp_directory_path() / ("evs_" + std::to_string(getpid()) + "_" + name);
 }
 
-/** Simulator and link over a real pty in made-up time, in steps of 0.1 ms; the simulation answers at once. */
+/** Simulator and link on a real pty in simulated time, in steps of 0.1 ms; the simulation responds immediately. */
 struct SimulatorBench
 {
   explicit SimulatorBench(double baud = 230400.0) : link_path(temporary("device").string())
@@ -59,13 +59,13 @@ struct SimulatorBench
   std::optional<HapticLink> link;
 };
 
-TEST(DeviceSimulator, MeasuresWhatTheLineItselfTakes)
+TEST(DeviceSimulator, MeasuresTheTransmissionTimeOfTheLine)
 {
   SimulatorBench bench;
   bench.run(1.0);
   EXPECT_TRUE(bench.simulator->hasStarted());
   const auto report = bench.simulator->report();
-  // 21 bytes there and 21 back at 10 bits per byte are 1.823 ms; steps of 0.1 ms round up.
+  // 21 bytes in each direction at 10 bits per byte take 1.823 ms; steps of 0.1 ms round up.
   EXPECT_GE(report.motion_to_force.percentile(0.0), 1.82e-3);
   EXPECT_LE(report.motion_to_force.percentile(0.5), 2.2e-3);
   EXPECT_GT(report.motion_to_force.count(), 900U);
@@ -75,17 +75,17 @@ TEST(DeviceSimulator, MeasuresWhatTheLineItselfTakes)
   EXPECT_EQ(report.watchdog_trips, 0U);
 }
 
-TEST(DeviceSimulator, LosesBytesOnALineThatIsTooSlowAndTheHostFindsItsWay)
+TEST(DeviceSimulator, LosesBytesOnASlowLineAndTheHostResynchronises)
 {
   SimulatorBench bench(57600.0);
   bench.run(2.0);
   EXPECT_GT(bench.simulator->report().bytes_lost, 1000U);
   EXPECT_GT(bench.link->host().parserCounters().resyncs, 0U);
-  EXPECT_GT(bench.link->host().counters().samples, 5U) << "whole frames between torn ones are found";
-  EXPECT_EQ(bench.simulator->report().resyncs, 0U) << "the host keeps to the line's speed";
+  EXPECT_GT(bench.link->host().counters().samples, 5U) << "complete frames between truncated ones are found";
+  EXPECT_EQ(bench.simulator->report().resyncs, 0U) << "the host does not exceed the speed of the line";
 }
 
-TEST(DeviceSimulator, CountsAnewAfterAReplugAndTheCommandDoesNotJump)
+TEST(DeviceSimulator, RestartsItsCountAfterAReplugWithoutAJumpOfTheCommand)
 {
   SimulatorBench bench;
   bench.run(1.0);
@@ -99,13 +99,13 @@ TEST(DeviceSimulator, CountsAnewAfterAReplugAndTheCommandDoesNotJump)
   EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled);
   const double after = bench.link->host().motion().command().insertion;
   EXPECT_GT(after, before);
-  EXPECT_LT(after, before + 0.02 * 0.55) << "what was moved while unplugged is not made up for";
+  EXPECT_LT(after, before + 0.02 * 0.55) << "motion while unplugged is not added";
 }
 
-TEST(DeviceSimulator, LeavesAFileAloneThatIsNotALink)
+TEST(DeviceSimulator, DoesNotReplaceAFileThatIsNotALink)
 {
   const auto path = temporary("file");
-  std::ofstream(path) << "precious";
+  std::ofstream(path) << "content";
   Pty pty;
   EXPECT_THROW(pty.plug(path.string()), InputError);
   EXPECT_EQ(std::filesystem::file_size(path), 8U);
@@ -125,7 +125,7 @@ TEST(MotionScript, InterpolatesAndHolds)
   std::filesystem::remove(path);
 }
 
-TEST(MotionScript, RefusesBadRowsByLine)
+TEST(MotionScript, RejectsInvalidRowsWithTheirLineNumber)
 {
   const auto path = temporary("bad.csv");
   for (const char* text : {"1,2\n", "1,2,3,4\n", "1,0,0\n1,0,0\n", "1,nan,0\n", "", "1,x,0\n"})
@@ -137,7 +137,7 @@ TEST(MotionScript, RefusesBadRowsByLine)
   EXPECT_THROW(MotionScript::load(path.string()), InputError);
 }
 
-TEST(LatencyRecord, GivesExactPercentiles)
+TEST(LatencyRecord, ReturnsExactPercentiles)
 {
   LatencyRecord record;
   EXPECT_EQ(record.percentile(0.5), 0.0);

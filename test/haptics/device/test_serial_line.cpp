@@ -7,7 +7,7 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-TEST(SerialLine, CarriesTenBitsPerByte)
+TEST(SerialLine, TransmitsTenBitsPerByte)
 {
   SerialLine line(230400.0, 1000);
   line.push(Bytes(21, 7), 1.0);
@@ -17,7 +17,7 @@ TEST(SerialLine, CarriesTenBitsPerByte)
   EXPECT_EQ(line.pull(2.0).size(), 1U);
 }
 
-TEST(SerialLine, LosesWhatItsFifoDoesNotHold)
+TEST(SerialLine, LosesBytesBeyondTheCapacityOfItsFifo)
 {
   SerialLine line(9600.0, 8);
   line.push({1, 2, 3, 4, 5}, 0.0);
@@ -26,7 +26,7 @@ TEST(SerialLine, LosesWhatItsFifoDoesNotHold)
   EXPECT_EQ(line.pull(1.0), (Bytes{1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
-TEST(SerialLine, NeverCarriesMoreThanItsSpeed)
+TEST(SerialLine, NeverExceedsItsSpeed)
 {
   SerialLine line(10000.0, 64);
   std::size_t carried = 0;

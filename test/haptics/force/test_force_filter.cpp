@@ -11,7 +11,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-TEST(ForceFilter, IsOffByDefaultAndThenPassesEveryBit)
+TEST(ForceFilter, IsOffByDefaultAndPassesForcesBitForBit)
 {
   ForceFilter filter;
   for (int k = 0; k < 10; ++k)
@@ -22,7 +22,7 @@ TEST(ForceFilter, IsOffByDefaultAndThenPassesEveryBit)
   }
 }
 
-/** Amplitude of a filtered sine of amplitude 1. */
+/** Amplitude of a filtered sine wave of amplitude 1. */
 double gain(double cutoff, double frequency)
 {
   ForceFilter filter(cutoff);
@@ -44,7 +44,7 @@ TEST(ForceFilter, IsASecondOrderButterworthLowPass)
   EXPECT_NEAR(gain(50.0, 500.0), 0.01, 3e-3);
 }
 
-TEST(ForceFilter, DelaysARampByTheStatedTime)
+TEST(ForceFilter, DelaysARampByTheDocumentedTime)
 {
   ForceFilter filter(100.0);
   HandForce out;
@@ -55,7 +55,7 @@ TEST(ForceFilter, DelaysARampByTheStatedTime)
   EXPECT_NEAR(0.3 + out.torque, delay, 0.05 * delay);
 }
 
-TEST(ForceFilter, IsStableAtAnyRateAndBeginsWhereTheForceIs)
+TEST(ForceFilter, IsStableAtAnyRateAndStartsAtTheFirstForce)
 {
   ForceFilter filter(100.0);
   EXPECT_EQ(filter.next({2.0, 0.0}, 0.0).force, 2.0);
@@ -67,11 +67,11 @@ TEST(ForceFilter, IsStableAtAnyRateAndBeginsWhereTheForceIs)
   EXPECT_EQ(filter.next({-3.0, 0.0}, 100.0).force, -3.0);
 }
 
-TEST(ForceFilter, HandsOnWhatIsNotANumberWithoutKeepingIt)
+TEST(ForceFilter, PassesNonFiniteForcesWithoutStoringThem)
 {
   ForceFilter filter(100.0);
   filter.next({1.0, 0.0}, 0.0);
-  EXPECT_TRUE(std::isnan(filter.next({std::nan(""), 0.0}, 1e-3).force)) << "the output lets go then";
+  EXPECT_TRUE(std::isnan(filter.next({std::nan(""), 0.0}, 1e-3).force)) << "the output stage releases the force";
   EXPECT_TRUE(std::isfinite(filter.next({1.0, 0.0}, 2e-3).force));
 }
 

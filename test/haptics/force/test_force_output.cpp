@@ -26,7 +26,7 @@ TEST(ForceOutput, ClampsToTheLimits)
   EXPECT_EQ(output.value().torque, -0.01);
 }
 
-TEST(ForceOutput, LimitsTheRateAlsoAfterAPause)
+TEST(ForceOutput, LimitsTheRateAfterAPauseToo)
 {
   ForceLimits limits;
   limits.force_rate = 100.0;
@@ -49,7 +49,7 @@ TEST(ForceOutput, RampsToExactlyZeroWithinTheRampTime)
   double previous = 3.0;
   for (double t = 0.0; t < limits.ramp_time; t += 1e-3)
   {
-    output.release(start + t);  // asking again must not begin anew
+    output.release(start + t);  // a repeated release must not restart the ramp
     const double force = output.advance(start + t).force;
     EXPECT_LE(force, previous);
     previous = force;
@@ -60,7 +60,7 @@ TEST(ForceOutput, RampsToExactlyZeroWithinTheRampTime)
   EXPECT_LE(limits.ramp_time, 50e-3);
 }
 
-TEST(ForceOutput, TakesWhatIsNotANumberForAReasonToLetGo)
+TEST(ForceOutput, ReleasesOnANonFiniteForce)
 {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
   {
@@ -75,7 +75,7 @@ TEST(ForceOutput, TakesWhatIsNotANumberForAReasonToLetGo)
   }
 }
 
-TEST(ForceOutput, CutsAtOnce)
+TEST(ForceOutput, CutsImmediately)
 {
   ForceOutput output;
   output.command({1.0, 0.01}, 0.0);

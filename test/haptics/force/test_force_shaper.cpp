@@ -11,10 +11,10 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-constexpr double kCount = 1e-4;  // m
+constexpr double kCount = 1e-4;  // resolution of the encoder [m]
 
-/** A mass on a device of coarse counts pressed against a stiff wall, through the whole host and its bytes.
- *  @return the largest speed in the last half second [m/s] */
+/** Simulates a mass on a device with a coarse encoder against a stiff wall, through the complete host and its bytes.
+ *  @return largest speed in the last half second [m/s] */
 double lastSpeed(test::Bench& bench, double stiffness)
 {
   const double mass = 0.2;
@@ -27,7 +27,7 @@ double lastSpeed(test::Bench& bench, double stiffness)
   for (int k = 0; k < steps; ++k)
   {
     bench.insertion = static_cast<float>(kCount * std::floor(x / kCount));
-    // The simulation answers the motion of the step before, from where the device stood at first.
+    // The simulation responds to the motion of the previous step, relative to the initial position of the device.
     const double seen = bench.motions.empty() ? 0.0 : bench.motions.back().command.insertion;
     bench.simulated = {stiffness * std::max(0.0, seen - 5e-3), 0.0};
     bench.step();
@@ -44,7 +44,7 @@ double lastSpeed(test::Bench& bench, double stiffness)
   return largest;
 }
 
-TEST(ForceShaper, KeepsACoarseDeviceAtAStiffWallStableThroughTheWholeHost)
+TEST(ForceShaper, StabilisesACoarseDeviceAtAStiffWallThroughTheCompleteHost)
 {
   HostOptions without = test::hostOptions();
   without.shaping.passivity = false;
@@ -59,7 +59,7 @@ TEST(ForceShaper, KeepsACoarseDeviceAtAStiffWallStableThroughTheWholeHost)
   EXPECT_EQ(shaped.host.shaper().rotation().activations, 0U);
 }
 
-TEST(ForceShaper, TimesADeviceWithoutAClockByTheArrivalOfItsSamples)
+TEST(ForceShaper, UsesArrivalTimesForADeviceWithoutAClock)
 {
   ForceShaper with;
   ForceShaper without;
@@ -79,7 +79,7 @@ TEST(ForceShaper, TimesADeviceWithoutAClockByTheArrivalOfItsSamples)
   EXPECT_NEAR(with.insertion().energy, without.insertion().energy, 1e-3 * std::abs(with.insertion().energy));
 }
 
-TEST(ForceShaper, LetsTheForceBeWhenItIsSwitchedOff)
+TEST(ForceShaper, PassesTheForceUnchangedWhenDisabled)
 {
   ShaperSettings settings;
   settings.passivity = false;

@@ -9,7 +9,7 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-TEST(MotionReference, StartsAtTheCommandItWasGivenWhereverTheDeviceStands)
+TEST(MotionReference, StartsAtTheGivenCommandForAnyPositionOfTheDevice)
 {
   MotionReference motion({0.1, 0.5});
   EXPECT_EQ(motion.update({7.0, -3.0})->insertion, 0.1);
@@ -17,7 +17,7 @@ TEST(MotionReference, StartsAtTheCommandItWasGivenWhereverTheDeviceStands)
   EXPECT_DOUBLE_EQ(motion.command().rotation, 0.0);
 }
 
-TEST(MotionReference, HoldsAndGoesOnWhenTheDeviceCountsAnew)
+TEST(MotionReference, HoldsAndContinuesWhenTheCountOfTheDeviceRestarts)
 {
   MotionReference motion;
   motion.update({0.0, 0.0});
@@ -29,7 +29,7 @@ TEST(MotionReference, HoldsAndGoesOnWhenTheDeviceCountsAnew)
   EXPECT_EQ(motion.rebased(), 1U);
 }
 
-TEST(MotionReference, SkipsASingleWildSample)
+TEST(MotionReference, SkipsASingleOutlier)
 {
   MotionReference motion;
   motion.update({0.0, 0.0});
@@ -41,7 +41,7 @@ TEST(MotionReference, SkipsASingleWildSample)
   EXPECT_EQ(motion.rebased(), 0U);
 }
 
-TEST(MotionReference, TakesTwoSamplesThatAgreeForARestart)
+TEST(MotionReference, TreatsTwoConsistentSamplesAfterAJumpAsARestart)
 {
   MotionReference motion;
   motion.update({0.3, 0.0});
@@ -51,7 +51,7 @@ TEST(MotionReference, TakesTwoSamplesThatAgreeForARestart)
   EXPECT_EQ(motion.rebased(), 1U);
 }
 
-TEST(SampleTimes, FindTheNewestSampleWithExactlyThatCommand)
+TEST(SampleTimes, FindTheNewestSampleWithTheGivenCommand)
 {
   SampleTimes times;
   EXPECT_FALSE(times.find({0.0, 0.0}));
@@ -64,7 +64,7 @@ TEST(SampleTimes, FindTheNewestSampleWithExactlyThatCommand)
     times.add({1.0, static_cast<double>(i)}, i);
   EXPECT_EQ(times.find({0.3, 0.2}), 7U);
   times.add({2.0, 0.0}, 1);
-  EXPECT_FALSE(times.find({0.3, 0.2})) << "older than the table";
+  EXPECT_FALSE(times.find({0.3, 0.2})) << "older than the ring buffer";
 }
 
 }  // namespace

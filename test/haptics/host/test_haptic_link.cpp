@@ -16,7 +16,7 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-/** A device behind a real pty that can be pulled out; its path is a link, as below /dev/serial/by-id. */
+/** Device on a real pty that can be unplugged. Its path is a symbolic link, as in /dev/serial/by-id. */
 class PtyDevice
 {
 public:
@@ -49,7 +49,7 @@ public:
     master_ = -1;
   }
 
-  /** Moves bytes both ways. @return forces received */
+  /** Transfers bytes in both directions. @return forces received */
   std::vector<HapticForce> exchange(double now)
   {
     std::vector<HapticForce> forces;
@@ -60,7 +60,7 @@ public:
     {
       EXPECT_EQ(write(master_, out.data(), out.size()), static_cast<ssize_t>(out.size()));
     }
-    // The kernel carries what was written in its own time; only a read that finds nothing waits for it to have done so.
+    // The kernel transfers written bytes with a delay. Only a read that finds nothing waits for the transfer.
     std::uint8_t in[4096];
     for (ssize_t count = 0; (count = read(master_, in, sizeof in)) > 0;)
       for (const HapticForce& force : device->receive(in, static_cast<std::size_t>(count), now))
@@ -77,7 +77,7 @@ private:
   int master_ = -1;
 };
 
-/** Link and device over a pty, in made-up time. */
+/** Link and device on a pty, in simulated time. */
 struct LinkBench
 {
   LinkBench()
@@ -127,7 +127,7 @@ TEST(HapticLink, ConnectsOverAPtyWithRawBytes)
 {
   LinkBench bench;
   bench.pty.plug();
-  // Times whose bytes are carriage returns, line feeds, XON, XOFF, interrupt: a cooked line would change them.
+  // Times with bytes for carriage return, line feed, XON, XOFF and interrupt. A line in cooked mode would change them.
   bench.milliseconds = 0x0d0a11;
   bench.run(50);
   for (int i = 0; i < 200; ++i)
@@ -142,7 +142,7 @@ TEST(HapticLink, ConnectsOverAPtyWithRawBytes)
   EXPECT_EQ(bench.pty.device->parserCounters().resyncs, 0U);
 }
 
-TEST(HapticLink, WaitsForADeviceThatIsNotThereYet)
+TEST(HapticLink, WaitsForADeviceThatIsNotYetConnected)
 {
   LinkBench bench;
   bench.run(500);
@@ -153,7 +153,7 @@ TEST(HapticLink, WaitsForADeviceThatIsNotThereYet)
   EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled);
 }
 
-TEST(HapticLink, LetsGoWhenUnpluggedAndGoesOnWithoutAJump)
+TEST(HapticLink, ReleasesTheForceWhenUnpluggedAndContinuesWithoutAJump)
 {
   LinkBench bench;
   bench.pty.plug();
@@ -174,10 +174,10 @@ TEST(HapticLink, LetsGoWhenUnpluggedAndGoesOnWithoutAJump)
   EXPECT_EQ(bench.link->host().state(), DeviceState::kDisabled);
   bench.run(700);
 
-  bench.insertion = 0.0F;  // restarted: it counts anew
+  bench.insertion = 0.0F;  // the count restarts with the device
   bench.pty.plug();
   bench.run(500);
-  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled) << "back within 0.5 s";
+  EXPECT_EQ(bench.link->host().state(), DeviceState::kEnabled) << "reconnected within 0.5 s";
   EXPECT_EQ(bench.link->opened(), 2U);
   EXPECT_EQ(bench.command.insertion, held);
   for (int i = 0; i < 100; ++i)
@@ -189,7 +189,7 @@ TEST(HapticLink, LetsGoWhenUnpluggedAndGoesOnWithoutAJump)
   EXPECT_LT(bench.largest_jump, 1e-3);
 }
 
-TEST(HapticLink, SaysGoodbyeOnTheLine)
+TEST(HapticLink, SendsZeroForceAndStopAtShutdown)
 {
   LinkBench bench;
   bench.pty.plug();
@@ -203,7 +203,7 @@ TEST(HapticLink, SaysGoodbyeOnTheLine)
   EXPECT_EQ(bench.pty.device->stops(), 1U);
 }
 
-TEST(SerialPort, RefusesASpeedThatNoLineHas)
+TEST(SerialPort, RejectsANonStandardBaudRate)
 {
   LinkOptions options;
   options.baud = 250001;
@@ -214,7 +214,7 @@ TEST(SerialPort, RefusesASpeedThatNoLineHas)
   }
   catch (const InputError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("230400"), std::string::npos) << "names what would be right";
+    EXPECT_NE(std::string(error.what()).find("230400"), std::string::npos) << "lists the valid values";
   }
   EXPECT_NO_THROW(SerialPort::checkBaud(2000000, "baud"));
 }

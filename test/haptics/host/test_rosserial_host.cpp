@@ -15,7 +15,7 @@ namespace
 
 using test::Bench;
 
-TEST(RosserialHost, AsksForTheTopicsAndAnswersTheTimeWithTheWallClock)
+TEST(RosserialHost, RequestsTheTopicsAndAnswersTimeRequestsWithTheWallClock)
 {
   test::BufferSink sink;
   RosserialHost host(test::hostOptions());
@@ -28,16 +28,16 @@ TEST(RosserialHost, AsksForTheTopicsAndAnswersTheTimeWithTheWallClock)
   EXPECT_EQ(sink.take(), encodeFrame(kTime, encode(WallTime{1800000000U, 5U})));
 }
 
-TEST(RosserialHost, AsksAgainWhileTheDeviceIsSilent)
+TEST(RosserialHost, RepeatsTheTopicRequestWhileTheDeviceIsSilent)
 {
   Bench bench;
-  bench.device_talks = false;
+  bench.device_active = false;
   bench.run(2100);
   EXPECT_EQ(bench.host.counters().topic_requests, 5U);
   EXPECT_EQ(bench.host.state(), DeviceState::kDisabled);
 }
 
-TEST(RosserialHost, BringsMotionOneWayAndForceTheOther)
+TEST(RosserialHost, TransfersMotionFromTheDeviceAndForceToIt)
 {
   Bench bench;
   bench.run(20);
@@ -50,18 +50,18 @@ TEST(RosserialHost, BringsMotionOneWayAndForceTheOther)
   EXPECT_EQ(bench.forces.back().force, 1.0F);
   EXPECT_EQ(bench.forces.back().torque, 0.01F);
   EXPECT_EQ(bench.forces.back().state, DeviceState::kEnabled);
-  EXPECT_EQ(bench.forces.back().sample_time, bench.milliseconds * 1000U) << "answers the newest sample";
-  EXPECT_GE(bench.forces.size(), 48U) << "pushed on arrival, not polled";
+  EXPECT_EQ(bench.forces.back().sample_time, bench.milliseconds * 1000U) << "responds to the newest sample";
+  EXPECT_GE(bench.forces.size(), 48U) << "sent on arrival, not polled";
 }
 
-TEST(RosserialHost, TellsWhichSampleAForceAnswers)
+TEST(RosserialHost, IdentifiesTheSampleThatAForceRespondsTo)
 {
   Bench bench;
   std::vector<HandMotion> commands;
   for (int i = 0; i < 100; ++i)
   {
     bench.insertion += 1e-4F;
-    bench.simulation_talks = false;
+    bench.simulation_active = false;
     bench.step();
     commands.push_back(bench.motions.empty() ? HandMotion() : bench.motions.back().command);
   }
@@ -70,40 +70,40 @@ TEST(RosserialHost, TellsWhichSampleAForceAnswers)
   EXPECT_EQ(bench.forces.back().sample_time, 61U * 1000U);
 }
 
-TEST(RosserialHost, TakesTheForceAwayWhenTheDeviceFallsSilent)
+TEST(RosserialHost, RemovesTheForceWhenTheDeviceBecomesSilent)
 {
   Bench bench;
   bench.run(100);
   ASSERT_EQ(bench.forces.back().force, 1.0F);
-  bench.device_talks = false;
+  bench.device_active = false;
   bench.run(100);
   EXPECT_EQ(bench.forces.back().force, 0.0F);
   EXPECT_EQ(bench.forces.back().torque, 0.0F);
   EXPECT_EQ(bench.host.state(), DeviceState::kDisabled);
   EXPECT_EQ(bench.host.counters().links_lost, 1U);
-  bench.device_talks = true;
+  bench.device_active = true;
   bench.run(50);
-  EXPECT_EQ(bench.forces.back().force, 1.0F) << "and comes back";
+  EXPECT_EQ(bench.forces.back().force, 1.0F) << "the force returns";
 }
 
-TEST(RosserialHost, TakesTheForceAwayWhenTheSimulationFallsSilent)
+TEST(RosserialHost, RemovesTheForceWhenTheSimulationBecomesSilent)
 {
   Bench bench;
   bench.run(100);
   ASSERT_EQ(bench.forces.back().force, 1.0F);
-  bench.simulation_talks = false;
+  bench.simulation_active = false;
   bench.run(51);
   EXPECT_EQ(bench.forces.back().force, 0.0F);
   EXPECT_EQ(bench.forces.back().state, DeviceState::kPaused);
   const std::size_t before = bench.forces.size();
   const std::size_t motions = bench.motions.size();
   bench.run(100);
-  EXPECT_GE(bench.forces.size(), before + 4) << "zero is said explicitly, again and again";
-  EXPECT_EQ(bench.motions.size(), motions + 100) << "motion goes on";
+  EXPECT_GE(bench.forces.size(), before + 4) << "zero force is sent explicitly and repeatedly";
+  EXPECT_EQ(bench.motions.size(), motions + 100) << "motion continues";
   EXPECT_EQ(bench.device.watchdogTrips(), 0U);
 }
 
-TEST(RosserialHost, HoldsTheMotionWhileTheHandDoesNotHoldTheWire)
+TEST(RosserialHost, HoldsTheCommandWhileTheHandDoesNotHoldTheWire)
 {
   Bench bench;
   bench.run(20);
@@ -123,7 +123,8 @@ TEST(RosserialHost, HoldsTheMotionWhileTheHandDoesNotHoldTheWire)
   bench.flags = HapticSample::kEnabled;
   bench.run(20);
   EXPECT_EQ(bench.host.state(), DeviceState::kEnabled);
-  EXPECT_EQ(bench.motions.back().command.insertion, held.insertion) << "gripped again elsewhere: no jump";
+  EXPECT_EQ(bench.motions.back().command.insertion, held.insertion)
+      << "no jump after the handle is gripped at another position";
   bench.flags = HapticSample::kEnabled | HapticSample::kFault;
   bench.run(30);
   EXPECT_EQ(bench.host.state(), DeviceState::kFault);
@@ -159,7 +160,7 @@ TEST(RosserialHost, ClampsTheForceToItsLimits)
   EXPECT_EQ(bench.forces.back().torque, 0.05F);
 }
 
-TEST(RosserialHost, RefusesATopicWhoseDefinitionDiffers)
+TEST(RosserialHost, RefusesATopicWithADifferentDefinition)
 {
   DeviceOptions options = test::deviceOptions();
   options.sample.md5 = "00000000000000000000000000000000";
@@ -168,11 +169,11 @@ TEST(RosserialHost, RefusesATopicWhoseDefinitionDiffers)
   EXPECT_TRUE(bench.motions.empty());
   ASSERT_EQ(bench.host.topics().refused().size(), 1U);
   EXPECT_NE(bench.host.topics().refused().begin()->second.reason.find("md5"), std::string::npos);
-  EXPECT_NE(bench.host.reason().find("md5"), std::string::npos) << "the operating state says why";
+  EXPECT_NE(bench.host.reason().find("md5"), std::string::npos) << "the operating state reports the reason";
   EXPECT_GT(bench.host.counters().unused_frames, 0U);
 }
 
-TEST(RosserialHost, RefusesABufferThatDoesNotHoldAFrame)
+TEST(RosserialHost, RefusesABufferSmallerThanAFrame)
 {
   for (const std::int32_t size : {20, 0, -1})
   {
@@ -181,7 +182,7 @@ TEST(RosserialHost, RefusesABufferThatDoesNotHoldAFrame)
     Bench bench(test::hostOptions(), options);
     bench.run(100);
     EXPECT_TRUE(bench.motions.empty());
-    EXPECT_TRUE(bench.forces.empty()) << "no force may be sent into a buffer that it overruns";
+    EXPECT_TRUE(bench.forces.empty()) << "no force may be sent to a buffer that it would overrun";
     ASSERT_EQ(bench.host.topics().refused().size(), 2U);
     EXPECT_NE(bench.host.topics().refused().begin()->second.reason.find("too small"), std::string::npos);
   }
@@ -192,7 +193,7 @@ TEST(RosserialHost, RefusesABufferThatDoesNotHoldAFrame)
   EXPECT_EQ(bench.host.state(), DeviceState::kEnabled);
 }
 
-TEST(RosserialHost, RefusesWrongTypesDirectionsIdsAndSeconds)
+TEST(RosserialHost, RefusesWrongTypesDirectionsIdsAndDuplicates)
 {
   TopicRegistry topics(test::hostOptions().types);
   const TopicInfo good{125, "a", "endovascular_sim/HapticSample", test::kSampleMd5, 100};
@@ -210,7 +211,7 @@ TEST(RosserialHost, RefusesWrongTypesDirectionsIdsAndSeconds)
   EXPECT_NE(topics.announce(other, true).find("already in use"), std::string::npos);
 }
 
-TEST(RosserialHost, FindsADeviceThatWasConnectedToAnEarlierHost)
+TEST(RosserialHost, DetectsADeviceThatWasConnectedToAnEarlierHost)
 {
   Bench bench;
   bench.run(50);
@@ -237,7 +238,7 @@ TEST(RosserialHost, ForwardsTheDevicesLog)
   EXPECT_EQ(log[0].level, LogLine::kWarn);
 }
 
-TEST(RosserialHost, SaysZeroAndStopAtTheEnd)
+TEST(RosserialHost, SendsZeroForceAndStopAtShutdown)
 {
   Bench bench;
   bench.run(100);
@@ -251,7 +252,7 @@ TEST(RosserialHost, SaysZeroAndStopAtTheEnd)
   EXPECT_EQ(bench.device.stops(), 1U);
 }
 
-TEST(RosserialHost, SendsTheLatestForceWhenABlockedPortOpens)
+TEST(RosserialHost, SendsTheLatestForceAfterABlockedPortIsFree)
 {
   Bench bench;
   bench.run(100);
@@ -262,14 +263,14 @@ TEST(RosserialHost, SendsTheLatestForceWhenABlockedPortOpens)
   bench.run(20);
   const std::size_t before = bench.forces.size();
   bench.sink.blocked = false;
-  bench.simulation_talks = false;
+  bench.simulation_active = false;
   bench.run(1);
-  ASSERT_EQ(bench.forces.size(), before + 2) << "the frame that had begun and the latest";
+  ASSERT_EQ(bench.forces.size(), before + 2) << "the partially written frame and the latest one";
   EXPECT_EQ(bench.forces.back().force, 0.25F);
   EXPECT_GT(bench.host.output().superseded(), 30U);
 }
 
-TEST(RosserialHost, TakesJointStatesAndGivesWrenches)
+TEST(RosserialHost, AcceptsJointStatesAndSendsWrenches)
 {
   DeviceOptions options;
   options.sample = {PayloadFormat::kJointState, "sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd"};
@@ -291,7 +292,7 @@ TEST(RosserialHost, WakesInTimeForItsWatchdogs)
   bench.run(100);
   EXPECT_GT(bench.host.wakeAt(), bench.now);
   EXPECT_LE(bench.host.wakeAt(), bench.now + 30e-3);
-  // Driven only by its own alarm, with no news at all, it must end at zero in time.
+  // Called only at wakeAt() and without any input, the host must reach zero force in time.
   double now = bench.now;
   int wakes = 0;
   HapticForce last = bench.forces.back();
@@ -303,12 +304,12 @@ TEST(RosserialHost, WakesInTimeForItsWatchdogs)
     const Bytes bytes = bench.sink.take();
     for (const HapticForce& force : bench.device.receive(bytes.data(), bytes.size(), now))
       last = force;
-    ASSERT_LT(++wakes, 30) << "alarms must not be in the past";
+    ASSERT_LT(++wakes, 30) << "wake-up times must not lie in the past";
   }
   EXPECT_EQ(last.force, 0.0F);
 }
 
-TEST(RosserialHost, SurvivesRandomBytesAndThenTakesADevice)
+TEST(RosserialHost, HandlesRandomBytesAndThenAcceptsADevice)
 {
   std::mt19937 random(5);
   RosserialHost host(test::hostOptions());
@@ -316,7 +317,7 @@ TEST(RosserialHost, SurvivesRandomBytesAndThenTakesADevice)
   test::BufferSink sink;
   for (int block = 0; block < 2000; ++block)
   {
-    // Half of it is valid frames of random ids and content, to get behind the parser.
+    // Half of the data are valid frames with random ids and content, which pass the parser.
     Bytes bytes(random() % 200);
     for (std::uint8_t& byte : bytes)
       byte = static_cast<std::uint8_t>(random() % 3 == 0 ? random() : 0);
@@ -330,8 +331,8 @@ TEST(RosserialHost, SurvivesRandomBytesAndThenTakesADevice)
   EXPECT_EQ(host.state(), DeviceState::kDisabled);
 }
 
-/** Plays what the device sent in a recording, and a simulation that pushes with 1 N; nothing passes from @p silent_from
- *  to @p silent_until. Calls @p check(time, host) every millisecond. */
+/** Replays the device's bytes of a recording against a simulated force of 1 N, with a gap from @p silent_from to
+ *  @p silent_until. Calls @p check(time, host) every millisecond. */
 template <typename Check>
 void play(const std::vector<test::Piece>& pieces, double silent_from, double silent_until, Check check)
 {
@@ -358,7 +359,7 @@ void play(const std::vector<test::Piece>& pieces, double silent_from, double sil
   }
 }
 
-TEST(RosserialHost, LetsGoWithin100MillisecondsOfTheStallInTheRecording)
+TEST(RosserialHost, ReleasesTheForceWithin100MillisecondsOfTheStallInTheRecording)
 {
   const auto pieces = test::readRecording("stall_3_to_10s.tap");
   if (pieces.empty())
@@ -380,7 +381,7 @@ TEST(RosserialHost, LetsGoWithin100MillisecondsOfTheStallInTheRecording)
   EXPECT_TRUE(held_after);
 }
 
-TEST(RosserialHost, TakesTheOriginalClientFromItsRecordings)
+TEST(RosserialHost, AcceptsTheRecordedOriginalClient)
 {
   for (const char* name : {"handshake_100hz.tap", "force_1khz_to_device.tap"})
   {

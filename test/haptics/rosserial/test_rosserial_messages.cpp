@@ -20,7 +20,7 @@ Bytes payloadOf(const char* hex)
   return test::parseAll(parser, fromHex(hex)).at(0).payload;
 }
 
-TEST(RosserialMessages, ReadTheAnnouncementOfTheOriginalClient)
+TEST(RosserialMessages, DecodeTheAnnouncementOfTheOriginalClient)
 {
   const Bytes payload = payloadOf(
       "fffe5200ad010064000c0000006861707469632f666f7263651400000067656f6d657472795f6d7367732f5772656e636820000000346635"
@@ -36,7 +36,7 @@ TEST(RosserialMessages, ReadTheAnnouncementOfTheOriginalClient)
   EXPECT_EQ(encode(info), payload);
 }
 
-TEST(RosserialMessages, ReadTheJointStateOfTheOriginalClient)
+TEST(RosserialMessages, DecodeTheJointStateOfTheOriginalClient)
 {
   const Bytes payload = payloadOf(
       "fffe6700987d000400000040bd006ba5873a0b06000000686170746963020000000400000070757368050000007477697374020000002d38"
@@ -53,7 +53,7 @@ TEST(RosserialMessages, ReadTheJointStateOfTheOriginalClient)
   EXPECT_EQ(encode(state), payload);
 }
 
-TEST(RosserialMessages, ReadTheWrenchOfTheOriginalServer)
+TEST(RosserialMessages, DecodeTheWrenchOfTheOriginalServer)
 {
   const Bytes payload = payloadOf(
       "fffe3000cf6400000000000000f83f0000000000000000000000000000000000000000000000000000000000000000000000000000d03f5"
@@ -64,7 +64,7 @@ TEST(RosserialMessages, ReadTheWrenchOfTheOriginalServer)
   EXPECT_EQ(encode(wrench), payload);
 }
 
-TEST(RosserialMessages, LayOutSampleAndForceAsDocumented)
+TEST(RosserialMessages, EncodeSampleAndForceInTheDocumentedLayout)
 {
   HapticSample sample;
   sample.time = 0x04030201;
@@ -83,7 +83,7 @@ TEST(RosserialMessages, LayOutSampleAndForceAsDocumented)
   EXPECT_EQ(decodeHapticForce(encode(force)).state, DeviceState::kPaused);
 }
 
-TEST(RosserialMessages, RefuseEveryPayloadOfAnotherLength)
+TEST(RosserialMessages, RejectPayloadsOfAWrongLength)
 {
   for (std::size_t size = 0; size < 40; ++size)
   {
@@ -103,7 +103,7 @@ TEST(RosserialMessages, RefuseEveryPayloadOfAnotherLength)
   }
 }
 
-TEST(RosserialMessages, RefuseACountThatThePayloadCannotHold)
+TEST(RosserialMessages, RejectAnArrayCountBeyondThePayload)
 {
   Bytes payload = encode(JointState());
   for (const std::size_t at : {12U, 16U, 20U, 24U, 28U})  // frame length, then four counts
@@ -114,7 +114,7 @@ TEST(RosserialMessages, RefuseACountThatThePayloadCannotHold)
   }
 }
 
-TEST(RosserialMessages, NeverReadPastARandomPayload)
+TEST(RosserialMessages, NeverReadBeyondARandomPayload)
 {
   std::mt19937 random(3);
   for (int trial = 0; trial < 30000; ++trial)

@@ -24,7 +24,7 @@ Bytes sum(std::initializer_list<Bytes> pieces)
   return all;
 }
 
-TEST(RosserialEncoder, GivesTheBytesOfTheOriginal)
+TEST(RosserialEncoder, ProducesTheBytesOfTheOriginalImplementation)
 {
   EXPECT_EQ(encodeTopicRequest(), fromHex("fffe0000ff0000ff"));
   EXPECT_EQ(encodeFrame(kTime, Bytes(8, 0)), kTimeRequest);
@@ -45,18 +45,18 @@ TEST(RosserialParser, FindsFramesFedByteByByte)
   EXPECT_EQ(parser.counters().resyncs, 0U);
 }
 
-TEST(RosserialParser, SurvivesAHeaderThatAnnouncesMoreThanTheCap)
+TEST(RosserialParser, SkipsAHeaderWithALengthAboveTheLimit)
 {
   FrameParser parser;
   const auto frames = parseAll(parser, sum({fromHex("fffe0010ef"), kTimeRequest}));
-  ASSERT_EQ(frames.size(), 1U) << "the frame must be found at once, not after 4096 bytes";
+  ASSERT_EQ(frames.size(), 1U) << "the frame must be found immediately, not after 4096 bytes";
   EXPECT_EQ(frames[0].id, kTime);
   EXPECT_EQ(parser.counters().over_long, 1U);
   EXPECT_EQ(parser.counters().resyncs, 1U);
   EXPECT_EQ(parser.counters().skipped_bytes, 5U);
 }
 
-TEST(RosserialParser, CountsABadLengthCheckAndABadSumApart)
+TEST(RosserialParser, CountsWrongLengthAndMessageChecksumsSeparately)
 {
   FrameParser parser;
   Bytes bad_length = kTimeRequest;
@@ -79,7 +79,7 @@ TEST(RosserialParser, DoesNotMistakeASyncInsideAPayload)
 
 TEST(RosserialParser, RescansFromTheByteAfterAFalseSync)
 {
-  // The false header announces 20 bytes and so covers the whole true frame behind it.
+  // The false header announces 20 bytes and covers the complete valid frame after it.
   FrameParser parser;
   const auto frames = parseAll(parser, sum({fromHex("fffe1400eb"), kTimeRequest, kTimeRequest}));
   EXPECT_EQ(frames.size(), 2U);
@@ -88,7 +88,7 @@ TEST(RosserialParser, RescansFromTheByteAfterAFalseSync)
   EXPECT_EQ(parseAll(doubled, sum({{0xff}, kTimeRequest})).size(), 1U) << "ff ff fe ...";
 }
 
-TEST(RosserialParser, GivesTheSameFramesHoweverTheStreamIsCut)
+TEST(RosserialParser, IsIndependentOfTheDivisionOfTheStream)
 {
   std::mt19937 random(7);
   Bytes stream;
@@ -120,7 +120,7 @@ TEST(RosserialParser, GivesTheSameFramesHoweverTheStreamIsCut)
   }
 }
 
-TEST(RosserialParser, FindsTheFrameBehindAnyGarbageWithinTheCap)
+TEST(RosserialParser, FindsTheFrameAfterAnyGarbageWithinThePayloadLimit)
 {
   std::mt19937 random(11);
   const Bytes marker = encodeFrame(4711, {1, 2, 3, 4});
@@ -133,12 +133,12 @@ TEST(RosserialParser, FindsTheFrameBehindAnyGarbageWithinTheCap)
     FrameParser parser;
     bool found = false;
     for (const Frame& frame : parseAll(parser, stream))
-      found = found || frame.id == 4711 || frame.payload.size() >= marker.size();  // or garbage that truly is a frame
+      found = found || frame.id == 4711 || frame.payload.size() >= marker.size();  // or garbage that is a valid frame
     ASSERT_TRUE(found) << "trial " << trial;
   }
 }
 
-TEST(RosserialParser, SurvivesMillionsOfRandomBytes)
+TEST(RosserialParser, HandlesMillionsOfRandomBytes)
 {
   std::mt19937 random(1);
   FrameParser parser;
@@ -157,7 +157,7 @@ TEST(RosserialParser, SurvivesMillionsOfRandomBytes)
     in_frames += frame.payload.size() + kFrameOverhead;
   EXPECT_EQ(counters.frames, frames.size());
   EXPECT_LE(counters.bytes - in_frames - counters.skipped_bytes, kDefaultPayloadCap + kFrameOverhead)
-      << "every byte is in a frame, skipped, or waits in the bounded buffer";
+      << "every byte is in a frame, skipped, or in the bounded buffer";
   EXPECT_GT(counters.bad_lengths, 0U);
 }
 
@@ -178,15 +178,15 @@ TEST_P(RosserialRecording, IsParsedWithoutLossInBothDirections)
     for (const Frame& frame : parseAll(parser, bytes))
       again = sum({again, encodeFrame(frame.id, frame.payload)});
     EXPECT_EQ(parser.counters().bad_lengths + parser.counters().bad_sums + parser.counters().over_long, 0U);
-    EXPECT_LT(bytes.size() - again.size(), 200U) << "at most the frame that the recording's end cut";
-    EXPECT_TRUE(std::equal(again.begin(), again.end(), bytes.begin())) << "encoding gives the recorded bytes back";
+    EXPECT_LT(bytes.size() - again.size(), 200U) << "at most the frame truncated at the end of the recording";
+    EXPECT_TRUE(std::equal(again.begin(), again.end(), bytes.begin())) << "encoding reproduces the recorded bytes";
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RosserialRecording,
                          testing::Values("handshake_100hz.tap", "force_1khz_to_device.tap", "stall_3_to_10s.tap"));
 
-TEST(RosserialRecordings, HoldTheFramesThatWereDecodedByHand)
+TEST(RosserialRecordings, ContainTheManuallyDecodedFrames)
 {
   const auto pieces = test::readRecording("handshake_100hz.tap");
   if (pieces.empty())

@@ -21,7 +21,7 @@ public:
   Bytes bytes;
 };
 
-TEST(WriteQueue, KeepsOnlyTheLatestForceOfABlockedPort)
+TEST(WriteQueue, RetainsOnlyTheLatestForceForABlockedPort)
 {
   WriteQueue queue;
   Sink sink;
@@ -36,12 +36,12 @@ TEST(WriteQueue, KeepsOnlyTheLatestForceOfABlockedPort)
   }
   sink.room = 1000;
   queue.flush(sink, 0.0);
-  EXPECT_EQ(sink.bytes, (Bytes{1, 1, 1, 99, 99, 99})) << "the one that had begun, then the latest";
+  EXPECT_EQ(sink.bytes, (Bytes{1, 1, 1, 99, 99, 99})) << "the partially written frame, then the latest one";
   EXPECT_EQ(queue.superseded(), 97U);
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(WriteQueue, CompletesAPartialFrameBeforeAnythingElse)
+TEST(WriteQueue, CompletesAPartialFrameFirst)
 {
   WriteQueue queue;
   Sink sink;
@@ -56,7 +56,7 @@ TEST(WriteQueue, CompletesAPartialFrameBeforeAnythingElse)
   EXPECT_EQ(sink.bytes, (Bytes{1, 2, 3, 4, 7, 8, 5, 6}));
 }
 
-TEST(WriteQueue, KeepsToTheSpeedOfTheLineSoThatForcesDoNotAge)
+TEST(WriteQueue, WritesAtTheSpeedOfTheLineSoThatForcesDoNotAge)
 {
   WriteQueue queue(10000.0);  // 1 ms per byte
   Sink sink;
@@ -67,7 +67,7 @@ TEST(WriteQueue, KeepsToTheSpeedOfTheLineSoThatForcesDoNotAge)
   }
   EXPECT_EQ(sink.bytes.size(), 100U);
   for (std::size_t i = 0; i < sink.bytes.size(); ++i)
-    EXPECT_EQ(sink.bytes[i], i / 10 * 10) << "each frame was the newest when its turn came";
+    EXPECT_EQ(sink.bytes[i], i / 10 * 10) << "each frame was the newest at the time of writing";
 }
 
 TEST(WriteQueue, DropsProtocolFramesBeyondItsDepth)

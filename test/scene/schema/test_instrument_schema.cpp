@@ -21,7 +21,7 @@ rod::Section sectionOf(const std::string& keys)
       .instrument.wire.sections.at(0);
 }
 
-TEST(SceneInstrument, TakesStiffnessFromTheMaterial)
+TEST(SceneInstrument, DerivesStiffnessFromTheMaterial)
 {
   const double r = 2e-4;
   const rod::Section section = sectionOf("young_modulus: 60e9, poisson_ratio: 0.25");
@@ -32,7 +32,7 @@ TEST(SceneInstrument, TakesStiffnessFromTheMaterial)
               10e9 * M_PI * std::pow(r, 4) / 2.0, 1e-15);
 }
 
-TEST(SceneInstrument, TakesStiffnessDirectly)
+TEST(SceneInstrument, AcceptsStiffnessDirectly)
 {
   const rod::Section section =
       sectionOf("bending_stiffness: 1e-4, torsional_stiffness: 3e-5, axial_stiffness: 500, friction: 0.07");
@@ -42,7 +42,7 @@ TEST(SceneInstrument, TakesStiffnessDirectly)
   EXPECT_EQ(section.friction, 0.07);
 }
 
-TEST(SceneInstrument, DerivesWhatIsNotGivenFromTheBendingStiffness)
+TEST(SceneInstrument, DerivesMissingStiffnessesFromTheBendingStiffness)
 {
   const rod::Section section = sectionOf("bending_stiffness: 1e-4, poisson_ratio: 0.3");
   EXPECT_NEAR(section.torsional_stiffness, 1e-4 / 1.3, 1e-18);
@@ -60,7 +60,7 @@ TEST(SceneInstrument, ReadsRestCurvatureAsVectorOrArc)
   EXPECT_TRUE(std::isnan(sectionOf(stiffness + "rest_curvature: [0, 0]").friction));
 }
 
-TEST(SceneInstrument, BendsTheEndOfTheLastSections)
+TEST(SceneInstrument, AppliesTheTipShapeToTheDistalSections)
 {
   const Scene scene = loadScene(kBench, {"instrument.tip={shape: semicircle, radius: 0.01, straight: 0.005}"});
   const auto& sections = scene.instruments.front().instrument.wire.sections;
@@ -72,7 +72,7 @@ TEST(SceneInstrument, BendsTheEndOfTheLastSections)
   EXPECT_TRUE(sections[2].rest_curvature.isZero(0.0));
 }
 
-TEST(SceneInstrument, OfATubeTakesStiffnessFromItsWall)
+TEST(SceneInstrument, DerivesTheStiffnessOfATubeFromItsWall)
 {
   const double outer = std::pow(2e-4, 4) - std::pow(1.5e-4, 4);
   const auto tube = [](const std::string& keys)

@@ -33,13 +33,13 @@ std::string refusalOf(const std::string& step)
   return "accepted";
 }
 
-TEST(SceneProcedure, IsReadStepByStep)
+TEST(SceneProcedure, ReadsItsSteps)
 {
   const Scene scene = sceneOf(
-      "{phase: Way in, advance: wire, until: {tip_in: tube, beyond: 0.05, held: 0.2}, speed: 0.03, turn_speed: -1,\n"
+      "{phase: Entry, advance: wire, until: {tip_in: tube, beyond: 0.05, held: 0.2}, speed: 0.03, turn_speed: -1,\n"
       "       time_limit: 12, any_branch: true, retry: {back: 0.02, turn: 0.7, times: 3}}");
   const StepScene& step = scene.procedure->steps.at(0);
-  EXPECT_EQ(step.phase, "Way in");
+  EXPECT_EQ(step.phase, "Entry");
   EXPECT_EQ(step.action, StepAction::kAdvance);
   EXPECT_EQ(step.instrument, "wire");
   EXPECT_EQ(step.until.tip_in, "tube");
@@ -54,7 +54,7 @@ TEST(SceneProcedure, IsReadStepByStep)
   EXPECT_EQ(step.retry.times, 3);
 }
 
-TEST(SceneProcedure, IsTheSameWhenItsResolvedTextIsReadAgain)
+TEST(SceneProcedure, IsUnchangedByItsResolvedText)
 {
   for (const char* step : {"{advance: wire, until: {tip_in: tube}}", "{withdraw: wire, until: {by: 0.1}, phase: Out}",
                            "{rotate: wire, until: {turned: -2}}", "{inflate: balloon, pressure: -0.5e5, for: 3}",
@@ -65,7 +65,7 @@ TEST(SceneProcedure, IsTheSameWhenItsResolvedTextIsReadAgain)
   }
 }
 
-TEST(SceneProcedure, CanBeAFileOfItsOwn)
+TEST(SceneProcedure, CanBeASeparateFile)
 {
   const Scene scene = loadScene(PROJECT_DIR "/config/scenes/pci.yaml");
   ASSERT_TRUE(scene.procedure);
@@ -75,27 +75,26 @@ TEST(SceneProcedure, CanBeAFileOfItsOwn)
       0.03);
 }
 
-TEST(SceneProcedure, RefusalsNameFileKeyAndRemedy)
+TEST(SceneProcedure, ReportsErrorsWithFileKeyAndRemedy)
 {
-  EXPECT_EQ(
-      refusalOf("{push: wire}"),
-      "scene.yaml: procedure.steps.0 (line 7): says nothing to do; give one of advance, withdraw, rotate, inflate, "
-      "exchange, wait");
+  EXPECT_EQ(refusalOf("{push: wire}"),
+            "scene.yaml: procedure.steps.0 (line 7): has no action; give one of advance, withdraw, rotate, inflate, "
+            "exchange, wait");
   EXPECT_NE(refusalOf("{advance: wire, rotate: wire, until: {by: 1}}").find("procedure.steps.0.rotate"),
             std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {tip_inn: tube}}").find("tip_in"), std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire}").find("procedure.steps.0.until"), std::string::npos);
-  EXPECT_NE(refusalOf("{advance: wire, until: {beyond: 0.1, outside: true}}").find("needs a branch"),
+  EXPECT_NE(refusalOf("{advance: wire, until: {beyond: 0.1, outside: true}}").find("requires a branch"),
             std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {by: 0.1}, speed: -1}").find("procedure.steps.0.speed"),
             std::string::npos);
-  EXPECT_NE(refusalOf("{advance: catheter, until: {by: 0.1}}").find("'catheter' is no instrument"), std::string::npos);
+  EXPECT_NE(refusalOf("{advance: catheter, until: {by: 0.1}}").find("'catheter' is not driven"), std::string::npos);
   EXPECT_NE(refusalOf("{inflate: wire, pressure: 1e5, for: 1}").find("has no balloon"), std::string::npos);
   EXPECT_NE(refusalOf("{inflate: balloon, for: 1}").find("procedure.steps.0.pressure"), std::string::npos);
   EXPECT_NE(refusalOf("{wait: 1, speed: 2}").find("speed"), std::string::npos);
 }
 
-TEST(SceneProcedure, IsMissedByADriveThatFollowsIt)
+TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
 {
   try
   {
@@ -105,7 +104,7 @@ TEST(SceneProcedure, IsMissedByADriveThatFollowsIt)
   catch (const InputError& error)
   {
     EXPECT_STREQ(error.what(),
-                 "scene.yaml: instruments.0.drive.source (line 2): is procedure, but the scene has none; give "
+                 "scene.yaml: instruments.0.drive.source (line 2): is procedure, but the scene has no procedure; give "
                  "procedure: FILE, or another source");
   }
 }

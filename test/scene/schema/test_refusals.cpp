@@ -18,14 +18,14 @@ struct Refusal
 {
   std::string file;    ///< below test/data/scenes
   std::string place;   ///< key path and line
-  std::string remedy;  ///< words that tell what would be right
+  std::string remedy;  ///< words of the remedy
 };
 
 const std::vector<Refusal> kRefusals = {
     {"bad_unknown_key.yaml", "sovler (line 12)", "did you mean \"solver\"?"},
     {"bad_unknown_nested_key.yaml", "drive.speeed (line 14)", "did you mean \"speed\"?"},
     {"bad_unknown_key_without_neighbour.yaml", "record.colour_scheme (line 13)",
-     "known here: pose_rate, trajectory_rate, wall_force_threshold"},
+     "known keys: pose_rate, trajectory_rate, wall_force_threshold"},
     {"bad_misspelt_required_key.yaml", "instrument.sections.0.densty (line 9)", "did you mean \"density\"?"},
     {"bad_missing_instrument.yaml", "instrument (line 1)", "give a file"},
     {"bad_missing_instrument_file.yaml", "instrument (line 3)", "give the path of an existing file"},
@@ -109,7 +109,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_lesion_closed.yaml", "vessel.lesions.0.grade (line 14)", "between 0 and 0.99"},
     {"bad_wire_in_millimetres.yaml", "instrument.sections.0.radius (line 7)", "greater than 0 and at most 0.02"},
     {"bad_lesion_placed_twice.yaml", "vessel.lesions.0.fraction (line 14)", "keep one of the two"},
-    {"bad_lesion_at_a_point_and_on_a_branch.yaml", "vessel.lesions.0.branch (line 14)", "besides at"},
+    {"bad_lesion_at_a_point_and_on_a_branch.yaml", "vessel.lesions.0.branch (line 14)", "conflicts with at"},
     {"bad_load_beyond_the_tip.yaml", "loads.point_loads.0.position (line 14)", "at most the wire's length"},
     {"bad_torque_inside_the_wire.yaml", "loads.point_loads.0.torque (line 14)", "remove position"},
     {"bad_patient_behind_detector.yaml", "fluoroscopy.source_to_patient (line 13)", "less than source_to_detector"},
@@ -137,7 +137,7 @@ bool contains(const std::string& text, const std::string& part)
   return text.find(part) != std::string::npos;
 }
 
-TEST(SceneRefusals, NameFileKeyLineAndRemedy)
+TEST(SceneRefusals, ReportFileKeyLineAndRemedy)
 {
   for (const Refusal& refusal : kRefusals)
   {
@@ -148,7 +148,7 @@ TEST(SceneRefusals, NameFileKeyLineAndRemedy)
   }
 }
 
-TEST(SceneRefusals, CoverEveryBadSceneOfTheTestData)
+TEST(SceneRefusals, CoverAllInvalidScenesOfTheTestData)
 {
   std::set<std::string> listed;
   for (const Refusal& refusal : kRefusals)
@@ -161,18 +161,18 @@ TEST(SceneRefusals, CoverEveryBadSceneOfTheTestData)
   EXPECT_GE(present.size(), 20U);
 }
 
-TEST(SceneRefusals, SpareAGoodScene)
+TEST(SceneRefusals, AcceptAValidScene)
 {
   EXPECT_EQ(refusalOf(kFolder + "good_bench.yaml"), "");
 }
 
-TEST(SceneRefusals, NameAMissingSceneFile)
+TEST(SceneRefusals, ReportAMissingSceneFile)
 {
   EXPECT_TRUE(contains(refusalOf(kFolder + "absent.yaml"), "absent.yaml: no such file"));
   EXPECT_TRUE(contains(refusalOf(kFolder), "is not a file"));
 }
 
-TEST(SceneRefusals, TreatAnOverrideLikeTheFile)
+TEST(SceneRefusals, ApplyToOverrides)
 {
   const std::string file = kFolder + "good_bench.yaml";
   EXPECT_TRUE(contains(refusalOf(file, {"durration=1"}), "durration (--set): unknown key; did you mean \"duration\"?"));
@@ -184,7 +184,7 @@ TEST(SceneRefusals, TreatAnOverrideLikeTheFile)
   EXPECT_TRUE(contains(refusalOf(file, {"loads.gravity=[0, 0"}), "not valid YAML"));
 }
 
-TEST(SceneRefusals, NameTheInstrumentsOwnFile)
+TEST(SceneRefusals, ReportTheFileOfTheInstrument)
 {
   const std::string message = refusalOf(std::string(PROJECT_DIR) + "/config/scenes/straight_wire.yaml",
                                         {"instrument=" + kFolder + "wire_without_length.yaml"});

@@ -1,4 +1,4 @@
-#include "procedure/branch_places.h"
+#include "procedure/branch_locator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr double kOstiumStep = 0.5e-3;  // m along a branch, in search of where it leaves its parent
-constexpr double kWider = 1.25;         // times as wide as a branch is what it leaves by an ostium
+constexpr double kOstiumStep = 0.5e-3;  // step of the search for the ostium along a branch [m]
+constexpr double kWider = 1.25;         // ratio of radii above which an ancestor counts as wider
 
-/** Whether a place on a branch's centreline lies within the lumen of a wider branch that it comes from. One that it
- *  continues is not wider. */
+/** True if a point of a branch's centreline lies in the lumen of a wider ancestor. An ancestor of similar radius, which
+ *  the branch continues, does not count. */
 bool isInParents(const vessel::CentrelineTree& tree, const std::vector<geometry::Polyline>& lines, std::size_t branch,
                  double arc)
 {
@@ -33,7 +33,7 @@ bool isInParents(const vessel::CentrelineTree& tree, const std::vector<geometry:
 
 }  // namespace
 
-BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector<scene::NamedBranch>& names)
+BranchLocator::BranchLocator(const vessel::CentrelineTree& tree, const std::vector<scene::NamedBranch>& names)
   : finder_(tree)
 {
   for (const vessel::CentrelineBranch& branch : tree.branches)
@@ -42,7 +42,7 @@ BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector
     parent_.push_back(branch.parent);
     names_.push_back(branch.name);
   }
-  own_names_ = names_;
+  vessel_names_ = names_;
   for (const scene::NamedBranch& named : names)
     if (const int branch = finder_.nearest(named.at); branch >= 0)
       names_[static_cast<std::size_t>(branch)] = named.name;
@@ -55,33 +55,33 @@ BranchPlaces::BranchPlaces(const vessel::CentrelineTree& tree, const std::vector
   }
 }
 
-BranchPlace BranchPlaces::at(const Eigen::Vector3d& point) const
+BranchPosition BranchLocator::at(const Eigen::Vector3d& point) const
 {
   const int branch = finder_.nearest(point);
   return {branch, branch < 0 ? 0.0 : depthIn(branch, point)};
 }
 
-double BranchPlaces::depthIn(int branch, const Eigen::Vector3d& point) const
+double BranchLocator::depthIn(int branch, const Eigen::Vector3d& point) const
 {
   const auto b = static_cast<std::size_t>(branch);
   return lines_[b].nearest(point).arc - ostium_[b];
 }
 
-int BranchPlaces::find(const std::string& name) const
+int BranchLocator::find(const std::string& name) const
 {
-  for (const std::vector<std::string>* list : {&names_, &own_names_})
+  for (const std::vector<std::string>* list : {&names_, &vessel_names_})
     if (const auto found = std::find(list->begin(), list->end(), name); found != list->end())
       return static_cast<int>(found - list->begin());
   return -1;
 }
 
-const std::string& BranchPlaces::name(int branch) const
+const std::string& BranchLocator::name(int branch) const
 {
   static const std::string outside = "outside";
   return branch < 0 ? outside : names_[static_cast<std::size_t>(branch)];
 }
 
-std::string BranchPlaces::names() const
+std::string BranchLocator::names() const
 {
   std::string text;
   for (const std::string& name : names_)
@@ -89,20 +89,20 @@ std::string BranchPlaces::names() const
   return text;
 }
 
-std::vector<bool> BranchPlaces::wayBetween(int from, int to) const
+std::vector<bool> BranchLocator::pathBetween(int from, int to) const
 {
   std::vector<bool> on_way(names_.size(), to < 0 || from < 0);
   if (to < 0 || from < 0)
     return on_way;
-  const auto rootwards = [this](int branch)
+  const auto path_to_root = [this](int branch)
   {
     std::vector<int> chain;
     for (; branch >= 0 && chain.size() <= parent_.size(); branch = parent_[static_cast<std::size_t>(branch)])
       chain.push_back(branch);
     return chain;
   };
-  const std::vector<int> up = rootwards(from);
-  const std::vector<int> down = rootwards(to);
+  const std::vector<int> up = path_to_root(from);
+  const std::vector<int> down = path_to_root(to);
   for (const std::vector<int>* chain : {&up, &down})
   {
     const std::vector<int>& other = chain == &up ? down : up;
@@ -110,7 +110,7 @@ std::vector<bool> BranchPlaces::wayBetween(int from, int to) const
     {
       on_way[static_cast<std::size_t>(branch)] = true;
       if (std::find(other.begin(), other.end(), branch) != other.end())
-        break;  // the fork of both ways
+        break;  // the lowest common ancestor
     }
   }
   return on_way;
