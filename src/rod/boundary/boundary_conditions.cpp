@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "rod/model/node_curvature.h"
 #include "rod/model/stretching.h"
 
@@ -10,19 +12,35 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: what stands out less than the rest of it is nothing
+constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: a shorter visible rest is neglected
+
+/** Rotation from the wire's first direction to that of its clamped distal end. */
+Eigen::Matrix3d distalRotation(const EndMotion& distal)
+{
+  const double angle = distal.tilt.norm();
+  if (angle == 0.0)
+    return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, distal.tilt / angle).toRotationMatrix();
+}
 
 }  // namespace
 
 bool BoundaryConditions::isPrescribed(int node, const State& state) const
 {
+  if (isDistalHeld(node))
+    return true;
   if (boundary_.introducer)
-    return bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
-  const int last = rod_.nodes() - 1;
-  return (boundary_.proximal != EndHold::kFree && node == 0) ||
-         (boundary_.proximal == EndHold::kClamped && node == 1) ||
-         (boundary_.distal != EndHold::kFree && node == last) ||
-         (boundary_.distal == EndHold::kClamped && node == last - 1);
+    return (clamped_ == ClampedNodes::kNode && node == state.first_node) ||
+           bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
+  return (boundary_.proximal != EndHold::kFree && node == 0) || (node == 1 && clampsEdge(boundary_.proximal));
+}
+
+int BoundaryConditions::firstFreeNode(const State& state) const
+{
+  int free = state.first_node;
+  while (free < rod_.nodes() && isPrescribed(free, state) && !isDistalHeld(free))
+    ++free;
+  return free;
 }
 
 int BoundaryConditions::firstSimulatedNode(double inserted_length) const
@@ -52,22 +70,50 @@ State BoundaryConditions::initialState(double inserted_length, double rotation) 
   for (int i = 0; i < rod_.nodes(); ++i)
     state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
   state.first_node = firstSimulatedNode(inserted_length);
+  const Eigen::Vector3d& last = state.position[n - 1];
+  state.distal_anchor =
+      boundary_.distal == EndHold::kClamped ? Eigen::Vector3d(0.5 * (last + state.position[n - 2])) : last;
   return state;
 }
 
-void BoundaryConditions::placePrescribedNodes(State& state, double inserted_length, double dt) const
+PlacedNodes BoundaryConditions::placePrescribedNodes(State& state, double inserted_length, double dt) const
 {
   const int old_first = state.first_node;
   const double speed = (inserted_length - state.inserted_length) / dt;
   state.inserted_length = inserted_length;
   if (!boundary_.introducer)
-    return;
+    return {};
   state.first_node = firstSimulatedNode(inserted_length);
+  PlacedNodes placed{state.first_node, state.first_node, state.first_node};
   for (int i = state.first_node; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
   {
+    if (isDistalHeld(i))
+      break;
     state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
     state.velocity[i] = speed * boundary_.direction;
     state.wall_force[i].setZero();
+    placed.end = i + 1;
+    if (i < old_first)
+      placed.born = i + 1;
+  }
+  return placed;
+}
+
+void BoundaryConditions::placeDistalEnd(State& state, const EndMotion& motion, double dt) const
+{
+  state.distal = motion;
+  if (boundary_.distal == EndHold::kFree)
+    return;
+  const int last = rod_.nodes() - 1;
+  const Eigen::Vector3d anchor = state.distal_anchor + motion.displacement;
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();
+  if (boundary_.distal == EndHold::kClamped)
+    half = (0.5 * rod_.rest_length[last - 1]) * (distalRotation(state.distal) * boundary_.direction);
+  for (int i = last; i >= 0 && isDistalHeld(i); --i)
+  {
+    const Eigen::Vector3d target = i == last ? Eigen::Vector3d(anchor + half) : Eigen::Vector3d(anchor - half);
+    state.velocity[i] = (target - state.position[i]) / dt;
+    state.position[i] = target;
   }
 }
 
@@ -86,9 +132,20 @@ TwistBoundary BoundaryConditions::twistBoundary(const State& state, double tip_t
   twist.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
   twist.tangent = boundary_.direction;
   twist.director = boundary_.director;
-  twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.5 * rod_.rest_length[0];
+  const double clamp = clamped_ == ClampedNodes::kEdge ? 0.5 * rod_.rest_length[0] : 0.0;
+  twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : clamp;
   twist.rotation = state.rotation;
   twist.tip_torque = tip_torque;
+  return twist;
+}
+
+TwistBoundary BoundaryConditions::twistBoundary(const State& state, const StepInput& input) const
+{
+  TwistBoundary twist = twistBoundary(state, input.tip_torque);
+  twist.edge_torque = &input.edge_torque;
+  twist.tip_held = boundary_.distal == EndHold::kClamped && boundary_.distal_twist_held;
+  twist.tip_director = distalRotation(state.distal) * boundary_.director;
+  twist.tip_rotation = state.distal.rotation;
   return twist;
 }
 
@@ -146,6 +203,16 @@ Energy elasticEnergy(const Discretisation& rod, const State& state, const QuasiS
     energy.stretch +=
         Stretching(state.position[j + 1] - state.position[j], rod.rest_length[j], rod.axial_stiffness[j]).energy();
   return energy;
+}
+
+double outsideInsertion(const Discretisation& rod, double guide_length)
+{
+  return -guide_length - 2.0 * rod.rest_length.front();
+}
+
+double maxInsertion(double length, const Discretisation& rod, double guide_length)
+{
+  return length - guide_length - 3.0 * rod.rest_length.front();
 }
 
 }  // namespace endovascular_sim::rod

@@ -178,9 +178,9 @@ void KktStepper::addConstraint(int edge, const State& state, double dt)
 void KktStepper::addMouth(const State& state, double dt)
 {
   int edge = first_;
-  while (edge + 2 < rod_.nodes() && bodyPosition(edge + 1, state.inserted_length) < 0.0)
+  while (edge + 2 < rod_.nodes() && conditions_.bodyPosition(edge + 1, state.inserted_length) < 0.0)
     ++edge;
-  const double share = -bodyPosition(edge, state.inserted_length) / rod_.rest_length[edge];
+  const double share = -conditions_.bodyPosition(edge, state.inserted_length) / rod_.rest_length[edge];
   if (share >= 0.0 && share <= 1.0)
     addSheath(edge, share, state, dt);
 }
@@ -226,7 +226,8 @@ double KktStepper::heavyMass(int node) const
 
 double KktStepper::dragCoefficient(int node, double speed, const State& state) const
 {
-  if (environment_.fluid_density <= 0.0 || (boundary_.introducer && bodyPosition(node, state.inserted_length) < 0.0))
+  if (environment_.fluid_density <= 0.0 ||
+      (boundary_.introducer && conditions_.bodyPosition(node, state.inserted_length) < 0.0))
     return 0.0;
   return environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] * rod_.cell_length[node] *
          speed;
@@ -244,7 +245,7 @@ void KktStepper::addNodeTerms(int node, const State& state, double dt, bool firs
   addDiagonal(node, mass + damped);
   resistance_[node] = damped;
   resisted_[node].setZero();
-  const double beyond = bodyPosition(node, state.inserted_length);
+  const double beyond = conditions_.bodyPosition(node, state.inserted_length);
   Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
   const bool slides = massSlide() != nullptr && !restoring_;
   if (slides)

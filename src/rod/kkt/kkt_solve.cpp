@@ -69,11 +69,11 @@ void KktStepper::correctLengths(const State& state)
     return;
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
   correction_.assign(rhs_.size(), 0.0);
-  const int free = firstFreeNode(state);
+  const int free = conditions_.firstFreeNode(state);
   double largest = 0.0;
   for (int j = std::max(first_, free - 1); j + 1 < rod_.nodes(); ++j)
   {
-    if (isDistalHeld(j))
+    if (conditions_.isDistalHeld(j))
       continue;
     const Eigen::Vector3d edge = state.position[j + 1] + motion_[j + 1] - state.position[j] - motion_[j];
     const double stretch = edge.norm() - rod_.rest_length[j];
@@ -94,7 +94,7 @@ bool KktStepper::canRewind(const State& state) const
 {
   if (settings_.linear_solver == LinearSolver::kSparse || !boundary_.introducer || boundary_.distal != EndHold::kFree)
     return false;
-  return row(firstFreeNode(state)) + kBandwidth <= Matrix::kMarkEvery;
+  return row(conditions_.firstFreeNode(state)) + kBandwidth <= Matrix::kMarkEvery;
 }
 
 void KktStepper::addContact(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt)

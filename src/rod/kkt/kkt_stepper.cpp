@@ -12,7 +12,6 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr int kMaxHalvings = 3;
 constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
 constexpr double kEnergyGrowth = 1.1;
 constexpr int kMaxRestoringSolves = 4;
@@ -24,93 +23,31 @@ constexpr double kLargestTension = 1e9;      // the same, in units of the multip
 
 }  // namespace
 
-void StepReport::add(const StepReport& other)
-{
-  solved = solved && other.solved;
-  solves += other.solves;
-  factorisations += other.factorisations;
-  truncations += other.truncations;
-  bisections += other.bisections;
-  hit_iteration_limit += other.hit_iteration_limit;
-  max_strain = std::max(max_strain, other.max_strain);
-  first_stale_pass = std::min(first_stale_pass, other.first_stale_pass);
-}
-
 KktStepper::KktStepper(Discretisation rod, Boundary boundary, Environment environment, StepperSettings settings)
   : rod_(std::move(rod)), boundary_(std::move(boundary)), environment_(std::move(environment)), settings_(settings)
 {
   scale_ = rod_.mass[static_cast<std::size_t>(rod_.nodes() / 2)];
 }
 
-double KktStepper::bodyPosition(int node, double inserted_length) const
-{
-  return BoundaryConditions(rod_, boundary_).bodyPosition(node, inserted_length);
-}
-
 State KktStepper::initialState(double inserted_length, double rotation) const
 {
-  State state = BoundaryConditions(rod_, boundary_).initialState(inserted_length, rotation);
-  const Eigen::Vector3d& last = state.position.back();
-  const Eigen::Vector3d& before = state.position[state.position.size() - 2];
-  state.distal_anchor = boundary_.distal == EndHold::kClamped ? Eigen::Vector3d(0.5 * (last + before)) : last;
-  return state;
-}
-
-bool KktStepper::isPrescribed(int node, const State& state) const
-{
-  if (isDistalHeld(node))
-    return true;
-  if (boundary_.introducer)
-    return bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
-  return (boundary_.proximal != EndHold::kFree && node == 0) || (boundary_.proximal == EndHold::kClamped && node == 1);
-}
-
-/** The first one that the proximal end does not hold. */
-int KktStepper::firstFreeNode(const State& state) const
-{
-  int free = first_;
-  while (free < rod_.nodes() && isPrescribed(free, state) && !isDistalHeld(free))
-    ++free;
-  return free;
+  return conditions_.initialState(inserted_length, rotation);
 }
 
 void KktStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
 {
-  const int old_first = state.first_node;
-  const double speed = (inserted_length - state.inserted_length) / dt;
-  state.inserted_length = inserted_length;
-  if (boundary_.introducer)
-  {
-    state.first_node = BoundaryConditions(rod_, boundary_).firstSimulatedNode(inserted_length);
-    for (int i = state.first_node; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
-    {
-      if (isDistalHeld(i))
-        break;
-      state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
-      state.velocity[i] = speed * boundary_.direction;
-      begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
-      if (i < old_first)
-        begin_twist_[i] = state.rotation;
-      state.wall_force[i].setZero();
-    }
-  }
+  const PlacedNodes placed = conditions_.placePrescribedNodes(state, inserted_length, dt);
+  for (int i = placed.begin; i < placed.end; ++i)
+    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
+  for (int i = placed.begin; i < placed.born; ++i)
+    begin_twist_[i] = state.rotation;
   first_ = state.first_node;
-}
-
-TwistBoundary KktStepper::twistBoundary(const State& state, const StepInput& input) const
-{
-  TwistBoundary twist = BoundaryConditions(rod_, boundary_).twistBoundary(state, input.tip_torque);
-  twist.edge_torque = &input.edge_torque;
-  twist.tip_held = boundary_.distal == EndHold::kClamped && boundary_.distal_twist_held;
-  twist.tip_director = distalRotation(state) * boundary_.director;
-  twist.tip_rotation = state.distal.rotation;
-  return twist;
 }
 
 KktStepper::TwistAction KktStepper::relaxTwist(State& state, const StepInput& input,
                                                const std::vector<TwistFriction>& friction)
 {
-  TwistBoundary boundary = twistBoundary(state, input);
+  TwistBoundary boundary = conditions_.twistBoundary(state, input);
   boundary.friction = &friction;
   if (!QuasiStaticTwist::matters(rod_, boundary))
   {
@@ -125,7 +62,7 @@ KktStepper::TwistAction KktStepper::relaxTwist(State& state, const StepInput& in
 
 bool KktStepper::run(State& state, const StepInput& input, double dt, StepReport& report)
 {
-  return advance(state, input, dt, 0, report);
+  return advance(state, input, dt, report);
 }
 
 void KktStepper::refreshRod(State& /*state*/, const StepInput& /*input*/, double /*dt*/) {}
@@ -175,43 +112,24 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   return report;
 }
 
-bool KktStepper::advance(State& state, const StepInput& input, double dt, int depth, StepReport& report)
+bool KktStepper::advance(State& state, const StepInput& input, double dt, StepReport& report)
 {
-  if (static_cast<int>(backup_.size()) <= depth)
-    backup_.resize(static_cast<std::size_t>(depth) + 1);
-  backup_[depth] = state;
-  if (solveStep(state, input, dt, report) && (depth == kMaxHalvings || !gainedEnergy(state, depth, dt)))
-    return true;
-  state = backup_[depth];
-  contacts_.invalidate();
-  if (depth == kMaxHalvings)
-  {
-    hold(state, depth);
-    return false;
-  }
-  ++report.bisections;
-  StepInput half = input;
-  half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
-  half.rotation = 0.5 * (state.rotation + input.rotation);
-  half.distal = between(state.distal, input.distal, 0.5);
-  for (std::size_t k = 0; k < half.layers.size(); ++k)
-  {
-    half.layers[k].inserted_length = 0.5 * (state.layers[k].inserted_length + input.layers[k].inserted_length);
-    half.layers[k].rotation = 0.5 * (state.layers[k].rotation + input.layers[k].rotation);
-  }
-  if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
-    return true;
-  hold(state, depth);
-  return false;
+  const bool solved = bisection_.advance(
+      state, input, dt, report,
+      [this, &report](State& part, const State& before, const StepInput& at, double part_dt, bool shortest)
+      { return solveStep(part, at, part_dt, report) && (shortest || !gainedEnergy(before, part, part_dt)); },
+      [this] { contacts_.invalidate(); });
+  if (!solved)
+    strain_ = maxStrain(rod_, state);
+  return solved;
 }
 
 /** Whether a step that was accepted unfinished has more energy than it began with and the hand gave: a snap that was
  *  too violent for the step. */
-bool KktStepper::gainedEnergy(const State& state, int depth, double dt)
+bool KktStepper::gainedEnergy(const State& before, const State& state, double dt)
 {
   if (!hit_iteration_limit_)
     return false;
-  const State& before = backup_[depth];
   const double travel = state.inserted_length - before.inserted_length;
   double mass = 0.0;
   double kinetic = 0.0;
@@ -231,16 +149,6 @@ bool KktStepper::gainedEnergy(const State& state, int depth, double dt)
   return kinetic + elastic.bending + elastic.twist > allowed;
 }
 
-/** Refused: the wire stays where it was, at rest, and the caller is told. */
-void KktStepper::hold(State& state, int depth)
-{
-  state = backup_[depth];
-  for (Eigen::Vector3d& velocity : state.velocity)
-    velocity.setZero();
-  contacts_.invalidate();
-  strain_ = maxStrain(rod_, state);
-}
-
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
@@ -248,7 +156,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   const bool turned = turns(state, input);
   refreshRod(state, input, dt);
   placePrescribedNodes(state, input.inserted_length, dt);
-  placeDistalEnd(state, input.distal, dt);
+  conditions_.placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
   contacts_.refresh(state, report);
   contacts_.settle(state);
@@ -333,8 +241,8 @@ void KktStepper::finish(State& state, double dt)
   const SurfaceMotion surface = surfaceMotion();
   friction_.finish(state, begin_, &surface);
   const double inverse = 1.0 / dt;
-  for (int i = firstFreeNode(state); i < rod_.nodes(); ++i)
-    if (!isDistalHeld(i))
+  for (int i = conditions_.firstFreeNode(state); i < rod_.nodes(); ++i)
+    if (!conditions_.isDistalHeld(i))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
   complete(state, dt);
 }
@@ -355,13 +263,13 @@ void KktStepper::prescribeNodes(const State& state)
 {
   for (int i = first_; i < rod_.nodes(); ++i)
   {
-    if (!isPrescribed(i, state))
+    if (!conditions_.isPrescribed(i, state))
     {
       if (boundary_.introducer && boundary_.distal == EndHold::kFree)
         break;
       continue;
     }
-    const bool next_too = i + 1 < rod_.nodes() && isPrescribed(i + 1, state);
+    const bool next_too = i + 1 < rod_.nodes() && conditions_.isPrescribed(i + 1, state);
     if (fresh_ > 0)  // the matrix knows already
       std::fill_n(rhs_.begin() + row(i), next_too ? 8 : 3, 0.0);
     else

@@ -2,11 +2,13 @@
 
 #include <vector>
 
+#include "rod/boundary/boundary_conditions.h"
 #include "rod/contact/contact_solver_state.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/linear/banded_ldlt.h"
 #include "rod/linear/sparse_solver.h"
 #include "rod/model/bending_pair.h"
+#include "rod/stepping/step_bisection.h"
 #include "rod/stepping/stepper.h"
 #include "rod/twist/twist.h"
 
@@ -83,12 +85,12 @@ protected:
   /** Motion of the nodes' masses; null: with the nodes. */
   virtual const std::vector<MassSlide>* massSlide() const { return nullptr; }
 
-  bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
+  bool advance(State& state, const StepInput& input, double dt, StepReport& report);
   /** Drag of the fluid on a node per speed of its surface [N·s/m]; outside of the body 0. */
   double dragCoefficient(int node, double speed, const State& state) const;
-  TwistBoundary twistBoundary(const State& state, const StepInput& input) const;
   /** Friction about the axis of a state that goes on from where it is. */
   const std::vector<TwistFriction>& frictionAtRest(const State& state);
+  const BoundaryConditions& conditions() const { return conditions_; }
   const Boundary& boundary() const { return boundary_; }
   const Environment& environment() const { return environment_; }
   const StepperSettings& settings() const { return settings_; }
@@ -103,16 +105,10 @@ private:
   static constexpr int kBandwidth = 10;
   using Matrix = BandedLdlt<kBandwidth, 4>;
 
-  bool gainedEnergy(const State& state, int depth, double dt);
-  void hold(State& state, int depth);
+  bool gainedEnergy(const State& before, const State& state, double dt);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
   void placePrescribedNodes(State& state, double inserted_length, double dt);
-  void placeDistalEnd(State& state, const EndMotion& motion, double dt);
-  bool isPrescribed(int node, const State& state) const;
-  int firstFreeNode(const State& state) const;
-  bool isDistalHeld(int node) const;
-  static Eigen::Matrix3d distalRotation(const State& state);
   SurfaceMotion surfaceMotion() const;
   void collectFriction(const State& state, double dt, bool first_solve);
 
@@ -142,7 +138,6 @@ private:
   Eigen::Vector3d forceOnHold(int node, double dt) const;
   double heavyMass(int node) const;
   double foldTruncation(const State& state, double factor) const;
-  double bodyPosition(int node, double inserted_length) const;
   void finish(State& state, double dt);
 
   int row(int node) const { return 4 * (node - first_); }
@@ -157,6 +152,7 @@ private:
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;
+  BoundaryConditions conditions_{rod_, boundary_};
   double scale_;  ///< of the constraint rows [kg]
 
   QuasiStaticTwist twist_;
@@ -185,7 +181,7 @@ private:
   std::vector<double> resistance_;                     ///< of fluid and damping to a node's travel, times Δt² [kg]
   std::vector<Eigen::Vector3d> resisted_;  ///< and what it resists of its masses' and surface's slide [kg·m]
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
-  std::vector<State> backup_;  ///< per depth of halving
+  StepBisection bisection_;
 };
 
 }  // namespace endovascular_sim::rod

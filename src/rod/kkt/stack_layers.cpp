@@ -125,7 +125,7 @@ bool StackStepper::run(State& state, const StepInput& input, double dt, StepRepo
   input_ = input;
   input_.inserted_length = input.layers[state.reference].inserted_length;
   input_.rotation = input.layers[state.reference].rotation;
-  if (advance(state, input_, dt, 0, report))
+  if (advance(state, input_, dt, report))
     return true;
   for (LayerState& layer : state.layers)
     layer.speed = 0.0;  // refused: at rest
@@ -333,7 +333,7 @@ void StackStepper::relaxFromHere(State& state)
 KktStepper::TwistAction StackStepper::relaxTwist(State& state, const StepInput& input,
                                                  const std::vector<TwistFriction>& friction)
 {
-  const TwistBoundary boundary = twistBoundary(state, input);
+  const TwistBoundary boundary = conditions().twistBoundary(state, input);
   setTorqueLimits(state);
   for (int iteration = 0; iteration < kFrictionIterations; ++iteration)
   {

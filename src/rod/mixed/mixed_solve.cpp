@@ -101,7 +101,7 @@ bool MixedStepper::factoriseAndSolve(const State& state, double shift, StepRepor
     for (int axis = 0; axis < 3; ++axis)
       matrix_.at(model_.positionRow(state, i) + axis, model_.positionRow(state, i) + axis) += shift * rod_.mass[i];
   model_.prescribeEnds(state, matrix_, rhs_);
-  for (int i = state.first_node; boundary_.introducer && i < rod_.nodes() && isPrescribed(i, state); ++i)
+  for (int i = state.first_node; boundary_.introducer && i < rod_.nodes() && conditions().isPrescribed(i, state); ++i)
   {
     model_.prescribe(model_.positionRow(state, i), 1.0, matrix_, rhs_);
     if (i > state.first_node)
@@ -175,7 +175,7 @@ void MixedStepper::accept(State& state, double factor)
     return;
   contacts_.updateWallForces(state, motion_);
   updateEndForces(
-      state, boundary_, [this, &state](int node) { return isPrescribed(node, state); },
+      state, boundary_, [this, &state](int node) { return conditions().isPrescribed(node, state); },
       [this, &state](int node)
       {
         const int row = model_.positionRow(state, node);

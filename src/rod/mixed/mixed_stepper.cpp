@@ -10,8 +10,6 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr int kMaxHalvings = 3;
-
 EndHold atNode(const Boundary& boundary, EndHold hold)
 {
   return boundary.introducer ? EndHold::kClamped : hold;
@@ -73,57 +71,25 @@ MixedStepper::MixedStepper(const Wire& wire, Discretisation rod, Boundary bounda
     weight_.push_back((weight[i][0] + weight[i][1] + (i > 0 ? weight[i - 1][1] : 0.0)) * environment_.gravity);
 }
 
-double MixedStepper::bodyPosition(int node, double inserted_length) const
-{
-  return boundary_.introducer ? inserted_length - (rod_.length() - rod_.position[node]) : rod_.position[node];
-}
-
-int MixedStepper::firstNode(double inserted_length) const
-{
-  int first = 0;
-  while (boundary_.introducer && first + 3 < rod_.nodes() &&
-         bodyPosition(first + 2, inserted_length) < -boundary_.guide_length)
-    ++first;
-  return first;
-}
-
 State MixedStepper::initialState(double inserted_length, double rotation) const
 {
   State state = model_.straight(boundary_.origin, boundary_.direction);
   state.inserted_length = inserted_length;
   state.rotation = rotation;
-  state.first_node = firstNode(inserted_length);
+  state.first_node = conditions().firstSimulatedNode(inserted_length);
   std::fill(state.twist_angle.begin(), state.twist_angle.end(), rotation);
   for (int i = 0; i < rod_.nodes(); ++i)
-    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
+    state.position[i] = boundary_.origin + conditions().bodyPosition(i, inserted_length) * boundary_.direction;
   return state;
-}
-
-bool MixedStepper::isPrescribed(int node, const State& state) const
-{
-  if (boundary_.introducer)
-    return node == state.first_node || bodyPosition(node, state.inserted_length) < -boundary_.guide_length;
-  return (boundary_.proximal != EndHold::kFree && node == 0) ||
-         (boundary_.distal != EndHold::kFree && node == rod_.nodes() - 1);
 }
 
 void MixedStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
 {
-  const int old_first = state.first_node;
-  const double speed = (inserted_length - state.inserted_length) / dt;
-  state.inserted_length = inserted_length;
-  if (!boundary_.introducer)
-    return;
-  state.first_node = firstNode(inserted_length);
-  for (int i = state.first_node; i < rod_.nodes() && (i < old_first || isPrescribed(i, state)); ++i)
-  {
-    if (i < old_first)
-      state.moment[i].setZero();
-    state.position[i] = boundary_.origin + bodyPosition(i, inserted_length) * boundary_.direction;
-    state.velocity[i] = speed * boundary_.direction;
+  const PlacedNodes placed = conditions().placePrescribedNodes(state, inserted_length, dt);
+  for (int i = placed.begin; i < placed.end; ++i)
     begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
-    state.wall_force[i].setZero();
-  }
+  for (int i = placed.begin; i < placed.born; ++i)
+    state.moment[i].setZero();
 }
 
 StepReport MixedStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
@@ -132,43 +98,13 @@ StepReport MixedStepper::step(State& state, const StepInput& input, double dt, s
   timer_ = &timer;
   contacts_.beginStep(input, contacts, pass, timer);
   StepReport report;
-  if (!advance(state, input, dt, 0, report))
-    report.solved = false;
+  report.solved = bisection_.advance(
+      state, input, dt, report,
+      [this, &report](State& part, const State& /*before*/, const StepInput& at, double part_dt, bool /*shortest*/)
+      { return solveStep(part, at, part_dt, report); },
+      [this] { contacts_.invalidate(); });
   report.max_strain = largestStrain(state);
   return report;
-}
-
-bool MixedStepper::advance(State& state, const StepInput& input, double dt, int depth, StepReport& report)
-{
-  if (static_cast<int>(backup_.size()) <= depth)
-    backup_.resize(static_cast<std::size_t>(depth) + 1);
-  backup_[depth] = state;
-  if (solveStep(state, input, dt, report))
-    return true;
-  state = backup_[depth];
-  contacts_.invalidate();
-  if (depth == kMaxHalvings)
-  {
-    hold(state, depth);
-    return false;
-  }
-  ++report.bisections;
-  StepInput half = input;
-  half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
-  half.rotation = 0.5 * (state.rotation + input.rotation);
-  if (advance(state, half, 0.5 * dt, depth + 1, report) && advance(state, input, 0.5 * dt, depth + 1, report))
-    return true;
-  hold(state, depth);
-  return false;
-}
-
-/** Refused: the wire stays where it was, at rest, and the caller is told. */
-void MixedStepper::hold(State& state, int depth)
-{
-  state = backup_[depth];
-  for (Vector3d& velocity : state.velocity)
-    velocity.setZero();
-  contacts_.invalidate();
 }
 
 bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
@@ -220,13 +156,7 @@ void MixedStepper::relaxTwist(State& state, double tip_torque)
     return;
   }
   PhaseTimer::Scope scope(*timer_, Phase::kTwist);
-  TwistBoundary boundary;
-  boundary.held = boundary_.introducer || boundary_.proximal == EndHold::kClamped;
-  boundary.tangent = boundary_.direction;
-  boundary.director = boundary_.director;
-  boundary.position = boundary_.introducer ? rod_.length() - state.inserted_length : 0.0;
-  boundary.rotation = state.rotation;
-  boundary.tip_torque = tip_torque;
+  const TwistBoundary boundary = conditions().twistBoundary(state, tip_torque);
   twist_.relax(model_, boundary, state);
 }
 
@@ -290,10 +220,11 @@ void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d&
 /** Weight, drag of the fluid, and the introducer's guide. */
 void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
-  const double beyond = bodyPosition(node, state.inserted_length);
+  const BoundaryConditions held = conditions();
   Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
   Vector3d force = -weight_[node];
-  if (environment_.fluid_density > 0.0 && (beyond >= 0.0 || !boundary_.introducer))
+  if (environment_.fluid_density > 0.0 &&
+      (!boundary_.introducer || held.bodyPosition(node, state.inserted_length) >= 0.0))
   {
     const Vector3d travel = state.position[node] - begin_[node];
     const Vector3d velocity = first_solve ? state.velocity[node] : Vector3d(travel / dt);
@@ -302,10 +233,9 @@ void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool fi
     block.diagonal().array() += drag;
     force += drag * travel;
   }
-  if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
+  const double stiffness = held.guideStiffness(node, state);
+  if (stiffness > 0.0)
   {
-    const double depth = beyond / boundary_.guide_length;
-    const double stiffness = boundary_.guide_stiffness * rod_.cell_length[node] * depth * depth;
     const Eigen::Matrix3d across =
         stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
     block += across;
@@ -321,7 +251,7 @@ double MixedStepper::largestStrain(const State& state) const
 {
   double worst = 0.0;
   for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
-    if (!(isPrescribed(j, state) && isPrescribed(j + 1, state)))
+    if (!(conditions().isPrescribed(j, state) && conditions().isPrescribed(j + 1, state)))
       worst = std::max(worst, std::abs(model_.strain(state, j)));
   return worst;
 }
@@ -331,7 +261,7 @@ void MixedStepper::finish(State& state, double dt) const
   friction_.finish(state, begin_);
   const double inverse = 1.0 / dt;
   for (int i = state.first_node; i < rod_.nodes(); ++i)
-    if (!isPrescribed(i, state))
+    if (!conditions().isPrescribed(i, state))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
 }
 

@@ -2,9 +2,11 @@
 
 #include <vector>
 
+#include "rod/boundary/boundary_conditions.h"
 #include "rod/contact/contact_solver_state.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/mixed/mixed_twist.h"
+#include "rod/stepping/step_bisection.h"
 #include "rod/stepping/stepper.h"
 
 namespace endovascular_sim::rod
@@ -39,13 +41,9 @@ public:
   const MixedRod& model() const { return model_; }
 
 private:
-  bool advance(State& state, const StepInput& input, double dt, int depth, StepReport& report);
-  void hold(State& state, int depth);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   void placePrescribedNodes(State& state, double inserted_length, double dt);
-  bool isPrescribed(int node, const State& state) const;
-  double bodyPosition(int node, double inserted_length) const;
-  int firstNode(double inserted_length) const;
+  BoundaryConditions conditions() const { return {rod_, boundary_, ClampedNodes::kNode}; }
 
   void relaxTwist(State& state, double tip_torque);
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
@@ -82,7 +80,7 @@ private:
   ContactSolver::Motion motion_;        ///< the last solve's increments of the nodes [m]
   std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
-  std::vector<State> backup_;  ///< per depth of halving
+  StepBisection bisection_;
 };
 
 }  // namespace endovascular_sim::rod

@@ -1,0 +1,36 @@
+#include "rod/stepping/stepper.h"
+
+#include <algorithm>
+
+#include "rod/stepping/step_bisection.h"
+
+namespace endovascular_sim::rod
+{
+
+void StepReport::add(const StepReport& other)
+{
+  solved = solved && other.solved;
+  solves += other.solves;
+  factorisations += other.factorisations;
+  truncations += other.truncations;
+  bisections += other.bisections;
+  hit_iteration_limit += other.hit_iteration_limit;
+  max_strain = std::max(max_strain, other.max_strain);
+  first_stale_pass = std::min(first_stale_pass, other.first_stale_pass);
+}
+
+StepInput firstHalf(const State& state, const StepInput& input)
+{
+  StepInput half = input;
+  half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
+  half.rotation = 0.5 * (state.rotation + input.rotation);
+  half.distal = between(state.distal, input.distal, 0.5);
+  for (std::size_t k = 0; k < half.layers.size(); ++k)
+  {
+    half.layers[k].inserted_length = 0.5 * (state.layers[k].inserted_length + input.layers[k].inserted_length);
+    half.layers[k].rotation = 0.5 * (state.layers[k].rotation + input.layers[k].rotation);
+  }
+  return half;
+}
+
+}  // namespace endovascular_sim::rod
