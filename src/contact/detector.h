@@ -80,9 +80,6 @@ public:
 
   const Wall& wall() const { return wall_; }
 
-  /** Nodes for which what is near had to be listed anew, ever: what the wire's motion costs. */
-  std::uint64_t listsRenewed() const { return lists_renewed_; }
-
 private:
   /** A triangle or mesh edge, and by how much wire and wall have to come closer before it can be met. */
   struct Near
@@ -121,45 +118,11 @@ private:
 
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
-    /** Whether the wire is about where it was listed, hardly moved or by much less than an edge; else its lists may be
-     * another node's. */
-    bool isHere() const { return limit >= 0.0 && moved < std::max(1.5 * room, 0.25 * length); }
     /** Whether there is nothing to make anew. */
     bool isUpToDate() const { return holds && !wall_differs; }
-    /** Has nothing listed any more. */
-    void forget();
-    /** Has nothing listed, but knows of the last lists what new ones depend on. */
-    void comeAfter(const NeighbourList& last);
-    /** How far a node has come along the wire since it was where the lists begin [m]. */
-    double past(const Eigen::Vector3d& node) const { return (node - begin).dot(along); }
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     double squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const;
     Eigen::Vector3d end() const { return begin + length * along; }
-  };
-
-  /** What nodes that slid on have left where they were: lists of places between a node and the one behind it, in their
-   * order along the wire. */
-  class Trail
-  {
-  public:
-    /** Of the trail's two ends, the one at the node that it is behind. */
-    enum class End
-    {
-      kRear,
-      kFront,
-    };
-
-    bool empty() const { return count_ == 0; }
-    NeighbourList& at(End end) { return ring_[end == End::kRear ? first_ : (first_ + count_ - 1) % ring_.size()]; }
-    void drop(End end);
-    /** A place at an end to leave lists in; where there is no room, the other end's are lost. */
-    NeighbourList& extend(End end);
-    void clear() { count_ = 0; }
-
-  private:
-    std::array<NeighbourList, 8> ring_;
-    std::size_t first_ = 0;
-    std::size_t count_ = 0;
   };
 
   /** Triangles that something was listed from. */
@@ -210,9 +173,6 @@ private:
   }
   void followWire(const Query& query);
   static void followNode(const Query& query, std::size_t index, NeighbourList& near);
-  void handOver(const Query& query);
-  void slideOn(const Query& query, std::size_t place);
-  static bool takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, NeighbourList& near);
   void renewLists(const Query& query);
   void renewList(const Query& query, std::size_t index, Collected& collected);
   void list(NeighbourList& near, Collected& collected) const;
@@ -253,9 +213,6 @@ private:
   WallLaw law_;
   std::uint64_t vessel_version_;
   std::vector<NeighbourList> near_;  ///< by the node's index from the tip
-  std::vector<NeighbourList> left_;  ///< while they are handed over; else nothing is listed in them
-  std::vector<Trail> trails_;        ///< before each node and behind the last, by their indices from the tip
-  std::uint64_t lists_renewed_ = 0;
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;
   HelperThread* helper_ = nullptr;
