@@ -217,11 +217,6 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
-  if (helper_ != nullptr && cutIntoParts(query))
-  {
-    detectParts(query, set.features);
-    return;
-  }
   renewLists(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);

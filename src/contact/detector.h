@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/helper_thread.h"
 #include "contact/broad_phase/bvh.h"
 #include "contact/broad_phase/edge_packet.h"
 #include "contact/broad_phase/triangle_packet.h"
@@ -59,11 +58,6 @@ public:
   Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
 
   void detect(const Query& query, ContactSet& set) override;
-
-  /** Shares long searches (filled balloons) and movements of the wall with another thread from now on; answers stay the
-   * same bits.
-   *  @param helper must outlive the detector; null: none */
-  void setHelper(HelperThread* helper) { helper_ = helper; }
 
   /** Lets the wall follow a vessel whose vertices have moved, in a time that grows with what is near them only. Answers
    *  are afterwards, bit for bit, those of a detector made from the moved mesh.
@@ -131,15 +125,6 @@ private:
     std::vector<int> triangles, ridged;
   };
 
-  /** Nodes, the edges behind them, and what is found there. */
-  struct Part
-  {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-    Collected collected;
-    std::vector<Feature> of_nodes, of_edges;
-  };
-
   /** An edge of the wire, or what lists are made for. */
   struct AxisSegment
   {
@@ -181,8 +166,6 @@ private:
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, NeighbourList& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBounds& ball, const AxisSegment& segment, double limit);
-  bool cutIntoParts(const Query& query);
-  void detectParts(const Query& query, std::vector<Feature>& features);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
@@ -215,8 +198,6 @@ private:
   std::vector<NeighbourList> near_;  ///< by the node's index from the tip
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;
-  HelperThread* helper_ = nullptr;
-  std::vector<Part> parts_;
   std::vector<int> now_reflex_, now_moving_;
   std::vector<TriangleSlab> prisms_;
   std::vector<EdgeBounds> edge_balls_;
