@@ -76,8 +76,6 @@ Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_
   bvh_.setCones(cones);
   // The first call shall not wait for memory.
   near_.resize(kUsualNodes);
-  left_.resize(kUsualNodes);
-  trails_.resize(kUsualNodes + 1);
   const auto prepare = [](NeighbourList& near)
   {
     const auto reserve = [](auto& list, std::size_t count)
@@ -91,7 +89,6 @@ Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_
     reserve(near.ridges, kUsualList / kQuad);
   };
   std::for_each(near_.begin(), near_.end(), prepare);
-  std::for_each(left_.begin(), left_.end(), prepare);
 }
 
 EdgeBounds Detector::ballOf(const WallEdge& edge) const
@@ -210,10 +207,7 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.features.clear();
   const std::size_t n = query.nodes.size();
   if (near_.size() < n)
-  {
     near_.resize(n);
-    trails_.resize(n + 1);
-  }
   followWire(query);
   if (query.wanted_free_distance > 0.0)
   {
@@ -223,11 +217,6 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
-  if (helper_ != nullptr && cutIntoParts(query))
-  {
-    detectParts(query, set.features);
-    return;
-  }
   renewLists(query);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);

@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/helper_thread.h"
 #include "contact/broad_phase/bvh.h"
 #include "contact/broad_phase/edge_packet.h"
 #include "contact/broad_phase/triangle_packet.h"
@@ -60,11 +59,6 @@ public:
 
   void detect(const Query& query, ContactSet& set) override;
 
-  /** Shares long searches (filled balloons) and movements of the wall with another thread from now on; answers stay the
-   * same bits.
-   *  @param helper must outlive the detector; null: none */
-  void setHelper(HelperThread* helper) { helper_ = helper; }
-
   /** Lets the wall follow a vessel whose vertices have moved, in a time that grows with what is near them only. Answers
    *  are afterwards, bit for bit, those of a detector made from the moved mesh.
    *  @param indices distinct vertices of the mesh
@@ -79,9 +73,6 @@ public:
   double signedDistance(const Eigen::Vector3d& point, int near = -1, int* nearest = nullptr) const;
 
   const Wall& wall() const { return wall_; }
-
-  /** Nodes for which what is near had to be listed anew, ever: what the wire's motion costs. */
-  std::uint64_t listsRenewed() const { return lists_renewed_; }
 
 private:
   /** A triangle or mesh edge, and by how much wire and wall have to come closer before it can be met. */
@@ -121,60 +112,17 @@ private:
 
     /** Notes how far the wire is, and whether the lists still hold all that it may meet. */
     void follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
-    /** Whether the wire is about where it was listed, hardly moved or by much less than an edge; else its lists may be
-     * another node's. */
-    bool isHere() const { return limit >= 0.0 && moved < std::max(1.5 * room, 0.25 * length); }
     /** Whether there is nothing to make anew. */
     bool isUpToDate() const { return holds && !wall_differs; }
-    /** Has nothing listed any more. */
-    void forget();
-    /** Has nothing listed, but knows of the last lists what new ones depend on. */
-    void comeAfter(const NeighbourList& last);
-    /** How far a node has come along the wire since it was where the lists begin [m]. */
-    double past(const Eigen::Vector3d& node) const { return (node - begin).dot(along); }
     void start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted);
     double squaredDistanceTo(const Eigen::Vector3d& point, double farthest) const;
     Eigen::Vector3d end() const { return begin + length * along; }
-  };
-
-  /** What nodes that slid on have left where they were: lists of places between a node and the one behind it, in their
-   * order along the wire. */
-  class Trail
-  {
-  public:
-    /** Of the trail's two ends, the one at the node that it is behind. */
-    enum class End
-    {
-      kRear,
-      kFront,
-    };
-
-    bool empty() const { return count_ == 0; }
-    NeighbourList& at(End end) { return ring_[end == End::kRear ? first_ : (first_ + count_ - 1) % ring_.size()]; }
-    void drop(End end);
-    /** A place at an end to leave lists in; where there is no room, the other end's are lost. */
-    NeighbourList& extend(End end);
-    void clear() { count_ = 0; }
-
-  private:
-    std::array<NeighbourList, 8> ring_;
-    std::size_t first_ = 0;
-    std::size_t count_ = 0;
   };
 
   /** Triangles that something was listed from. */
   struct Collected
   {
     std::vector<int> triangles, ridged;
-  };
-
-  /** Nodes, the edges behind them, and what is found there. */
-  struct Part
-  {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-    Collected collected;
-    std::vector<Feature> of_nodes, of_edges;
   };
 
   /** An edge of the wire, or what lists are made for. */
@@ -210,9 +158,6 @@ private:
   }
   void followWire(const Query& query);
   static void followNode(const Query& query, std::size_t index, NeighbourList& near);
-  void handOver(const Query& query);
-  void slideOn(const Query& query, std::size_t place);
-  static bool takeOver(const Query& query, std::size_t index, Trail& trail, Trail::End end, NeighbourList& near);
   void renewLists(const Query& query);
   void renewList(const Query& query, std::size_t index, Collected& collected);
   void list(NeighbourList& near, Collected& collected) const;
@@ -221,8 +166,6 @@ private:
   void listEdge(int wall_edge, bool has_moved, const AxisSegment& segment, NeighbourList& near) const;
   static double coneClearance(double low, double high, double beside, double slope, double limit);
   static double ridgeClearance(const EdgeBounds& ball, const AxisSegment& segment, double limit);
-  bool cutIntoParts(const Query& query);
-  void detectParts(const Query& query, std::vector<Feature>& features);
   void detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
@@ -253,13 +196,8 @@ private:
   WallLaw law_;
   std::uint64_t vessel_version_;
   std::vector<NeighbourList> near_;  ///< by the node's index from the tip
-  std::vector<NeighbourList> left_;  ///< while they are handed over; else nothing is listed in them
-  std::vector<Trail> trails_;        ///< before each node and behind the last, by their indices from the tip
-  std::uint64_t lists_renewed_ = 0;
   std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
   Collected collected_;
-  HelperThread* helper_ = nullptr;
-  std::vector<Part> parts_;
   std::vector<int> now_reflex_, now_moving_;
   std::vector<TriangleSlab> prisms_;
   std::vector<EdgeBounds> edge_balls_;

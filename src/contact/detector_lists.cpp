@@ -45,8 +45,6 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
     const double far = half + room + near.limit + near.room + kListGuard;
     return near.limit >= 0.0 && room >= 0.0 && moved.exteriorDistance(near.begin + half * near.along) <= far;
   };
-  for (Trail& trail : trails_)
-    trail.clear();
   for (NeighbourList& near : near_)
     if (touches(near))
     {
@@ -60,25 +58,6 @@ void Detector::keepUp(const Eigen::AlignedBox3d& moved, double farthest, bool an
           near.edges.insert(place, {e, -std::numeric_limits<float>::infinity()});
       }
     }
-}
-
-void Detector::NeighbourList::forget()
-{
-  limit = -1.0;
-  holds = false;
-  triangles.clear();
-  edges.clear();
-  prisms.clear();
-  ridges.clear();
-}
-
-void Detector::NeighbourList::comeAfter(const NeighbourList& last)
-{
-  forget();
-  was_long = last.was_long;
-  limit = last.limit;
-  listed_at = last.listed_at;
-  moved = 0.0;
 }
 
 void Detector::NeighbourList::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double wanted)

@@ -20,7 +20,7 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
     moved.extend(wall_.vertices[indices[k]]);
     farthest = std::max(farthest, (positions[k] - wall_.vertices[indices[k]]).norm());
   }
-  const Wall::Changes& changes = wall_.moveVertices(indices, positions, helper_);
+  const Wall::Changes& changes = wall_.moveVertices(indices, positions);
   renewPrisms(changes.around);
   for (int t : changes.around)
     for (int corner = 0; corner < 3; ++corner)
@@ -35,9 +35,9 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
 void Detector::renewPrisms(const std::vector<int>& changed)
 {
   now_moving_.clear();
-  forEach(helper_, changed, [this](int t) { makePrism(t); });
   for (int t : changed)
   {
+    makePrism(t);
     if (!prisms_[t].has_moved)
       now_moving_.push_back(t);
     prisms_[t].has_moved = true;

@@ -34,18 +34,6 @@ Query wireAlongTheWall(int nodes, double spacing = 0.5e-3, double slid = 0.0)
   return wire;
 }
 
-/** Nodes of a detector that had to be listed anew for a wire that slides. */
-std::uint64_t renewedBySliding(Detector& detector, std::uint64_t nodes, double from, double to)
-{
-  constexpr int kSteps = 50;
-  constexpr double kSpacing = 1.2e-3;  // m
-  const std::uint64_t before = detector.listsRenewed();
-  ContactSet set;
-  for (int step = 1; step <= kSteps; ++step)
-    detector.detect(wireAlongTheWall(static_cast<int>(nodes), kSpacing, from + (to - from) * step / kSteps), set);
-  return detector.listsRenewed() - before;
-}
-
 void insertNode(Query& wire, std::size_t before)
 {
   const auto at = static_cast<std::ptrdiff_t>(before);
@@ -59,29 +47,6 @@ void removeNode(Query& wire, std::size_t index)
   const auto at = static_cast<std::ptrdiff_t>(index);
   wire.nodes.erase(wire.nodes.begin() + at);
   wire.radius.erase(wire.radius.begin() + at);
-}
-
-TEST(WireWhoseNodesComeAndGo, KeepsWhatIsListedAboutTheOthers)
-{
-  const geometry::TriangleMesh mesh = fineTube();
-  Detector detector(mesh, WallLaw{});
-  Query wire = wireAlongTheWall(60);
-  ContactSet set;
-  detector.detect(wire, set);
-  const auto renewedBy = [&](const Query& query)
-  {
-    const std::uint64_t before = detector.listsRenewed();
-    detector.detect(query, set);
-    return detector.listsRenewed() - before;
-  };
-  EXPECT_EQ(renewedBy(wire), 0U);
-  insertNode(wire, 50);
-  EXPECT_LE(renewedBy(wire), 2U);
-  removeNode(wire, 40);
-  removeNode(wire, 30);
-  EXPECT_LE(renewedBy(wire), 4U);
-  removeNode(wire, wire.nodes.size() - 1);  // the tip
-  EXPECT_LE(renewedBy(wire), 2U);
 }
 
 TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
@@ -117,25 +82,6 @@ TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
     features += followed.features.size();
   }
   EXPECT_GT(features, 1000U);
-}
-
-TEST(WireThatSlides, TakesOverWhatWasListedForTheNodesBeforeIt)
-{
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(fineTube(), 1);
-  constexpr std::uint64_t kNodes = 20;
-  const auto renewed = [&mesh](const std::vector<double>& places)
-  {
-    Detector detector(mesh, WallLaw{});
-    for (std::size_t k = 1; k + 1 < places.size(); ++k)
-      renewedBySliding(detector, kNodes, places[k - 1], places[k]);
-    return renewedBySliding(detector, kNodes, places[places.size() - 2], places.back());
-  };
-  // The first way is listed by all, then what is new at the tip only, and what is behind the other end.
-  EXPECT_GT(renewed({0.5e-3, 1.7e-3}), 2 * kNodes);
-  EXPECT_LT(renewed({0.5e-3, 2.1e-3, 4.5e-3}), kNodes);
-  EXPECT_LT(renewed({0.5e-3, 2.1e-3, 4.5e-3, 2.9e-3}), 15U);
-  EXPECT_LT(renewed({0.5e-3, 2.1e-3, 4.5e-3, 2.9e-3, 2.1e-3}), 8U);
-  EXPECT_LT(renewed({0.5e-3, 2.1e-3, 4.5e-3, 2.9e-3, 4.5e-3}), 15U);
 }
 
 TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)

@@ -279,28 +279,27 @@ void Wall::widenChanges()
     edge_marked_[e] = 0;
 }
 
-const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
-                                        HelperThread* helper)
+const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
 {
   markMoved(indices, positions);
-  forEach(helper, changes_.triangles, [this](int t) { finishTriangle(t); });
-  forEach(helper, moved_edges_,
-          [this](int e)
-          {
-            finishEdge(edges[e]);
-            finishBend(e);
-          });
-  forEach(helper, ring_,
-          [this](int v)
-          {
-            finishVertex(v);
-            bends_[0][v] = bendAt(v);
-          });
+  for (int t : changes_.triangles)
+    finishTriangle(t);
+  for (int e : moved_edges_)
+  {
+    finishEdge(edges[e]);
+    finishBend(e);
+  }
+  for (int v : ring_)
+  {
+    finishVertex(v);
+    bends_[0][v] = bendAt(v);
+  }
   widenChanges();
   for (int round = 1; round <= kCurvatureRounds; ++round)
   {
     widenToNeighbours(ring_);
-    forEach(helper, ring_, [this, round](int v) { bends_[round][v] = widened(v, round); });
+    for (int v : ring_)
+      bends_[round][v] = widened(v, round);
   }
   curved_.clear();
   for (int v : ring_)
@@ -315,7 +314,8 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
   }
   for (int t : curved_)
     triangle_marked_[t] = 0;
-  forEach(helper, curved_, [this](int t) { finishCurvature(t); });
+  for (int t : curved_)
+    finishCurvature(t);
   return changes_;
 }
 

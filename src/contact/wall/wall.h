@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "common/helper_thread.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::contact
@@ -72,10 +71,8 @@ public:
    *  grows with the number of vertices moved only.
    *  @param indices distinct
    *  @param positions [m], as many
-   *  @param helper shares the work, unless it is null
    *  @return valid until the next call */
-  const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
-                              HelperThread* helper = nullptr);
+  const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
 
 private:
   static constexpr int kCurvatureRounds = 2;  ///< of neighbours over which curvature is averaged

@@ -18,7 +18,6 @@
 #include "nodes/runtime/ros_names.h"
 #include "nodes/runtime/scene_parameters.h"
 #include "scene/scene_vessel.h"
-#include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
 {
@@ -42,8 +41,6 @@ public:
       return;
     }
     law_ = scene::wallLaw(*scene.vessel);
-    if (hasSpareProcessor() && simulation::hasBalloon(scene))
-      helper_ = std::make_unique<contact::HelperThread>(moveToSpareProcessor);
     publisher_ = node_.advertise<StampedContactSet>(names::kContactSet, kQueue);
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     ros::NodeHandle direct(node_);
@@ -69,7 +66,6 @@ private:
     const bool newer = message->version != 1 && ros::service::call(node_.resolveName(names::kGetVessel), vessel);
     const VesselMesh& mesh = newer ? vessel.response.mesh : *message;
     auto detector = std::make_unique<contact::Detector>(fromMessage(mesh), law_, mesh.version);
-    detector->setHelper(helper_.get());
     triangles_ = mesh.mesh.triangles.size();
     ROS_INFO("contact: vessel version %lu, %zu triangles", static_cast<unsigned long>(mesh.version),
              mesh.mesh.triangles.size());
@@ -156,7 +152,6 @@ private:
     status.add("scheduling", grant_.message);
     status.add("answered", answered_.load());
     status.add("features in the last set", features_.load());
-    status.add("parts that the second thread did", helper_ ? helper_->helped() : 0);
     status.add("triangles", triangles_.load());
     status.add("vessel version", version_.load());
     status.add("waited for the vessel server", late_walls_.load());
@@ -165,7 +160,6 @@ private:
   ros::NodeHandle node_;
   RealTimeGrant grant_;
   contact::WallLaw law_;
-  std::unique_ptr<contact::HelperThread> helper_;
   std::mutex mutex_;                              ///< vessels come in another thread than all else
   std::unique_ptr<contact::Detector> detector_;   ///< guarded, as the next two
   std::deque<WallDisplacementConstPtr> waiting_;  ///< movements that no state has asked for yet
