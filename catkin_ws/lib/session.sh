@@ -1,7 +1,7 @@
 # Shared part of `demo`: one session of the node graph, from a scene to a folder of results. Sourced by bash.
 
 programs="$workspace/devel/lib/endovascular_sim"
-# Speed of the simulated device's line [bit/s]: 230400 suffice for 1 kHz, the faster line halves the time on it.
+# Speed of the simulated device's line [bit/s]. 1 kHz needs 230400; the faster line halves the transmission time.
 device_baud=460800
 launch_pid='' device_pid='' virtual_display_pid='' session_status=1
 
@@ -21,7 +21,7 @@ find_scene() {
   fi
 }
 
-# Chooses and makes the folder of results; never writes over an earlier session.
+# Chooses and creates the folder of results; never overwrites an earlier session.
 prepare_results() {
   local name
   name=$(basename "$1" .yaml)
@@ -30,7 +30,7 @@ prepare_results() {
   if [ -e "$results/session.bag" ] || [ -e "$results/report.json" ]; then
     die "$results already holds a session: give another folder with --out, or remove that one"
   fi
-  mkdir -p "$results" || die "the folder $results cannot be made: give another one with --out"
+  mkdir -p "$results" || die "the folder $results cannot be created: give another one with --out"
   results=$(cd "$results" && pwd -P)
 }
 
@@ -38,12 +38,12 @@ free_port() {
   python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
 }
 
-# The graph is alone on this machine: own master, own logs.
+# The graph has its own master and its own logs.
 ros_environment() {
   ROS_MASTER_URI="http://localhost:$(free_port)"
   ROS_HOME="$results/ros"
   ROS_LOG_DIR="$results/log"
-  # Progress shall be seen when it happens, though the output is a pipe.
+  # Progress appears at once, although the output is a pipe.
   ROSCONSOLE_STDOUT_LINE_BUFFERED=1
   export ROS_MASTER_URI ROS_HOME ROS_LOG_DIR ROSCONSOLE_STDOUT_LINE_BUFFERED
   mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
@@ -55,12 +55,12 @@ check_real_time() {
   if [ "$(id -u)" -eq 0 ] || [ "$limit" = unlimited ] || [ "$limit" -gt 0 ]; then
     return
   fi
-  warn "this account may not ask for real-time scheduling, so more steps than need be will be late. As root, once:"
+  warn "this account may not use real-time scheduling, so more steps than necessary will be late. As root, once:"
   printf '%s\n' "           echo '$(id -un) - rtprio 80' > /etc/security/limits.d/90-endovascular-sim.conf" \
     "         then log in again." >&2
 }
 
-# Ends a process of ours: SIGINT, then, after the given seconds, SIGTERM and SIGKILL.
+# end_process PID SECONDS: SIGINT, then, after the given seconds, SIGTERM and SIGKILL.
 end_process() {
   local pid=$1 patience=$2 signal
   for signal in INT TERM KILL; do
@@ -92,9 +92,9 @@ interrupted() {
   session_interrupted=true
 }
 
-# become own|same COMMAND…: for the background. Replaces the subshell, so that $! is the command itself, and undoes what
-# a script does to its background processes: they ignore SIGINT. `own` gives it a process group of its own, so that a
-# Ctrl-C at the terminal reaches this script first.
+# become own|same COMMAND…: replaces a background subshell by the command, so that $! is the command's process. Restores
+# SIGINT, which background processes of a script ignore. `own` creates a process group, so that Ctrl-C at the terminal
+# reaches this script first.
 become() {
   exec python3 -c 'import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -102,7 +102,7 @@ if sys.argv[1] == "own": os.setpgid(0, 0)
 os.execvp(sys.argv[2], sys.argv[2:])' "$@"
 }
 
-# Of all that the nodes print: progress, warnings, errors; without colours and time stamps.
+# Selects progress, warnings and errors from the nodes' output, without colours and time stamps.
 readable_log() {
   sed -u -n -E 's/\x1b\[[0-9;]*m//g
     s/^\[ INFO\] \[[0-9., ]+\]: \[session\] /   /p; t
@@ -116,7 +116,7 @@ start_device() {
     exec 3<&0
     become same "$programs"/device_simulator "${arguments[@]}" --keyboard <&3 2> "$results/log/device.log" &
   else
-    # The operator moves when the simulation answers, not while a vessel is still being prepared.
+    # The operator starts to move when the simulation responds, not during the preparation of a vessel.
     arguments+=(--scene "$scene_file" --start enabled)
     for override in "${all_overrides[@]}"; do arguments+=(--set "$override"); done
     become own "$programs"/device_simulator "${arguments[@]}" > "$results/log/device.log" 2>&1 &
@@ -131,12 +131,12 @@ start_device() {
   done
 }
 
-# Processor time that a hypervisor has given to others since the machine started [1/100 s]: a step that falls into it is
-# late, and no scheduling of ours helps.
+# Processor time that the hypervisor has given to other machines since the start of this one [1/100 s]. Steps during it are
+# late whatever their scheduling.
 stolen_time() { awk '/^cpu /{ print $9 }' /proc/stat; }
 stolen_note() {
   local stolen=$(($(stolen_time) - $1))
-  [ "$stolen" -lt 10 ] || note "the host of this virtual machine took away $((stolen * 10)) ms of processor time meanwhile"
+  [ "$stolen" -lt 10 ] || note "during the run the host of this virtual machine withdrew $((stolen * 10)) ms of processor time"
 }
 
 # Runs the graph until the scene's duration is over. Sets session_status.
@@ -157,7 +157,7 @@ run_session() {
   trap clean_up EXIT
 
   local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results")
-  # At the keyboard it is over when you say so, unless --seconds does.
+  # At the keyboard the user ends the session, unless --seconds is given.
   if $keyboard && [ -z "$seconds" ]; then arguments+=(stop_at_duration:=false); else arguments+=(stop_at_duration:=true); fi
   local node
   local launch_file=sim.launch
@@ -176,7 +176,7 @@ run_session() {
     start_device
     arguments+=("device:=$results/device" "baud:=$device_baud")
   elif $keyboard; then
-    die "the scene starts no haptic device, so there is nothing to drive with the keyboard"
+    die "the scene starts no haptic device, so the keyboard can drive nothing"
   fi
 
   if $keyboard; then
@@ -212,7 +212,7 @@ run_session() {
   fi
 }
 
-# Pictures, plots and the closing words.
+# Pictures, plots and the summary.
 after_session() {
   [ -s "$results/report.json" ] || return 0
   if $with_rviz; then
@@ -223,7 +223,7 @@ after_session() {
   "$programs"/session_summary.py "$results" || session_status=1
 }
 
-# A copy of replay.rviz that looks at the whole vessel from the front, whatever its size and place.
+# Writes a copy of replay.rviz whose camera shows the whole vessel from the front.
 fitted_view() {
   python3 - "$results/report.json" "$repository/rviz/replay.rviz" "$results/log/replay.rviz" <<'PYTHON'
 import json, re, sys
@@ -232,7 +232,7 @@ text = open(sys.argv[2]).read()
 if box:
     size = [b - a for a, b in zip(box["min"], box["max"])]
     centre = [0.5 * (a + b) for a, b in zip(box["min"], box["max"])]
-    # The picture is about as wide as it is high, 45 degrees each; a tenth more for the rim, half the depth in front.
+    # The field of view is about 45 degrees both ways. A tenth is added for the rim, and half the depth.
     distance = 0.5 * 1.1 * max(size[0], size[2]) / 0.414 + 0.5 * size[1]
     point = "Focal Point:\n        X: %.4f\n        Y: %.4f\n        Z: %.4f" % tuple(centre)
     text = re.sub(r"Distance: [0-9.]+", "Distance: %.4f" % distance, text, count=1)
@@ -241,7 +241,7 @@ open(sys.argv[3], "w").write(text)
 PYTHON
 }
 
-# Plays the bag into rviz on a virtual screen and keeps one picture of its end.
+# Plays the bag into rviz on a virtual screen and saves a picture of its end.
 draw_rviz() {
   local display_file="$results/log/display" display waited=0
   become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
@@ -258,7 +258,7 @@ draw_rviz() {
     replay.launch "bag:=$results/session.bag" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0
-  # The player ends with the bag; rviz then gets a moment to draw the last state.
+  # The player ends with the bag; rviz then has 2 s to draw the last state.
   until grep -q 'player.*has finished cleanly' "$results/log/rviz.log"; do
     kill -0 "$launch_pid" 2>/dev/null || break
     [ $waited -lt 120 ] || break

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The closing line counts what passed, failed and was skipped, and the exit code follows it.
+# The last line of the summary counts passed, failed and skipped tests; the exit code agrees with it.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 count="$repository/catkin_ws/lib/test_results.py"
@@ -21,12 +21,18 @@ echo '<testsuite tests="2"><testcase classname="a" name="b"/><testcase classname
   > "$folder/results/good.xml"
 expect 0 '1 passed, 0 failed, 1 skipped'
 
-echo 'some log' > "$folder/log"
-/usr/bin/python3 "$count" write "$folder/results/checks/x.xml" --name x --status 3 --log "$folder/log"
+/usr/bin/python3 - "$(dirname "$count")" "$folder/results/checks/x.xml" <<'PYTHON'
+import sys
+sys.path.insert(0, sys.argv[1])
+import test_results
+case = test_results.Case("checks", "x")
+case.failed, case.message = True, "exit code 3"
+test_results.write_cases(sys.argv[2], "checks", [case])
+PYTHON
 expect 1 '1 passed, 1 failed, 1 skipped'
 rm "$folder/results/checks/x.xml"
 
-echo '<testsuite tests="1"><testcase' > "$folder/results/torn.xml"  # a test that crashed while it wrote
+echo '<testsuite tests="1"><testcase' > "$folder/results/torn.xml"  # a test that crashed while writing
 expect 1 '1 passed, 1 failed, 1 skipped'
 echo '<testsuite tests="1" errors="1"></testsuite>' > "$folder/results/torn.xml"  # a suite that did not start
 expect 1 '1 passed, 1 failed, 1 skipped'

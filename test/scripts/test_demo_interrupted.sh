@@ -1,11 +1,11 @@
 #!/bin/bash
-# Ctrl-C in the middle of a session: the bag is closed properly, the report is written, nothing is left running.
+# Ctrl-C during a session closes the bag, writes the report and leaves no process running.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# A shell lets its background processes ignore SIGINT; a terminal's Ctrl-C reaches the foreground.
+# Background processes of a shell ignore SIGINT, unlike the foreground of a terminal: it is restored here.
 /usr/bin/python3 - "$repository/catkin_ws/demo" "$folder" <<'PYTHON'
 import os, signal, subprocess, sys, time
 demo, folder = sys.argv[1:]

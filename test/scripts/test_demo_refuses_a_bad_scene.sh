@@ -1,5 +1,5 @@
 #!/bin/bash
-# A scene that is refused ends the demo at once, with the scene's own message and without starting a graph.
+# A refused scene ends the demo at once, with the scene's message and without starting a graph.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
@@ -11,7 +11,7 @@ echo "$message"
 [ "$status" -eq 1 ]
 grep -q 'stifness' <<< "$message"
 [ ! -e "$folder/results/session.bag" ]
-# A folder that already holds a session is never written over.
+# A folder that already holds a session is never overwritten.
 mkdir -p "$folder/old"
 echo '{}' > "$folder/old/report.json"
 status=0

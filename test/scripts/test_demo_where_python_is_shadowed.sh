@@ -1,5 +1,5 @@
 #!/bin/bash
-# A whole demo, from another folder and with another python3 in front: all results are there and can be used.
+# A complete demo from another folder, with another python3 earlier in PATH, writes all results.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
@@ -26,16 +26,16 @@ set +u
 . "$repository/catkin_ws/devel/setup.bash"
 rosbag info results/session.bag > bag_info
 grep -q '/drive/applied  *1000 msgs' bag_info
-grep -Eq '/instruments/guidewire/measured_js  *100 msgs' bag_info  # made of the former
+grep -Eq '/instruments/guidewire/measured_js  *100 msgs' bag_info  # derived from the commands
 "$repository/catkin_ws/devel/lib/endovascular_sim/replay" results/session.bag | grep -q '1000 steps, 0 different'
 
-# Every node ended when it was asked to.
+# Every node ended at the first request.
 [ -s results/log/launch.log ]
 if grep escalating results/log/launch.log; then
   exit 1
 fi
 
-# Nothing is left running; every process of the session has the folder in its command line.
+# No process is left; every process of the session has the folder in its command line.
 sleep 1
 if pgrep -f "$folder/results" > /dev/null; then
   pgrep -af "$folder/results"

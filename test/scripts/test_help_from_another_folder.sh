@@ -1,5 +1,5 @@
 #!/bin/bash
-# Both commands explain themselves from any current folder, and refuse what they do not know.
+# Both commands print their help from any current folder and refuse unknown options.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 cd /

@@ -1,5 +1,5 @@
 #!/bin/bash
-# A path that catkin takes apart is refused at once, with the reason, before anything is installed or built.
+# A path that catkin cannot handle is refused with the reason, before any installation or build.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
@@ -7,7 +7,7 @@ trap 'rm -rf "$folder"' EXIT
 for name in 'my work' 'a;b' 'a$b' 'a"b' 'a:b' 'a%b' 'a(b' 'a#b'; do
   mkdir -p "$folder/$name/catkin_ws"
   cp -r "$repository/catkin_ws/demo" "$repository/catkin_ws/test" "$repository/catkin_ws/lib" \
-    "$repository/catkin_ws/packages.txt" "$folder/$name/catkin_ws/"
+    "$repository"/catkin_ws/packages*.txt "$folder/$name/catkin_ws/"
   for command in demo test; do
     status=0
     message=$("$folder/$name/catkin_ws/$command" 2>&1) || status=$?

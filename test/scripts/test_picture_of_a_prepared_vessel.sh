@@ -1,5 +1,5 @@
 #!/bin/bash
-# What vessel_prepare writes is enough for plot_vessel.py; without it that says what is missing.
+# plot_vessel.py draws the output of vessel_prepare; without that output it names the missing file.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=$repository/catkin_ws/devel/lib/endovascular_sim

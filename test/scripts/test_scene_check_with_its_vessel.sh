@@ -1,5 +1,5 @@
 #!/bin/bash
-# With its vessel, scene_check accepts the default scene, and refuses an entry at an end that the vessel has not.
+# With --vessel, scene_check accepts the default scene and refuses an entry at a centreline end that does not exist.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=$repository/catkin_ws/devel/lib/endovascular_sim
@@ -11,4 +11,4 @@ echo "$message"
 [ "$status" -eq 1 ]
 grep -q 'entry.centreline_end.*nowhere' <<< "$message"
 grep -q 'right_common_femoral' <<< "$message"
-"$programs/scene_check" "$scene" --set entry.centreline_end=nowhere --hash # a matter of the vessel
+"$programs/scene_check" "$scene" --set entry.centreline_end=nowhere --hash # only the vessel knows its ends
