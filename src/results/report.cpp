@@ -18,12 +18,12 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/** Node and keys under which the loop counts its steps, and the late ones, in /diagnostics. */
+// Node and keys of the step counters in /diagnostics.
 constexpr auto kLoopNode = "rod_dynamics";
 constexpr auto kStepsKey = "steps";
 constexpr auto kMissesKey = "deadline misses";
 
-/** A number, or null where it is unknown: JSON has no NaN. */
+/** Number, or null if it is unknown or not finite; JSON has no NaN. */
 Json numberOrNull(std::optional<double> value)
 {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
@@ -39,7 +39,7 @@ Json vectorOf(const Eigen::Vector3d& vector)
   return Json::array({vector.x(), vector.y(), vector.z()});
 }
 
-/** Text that is a number as a number, all else as text. */
+/** Converts text to a JSON number if it is a finite number, otherwise to a JSON string. */
 Json valueOf(const std::string& text)
 {
   char* end = nullptr;
@@ -73,7 +73,7 @@ void SessionReport::addStep(std::uint64_t step, double wall_time, bool stale, st
   {
     first_step_ = step;
     first_wall_time_ = wall_time;
-    missed_steps_ = step;  // a recording begins with step 0
+    missed_steps_ = step;  // a recording starts with step 0
   }
   else if (step <= last_step_)
   {
@@ -157,7 +157,8 @@ std::optional<double> SessionReport::diagnosticNumber(const std::string& node, c
 
 std::string SessionReport::json(const RecordingOutcome& recording, const std::string& error) const
 {
-  // Both counts from the same message: diagnostics come once a second, so neither fits the steps counted here.
+  // Both counters come from the same diagnostics message. Diagnostics arrive once per second, so the steps counted here
+  // would not match the misses.
   const std::optional<double> misses = diagnosticNumber(kLoopNode, kMissesKey);
   const std::optional<double> counted = diagnosticNumber(kLoopNode, kStepsKey);
   std::optional<double> on_time;
@@ -208,7 +209,7 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
     for (const auto& [key, value] : values)
       diagnostics[node][key] = valueOf(value);
   report["diagnostics"] = diagnostics;
-  // Text from other processes may not be UTF-8; a report must be written all the same.
+  // Text from other processes may not be valid UTF-8. Invalid bytes are replaced, so that the report is always written.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
