@@ -48,6 +48,24 @@ Json valueOf(const std::string& text)
   return is_number ? Json(number) : Json(text);
 }
 
+Json toJson(const RecordingOutcome& recording)
+{
+  return {{"file", recording.file},
+          {"bytes", recording.bytes},
+          {"messages", recording.messages},
+          {"dropped", recording.dropped},
+          {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
+}
+
+Json toJson(const std::map<std::string, std::map<std::string, std::string>>& diagnostics)
+{
+  Json json = Json::object();
+  for (const auto& [node, values] : diagnostics)
+    for (const auto& [key, value] : values)
+      json[node][key] = valueOf(value);
+  return json;
+}
+
 }  // namespace
 
 void RunningValue::add(double value)
@@ -199,16 +217,8 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
                              ? Json(nullptr)
                              : Json{{"min", vectorOf(vessel_box_.min())}, {"max", vectorOf(vessel_box_.max())}};
   report["fluoroscopy"] = {{"frames", fluoroscopy_frames_}, {"pictures", fluoroscopy_pictures_}};
-  report["recording"] = {{"file", recording.file},
-                         {"bytes", recording.bytes},
-                         {"messages", recording.messages},
-                         {"dropped", recording.dropped},
-                         {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
-  Json diagnostics = Json::object();
-  for (const auto& [node, values] : diagnostics_)
-    for (const auto& [key, value] : values)
-      diagnostics[node][key] = valueOf(value);
-  report["diagnostics"] = diagnostics;
+  report["recording"] = toJson(recording);
+  report["diagnostics"] = toJson(diagnostics_);
   // Text from other processes may not be valid UTF-8. Invalid bytes are replaced, so that the report is always written.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
