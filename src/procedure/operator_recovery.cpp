@@ -123,7 +123,7 @@ void Operator::recoverSupport(const Observation& observation)
   const double end = observation.instruments[static_cast<std::size_t>(support_)].hand.insertion - kRecoveryDepth;
   if (view.hand.insertion > end && observation.time - mode_time_ <= kModeLimit)
   {
-    hands_[static_cast<std::size_t>(active_)].wanted = insertionSpeed(view, -kPullBackSpeed);
+    hands_[static_cast<std::size_t>(active_)].target_speed = insertionSpeed(view, -kPullBackSpeed);
     return;
   }
   records_.back().outcome = Progress::kSupportLost;
