@@ -70,7 +70,7 @@ public:
   void add(const std::vector<simulation::WallContact>& contacts, double time, double dt);
 
   /** Branch of the centreline nearest to the centre of a contact's triangle, cached per triangle; without a triangle,
-   * the branch nearest to the contact. */
+   *  the branch nearest to the contact. */
   int regionOf(const simulation::WallContact& contact);
 
   /** Triangles with contact, in the order of their first contact. */

@@ -27,7 +27,7 @@ struct TubeMesh
 /** Sweeps a regular polygon along a centreline.
  *
  *  The frame of the polygon is parallel-transported along the edges (Bishop frame), so that the tube does not twist. At
- * a node the polygon lies in the bisecting plane of the two edges.
+ *  a node the polygon lies in the bisecting plane of the two edges.
  *  @param nodes centreline [m]; coinciding adjacent nodes are skipped
  *  @param radius radius at each node [m], the same length as @p nodes
  *  @param sides number of corners of the polygon, at least 3

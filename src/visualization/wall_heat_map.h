@@ -19,7 +19,7 @@ struct HeatPatch
 };
 
 /** Heat map of values of single triangles, smoothed over the surrounding wall. A single triangle is smaller than a
- * pixel. For display only. */
+ *  pixel. For display only. */
 class WallHeatMap
 {
 public:
@@ -33,8 +33,8 @@ public:
   /** Computes the heat map.
    *
    *  The value of a vertex is the maximum over the triangles within the radius of value·(1 − (distance/radius)²)², and
-   * at least the value of each adjacent triangle. Triangles with the opposite orientation, such as the opposite wall,
-   * do not contribute.
+   *  at least the value of each adjacent triangle. Triangles with the opposite orientation, such as the opposite wall,
+   *  do not contribute.
    *  @param triangles indices of the triangles; invalid ones are ignored
    *  @param values positive values, one per triangle
    *  @return all triangles with a positive value at a corner */
