@@ -38,7 +38,7 @@ struct StepRecord
 /** Scripted operator: a state machine that drives the instruments through the steps of the scene's procedure.
  *
  *  At its reaction interval it observes the tips and the forces at the handles. It moves one instrument at a time
- * within the limits of HandScene. Equal observations give equal commands, bit for bit.
+ *  within the limits of HandScene. Equal observations give equal commands, bit for bit.
  *
  *  If an instrument makes no progress or enters a wrong branch, the operator pulls it back, rotates it and retries. If
  *  an instrument loses its support, the operator withdraws it and resumes from an earlier step. */

@@ -91,8 +91,8 @@ bool Operator::isSupportPosition(const InstrumentView& view) const
          locator_.pathBetween(entry_branch_, view.branch_position.branch)[static_cast<std::size_t>(support_branch_)];
 }
 
-/** True if neither the support nor the active instrument has been in the support's branch for longer than
- *  HandScene::patience. */
+/** True if, for longer than HandScene::patience, neither the support nor the active instrument has been in the
+ *  support's branch. */
 bool Operator::hasLostSupport(const Observation& observation)
 {
   const auto at = [&observation](int instrument) -> const InstrumentView&
@@ -123,7 +123,7 @@ void Operator::recoverSupport(const Observation& observation)
   const double end = observation.instruments[static_cast<std::size_t>(support_)].hand.insertion - kRecoveryDepth;
   if (view.hand.insertion > end && observation.time - mode_time_ <= kModeLimit)
   {
-    hands_[static_cast<std::size_t>(active_)].wanted = insertionSpeed(view, -kPullBackSpeed);
+    hands_[static_cast<std::size_t>(active_)].target_speed = insertionSpeed(view, -kPullBackSpeed);
     return;
   }
   records_.back().outcome = Progress::kSupportLost;

@@ -34,7 +34,7 @@ std::string number(const char* format, double value)
   return text.data();
 }
 
-/** A table; cells that begin with a digit or a minus are numbers. */
+/** HTML table. Cells that begin with a digit or a minus sign are aligned as numbers. */
 class Table
 {
 public:
@@ -76,16 +76,16 @@ std::string summary(const Json& json)
   }
   Table table({"", ""});
   table.add({"procedure time", number("%.1f s", json["procedure_time"])});
-  table.add({"fluoroscopy time (while a hand moves)", number("%.1f s", json["fluoroscopy_time"])});
+  table.add({"fluoroscopy time (while a handle moves)", number("%.1f s", json["fluoroscopy_time"])});
   table.add({"instrument exchanges", number("%.0f", json["instrument_exchanges"])});
   const Json& forces = json["wall_forces"];
   if (!forces.is_null())
   {
-    const Json region = forces.value("peak_region", Json(nullptr));  // null: the vessel's branches have no names
+    const Json region = forces.value("peak_region", Json(nullptr));  // null: the branches of the vessel have no names
     table.add({"largest force of one contact",
                number("%.2f N", forces["peak"]) + number(" at %.1f s", forces["peak_time"]) +
                    (region.is_string() ? " in " + region.get<std::string>() : std::string())});
-    table.add({"integral of the wall's forces", number("%.1f N·s", forces["integral"])});
+    table.add({"integral of the wall forces", number("%.1f N·s", forces["integral"])});
   }
   return html + table.text();
 }
@@ -94,7 +94,7 @@ std::string stepsTable(const Json& json)
 {
   if (json["steps"].empty())
     return "";
-  Table table({"phase", "step", "begin [s]", "end [s]", "new tries", "wrong branches", "outcome"});
+  Table table({"phase", "step", "begin [s]", "end [s]", "retries", "wrong branches", "outcome"});
   for (const Json& step : json["steps"])
     table.add({step["phase"], step["step"], number("%.1f", step["begin"]), number("%.1f", step["end"]),
                number("%.0f", step["new_tries"]), number("%.0f", step["wrong_branches"]), step["outcome"]});
@@ -103,8 +103,8 @@ std::string stepsTable(const Json& json)
 
 std::string instrumentsTable(const Json& json)
 {
-  Table table({"instrument", "insertions", "tip path [mm]", "smoothness (SPARC)", "wrong branches", "time in them [s]",
-               "ahead of its wire [s]", "peak hand force [N]"});
+  Table table({"instrument", "insertions", "tip path [mm]", "smoothness (SPARC)", "wrong branches",
+               "time in wrong branches [s]", "time ahead of its wire [s]", "peak hand force [N]"});
   for (const Json& one : json["instruments"])
     table.add({one["name"], number("%.0f", one["insertions"]), number("%.0f", 1e3 * one["tip_path"].get<double>()),
                number("%.2f", one["spectral_arc_length"]), number("%.0f", one["wrong_branch_entries"]),
@@ -117,8 +117,7 @@ std::string lesionsTable(const Json& json)
 {
   if (json["lesions"].empty())
     return "";
-  Table table(
-      {"lesion in", "stenosis before", "after", "covered by the stent", "placed off the middle [mm]", "apposition"});
+  Table table({"lesion in", "stenosis before", "after", "covered by the stent", "placement error [mm]", "apposition"});
   for (const Json& one : json["lesions"])
   {
     const Json& after = one["after"];
@@ -132,7 +131,7 @@ std::string lesionsTable(const Json& json)
   return "<h2>Lesions</h2>\n" + table.text();
 }
 
-std::string troubles(const Json& json)
+std::string errorTables(const Json& json)
 {
   std::string html = "<h2>Wrong branches</h2>\n";
   Table wrong({"instrument", "branch", "from [s]", "to [s]", "deepest [mm]"});
@@ -163,7 +162,7 @@ std::vector<PlotLine> overTime(const SessionMetrics& metrics, const Quantity& qu
   return lines;
 }
 
-/** One band per phase: steps without a phase of their own belong to the one before. */
+/** One band per phase. A step without a phase belongs to the previous phase. */
 std::vector<PlotBand> phaseBands(const SessionMetrics& metrics)
 {
   std::vector<PlotBand> bands;
@@ -187,15 +186,15 @@ std::string timePlots(const SessionMetrics& metrics)
     svg.bands = phaseBands(metrics);
     return svg.text();
   };
-  std::string html = "<h2>Over time</h2>\n<p>Shaded: the phases; their names appear under the pointer.</p>\n";
+  std::string html = "<h2>Over time</h2>\n<p>Shaded bands mark the phases. Tooltips show their names.</p>\n";
   html += plot("Insertion", "[mm]",
                overTime(metrics, [](const procedure::InstrumentView& v) { return 1e3 * v.hand.insertion; }));
   html += plot("Rotation of the handles", "[rad]",
                overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.rotation; }));
-  html += plot("Force on the hands", "[N]",
+  html += plot("Force at the handles", "[N]",
                overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.force; }));
   PlotLine sum{"sum", colour(0), {}};
-  PlotLine largest{"largest of one contact", colour(1), {}};
+  PlotLine largest{"largest contact", colour(1), {}};
   bool inflated = false;
   for (const Sample& sample : metrics.samples())
   {
@@ -211,13 +210,13 @@ std::string timePlots(const SessionMetrics& metrics)
   return html;
 }
 
-/** The ways of the tips over the vessel's centreline, from the front. */
+/** Frontal map of the tip paths and the centreline of the vessel. */
 std::string tipMap(const SessionMetrics& metrics)
 {
   SvgPlot svg;
-  svg.title = "Ways of the tips, from the front";
-  svg.abscissa = "to the patient's left [mm]";
-  svg.ordinate = "to the head [mm]";
+  svg.title = "Paths of the tips, frontal view";
+  svg.abscissa = "x, towards the patient's left [mm]";
+  svg.ordinate = "z, towards the head [mm]";
   svg.equal_scales = true;
   svg.height = 700.0;
   for (int b = 0; b < metrics.locator().branches(); ++b)
@@ -236,7 +235,7 @@ std::string tipMap(const SessionMetrics& metrics)
                                  1e3 * sample.observation.instruments[k].tip.z());
     svg.lines.push_back(std::move(line));
   }
-  return "<h2>Where</h2>\n" + svg.text();
+  return "<h2>Tip paths</h2>\n" + svg.text();
 }
 
 }  // namespace
@@ -244,7 +243,7 @@ std::string tipMap(const SessionMetrics& metrics)
 std::string metricsPage(const SessionMetrics& metrics)
 {
   const Json json = metrics.json();
-  return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + troubles(json) +
+  return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + errorTables(json) +
          timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
 }
 

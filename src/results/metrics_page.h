@@ -7,7 +7,7 @@
 namespace endovascular_sim::results
 {
 
-/** The metrics as one HTML page that needs no other file: tables, and plots as SVG. */
+/** Metrics as a self-contained HTML page with tables and SVG plots. */
 std::string metricsPage(const SessionMetrics& metrics);
 
 }  // namespace endovascular_sim::results

@@ -18,12 +18,12 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/** Node and keys under which the loop counts its steps, and the late ones, in /diagnostics. */
+// Node and keys of the step counters in /diagnostics.
 constexpr auto kLoopNode = "rod_dynamics";
 constexpr auto kStepsKey = "steps";
 constexpr auto kMissesKey = "deadline misses";
 
-/** A number, or null where it is unknown: JSON has no NaN. */
+/** Number, or null if it is unknown or not finite; JSON has no NaN. */
 Json numberOrNull(std::optional<double> value)
 {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
@@ -39,13 +39,31 @@ Json vectorOf(const Eigen::Vector3d& vector)
   return Json::array({vector.x(), vector.y(), vector.z()});
 }
 
-/** Text that is a number as a number, all else as text. */
+/** Converts text to a JSON number if it is a finite number, otherwise to a JSON string. */
 Json valueOf(const std::string& text)
 {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(number);
   return is_number ? Json(number) : Json(text);
+}
+
+Json toJson(const RecordingOutcome& recording)
+{
+  return {{"file", recording.file},
+          {"bytes", recording.bytes},
+          {"messages", recording.messages},
+          {"dropped", recording.dropped},
+          {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
+}
+
+Json toJson(const std::map<std::string, std::map<std::string, std::string>>& diagnostics)
+{
+  Json json = Json::object();
+  for (const auto& [node, values] : diagnostics)
+    for (const auto& [key, value] : values)
+      json[node][key] = valueOf(value);
+  return json;
 }
 
 }  // namespace
@@ -73,7 +91,7 @@ void SessionReport::addStep(std::uint64_t step, double wall_time, bool stale, st
   {
     first_step_ = step;
     first_wall_time_ = wall_time;
-    missed_steps_ = step;  // a recording begins with step 0
+    missed_steps_ = step;  // a recording starts with step 0
   }
   else if (step <= last_step_)
   {
@@ -157,7 +175,8 @@ std::optional<double> SessionReport::diagnosticNumber(const std::string& node, c
 
 std::string SessionReport::json(const RecordingOutcome& recording, const std::string& error) const
 {
-  // Both counts from the same message: diagnostics come once a second, so neither fits the steps counted here.
+  // Both counters come from the same diagnostics message. Diagnostics arrive once per second, so the steps counted here
+  // would not match the misses.
   const std::optional<double> misses = diagnosticNumber(kLoopNode, kMissesKey);
   const std::optional<double> counted = diagnosticNumber(kLoopNode, kStepsKey);
   std::optional<double> on_time;
@@ -198,17 +217,9 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
                              ? Json(nullptr)
                              : Json{{"min", vectorOf(vessel_box_.min())}, {"max", vectorOf(vessel_box_.max())}};
   report["fluoroscopy"] = {{"frames", fluoroscopy_frames_}, {"pictures", fluoroscopy_pictures_}};
-  report["recording"] = {{"file", recording.file},
-                         {"bytes", recording.bytes},
-                         {"messages", recording.messages},
-                         {"dropped", recording.dropped},
-                         {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
-  Json diagnostics = Json::object();
-  for (const auto& [node, values] : diagnostics_)
-    for (const auto& [key, value] : values)
-      diagnostics[node][key] = valueOf(value);
-  report["diagnostics"] = diagnostics;
-  // Text from other processes may not be UTF-8; a report must be written all the same.
+  report["recording"] = toJson(recording);
+  report["diagnostics"] = toJson(diagnostics_);
+  // Text from other processes may not be valid UTF-8. Invalid bytes are replaced, so that the report is always written.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -14,17 +14,17 @@
 namespace endovascular_sim::results
 {
 
-/** Largest, mean and latest value of a quantity that is sampled over a run. */
+/** Running maximum, mean and latest value of a sampled quantity. */
 class RunningValue
 {
 public:
-  /** Adds a sample; samples that are not finite are left out. */
+  /** Adds a sample; non-finite samples are ignored. */
   void add(double value);
 
   std::uint64_t count() const { return count_; }
-  double max() const { return max_; }      ///< of the magnitudes; 0 before the first sample
-  double mean() const;                     ///< of the magnitudes; 0 before the first sample
-  double final() const { return final_; }  ///< latest sample with its sign
+  double max() const { return max_; }      ///< largest absolute value; 0 without samples
+  double mean() const;                     ///< mean absolute value; 0 without samples
+  double final() const { return final_; }  ///< latest sample, with its sign
 
 private:
   std::uint64_t count_ = 0;
@@ -33,30 +33,30 @@ private:
   double final_ = 0.0;
 };
 
-/** What a session is of; all of it is known before the first step. */
+/** Identity of a session, known before the first step. */
 struct SessionIdentity
 {
   std::string scene_name;
   std::string scene_file;
   std::uint64_t scene_hash = 0;
-  std::uint64_t mesh_hash = 0;  ///< 0 without a vessel
+  std::uint64_t mesh_hash = 0;  ///< hash of the vessel's mesh; 0 without a vessel
   std::uint64_t seed = 0;
-  double time_step = 0.0;  ///< [s]
-  double duration = 0.0;   ///< of the scene [s]
+  double time_step = 0.0;  ///< time step [s]
+  double duration = 0.0;   ///< duration of the scene [s]
   std::string software_version;
 };
 
-/** What became of the recording. */
+/** Outcome of the recording. */
 struct RecordingOutcome
 {
   std::string file;
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
-  std::uint64_t dropped = 0;  ///< messages that the disk was too slow for
-  std::string error;          ///< why it ended early; empty: it is complete
+  std::uint64_t dropped = 0;  ///< messages dropped because the disk was too slow
+  std::string error;          ///< reason of an early end; empty: the recording is complete
 };
 
-/** Collects what happens in a session and writes it down. Knows no clock and no messages. */
+/** Report of a session, accumulated from its data. The class depends on no clock and no messages. */
 class SessionReport
 {
 public:
@@ -65,47 +65,47 @@ public:
   void setMeshHash(std::uint64_t mesh_hash) { identity_.mesh_hash = mesh_hash; }
   const SessionIdentity& identity() const { return identity_; }
 
-  /** One step of the simulation.
-   *  @param step its index, from 0
-   *  @param wall_time when it ended, on any steady scale [s]
-   *  @param stale true when a pass of it used an old contact set
-   *  @param state_hash hash of the state after it */
+  /** Adds a step of the simulation.
+   *  @param step index of the step, from 0
+   *  @param wall_time end of the step on any steady clock [s]
+   *  @param stale true if the step used a stale contact set
+   *  @param state_hash hash of the state after the step */
   void addStep(std::uint64_t step, double wall_time, bool stale, std::uint64_t state_hash);
 
-  /** Force [N] and torque [N·m] at the hand. */
+  /** Adds the rendered force [N] and torque [N·m]. */
   void addHand(double force, double torque);
 
-  /** The wire's tip in the patient frame and how much wire is inside, both [m]. */
+  /** Adds the tip of the wire in the patient frame [m], the inserted length [m] and the number of nodes. */
   void addTip(const Eigen::Vector3d& tip, double inserted_length, std::size_t nodes);
 
-  /** Largest contact force at one moment [N] and the number of contacts that carry force. */
+  /** Adds the largest contact force of a step [N] and the number of contacts with force. */
   void addContacts(double largest, std::size_t count);
 
-  /** What the wall has borne so far, in place of what was told before.
-   *  @param triangles how many were touched */
+  /** Sets the wall forces accumulated so far.
+   *  @param triangles number of triangles with contact */
   void setWallForces(WallForceSummary summary, std::size_t triangles);
 
-  /** Widens the vessel's bounding box by a vertex, patient frame [m]. */
+  /** Extends the bounding box of the vessel by a vertex, patient frame [m]. */
   void addVesselPoint(const Eigen::Vector3d& point) { vessel_box_.extend(point); }
 
   void addFluoroscopyFrame() { ++fluoroscopy_frames_; }
   void addFluoroscopyPicture() { ++fluoroscopy_pictures_; }
 
-  /** Latest value of a node's diagnostics, kept as it came. */
+  /** Sets the latest value of a diagnostic of a node. */
   void addDiagnostic(const std::string& node, const std::string& key, const std::string& value);
 
   std::uint64_t steps() const { return steps_; }
-  double simulatedTime() const;  ///< [s]
-  double wallTime() const;       ///< between the first and the last step [s]
-  /** Simulated over elapsed time; nothing before the second step. */
+  double simulatedTime() const;  ///< simulated time [s]
+  double wallTime() const;       ///< wall time between the first and the last step [s]
+  /** Ratio of simulated to elapsed time; empty before the second step. */
   std::optional<double> realTimeFactor() const;
-  /** Latest value of a node's diagnostics; nothing when it did not come or is not a number. */
+  /** Latest value of a diagnostic of a node; empty if it is missing or not a number. */
   std::optional<double> diagnosticNumber(const std::string& node, const std::string& key) const;
   const RunningValue& handForce() const { return hand_force_; }
   double insertedLength() const { return inserted_length_.final(); }
 
-  /** The report as JSON: SI units, hashes as 16 hexadecimal digits.
-   *  @param error why the session ended too soon; empty: it did not */
+  /** Report as JSON: SI units, hashes as 16 hexadecimal digits.
+   *  @param error reason of an early end of the session; empty: none */
   std::string json(const RecordingOutcome& recording, const std::string& error) const;
 
 private:

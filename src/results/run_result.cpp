@@ -15,14 +15,14 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kQuietStrain = 1e-4;  // steps above it are counted: snaps over ridges
+constexpr double kCountedStrain = 1e-4;  // strain above which a step is counted, e.g. a snap-through over a ridge [1]
 
 struct HandPart
 {
   const char* name;
   double rod::HandForceParts::*value;
 };
-constexpr double kSlowStep = 300e-6;  // s: slower ones are counted
+constexpr double kSlowStep = 300e-6;  // step time above which a step is counted as slow [s]
 constexpr std::array<HandPart, 6> kHandParts = {{{"bending", &rod::HandForceParts::bending},
                                                  {"friction", &rod::HandForceParts::friction},
                                                  {"inertia", &rod::HandForceParts::inertia},
@@ -30,7 +30,7 @@ constexpr std::array<HandPart, 6> kHandParts = {{{"bending", &rod::HandForcePart
                                                  {"load", &rod::HandForceParts::load},
                                                  {"valve", &rod::HandForceParts::valve}}};
 
-/** Null where nothing was told. */
+/** Statistics of a quantity; null without samples. */
 Json toJson(const RunningValue& value)
 {
   if (value.count() == 0)
@@ -88,13 +88,13 @@ void RunResult::addStep(const simulation::Simulation& simulation, double seconds
     worst_penetration_time_ = simulation.time();
   }
   max_strain_ = std::max(max_strain_, simulation.report().max_strain);
-  strained_steps_ += simulation.report().max_strain > kQuietStrain;
+  strained_steps_ += simulation.report().max_strain > kCountedStrain;
   hand_force_.add(simulation.state().hand_force);
   hand_torque_.add(simulation.state().hand_torque);
   for (std::size_t k = 0; k < kHandParts.size(); ++k)
     hand_parts_[k].add(simulation.state().hand_parts.*kHandParts[k].value);
   work_.add(simulation.report());
-  refused_ += !simulation.report().solved;
+  rejected_steps_ += !simulation.report().solved;
 }
 
 int firstInsertedNode(const simulation::Simulation& simulation)
@@ -166,7 +166,7 @@ std::string RunResult::json(simulation::Simulation& simulation, const WallForceM
         {"truncations", work_.truncations},
         {"halvings", work_.bisections},
         {"steps_at_solve_limit", work_.hit_iteration_limit},
-        {"refused_steps", refused_}}},
+        {"refused_steps", rejected_steps_}}},
       {"trajectory_hash", Hash64::toHex(simulation.trajectoryHash())},
       {"scene_hash", Hash64::toHex(scene_hash_)},
       {"mesh_hash", Hash64::toHex(mesh_hash_)}};

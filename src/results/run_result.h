@@ -13,42 +13,42 @@
 namespace endovascular_sim::results
 {
 
-/** Mean, median, 99th percentile and largest of a set of durations. */
+/** Statistics of a set of durations [s]. */
 struct DurationStatistics
 {
   double mean = 0.0;
   double median = 0.0;
-  double p99 = 0.0;
+  double p99 = 0.0;  ///< 99th percentile [s]
   double max = 0.0;
 };
 
-/** @param seconds any order; empty gives zeros */
+/** @param seconds durations in any order [s]; an empty set gives zeros */
 DurationStatistics durationStatistics(std::vector<double> seconds);
 
-/** Collects what an offline run measures, for result.json. Knows no clock: durations are given to it. */
+/** Accumulator of the measurements of an offline run, for result.json. It reads no clock. */
 class RunResult
 {
 public:
-  /** @param expected_steps reserves memory */
+  /** @param expected_steps number of steps for which memory is reserved */
   RunResult(const scene::Scene& scene, std::uint64_t mesh_hash, std::size_t expected_steps);
 
-  /** After every step of the simulation.
-   *  @param seconds wall time of the step */
+  /** Adds a step; to be called after each step of the simulation.
+   *  @param seconds wall time of the step [s] */
   void addStep(const simulation::Simulation& simulation, double seconds);
 
-  /** Counts the nodes beyond the introducer that are outside the wall; costs a search per node. */
+  /** Updates the largest number of inserted nodes outside the wall; costs one nearest-triangle search per node. */
   void checkOutside(const simulation::Simulation& simulation, const contact::Detector& wall);
 
-  /** The result as JSON (docs/SIMULATE.md).
-   *  @param wall_forces of all steps; null without a vessel */
+  /** Result as JSON (docs/SIMULATE.md).
+   *  @param wall_forces wall forces of all steps; null without a vessel */
   std::string json(simulation::Simulation& simulation, const WallForceMap* wall_forces = nullptr) const;
 
-  /** Adds what balloons and stents did. */
+  /** Adds the outcome of balloons and stents. */
   void setTreatment(const scene::Scene& scene, const simulation::Simulation& simulation,
                     const std::vector<LesionOutcome>& lesions);
 
   int nodesOutside() const { return nodes_outside_; }
-  std::uint64_t refusedSteps() const { return refused_; }
+  std::uint64_t rejectedSteps() const { return rejected_steps_; }
 
 private:
   std::string scene_name_;
@@ -60,18 +60,18 @@ private:
   double worst_penetration_ = 0.0;
   double worst_penetration_time_ = 0.0;
   int nodes_outside_ = 0;
-  std::vector<int> nearest_;  ///< triangle that was nearest to each node, or −1
+  std::vector<int> nearest_;  ///< last nearest triangle of each node; −1: unknown
   double max_strain_ = 0.0;
   std::uint64_t strained_steps_ = 0;
   RunningValue hand_force_;
   RunningValue hand_torque_;
-  std::array<RunningValue, 6> hand_parts_;  ///< as kHandParts
+  std::array<RunningValue, 6> hand_parts_;  ///< contributions to the rendered force, in the order of kHandParts
   rod::StepReport work_;
-  std::uint64_t refused_ = 0;
-  std::string treatment_ = "null";  ///< JSON
+  std::uint64_t rejected_steps_ = 0;
+  std::string treatment_ = "null";  ///< outcome of balloons and stents as JSON
 };
 
-/** Nodes beyond the introducer's plane. */
+/** Index of the first node beyond the plane of the introducer. */
 int firstInsertedNode(const simulation::Simulation& simulation);
 
 }  // namespace endovascular_sim::results

@@ -15,18 +15,19 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNoticed = 3e-3;   // m beyond an ostium that count as an entry
-constexpr double kAhead = 2e-3;     // m by which a balloon catheter's tip is ahead of its wire's
-constexpr double kMoving = 0.5e-3;  // m/s
-constexpr double kSameTime = 1.0;   // s within which a force that returns is still the same mishap
-constexpr double kTurning = 0.05;   // rad/s
+constexpr double kEntryDepth = 3e-3;  // depth beyond an ostium that counts as an entry [m]
+constexpr double kAhead = 2e-3;       // lead of a balloon catheter's tip over its wire that is an error [m]
+constexpr double kMoving = 0.5e-3;    // speed above which a handle counts as moving [m/s]
+constexpr double kSameTime = 1.0;     // interval within which a recurring force belongs to the same error [s]
+constexpr double kTurning = 0.05;     // rotation speed above which a handle counts as moving [rad/s]
 
-/** For every instrument, the branches on the way to any goal that the procedure sets it. An instrument without a goal,
- *  and every one without a procedure, may be anywhere. */
-std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure::BranchLocator& locator, int entered)
+/** Allowed branches of each instrument: those on the path to any of its goals in the procedure. An instrument without a
+ *  goal has no wrong branches. */
+std::vector<std::vector<bool>> allowedBranches(const scene::Scene& scene, const procedure::BranchLocator& locator,
+                                               int entered)
 {
-  std::vector<std::vector<bool>> ways(scene.instruments.size());
-  for (std::size_t k = 0; scene.procedure && k < ways.size(); ++k)
+  std::vector<std::vector<bool>> allowed(scene.instruments.size());
+  for (std::size_t k = 0; scene.procedure && k < allowed.size(); ++k)
     for (const scene::StepScene& step : scene.procedure->steps)
     {
       const bool exchange = step.action == scene::StepAction::kExchange;
@@ -35,17 +36,17 @@ std::vector<std::vector<bool>> waysOf(const scene::Scene& scene, const procedure
       if (moved != scene.instruments[k].instrument.name || goal.empty() || locator.find(goal) < 0)
         continue;
       const std::vector<bool> way = locator.pathBetween(entered, locator.find(goal));
-      ways[k].resize(way.size(), false);
+      allowed[k].resize(way.size(), false);
       for (std::size_t b = 0; b < way.size(); ++b)
-        ways[k][b] = ways[k][b] || way[b];
+        allowed[k][b] = allowed[k][b] || way[b];
     }
-  for (std::vector<bool>& way : ways)
+  for (std::vector<bool>& way : allowed)
     if (way.empty())
-      way.assign(static_cast<std::size_t>(places.branches()), true);
-  return ways;
+      way.assign(static_cast<std::size_t>(locator.branches()), true);
+  return allowed;
 }
 
-/** The instrument that reaches furthest. */
+/** Instrument with the largest insertion. */
 int foremostOf(const procedure::Observation& observation)
 {
   const auto further = [](const procedure::InstrumentView& a, const procedure::InstrumentView& b)
@@ -54,7 +55,7 @@ int foremostOf(const procedure::Observation& observation)
                           observation.instruments.begin());
 }
 
-const char* word(procedure::Progress progress)
+const char* outcomeName(procedure::Progress progress)
 {
   switch (progress)
   {
@@ -86,8 +87,8 @@ SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::Centreli
                                const Eigen::Vector3d& entry)
   : scene_(scene),
     locator_(tree, scene.procedure ? scene.procedure->branches : std::vector<scene::NamedBranch>()),
-    on_way_(waysOf(scene, locator_, locator_.at(entry).branch)),
-    wrong_now_(scene.instruments.size(), -1),
+    on_way_(allowedBranches(scene, locator_, locator_.at(entry).branch)),
+    active_stay_(scene.instruments.size(), -1),
     ahead_(scene.instruments.size(), false),
     ahead_time_(scene.instruments.size(), 0.0),
     was_in_(scene.instruments.size(), false),
@@ -95,14 +96,14 @@ SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::Centreli
 {
 }
 
-bool SessionMetrics::wants(double time) const
+bool SessionMetrics::isDue(double time) const
 {
   return static_cast<std::int64_t>(std::floor(time * kRate + 1e-6)) > last_slot_;
 }
 
 void SessionMetrics::add(Sample sample)
 {
-  if (!wants(sample.observation.time))
+  if (!isDue(sample.observation.time))
     return;
   last_slot_ = static_cast<std::int64_t>(std::floor(sample.observation.time * kRate + 1e-6));
   followBranches(sample);
@@ -121,7 +122,7 @@ void SessionMetrics::setSteps(std::vector<procedure::StepRecord> steps, std::str
 void SessionMetrics::addEvent(const std::string& kind, int instrument, double time)
 {
   if (kind != "stent_placed")
-    mishaps_.push_back({kind, instrument, time, 0.0, ""});
+    errors_.push_back({kind, instrument, time, 0.0, ""});
 }
 
 const std::string& SessionMetrics::nameOf(int instrument) const
@@ -131,29 +132,29 @@ const std::string& SessionMetrics::nameOf(int instrument) const
 
 void SessionMetrics::followBranches(const Sample& sample)
 {
-  for (std::size_t k = 0; k < wrong_now_.size(); ++k)
+  for (std::size_t k = 0; k < active_stay_.size(); ++k)
   {
-    const procedure::BranchPosition& place = sample.observation.instruments[k].branch_position;
-    const bool wrong = !sample.observation.instruments[k].covered && place.branch >= 0 &&
-                       !on_way_[k][static_cast<std::size_t>(place.branch)];
-    int& now = wrong_now_[k];
-    if (now >= 0 && (!wrong || wrong_[static_cast<std::size_t>(now)].branch != place.branch))
+    const procedure::BranchPosition& position = sample.observation.instruments[k].branch_position;
+    const bool wrong = !sample.observation.instruments[k].covered && position.branch >= 0 &&
+                       !on_way_[k][static_cast<std::size_t>(position.branch)];
+    int& now = active_stay_[k];
+    if (now >= 0 && (!wrong || wrong_branches_[static_cast<std::size_t>(now)].branch != position.branch))
       now = -1;
-    if (wrong && now < 0 && place.depth > kNoticed)
+    if (wrong && now < 0 && position.depth > kEntryDepth)
     {
-      now = static_cast<int>(wrong_.size());
-      wrong_.push_back(
-          {static_cast<int>(k), place.branch, sample.observation.time, sample.observation.time, place.depth});
+      now = static_cast<int>(wrong_branches_.size());
+      wrong_branches_.push_back(
+          {static_cast<int>(k), position.branch, sample.observation.time, sample.observation.time, position.depth});
     }
     if (now < 0)
       continue;
-    WrongBranch& stay = wrong_[static_cast<std::size_t>(now)];
+    WrongBranch& stay = wrong_branches_[static_cast<std::size_t>(now)];
     stay.end = sample.observation.time;
-    stay.deepest = std::max(stay.deepest, place.depth);
+    stay.deepest = std::max(stay.deepest, position.depth);
   }
 }
 
-/** A balloon catheter is never to go ahead of the wire that leads it. */
+/** Detects a balloon catheter that advances ahead of all guidewires. */
 void SessionMetrics::followWires(const Sample& sample)
 {
   double furthest = 0.0;
@@ -165,13 +166,13 @@ void SessionMetrics::followWires(const Sample& sample)
     const double lead = sample.observation.instruments[k].hand.insertion - furthest;
     const bool ahead = scene_.instruments[k].instrument.kind == instrument::Kind::kBalloonCatheter && lead > kAhead;
     if (ahead && !ahead_[k])
-      mishaps_.push_back({"balloon ahead of its wire", static_cast<int>(k), sample.observation.time, lead, "m"});
+      errors_.push_back({"balloon ahead of its wire", static_cast<int>(k), sample.observation.time, lead, "m"});
     ahead_[k] = ahead;
     ahead_time_[k] += ahead ? 1.0 / kRate : 0.0;
   }
 }
 
-/** An exchange: something has left, then something enters. */
+/** Counts exchanges: an instrument enters after another one has left. */
 void SessionMetrics::followExchanges(const Sample& sample)
 {
   for (std::size_t k = 0; k < was_in_.size(); ++k)
@@ -195,17 +196,18 @@ void SessionMetrics::followForces(const Sample& sample)
   if (sample.at_tip <= kPerforation ||
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
-  if (sample.observation.time > pressing_until_ + kSameTime)
+  if (sample.observation.time > perforation_until_ + kSameTime)
   {
-    pressing_ = mishaps_.size();
-    mishaps_.push_back({"risk of perforation", foremost, sample.observation.time, sample.at_tip, "N"});
+    perforation_error_ = errors_.size();
+    errors_.push_back({"risk of perforation", foremost, sample.observation.time, sample.at_tip, "N"});
   }
-  mishaps_[pressing_].value = std::max(mishaps_[pressing_].value, sample.at_tip);
-  pressing_until_ = sample.observation.time;
+  errors_[perforation_error_].value = std::max(errors_[perforation_error_].value, sample.at_tip);
+  perforation_until_ = sample.observation.time;
 }
 
-/** Time in which some hand moves: a person looks at X-rays while he moves something. [s] */
-double SessionMetrics::handTime() const
+/** Time during which at least one handle moves or a balloon is under pressure [s]. Fluoroscopy is assumed to be on
+ *  during this time. */
+double SessionMetrics::activeTime() const
 {
   double time = 0.0;
   for (std::size_t i = 1; i < samples_.size(); ++i)
@@ -246,7 +248,7 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
   speed.resize(last);
   int entries = 0;
   double wrong = 0.0;
-  for (const WrongBranch& stay : wrong_)
+  for (const WrongBranch& stay : wrong_branches_)
     if (stay.instrument == static_cast<int>(k))
     {
       ++entries;
@@ -267,10 +269,10 @@ Json SessionMetrics::json() const
   Json json = {{"scene", scene_.name}};
   json["procedure"] = scene_.procedure ? Json(scene_.procedure->name) : Json(nullptr);
   if (!steps_.empty())
-    json["outcome"] = word(steps_.back().outcome);
+    json["outcome"] = outcomeName(steps_.back().outcome);
   json["failure"] = failure_.empty() ? Json(nullptr) : Json(failure_);
   json["procedure_time"] = samples_.empty() ? 0.0 : samples_.back().observation.time;
-  json["fluoroscopy_time"] = scene_.fluoroscopy ? handTime() : 0.0;
+  json["fluoroscopy_time"] = scene_.fluoroscopy ? activeTime() : 0.0;
   json["instrument_exchanges"] = exchanges_;
   json["steps"] = Json::array();
   for (const procedure::StepRecord& step : steps_)
@@ -280,12 +282,12 @@ Json SessionMetrics::json() const
                              {"end", step.end},
                              {"new_tries", step.retries},
                              {"wrong_branches", step.wrong_branches},
-                             {"outcome", word(step.outcome)}});
+                             {"outcome", outcomeName(step.outcome)}});
   json["instruments"] = Json::array();
   for (std::size_t k = 0; k < was_in_.size(); ++k)
     json["instruments"].push_back(instrumentJson(k));
   json["wrong_branches"] = Json::array();
-  for (const WrongBranch& stay : wrong_)
+  for (const WrongBranch& stay : wrong_branches_)
     json["wrong_branches"].push_back({{"instrument", nameOf(stay.instrument)},
                                       {"branch", locator_.name(stay.branch)},
                                       {"begin", stay.begin},
@@ -296,12 +298,12 @@ Json SessionMetrics::json() const
     json["wall_forces"].erase("triangles");
   json["lesions"] = toJson(lesions_);
   json["errors"] = Json::array();
-  for (const Mishap& mishap : mishaps_)
+  for (const SessionError& error : errors_)
   {
-    Json error = {{"error", mishap.kind}, {"instrument", nameOf(mishap.instrument)}, {"time", mishap.time}};
-    if (!mishap.unit.empty())
-      error["value"] = mishap.value;
-    json["errors"].push_back(error);
+    Json entry = {{"error", error.kind}, {"instrument", nameOf(error.instrument)}, {"time", error.time}};
+    if (!error.unit.empty())
+      entry["value"] = error.value;
+    json["errors"].push_back(entry);
   }
   return json;
 }

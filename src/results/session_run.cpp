@@ -19,7 +19,7 @@ void writeFile(const std::string& path, const std::string& text)
 {
   std::ofstream stream(path);
   if (!(stream << text) || !stream.flush())
-    throw InputError(path, "", "the disk refused it; free some space");
+    throw InputError(path, "", "cannot be written; free some disk space");
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ const std::vector<simulation::HandCommand>& SessionRun::commands(const simulatio
 
 void SessionRun::addStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts)
 {
-  if (!metrics_.wants(simulation.time()))
+  if (!metrics_.isDue(simulation.time()))
     return;
   Sample sample;
   sample.observation = procedure::observe(scene_, simulation, metrics_.locator());

@@ -13,25 +13,26 @@
 namespace endovascular_sim::results
 {
 
-/** What an offline run has besides its simulation: the scripted operator, where the scene has one, and the metrics. */
+/** Scripted operator and metrics of an offline run. */
 class SessionRun
 {
 public:
-  /** @param vessel before anything is done to it
-   *  @param entry the introducer, patient frame [m]
-   *  @throws InputError for a procedure that names a branch which the vessel does not have */
+  /** @param vessel vessel before any treatment
+   *  @param entry position of the introducer, patient frame [m]
+   *  @throws InputError for an unknown branch in the procedure */
   SessionRun(const scene::Scene& scene, vessel::Vessel vessel, const Eigen::Vector3d& entry);
 
-  /** For the coming step, one per instrument; to be called once before every step. */
+  /** Commands for the next step, one per instrument; to be called once before each step. */
   const std::vector<simulation::HandCommand>& commands(const simulation::Simulation& simulation);
 
-  /** Whether the procedure is done or has failed. */
-  bool isOver() const { return operator_ && operator_->progress() != procedure::Progress::kRunning; }
+  /** True if the procedure is complete or has failed. */
+  bool isFinished() const { return operator_ && operator_->progress() != procedure::Progress::kRunning; }
 
-  /** After every step. @param contacts of the step */
+  /** Adds a step to the metrics; to be called after each step.
+   *  @param contacts wall contacts of the step */
   void addStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts);
 
-  /** Saves or loads the operator; the metrics count from the loaded state on. */
+  /** Saves or loads the operator. The metrics restart at the loaded state. */
   void archive(Archive& archive)
   {
     if (operator_)
@@ -42,11 +43,12 @@ public:
   const std::optional<procedure::Operator>& scriptedOperator() const { return operator_; }
   const vessel::Vessel& vessel() const { return vessel_; }
 
-  /** Takes down how it ended. @param wall as it is now; null: it did not move */
+  /** Adds the outcome to the metrics.
+   *  @param wall present wall; null if it was not deformed */
   void finish(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall);
 
   /** Writes metrics.json, metrics.html and instruments.csv.
-   *  @throws InputError when the disk refuses them */
+   *  @throws InputError if a file cannot be written */
   void write(const std::string& folder) const;
 
 private:
@@ -57,11 +59,11 @@ private:
   std::vector<simulation::HandCommand> commands_;
 };
 
-/** instruments.csv: a row per sample and instrument, SI units. */
+/** Text of instruments.csv: one row per sample and instrument, SI units. */
 std::string instrumentsCsv(const SessionMetrics& metrics);
 
 /** Writes metrics.json, metrics.html and instruments.csv.
- *  @throws InputError when the disk refuses them */
+ *  @throws InputError if a file cannot be written */
 void writeMetrics(const SessionMetrics& metrics, const std::string& folder);
 
 }  // namespace endovascular_sim::results

@@ -12,9 +12,9 @@ namespace endovascular_sim::results
 namespace
 {
 
-constexpr double kCutOff = 10.0;     // Hz
-constexpr double kThreshold = 0.05;  // of the spectrum's value at 0
-constexpr int kPadding = 4;          // doublings beyond the next power of two
+constexpr double kCutoff = 10.0;     // cutoff frequency [Hz]
+constexpr double kThreshold = 0.05;  // amplitude threshold relative to frequency 0
+constexpr int kPadding = 4;          // zero padding: doublings beyond the next power of two
 
 }  // namespace
 
@@ -33,7 +33,7 @@ double spectralArcLength(const std::vector<double>& speed, double rate)
   fft.fwd(spectrum, padded);
   const double whole = std::abs(spectrum.front());
   const double step = rate / static_cast<double>(size);
-  auto last = static_cast<std::size_t>(std::min(0.5 * rate, kCutOff) / step);
+  auto last = static_cast<std::size_t>(std::min(0.5 * rate, kCutoff) / step);
   while (last > 0 && std::abs(spectrum[last]) < kThreshold * whole)
     --last;
   if (last == 0)

@@ -5,12 +5,15 @@
 namespace endovascular_sim::results
 {
 
-/** Smoothness of a movement by the length of its speed's spectrum: SPARC of S. Balasubramanian, A. Melendez-Calderon,
- *  A. Roby-Brami, E. Burdet, "On the analysis of movement smoothness", J. NeuroEng. Rehabil. 12:112, 2015, with their
- *  cut-off of 10 Hz and amplitude threshold of 0.05.
- *  @param speed evenly sampled [m/s]
- *  @param rate of the samples [Hz]
- *  @return dimensionless, negative: the nearer to 0 the smoother; 0 when nothing moved */
+/** Spectral arc length (SPARC), a smoothness measure: negative arc length of the normalised Fourier spectrum of the
+ *  speed.
+ *
+ *  Source: S. Balasubramanian, A. Melendez-Calderon, A. Roby-Brami, E. Burdet, "On the analysis of movement
+ *  smoothness", J. NeuroEng. Rehabil. 12:112, 2015, with their cutoff frequency of 10 Hz and amplitude threshold of
+ *  0.05.
+ *  @param speed uniformly sampled speed [m/s]
+ *  @param rate sampling rate [Hz]
+ *  @return spectral arc length [1]; values closer to 0 are smoother; 0 without motion */
 double spectralArcLength(const std::vector<double>& speed, double rate);
 
 }  // namespace endovascular_sim::results

@@ -9,7 +9,7 @@ namespace endovascular_sim::results
 StepCostsFile::StepCostsFile(const std::string& file) : stream_(file)
 {
   if (!stream_)
-    throw InputError(file, "", "cannot be written; choose a folder that exists and has room");
+    throw InputError(file, "", "cannot be written; choose an existing folder with free space");
   stream_ << "step,us,solves,factorisations,truncations,capped,contacts,detections";
   for (const char* phase : kPhaseNames)
     stream_ << ',' << phase << "_us";

@@ -8,18 +8,18 @@
 namespace endovascular_sim::results
 {
 
-/** Writes what every step cost, a row per step: times in µs, of the whole step and of its phases, and counts;
- * detections are contact sets asked for. */
+/** Writer of a CSV file with the cost of each step: times of the step and its phases [µs], and counters. The column
+ *  `detections` counts the queried contact sets. */
 class StepCostsFile
 {
 public:
-  /** @throws InputError when the file cannot be written */
+  /** @throws InputError if the file cannot be written */
   explicit StepCostsFile(const std::string& file);
 
-  /** @param seconds that the last step took */
+  /** Adds the last step. @param seconds wall time of the step [s] */
   void add(const simulation::Simulation& simulation, double seconds);
 
-  /** Hands everything to the operating system. @return false when the disk refused it */
+  /** Flushes the file to the operating system. @return false on failure */
   bool flush();
 
 private:

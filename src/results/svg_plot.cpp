@@ -10,7 +10,7 @@ namespace endovascular_sim::results
 namespace
 {
 
-constexpr double kLeft = 60.0, kRight = 12.0, kTop = 26.0, kBottom = 40.0;  // pixels around the axes
+constexpr double kLeft = 60.0, kRight = 12.0, kTop = 26.0, kBottom = 40.0;  // margins around the axes [pixels]
 
 /** Linear map of a range of values to a range of pixels. */
 struct Axis
@@ -31,7 +31,7 @@ std::string number(double value)
   return format("%.1f", value);
 }
 
-/** 1, 2 or 5 times a power of ten, so that about @p count steps fill the range. */
+/** Tick spacing of 1, 2 or 5 times a power of ten with about @p count ticks in the range. */
 double roundStep(double range, int count)
 {
   const double raw = range / count;

@@ -7,15 +7,15 @@
 namespace endovascular_sim::results
 {
 
-/** A curve of a plot. */
+/** Curve of a plot. */
 struct PlotLine
 {
-  std::string name;  ///< in the legend; empty: not there
+  std::string name;  ///< name in the legend; empty: no legend entry
   std::string colour;
   std::vector<std::pair<double, double>> points;
 };
 
-/** A stretch of the abscissa that is shaded, with its name. */
+/** Named, shaded interval of the abscissa. */
 struct PlotBand
 {
   std::string name;
@@ -23,24 +23,24 @@ struct PlotBand
   double end = 0.0;
 };
 
-/** A plot with axes in round numbers, as an SVG element. */
+/** Plot as an SVG element, with round numbers on the axes. */
 struct SvgPlot
 {
   std::string title;
-  std::string abscissa;  ///< with its unit
-  std::string ordinate;  ///< with its unit
+  std::string abscissa;  ///< label of the abscissa with its unit
+  std::string ordinate;  ///< label of the ordinate with its unit
   std::vector<PlotLine> lines;
   std::vector<PlotBand> bands;
-  bool equal_scales = false;             ///< for maps: both axes with the same scale
-  double width = 900.0, height = 240.0;  ///< pixels
+  bool equal_scales = false;             ///< true: both axes have the same scale, for maps
+  double width = 900.0, height = 240.0;  ///< size of the image [pixels]
 
   std::string text() const;
 };
 
-/** Text for HTML: the signs that it reserves replaced. */
+/** Text with the reserved characters of HTML escaped. */
 std::string escaped(const std::string& text);
 
-/** One of a few colours that can be told apart. */
+/** Colour @p k of a palette of distinguishable colours. */
 const char* colour(std::size_t k);
 
 }  // namespace endovascular_sim::results

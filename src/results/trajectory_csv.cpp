@@ -21,13 +21,13 @@ std::string toCsv(const TrajectoryRow& row)
 TrajectoryFile::TrajectoryFile(const std::string& file, double rate) : stream_(file), rate_(rate)
 {
   if (!(stream_ << kTrajectoryColumns << '\n'))
-    throw InputError(file, "trajectory", "cannot be written; choose a folder that exists and has room");
+    throw InputError(file, "trajectory", "cannot be written; choose an existing folder with free space");
 }
 
 bool TrajectoryFile::add(const TrajectoryRow& row)
 {
-  // Slots of simulated time: the rows do not depend on when messages arrive. The small term keeps a time that is a
-  // whole number of slots in its own one.
+  // Slots of simulated time make the rows independent of the arrival of messages. The small term assigns a time at a
+  // boundary to the slot that begins there, despite rounding.
   const double slot = std::floor(row.time * rate_ + 1e-6);
   if (slot <= last_slot_)
     return true;

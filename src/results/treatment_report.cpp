@@ -54,7 +54,7 @@ Json toJson(const intervention::StentPlacement& stent)
   return json;
 }
 
-/** Of several stents the one that covers most of the lesion. */
+/** Report of a lesion with the stent that has the largest coverage. */
 intervention::LesionReport best(const vessel::Vessel& vessel, const geometry::TriangleMesh& mesh,
                                 const vessel::PlacedLesion& lesion, const std::vector<intervention::RoundBody>& stents)
 {
@@ -103,13 +103,13 @@ std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& vessel, const ge
 
 Json toJson(const std::vector<LesionOutcome>& lesions)
 {
-  Json places = Json::array();
+  Json list = Json::array();
   for (const LesionOutcome& lesion : lesions)
-    places.push_back({{"branch", lesion.branch},
-                      {"place", lesion.place},
-                      {"before", toJson(lesion.before)},
-                      {"after", toJson(lesion.after)}});
-  return places;
+    list.push_back({{"branch", lesion.branch},
+                    {"place", lesion.position},
+                    {"before", toJson(lesion.before)},
+                    {"after", toJson(lesion.after)}});
+  return list;
 }
 
 Json toJson(const scene::Scene& scene, const simulation::Simulation& simulation,

@@ -13,31 +13,31 @@
 namespace endovascular_sim::results
 {
 
-/** A lesion before and after what was done to it. */
+/** Measurements of a lesion before and after the treatment. */
 struct LesionOutcome
 {
   std::string branch;
-  double place = 0.0;  ///< of its middle along the branch [m]
+  double position = 0.0;  ///< arc length of the lesion's centre on the branch [m]
   intervention::LesionReport before, after;
 };
 
-/** Whether a balloon has opened a stent, which then holds the wall. */
+/** True if a balloon has expanded the stent, so that the stent supports the wall. */
 bool isOpened(const intervention::StentPlacement& stent);
 
-/** Stents that were opened, whether or not they have left their balloons, measured where they are now. */
+/** Present shapes of the expanded stents, on or off their balloons. */
 std::vector<intervention::RoundBody> openedStents(const simulation::Simulation& simulation);
 
-/** Measures every lesion of a vessel; costs some milliseconds each.
- *  @param vessel as it was at the beginning
- *  @param mesh of it as it is now
- *  @param stents in it: of several the one that covers most of a lesion counts */
+/** Measures all lesions of a vessel, at a cost of some milliseconds each.
+ *  @param vessel vessel before the treatment
+ *  @param mesh present mesh of the vessel
+ *  @param stents expanded stents; the one with the largest coverage of a lesion counts for it */
 std::vector<LesionOutcome> lesionOutcomes(const vessel::Vessel& vessel, const geometry::TriangleMesh& mesh,
                                           const std::vector<intervention::RoundBody>& stents);
 
-/** Of every lesion branch, place, and what was measured before and after; SI units. */
+/** Lesions as JSON: branch, position, and measurements before and after; SI units. */
 nlohmann::ordered_json toJson(const std::vector<LesionOutcome>& lesions);
 
-/** `treatment` of result.json (docs/SIMULATE.md): events, balloons, stents, lesions; SI units. */
+/** Value of `treatment` in result.json (docs/SIMULATE.md): events, balloons, stents, lesions; SI units. */
 nlohmann::ordered_json toJson(const scene::Scene& scene, const simulation::Simulation& simulation,
                               const std::vector<LesionOutcome>& lesions);
 

@@ -7,15 +7,15 @@ namespace endovascular_sim::results
 namespace
 {
 
-constexpr int kNotLooked = -2;           // region of a triangle that nobody has asked for
-constexpr std::size_t kReserved = 4096;  // touched triangles: more than a session of some minutes makes
+constexpr int kUnknown = -2;             // region of a triangle that was not queried yet
+constexpr std::size_t kReserved = 4096;  // reserved triangles with contact, sufficient for some minutes
 
 }  // namespace
 
 WallForceMap::WallForceMap(double threshold, const vessel::Vessel& vessel)
   : threshold_(threshold),
     finder_(vessel.centreline),
-    region_of_triangle_(vessel.mesh.triangles.size(), kNotLooked),
+    region_of_triangle_(vessel.mesh.triangles.size(), kUnknown),
     record_of_triangle_(vessel.mesh.triangles.size(), -1),
     regions_(vessel.centreline.branches.size() + 1)
 {
@@ -49,7 +49,7 @@ int WallForceMap::regionOf(const simulation::WallContact& contact)
   if (!isOnMesh(contact))
     return finder_.nearest(contact.position);
   int& region = region_of_triangle_[static_cast<std::size_t>(contact.triangle)];
-  if (region == kNotLooked)
+  if (region == kUnknown)
     region = finder_.nearest(centre(contact.triangle));
   return region;
 }

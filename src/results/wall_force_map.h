@@ -13,80 +13,83 @@
 namespace endovascular_sim::results
 {
 
-/** "No region": the vessel has no centreline. */
+/** Region of a contact in a vessel without a centreline. */
 constexpr int kNoRegion = -1;
 
-/** What the whole wall, or one region of it, has borne: normal forces from the first step on. */
+/** Accumulated normal forces on the whole wall or on one region. */
 struct WallForceTotals
 {
-  int region = kNoRegion;                                   ///< branch of the centreline; kNoRegion also for the whole
-  std::string name;                                         ///< of the branch; empty for the whole
-  double peak = 0.0;                                        ///< largest force at any one contact [N]
-  Eigen::Vector3d peak_position = Eigen::Vector3d::Zero();  ///< [m]
-  int peak_region = kNoRegion;
-  double peak_time = 0.0;            ///< end of the step [s]
-  double peak_sum = 0.0;             ///< largest sum of one step [N]
-  double peak_sum_time = 0.0;        ///< end of the step [s]
-  double integral = 0.0;             ///< of the sum over time [N·s]
-  double time_over_threshold = 0.0;  ///< in which some contact had more than the threshold [s]
+  int region = kNoRegion;                                   ///< branch of the centreline; kNoRegion for the whole wall
+  std::string name;                                         ///< name of the branch; empty for the whole wall
+  double peak = 0.0;                                        ///< largest force of a single contact [N]
+  Eigen::Vector3d peak_position = Eigen::Vector3d::Zero();  ///< position of the peak [m]
+  int peak_region = kNoRegion;                              ///< region of the peak
+  double peak_time = 0.0;                                   ///< end of the step with the peak [s]
+  double peak_sum = 0.0;                                    ///< largest sum of the forces of one step [N]
+  double peak_sum_time = 0.0;                               ///< end of the step with the largest sum [s]
+  double integral = 0.0;                                    ///< time integral of the sum of the forces [N·s]
+  double time_over_threshold = 0.0;                         ///< time with at least one contact above the threshold [s]
 };
 
-/** What one triangle of the wall has borne. */
+/** Accumulated normal forces on one triangle of the wall. */
 struct WallForce
 {
-  int triangle = 0;
-  int region = kNoRegion;            ///< branch of the centreline that the triangle's centre belongs to
-  double peak = 0.0;                 ///< largest force at one contact [N]
-  double peak_time = 0.0;            ///< end of the step [s]
-  double integral = 0.0;             ///< of the forces over time [N·s]
-  double time_over_threshold = 0.0;  ///< [s]
+  int triangle = 0;                  ///< index of the triangle
+  int region = kNoRegion;            ///< branch of the centreline nearest to the centre of the triangle
+  double peak = 0.0;                 ///< largest force of a single contact [N]
+  double peak_time = 0.0;            ///< end of the step with the peak [s]
+  double integral = 0.0;             ///< time integral of the forces [N·s]
+  double time_over_threshold = 0.0;  ///< time with at least one contact above the threshold [s]
 };
 
-/** Totals of everything up to now. */
+/** Totals of the wall forces up to a time. */
 struct WallForceSummary
 {
-  double threshold = 0.0;  ///< [N]
-  double time = 0.0;       ///< until when it was counted [s]
+  double threshold = 0.0;  ///< threshold of time_over_threshold [N]
+  double time = 0.0;       ///< end of the last step [s]
   WallForceTotals whole;
-  std::vector<WallForceTotals> regions;  ///< those that were touched, in the order of the centreline's branches
+  std::vector<WallForceTotals> regions;  ///< regions with contact, in the order of the centreline's branches
 };
 
-/** Remembers what the wall has borne: per triangle, per region and as a whole.
+/** Accumulator of the forces on the wall: per triangle, per region and in total.
  *
- *  Forces are those of wallContacts(), one per node of the wire. Where the wire lies along the wall a finer sampling
- *  shares the same load among more contacts: peaks and the time over the threshold then belong to the sampling, sums
- *  and integrals do not. Allocates only when a triangle is touched for the first time. */
+ *  The forces are those of wallContacts(), one per node of the wire. Along a line contact, a finer sampling divides the
+ *  same load among more contacts. Peaks and times over the threshold therefore depend on the sampling, but sums and
+ *  integrals do not. Memory is allocated only at the first contact of a triangle. */
 class WallForceMap
 {
 public:
-  /** @param threshold force of one contact above which its time counts as time over threshold [N]
-   *  @param vessel the mesh whose triangles the contacts name; without a centreline there are no regions */
+  /** @param threshold force of a single contact above which its time counts as time over threshold [N]
+   *  @param vessel vessel with the mesh of the contacts; without a centreline there are no regions */
   WallForceMap(double threshold, const vessel::Vessel& vessel);
 
-  /** Adds one step; to be called for every step of the simulation.
-   *  @param contacts of the step; those without a known triangle (−1) count in the totals only
+  /** Adds one step; to be called after each step of the simulation.
+   *  @param contacts contacts of the step; those without a triangle (−1) count in the totals only
    *  @param time end of the step [s]
-   *  @param dt length of the step [s] */
+   *  @param dt duration of the step [s] */
   void add(const std::vector<simulation::WallContact>& contacts, double time, double dt);
 
-  /** Branch of the centreline that the centre of a contact's triangle belongs to (found once per triangle), or the
-   *  contact itself where the triangle is not known. */
+  /** Branch of the centreline nearest to the centre of a contact's triangle, cached per triangle; without a triangle,
+   *  the branch nearest to the contact. */
   int regionOf(const simulation::WallContact& contact);
 
-  const std::vector<WallForce>& touched() const { return touched_; }  ///< in the order of the first touch
-  const Eigen::Vector3d& centre(int triangle) const { return centres_[static_cast<std::size_t>(triangle)]; }  ///< [m]
-  const std::string& regionName(int region) const;  ///< empty for kNoRegion
+  /** Triangles with contact, in the order of their first contact. */
+  const std::vector<WallForce>& touched() const { return touched_; }
+  /** Centre of a triangle [m]. */
+  const Eigen::Vector3d& centre(int triangle) const { return centres_[static_cast<std::size_t>(triangle)]; }
+  /** Name of a region; empty for kNoRegion. */
+  const std::string& regionName(int region) const;
 
   WallForceSummary summary() const;
 
 private:
-  /** Totals with what is known of the current step. */
+  /** Totals with the intermediate values of the current step. */
   struct Account
   {
     WallForceTotals totals;
-    std::uint64_t step = 0;  ///< the last one that it was touched in, counted from 1
-    double sum = 0.0;        ///< of that step [N]
-    bool is_over = false;    ///< the threshold, in that step
+    std::uint64_t step = 0;  ///< last step with contact, counted from 1
+    double sum = 0.0;        ///< sum of the forces of that step [N]
+    bool is_over = false;    ///< true if a contact of that step exceeds the threshold
   };
 
   bool isOnMesh(const simulation::WallContact& contact) const;
@@ -96,14 +99,14 @@ private:
 
   double threshold_;
   std::vector<Eigen::Vector3d> centres_;
-  std::vector<std::string> names_;  ///< of "no region" and the branches
+  std::vector<std::string> names_;  ///< names of "no region" and the branches
   vessel::BranchFinder finder_;
   std::vector<int> region_of_triangle_;
-  std::vector<int> record_of_triangle_;  ///< −1: not touched
+  std::vector<int> record_of_triangle_;  ///< index in touched_; −1: no contact yet
   std::vector<WallForce> touched_;
-  std::vector<std::uint64_t> last_step_over_;  ///< of each touched triangle
+  std::vector<std::uint64_t> last_step_over_;  ///< for each entry of touched_: last step above the threshold
   Account whole_;
-  std::vector<Account> regions_;  ///< "no region" and the branches
+  std::vector<Account> regions_;  ///< accounts of "no region" and the branches
   std::uint64_t steps_ = 0;
   double time_ = 0.0;
 };

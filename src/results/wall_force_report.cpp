@@ -20,17 +20,18 @@ Json nameOrNull(const std::string& name)
 
 Json toJson(const WallForceTotals& totals)
 {
-  const Eigen::Vector3d& place = totals.peak_position;
-  return {{"peak", totals.peak},
-          {"peak_position", totals.peak > 0.0 ? Json::array({place.x(), place.y(), place.z()}) : Json(nullptr)},
-          {"peak_time", totals.peak_time},
-          {"peak_sum", totals.peak_sum},
-          {"peak_sum_time", totals.peak_sum_time},
-          {"integral", totals.integral},
-          {"time_over_threshold", totals.time_over_threshold}};
+  const Eigen::Vector3d& position = totals.peak_position;
+  return {
+      {"peak", totals.peak},
+      {"peak_position", totals.peak > 0.0 ? Json::array({position.x(), position.y(), position.z()}) : Json(nullptr)},
+      {"peak_time", totals.peak_time},
+      {"peak_sum", totals.peak_sum},
+      {"peak_sum_time", totals.peak_sum_time},
+      {"integral", totals.integral},
+      {"time_over_threshold", totals.time_over_threshold}};
 }
 
-/** Text in double quotes where a comma or a quote would break the row. */
+/** Field of a CSV row, quoted if it contains a comma, a quote or a line break. */
 std::string csvText(const std::string& text)
 {
   if (text.find_first_of(",\"\n") == std::string::npos)
@@ -84,9 +85,9 @@ std::string wallForcesCsv(std::vector<WallForceRow> rows)
   return text;
 }
 
-std::string vesselPointsCsv(const std::vector<Eigen::Vector3d>& vertices, std::size_t most)
+std::string vesselPointsCsv(const std::vector<Eigen::Vector3d>& vertices, std::size_t limit)
 {
-  const std::size_t every = std::max<std::size_t>(1, (vertices.size() + most - 1) / most);
+  const std::size_t every = std::max<std::size_t>(1, (vertices.size() + limit - 1) / limit);
   std::string text = "x,y,z\n";
   for (std::size_t v = 0; v < vertices.size(); v += every)
     text += numbers({vertices[v].x(), vertices[v].y(), vertices[v].z()}) + "\n";

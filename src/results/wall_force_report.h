@@ -10,22 +10,22 @@
 namespace endovascular_sim::results
 {
 
-/** `wall_forces` of report.json and result.json (docs/SIMULATE.md), SI units.
- *  @param triangles how many were touched */
+/** Value of `wall_forces` in report.json and result.json (docs/SIMULATE.md), SI units.
+ *  @param triangles number of triangles with contact */
 nlohmann::ordered_json toJson(const WallForceSummary& summary, std::size_t triangles);
 
-/** A row of wall_forces.csv. */
+/** Row of wall_forces.csv. */
 struct WallForceRow
 {
   WallForce force;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the triangle [m]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the triangle [m]
   std::string region;                                ///< name of the branch
 };
 
-/** wall_forces.csv: a row per touched triangle, by number, with a head line, SI units. */
+/** Text of wall_forces.csv: a header and one row per triangle with contact, sorted by index, SI units. */
 std::string wallForcesCsv(std::vector<WallForceRow> rows);
 
-/** vessel_points.csv, the background of the plots: vertices of the wall, evenly thinned out to at most @p most. */
-std::string vesselPointsCsv(const std::vector<Eigen::Vector3d>& vertices, std::size_t most = 5000);
+/** Text of vessel_points.csv, the background of the plots: every n-th vertex of the wall, at most @p limit vertices. */
+std::string vesselPointsCsv(const std::vector<Eigen::Vector3d>& vertices, std::size_t limit = 5000);
 
 }  // namespace endovascular_sim::results

@@ -67,7 +67,7 @@ std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const s
   simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
   std::vector<simulation::WallContact> contacts;
   const auto steps = static_cast<std::uint64_t>(scene.duration / scene.solver.time_step);
-  while (simulation.steps() < steps && !session.isOver())
+  while (simulation.steps() < steps && !session.isFinished())
   {
     simulation.stepAll(session.commands(simulation));
     simulation::wallContacts(simulation, contacts);

@@ -294,7 +294,7 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
   const std::uint64_t first = simulation.steps() + 1;
   for (std::uint64_t k = first; k <= steps; ++k)
   {
-    if (surroundings.session && surroundings.session->isOver())
+    if (surroundings.session && surroundings.session->isFinished())
       break;
     const std::vector<simulation::HandCommand> commands = commandsFor(scene, simulation, surroundings, k);
     const Clock::time_point before = Clock::now();
@@ -395,9 +395,9 @@ int simulate(const Options& options)
     std::cout << text;
     printProcedure(surroundings);
   }
-  if (result.refusedSteps() > 0)
+  if (result.rejectedSteps() > 0)
   {
-    std::cerr << "simulate: " << result.refusedSteps() << " steps could not be solved; the wire was held in them\n";
+    std::cerr << "simulate: " << result.rejectedSteps() << " steps could not be solved; the wire was held in them\n";
     return 1;
   }
   return surroundings.session && surroundings.session->scriptedOperator() &&

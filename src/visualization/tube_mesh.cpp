@@ -12,10 +12,9 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-/** Neighbours closer than this have no direction between them [m]. */
-constexpr double kCoinciding = 1e-9;
+constexpr double kCoinciding = 1e-9;  // distance below which adjacent nodes count as coinciding [m]
 
-/** Tangent at each node: the bisector of its two edges. */
+/** Tangents at the nodes: bisectors of the adjacent edges. */
 std::vector<Eigen::Vector3d> nodeTangents(const std::vector<Eigen::Vector3d>& nodes)
 {
   std::vector<Eigen::Vector3d> tangents(nodes.size());
@@ -25,13 +24,13 @@ std::vector<Eigen::Vector3d> nodeTangents(const std::vector<Eigen::Vector3d>& no
     const Eigen::Vector3d after =
         i + 1 < nodes.size() ? (nodes[i + 1] - nodes[i]).normalized() : Eigen::Vector3d::Zero();
     const Eigen::Vector3d sum = before + after;
-    // Where the curve turns back on itself the bisector vanishes and the incoming edge decides.
+    // At a reversal of the curve the bisector vanishes. The incoming edge then gives the tangent.
     tangents[i] = sum.norm() > 1e-6 ? Eigen::Vector3d(sum.normalized()) : before;
   }
   return tangents;
 }
 
-/** Any unit vector normal to @p tangent. */
+/** Arbitrary unit vector normal to @p tangent. */
 Eigen::Vector3d anyNormal(const Eigen::Vector3d& tangent)
 {
   Eigen::Index smallest = 0;
@@ -39,7 +38,7 @@ Eigen::Vector3d anyNormal(const Eigen::Vector3d& tangent)
   return tangent.cross(Eigen::Vector3d::Unit(smallest)).normalized();
 }
 
-/** Indices of the nodes that differ from the node before them. */
+/** Indices of the finite nodes that do not coincide with the previous one. */
 std::vector<std::size_t> distinctNodes(const std::vector<Eigen::Vector3d>& nodes)
 {
   std::vector<std::size_t> kept;
@@ -60,7 +59,7 @@ std::vector<Eigen::Vector3d> transportedNormals(const std::vector<Eigen::Vector3
   {
     const Eigen::Vector3d& from = tangents[i - 1];
     const Eigen::Vector3d& to = tangents[i];
-    // Smallest rotation that takes one tangent to the next; none is smallest where the curve turns back on itself.
+    // Smallest rotation from one tangent to the next. At a reversal of the curve it is undefined.
     Eigen::Vector3d normal = normals[i - 1];
     if (from.dot(to) > -1.0 + 1e-9)
       normal = Eigen::Quaterniond::FromTwoVectors(from, to) * normal;
@@ -125,9 +124,9 @@ Colour forceColour(double force, double full_scale)
   const std::array<Colour, 4> stops{
       {{0.75F, 0.78F, 0.82F}, {1.0F, 0.90F, 0.20F}, {1.0F, 0.50F, 0.05F}, {0.85F, 0.05F, 0.05F}}};
   const double ratio = full_scale > 0.0 && std::isfinite(force) ? std::clamp(force / full_scale, 0.0, 1.0) : 0.0;
-  const double place = ratio * static_cast<double>(stops.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), stops.size() - 2);
-  const auto blend = static_cast<float>(place - static_cast<double>(below));
+  const double position = ratio * static_cast<double>(stops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(position), stops.size() - 2);
+  const auto blend = static_cast<float>(position - static_cast<double>(below));
   const Colour& a = stops[below];
   const Colour& b = stops[below + 1];
   return {a.red + blend * (b.red - a.red), a.green + blend * (b.green - a.green), a.blue + blend * (b.blue - a.blue)};

@@ -8,7 +8,7 @@
 namespace endovascular_sim::visualization
 {
 
-WallHeat::WallHeat(geometry::TriangleMesh mesh, double radius, double inset)
+WallHeatMap::WallHeatMap(geometry::TriangleMesh mesh, double radius, double inset)
   : mesh_(std::move(mesh)),
     radius_(radius),
     normals_(mesh_.vertices.size(), Eigen::Vector3d::Zero()),
@@ -17,7 +17,7 @@ WallHeat::WallHeat(geometry::TriangleMesh mesh, double radius, double inset)
 {
   for (const Eigen::Vector3i& corners : mesh_.triangles)
     for (int k = 0; k < 3; ++k)
-      normals_[corners[k]] += normalOf(corners);  // weighted by area: good enough for a picture
+      normals_[corners[k]] += normalOf(corners);  // weighted by area, sufficient for display
   for (std::size_t v = 0; v < normals_.size(); ++v)
   {
     normals_[v].normalize();
@@ -25,13 +25,13 @@ WallHeat::WallHeat(geometry::TriangleMesh mesh, double radius, double inset)
   }
 }
 
-Eigen::Vector3d WallHeat::normalOf(const Eigen::Vector3i& corners) const
+Eigen::Vector3d WallHeatMap::normalOf(const Eigen::Vector3i& corners) const
 {
   const Eigen::Vector3d& a = mesh_.vertices[corners[0]];
   return (mesh_.vertices[corners[1]] - a).cross(mesh_.vertices[corners[2]] - a);
 }
 
-HeatPatch WallHeat::patch(const std::vector<std::uint32_t>& triangles, const std::vector<float>& values) const
+HeatPatch WallHeatMap::patch(const std::vector<std::uint32_t>& triangles, const std::vector<float>& values) const
 {
   std::vector<double> heat(mesh_.vertices.size(), 0.0);
   for (std::size_t k = 0; k < std::min(triangles.size(), values.size()); ++k)

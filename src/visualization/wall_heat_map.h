@@ -11,30 +11,33 @@
 namespace endovascular_sim::visualization
 {
 
-/** Triangles of the wall to be drawn as a heat map: three corners each. */
+/** Triangles of a heat map of the wall, with three corners each. */
 struct HeatPatch
 {
-  std::vector<Eigen::Vector3d> corners;  ///< slightly inside the lumen [m]
-  std::vector<double> values;            ///< at each corner, in the unit of what was given
+  std::vector<Eigen::Vector3d> corners;  ///< corners, slightly inside the lumen [m]
+  std::vector<double> values;            ///< value at each corner, in the unit of the input
 };
 
-/** Spreads what single triangles have borne over the wall around them, so that it can be seen: a triangle is smaller
- *  than a pixel. For pictures only. */
-class WallHeat
+/** Heat map of values of single triangles, smoothed over the surrounding wall. A single triangle is smaller than a
+ *  pixel. For display only. */
+class WallHeatMap
 {
 public:
-  /** @param mesh oriented, normals out of the lumen
-   *  @param radius over which a triangle's value fades to zero [m]
-   *  @param inset of the drawn triangles from the wall, so that they do not flicker with it [m] */
-  WallHeat(geometry::TriangleMesh mesh, double radius, double inset);
-  WallHeat(const WallHeat&) = delete;  // the tree looks at the mesh
-  WallHeat& operator=(const WallHeat&) = delete;
+  /** @param mesh oriented mesh with normals out of the lumen
+   *  @param radius distance over which a triangle's value decays to zero [m]
+   *  @param inset distance of the displayed triangles from the wall, against z-fighting [m] */
+  WallHeatMap(geometry::TriangleMesh mesh, double radius, double inset);
+  WallHeatMap(const WallHeatMap&) = delete;  // the tree refers to the mesh
+  WallHeatMap& operator=(const WallHeatMap&) = delete;
 
-  /** At a vertex the largest of the values around, each times (1 − (distance/radius)²)², but never less than that of a
-   *  triangle at its own corners. The wall of another vessel and the opposite wall, which face another way, stay cold.
-   *  @param triangles indices; those that the mesh does not have are left out
-   *  @param values positive, one per triangle
-   *  @return every triangle with a warm corner */
+  /** Computes the heat map.
+   *
+   *  The value of a vertex is the maximum over the triangles within the radius of value·(1 − (distance/radius)²)², and
+   *  at least the value of each adjacent triangle. Triangles with the opposite orientation, such as the opposite wall,
+   *  do not contribute.
+   *  @param triangles indices of the triangles; invalid ones are ignored
+   *  @param values positive values, one per triangle
+   *  @return all triangles with a positive value at a corner */
   HeatPatch patch(const std::vector<std::uint32_t>& triangles, const std::vector<float>& values) const;
 
 private:
@@ -42,8 +45,8 @@ private:
 
   geometry::TriangleMesh mesh_;
   double radius_;
-  std::vector<Eigen::Vector3d> normals_;  ///< of the vertices, out of the lumen, unit
-  std::vector<Eigen::Vector3d> inset_;    ///< the vertices as they are drawn [m]
+  std::vector<Eigen::Vector3d> normals_;  ///< unit normals of the vertices, out of the lumen
+  std::vector<Eigen::Vector3d> inset_;    ///< displayed vertices, moved into the lumen [m]
   geometry::PointTree tree_;
 };
 

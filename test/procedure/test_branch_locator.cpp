@@ -11,13 +11,13 @@ namespace
 
 TEST(BranchLocator, MeasuresDepthFromTheOstium)
 {
-  const BranchLocator places(forkedTree());
-  const BranchPosition place = places.at({0.03, 0.001, 0.1});
-  EXPECT_EQ(places.name(place.branch), "side");
+  const BranchLocator locator(forkedTree());
+  const BranchPosition position = locator.at({0.03, 0.001, 0.1});
+  EXPECT_EQ(locator.name(position.branch), "side");
   // The lumens have radii of 10 and 3 mm, and the ostium of the side branch lies in the trunk's wall. Both walls are
   // equally distant 7 mm from the trunk's axis. Points closer to the axis belong to the trunk.
-  EXPECT_NEAR(place.depth, 0.03 - 0.010, 0.0006);
-  EXPECT_EQ(places.name(places.at({0.005, 0.0, 0.1}).branch), "trunk");
+  EXPECT_NEAR(position.depth, 0.03 - 0.010, 0.0006);
+  EXPECT_EQ(locator.name(locator.at({0.005, 0.0, 0.1}).branch), "trunk");
 }
 
 TEST(BranchLocator, FindsTheOstiumOfANarrowingCentrelineInTheWallOfTheParent)
@@ -27,8 +27,8 @@ TEST(BranchLocator, FindsTheOstiumOfANarrowingCentrelineInTheWallOfTheParent)
   vessel::CentrelineBranch& side = tree.branches[1];
   side.points = {{0.0, 0.0, 0.1}, {0.012, 0.0, 0.1}, {0.05, 0.0, 0.1}};
   side.radii = {0.010, 0.003, 0.003};
-  const BranchLocator places(tree);
-  EXPECT_NEAR(places.depthIn(1, {0.03, 0.0, 0.1}), 0.03 - 0.010, 0.0006);
+  const BranchLocator locator(tree);
+  EXPECT_NEAR(locator.depthIn(1, {0.03, 0.0, 0.1}), 0.03 - 0.010, 0.0006);
 }
 
 TEST(BranchLocator, PutsTheOstiumOfAnEquallyWideBranchAtItsStart)
@@ -47,11 +47,11 @@ TEST(BranchLocator, PutsTheOstiumOfAnEquallyWideBranchAtItsStart)
 TEST(BranchLocator, FindsThePathOverTheFork)
 {
   vessel::CentrelineTree tree = forkedTree();
-  const BranchLocator places(tree);
-  EXPECT_EQ(places.pathBetween(1, 2), (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(places.pathBetween(0, 2), (std::vector<bool>{true, false, true}));
-  EXPECT_EQ(places.pathBetween(2, 0), (std::vector<bool>{true, false, true}));
-  EXPECT_EQ(places.pathBetween(0, -1), (std::vector<bool>{true, true, true})) << "without a goal no branch is wrong";
+  const BranchLocator locator(tree);
+  EXPECT_EQ(locator.pathBetween(1, 2), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(locator.pathBetween(0, 2), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(locator.pathBetween(2, 0), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(locator.pathBetween(0, -1), (std::vector<bool>{true, true, true})) << "without a goal no branch is wrong";
 }
 
 TEST(BranchLocator, EndsThePathAtTheFork)

@@ -34,7 +34,7 @@ TEST(Engagement, SucceedsFromAPerturbedStart)
   results::SessionRun run(scene, vessel, entry.position);
   simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline);
   std::vector<simulation::WallContact> contacts;
-  while (simulation.time() < 120.0 && !run.isOver())
+  while (simulation.time() < 120.0 && !run.isFinished())
   {
     simulation.stepAll(run.commands(simulation));
     simulation::wallContacts(simulation, contacts);

@@ -157,7 +157,7 @@ TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
 }
 
 /** Disturbance that displaces the support: a wire that leaves the catheter by 20 mm lifts it from the goal branch into
- * the trunk, a given number of times. Both remain there until the catheter is advanced by 2 mm. */
+ *  the trunk, a given number of times. Both remain there until the catheter is advanced by 2 mm. */
 struct LiftingWire
 {
   int times = 1;

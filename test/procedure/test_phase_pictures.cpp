@@ -60,7 +60,7 @@ TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
   World world(twoPhases("fluoroscopy: {pixels: 64}\n"));
   const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
   PhasePictures pictures(world.scene, folder);
-  for (int k = 0; k < 3000 && !world.session.isOver(); ++k)
+  for (int k = 0; k < 3000 && !world.session.isFinished(); ++k)
   {
     world.simulation.stepAll(world.session.commands(world.simulation));
     pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);

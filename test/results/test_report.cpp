@@ -30,7 +30,7 @@ json parsed(const SessionReport& report, const std::string& error = "")
   return json::parse(report.json(RecordingOutcome(), error));
 }
 
-TEST(RunningValue, TakesTheMagnitudeForMaximumAndMeanAndKeepsTheSignOfTheLast)
+TEST(RunningValue, HasAbsoluteMaximumAndMeanAndSignedLatestValue)
 {
   RunningValue value;
   for (const double sample : {1.0, -4.0, 2.0, -1.0})
@@ -40,7 +40,7 @@ TEST(RunningValue, TakesTheMagnitudeForMaximumAndMeanAndKeepsTheSignOfTheLast)
   EXPECT_EQ(value.final(), -1.0);
 }
 
-TEST(RunningValue, LeavesOutWhatIsNotFinite)
+TEST(RunningValue, IgnoresNonFiniteSamples)
 {
   RunningValue value;
   value.add(3.0);
@@ -59,10 +59,10 @@ TEST(SessionReport, ComparesSimulatedWithElapsedTime)
   EXPECT_NEAR(*report.realTimeFactor(), 0.5, 1e-9);
 }
 
-TEST(SessionReport, CountsStepsThatNeverArrived)
+TEST(SessionReport, CountsMissingSteps)
 {
   SessionReport report = reportOfSteps(0);
-  report.addStep(3, 0.0, false, 0);  // 0, 1 and 2 were made before anybody listened
+  report.addStep(3, 0.0, false, 0);  // steps 0, 1 and 2 precede the subscription
   report.addStep(4, 0.1, true, 0);
   report.addStep(4, 0.1, true, 0);
   report.addStep(7, 0.2, false, 9);
@@ -74,7 +74,7 @@ TEST(SessionReport, CountsStepsThatNeverArrived)
   EXPECT_EQ(result["last_state_hash"], "0000000000000009");
 }
 
-TEST(SessionReport, TellsTheShareOfStepsOnTimeOnlyWhenTheLoopTold)
+TEST(SessionReport, ReportsTheShareOfStepsOnTimeOnlyWithDiagnostics)
 {
   SessionReport report = reportOfSteps(1000);
   EXPECT_TRUE(parsed(report)["on_time_percent"].is_null());
@@ -98,7 +98,7 @@ TEST(SessionReport, MeasuresThePathOfTheTip)
   EXPECT_EQ(result["inserted_length"], 0.03);
 }
 
-TEST(SessionReport, KnowsTheBoxAroundTheVesselAndThatThereIsNone)
+TEST(SessionReport, ReportsTheBoundingBoxOfTheVesselIfThereIsOne)
 {
   SessionReport report = reportOfSteps(1);
   EXPECT_TRUE(parsed(report)["vessel_box"].is_null());
@@ -108,7 +108,7 @@ TEST(SessionReport, KnowsTheBoxAroundTheVesselAndThatThereIsNone)
   EXPECT_EQ(parsed(report)["vessel_box"]["max"], json::array({1.0, 2.0, 3.0}));
 }
 
-TEST(SessionReport, TellsWhatTheWallHasBorneAndNothingWithoutAVessel)
+TEST(SessionReport, ReportsWallForcesOnlyWithAVessel)
 {
   SessionReport report = reportOfSteps(1);
   EXPECT_TRUE(parsed(report)["wall_forces"].is_null());
@@ -123,7 +123,7 @@ TEST(SessionReport, TellsWhatTheWallHasBorneAndNothingWithoutAVessel)
   EXPECT_EQ(parsed(report)["wall_forces"]["triangles"], 3);
 }
 
-TEST(SessionReport, IsJsonEvenWithoutAnyStepAndWithBrokenText)
+TEST(SessionReport, IsValidJsonWithoutStepsAndWithInvalidText)
 {
   SessionReport report = reportOfSteps(0);
   report.addDiagnostic("node", "quote \" and \xff byte", "back\\slash\n");

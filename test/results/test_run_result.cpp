@@ -11,7 +11,7 @@ namespace
 
 using Json = nlohmann::json;
 
-/** Runs a scene of the package without a vessel for some steps; every step is said to take 50 µs. */
+/** Runs a scene of the package without a vessel for some steps with an assumed step time of 50 µs. */
 Json resultOf(const std::string& scene_name, int steps)
 {
   const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/" + scene_name);
@@ -27,7 +27,7 @@ Json resultOf(const std::string& scene_name, int steps)
   return Json::parse(result.json(simulation));
 }
 
-TEST(RunResult, HoldsEveryKeyThatIsPromised)
+TEST(RunResult, HasAllDocumentedKeys)
 {
   const Json json = resultOf("straight_wire.yaml", 20);
   for (const char* key : {"steps", "dt", "nodes", "real_time_factor", "step_time_us", "worst_surface_penetration",
@@ -42,7 +42,7 @@ TEST(RunResult, HoldsEveryKeyThatIsPromised)
   EXPECT_NEAR(json["step_time_us"]["median"].get<double>(), 50.0, 1e-9);
 }
 
-TEST(RunResult, PhasesThatASceneDoesNotNeedReadExactlyZero)
+TEST(RunResult, ReportsExactlyZeroForUnusedPhases)
 {
   for (const char* scene : {"straight_wire.yaml", "cantilever.yaml"})
   {
@@ -54,7 +54,7 @@ TEST(RunResult, PhasesThatASceneDoesNotNeedReadExactlyZero)
   }
 }
 
-TEST(RunResult, TellsMeanMedianAndTails)
+TEST(RunResult, ReportsMeanMedianAndTails)
 {
   std::vector<double> seconds(100, 1.0);
   seconds[3] = 5.0;

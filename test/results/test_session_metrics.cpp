@@ -11,7 +11,7 @@ namespace endovascular_sim::results
 namespace
 {
 
-/** A session of wire and catheter, whose tips lie in the tree where @p tips puts them. */
+/** Session with a wire and a catheter whose tips move on prescribed paths. */
 class Session
 {
 public:
@@ -21,7 +21,7 @@ public:
   {
   }
 
-  /** For a time, every tip goes evenly from where it is to a place, the hands with them. */
+  /** Moves all tips and handles linearly to new positions over a duration. */
   void move(double seconds, const std::vector<Eigen::Vector3d>& tips, const std::vector<double>& insertions,
             double at_tip = 0.0)
   {
@@ -63,7 +63,7 @@ private:
 
 const Eigen::Vector3d kStart(0, 0, 0);
 
-TEST(SessionMetrics, CountsVisitsOfBranchesThatDoNotLeadToTheGoal)
+TEST(SessionMetrics, CountsVisitsOfWrongBranches)
 {
   Session session;
   session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
@@ -76,13 +76,13 @@ TEST(SessionMetrics, CountsVisitsOfBranchesThatDoNotLeadToTheGoal)
   EXPECT_EQ(json["wrong_branches"][0]["branch"], "side");
   EXPECT_EQ(json["wrong_branches"][0]["instrument"], "wire");
   EXPECT_NEAR(json["wrong_branches"][0]["deepest"], 0.030, 0.001);
-  // From 3 mm beyond the ostium, which is at 10 mm, to the deepest place at 40 mm and back to 7 mm, where the trunk is
-  // nearer, at 40 mm/s.
+  // The visit begins 3 mm beyond the ostium at 10 mm, reaches 40 mm, and ends at 7 mm, where the trunk is closer. The
+  // speed is 40 mm/s.
   EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.027 + 0.033) / 0.04, 0.1);
   EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
 }
 
-TEST(SessionMetrics, ATipInsideOfAnotherInstrumentIsInNoWrongBranch)
+TEST(SessionMetrics, IgnoresTheBranchOfACoveredTip)
 {
   Session session;
   session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.1}}, {0.1, 0.15});
@@ -90,7 +90,7 @@ TEST(SessionMetrics, ATipInsideOfAnotherInstrumentIsInNoWrongBranch)
   EXPECT_TRUE(session.json()["wrong_branches"].empty());
 }
 
-TEST(SessionMetrics, AnInstrumentWithoutAGoalMayBeAnywhere)
+TEST(SessionMetrics, AllowsAllBranchesToAnInstrumentWithoutAGoal)
 {
   Session session;
   session.move(1.0, {kStart, {0, 0, 0.1}}, {0.0, 0.1});
@@ -98,12 +98,12 @@ TEST(SessionMetrics, AnInstrumentWithoutAGoalMayBeAnywhere)
   EXPECT_TRUE(session.json()["wrong_branches"].empty());
 }
 
-TEST(SessionMetrics, MeasuresTheWayOfTheTips)
+TEST(SessionMetrics, MeasuresThePathsOfTheTips)
 {
   Session session;
   session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
   session.move(1.0, {{0, 0, 0.06}, kStart}, {0.06, -0.1});
-  // The first sample lies one sampling period behind the start.
+  // The first sample is one sampling period after the start.
   EXPECT_NEAR(session.json()["instruments"][0]["tip_path"], 0.14, 0.1 / 2.0 / SessionMetrics::kRate + 1e-9);
   EXPECT_EQ(session.json()["instruments"][1]["tip_path"], 0.0);
 }
@@ -113,13 +113,13 @@ TEST(SessionMetrics, CountsExchanges)
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
   session.move(1.0, {kStart, kStart}, {-0.05, -0.1});
-  EXPECT_EQ(session.json()["instrument_exchanges"], 0) << "nothing has come in its place";
+  EXPECT_EQ(session.json()["instrument_exchanges"], 0) << "no instrument has replaced it yet";
   session.move(1.0, {kStart, {0, 0, 0.1}}, {-0.05, 0.1});
   EXPECT_EQ(session.json()["instrument_exchanges"], 1);
   EXPECT_EQ(session.json()["instruments"][1]["insertions"], 1);
 }
 
-TEST(SessionMetrics, ForcesOfAWiresTipThatMayPerforateAreErrorsOncePerTime)
+TEST(SessionMetrics, ReportsARiskOfPerforationOncePerEpisode)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
@@ -127,7 +127,7 @@ TEST(SessionMetrics, ForcesOfAWiresTipThatMayPerforateAreErrorsOncePerTime)
   session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.6);
   session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.2);
-  session.move(1.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.9);  // now the catheter is foremost
+  session.move(1.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.9);  // the catheter is foremost now
   const nlohmann::ordered_json json = session.json();
   ASSERT_EQ(json["errors"].size(), 2U);
   EXPECT_EQ(json["errors"][0]["error"], "risk of perforation");
@@ -135,7 +135,7 @@ TEST(SessionMetrics, ForcesOfAWiresTipThatMayPerforateAreErrorsOncePerTime)
   EXPECT_NEAR(json["errors"][0]["value"], 0.8, 1e-12);
 }
 
-TEST(SessionMetrics, OnlyContactsNearTheForemostTipCountAsItsForce)
+TEST(SessionMetrics, AttributesOnlyNearbyContactsToTheForemostTip)
 {
   Sample sample;
   sample.observation.instruments.resize(2);
@@ -143,13 +143,13 @@ TEST(SessionMetrics, OnlyContactsNearTheForemostTipCountAsItsForce)
   sample.observation.instruments[0].tip = {0, 0, 0.1};
   sample.addContact({0, 0, 0.104}, 0.3);
   sample.addContact({0, 0.004, 0.1}, 0.2);
-  sample.addContact({0, 0, 0.0}, 0.7);  // at the other's tip
+  sample.addContact({0, 0, 0.0}, 0.7);  // at the tip of the other instrument
   EXPECT_NEAR(sample.at_tip, 0.5, 1e-12);
   EXPECT_NEAR(sample.wall_force, 1.2, 1e-12);
   EXPECT_EQ(sample.largest, 0.7);
 }
 
-TEST(SessionMetrics, EventsOfATreatmentAreErrorsButForAPlacedStent)
+TEST(SessionMetrics, ReportsAllTreatmentEventsExceptAPlacedStentAsErrors)
 {
   Session session;
   session.metrics.addEvent("stent_placed", 1, 3.0);
@@ -159,18 +159,18 @@ TEST(SessionMetrics, EventsOfATreatmentAreErrorsButForAPlacedStent)
   EXPECT_EQ(json["errors"][0]["error"], "above_rated");
 }
 
-TEST(SessionMetrics, SamplesThatComeTooEarlyAreLeftOut)
+TEST(SessionMetrics, IgnoresSamplesBeforeTheyAreDue)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
   const std::size_t before = session.metrics.samples().size();
-  EXPECT_FALSE(session.metrics.wants(1.0));
+  EXPECT_FALSE(session.metrics.isDue(1.0));
   session.metrics.add(session.metrics.samples().back());
   EXPECT_EQ(session.metrics.samples().size(), before);
-  EXPECT_TRUE(session.metrics.wants(1.0 + 1.0 / SessionMetrics::kRate));
+  EXPECT_TRUE(session.metrics.isDue(1.0 + 1.0 / SessionMetrics::kRate));
 }
 
-TEST(SessionMetrics, TellsWhatBecameOfALesion)
+TEST(SessionMetrics, ReportsTheOutcomeOfALesion)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
@@ -185,11 +185,11 @@ TEST(SessionMetrics, TellsWhatBecameOfALesion)
   EXPECT_EQ(json["lesions"][0]["branch"], "goal");
   EXPECT_EQ(json["lesions"][0]["before"]["stenosis"], 0.6);
   EXPECT_EQ(json["lesions"][0]["after"]["coverage"], 0.97);
-  EXPECT_FALSE(json["lesions"][0]["before"].contains("coverage")) << "there was no stent";
+  EXPECT_FALSE(json["lesions"][0]["before"].contains("coverage")) << "there was no stent before";
   EXPECT_NE(metricsPage(session.metrics).find("97"), std::string::npos);
 }
 
-TEST(MetricsPage, NeedsNoOtherFile)
+TEST(MetricsPage, IsSelfContained)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
@@ -200,12 +200,12 @@ TEST(MetricsPage, NeedsNoOtherFile)
   for (const char* reference : {"http", "src=", "href=", "url(", "@import"})
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
   EXPECT_NE(page.find("<svg"), std::string::npos);
-  EXPECT_NE(page.find("Wire &amp; goal &lt;1&gt;"), std::string::npos) << "names are not read as HTML";
+  EXPECT_NE(page.find("Wire &amp; goal &lt;1&gt;"), std::string::npos) << "names are escaped";
   EXPECT_NE(page.find("step 1: because"), std::string::npos);
   EXPECT_NE(page.find("risk of perforation"), std::string::npos);
 }
 
-TEST(MetricsPage, TellsForcesInAVesselWhoseBranchesHaveNoNames)
+TEST(MetricsPage, ReportsForcesInAVesselWithoutBranchNames)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);

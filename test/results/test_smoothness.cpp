@@ -9,7 +9,7 @@ namespace endovascular_sim::results
 namespace
 {
 
-/** The speed of a movement of least jerk, and the same done in @p parts with a stop after each. */
+/** Speed of a minimum-jerk movement, divided into @p parts with a stop after each. */
 std::vector<double> movement(int parts)
 {
   std::vector<double> speed;
@@ -21,16 +21,16 @@ std::vector<double> movement(int parts)
   return speed;
 }
 
-TEST(SpectralArcLength, IsThatOfItsAuthorsProgram)
+TEST(SpectralArcLength, MatchesTheReferenceImplementation)
 {
-  // The example that comes with their sparc(): exp(-5 t²), t from -1 to 1 in steps of 0.01.
+  // Example of the authors' sparc(): exp(-5 t²), t from -1 to 1 in steps of 0.01.
   std::vector<double> speed;
   for (int k = 0; k < 200; ++k)
     speed.push_back(std::exp(-5.0 * std::pow(-1.0 + 0.01 * k, 2)));
   EXPECT_NEAR(spectralArcLength(speed, 100.0), -1.41403, 1e-5);
 }
 
-TEST(SpectralArcLength, GetsWorseWithEveryStop)
+TEST(SpectralArcLength, DecreasesWithEachStop)
 {
   EXPECT_GT(spectralArcLength(movement(1), 200.0), spectralArcLength(movement(2), 200.0) + 0.2);
   EXPECT_GT(spectralArcLength(movement(2), 200.0), spectralArcLength(movement(4), 200.0) + 0.2);
@@ -44,7 +44,7 @@ TEST(SpectralArcLength, DoesNotDependOnTheSizeOfTheMovement)
   EXPECT_NEAR(spectralArcLength(larger, 200.0), spectralArcLength(movement(2), 200.0), 1e-12);
 }
 
-TEST(SpectralArcLength, IsZeroWhereNothingMoves)
+TEST(SpectralArcLength, IsZeroWithoutMotion)
 {
   EXPECT_EQ(spectralArcLength({}, 20.0), 0.0);
   EXPECT_EQ(spectralArcLength(std::vector<double>(50, 0.0), 20.0), 0.0);

@@ -26,7 +26,7 @@ std::vector<std::string> cells(const std::string& line)
   return found;
 }
 
-TEST(StepCostsFile, HasARowForEveryStepWithACellForEveryColumn)
+TEST(StepCostsFile, HasOneRowPerStepWithAllColumns)
 {
   const std::string file = testing::TempDir() + "step_costs.csv";
   const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml");
@@ -54,14 +54,14 @@ TEST(StepCostsFile, HasARowForEveryStepWithACellForEveryColumn)
     EXPECT_EQ(row[0], std::to_string(k));
     EXPECT_EQ(row[1], "50");
     EXPECT_GE(std::stoi(row[2]), 1) << "solves";
-    EXPECT_EQ(row[6], "0") << "contacts: there is no vessel";
+    EXPECT_EQ(row[6], "0") << "number of contacts without a vessel";
     EXPECT_GT(std::stod(row[10]), 0.0) << "time of solving";
   }
   EXPECT_FALSE(std::getline(stream, line));
   std::filesystem::remove(file);
 }
 
-TEST(StepCostsFile, RefusesAPlaceThatCannotBeWritten)
+TEST(StepCostsFile, RejectsAMissingFolder)
 {
   EXPECT_THROW(StepCostsFile(testing::TempDir() + "no_such_folder/costs.csv"), InputError);
 }

@@ -40,7 +40,7 @@ TEST(TrajectoryFile, WritesNumbersThatReadBackToTheSameBits)
   EXPECT_EQ(values[9], row.pressure);
 }
 
-TEST(TrajectoryFile, KeepsOneRowPerSlotWhateverTheRateOfTheRows)
+TEST(TrajectoryFile, WritesOneRowPerSlotAtAnyInputRate)
 {
   const std::string file = testing::TempDir() + "endovascular_sim_rows.csv";
   {
@@ -54,14 +54,14 @@ TEST(TrajectoryFile, KeepsOneRowPerSlotWhateverTheRateOfTheRows)
     EXPECT_TRUE(trajectory.flush());
   }
   const std::vector<std::string> lines = linesOf(file);
-  ASSERT_EQ(lines.size(), 1U + 101U);  // the head, the slot that has begun before the first step, 100 others
+  ASSERT_EQ(lines.size(), 1U + 101U);  // header, initial slot, 100 others
   EXPECT_EQ(lines[0], kTrajectoryColumns);
   EXPECT_EQ(lines[2].substr(0, 5), "0.01,");
   EXPECT_EQ(lines[101].substr(0, 2), "1,");
   std::remove(file.c_str());
 }
 
-TEST(TrajectoryFile, RefusesAFolderThatIsNotThere)
+TEST(TrajectoryFile, RejectsAMissingFolder)
 {
   EXPECT_THROW(TrajectoryFile("/no/such/folder/trajectory.csv", 100.0), InputError);
 }

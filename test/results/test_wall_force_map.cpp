@@ -19,7 +19,7 @@ namespace
 
 constexpr double kStep = 1e-3;
 
-/** A strip of triangles along x; the first half belongs to the branch "near", the second to "far". */
+/** Strip of triangles along x. The first half belongs to the branch "near", the second half to "far". */
 vessel::Vessel strip(int triangles)
 {
   vessel::Vessel vessel;
@@ -43,18 +43,18 @@ simulation::WallContact contactOf(int triangle, double force, const Eigen::Vecto
   simulation::WallContact contact;
   contact.triangle = triangle;
   contact.normal_force = force * Eigen::Vector3d(0.6, 0.0, 0.8);
-  contact.friction_force = Eigen::Vector3d(0.0, 100.0, 0.0);  // must not matter
+  contact.friction_force = Eigen::Vector3d(0.0, 100.0, 0.0);  // must have no effect
   contact.position = position;
   return contact;
 }
 
-TEST(WallForceMap, TellsPeakIntegralAndTimeOverTheThresholdOfAKnownSequence)
+TEST(WallForceMap, ComputesPeakIntegralAndTimeOverThresholdOfAKnownSequence)
 {
   WallForceMap map(0.1, strip(10));
   map.add({contactOf(0, 0.05), contactOf(9, 0.2, {1.0, 2.0, 3.0})}, 1e-3, kStep);
   map.add({contactOf(0, 0.15), contactOf(0, 0.12)}, 2e-3, kStep);  // two nodes on one triangle
   map.add({}, 3e-3, kStep);
-  map.add({contactOf(0, 0.1)}, 4e-3, kStep);  // at the threshold is not over it
+  map.add({contactOf(0, 0.1)}, 4e-3, kStep);  // equal to the threshold, not above it
 
   ASSERT_EQ(map.touched().size(), 2U);
   const WallForce& first = map.touched()[0];
@@ -157,7 +157,7 @@ TEST(WallForceMap, CountsAContactWithoutATriangleInTheTotalsOnly)
   EXPECT_EQ(map.summary().regions[1].name, "far");
 }
 
-TEST(WallForceMap, LeavesOutForcesThatAreNoNumbers)
+TEST(WallForceMap, IgnoresNonFiniteForces)
 {
   WallForceMap map(0.1, strip(10));
   map.add({contactOf(1, std::nan("")), contactOf(2, std::numeric_limits<double>::infinity()), contactOf(3, 0.0)}, kStep,
@@ -182,7 +182,7 @@ TEST(WallForceMap, WorksWithoutACentreline)
   EXPECT_NEAR(json["by_region"][0]["integral"].get<double>(), 0.3 * kStep, 1e-15);
 }
 
-TEST(WallForceReport, NamesTheRegionOfThePeak)
+TEST(WallForceReport, ReportsTheRegionOfThePeak)
 {
   WallForceMap map(0.1, strip(10));
   EXPECT_TRUE(toJson(map.summary(), 0)["peak_position"].is_null());
@@ -194,7 +194,7 @@ TEST(WallForceReport, NamesTheRegionOfThePeak)
   EXPECT_EQ(json["by_region"][0]["region"], "near");
 }
 
-TEST(WallForceReport, WritesARowPerTriangleByNumber)
+TEST(WallForceReport, WritesARowPerTriangleSortedByIndex)
 {
   WallForceRow later{{7, 0, 0.5, 2.0, 0.25, 0.001}, {1.0, 2.0, 3.0}, "left \"a\", b"};
   WallForceRow earlier{{3, kNoRegion, 0.25, 1.0, 0.125, 0.0}, {0.0, 0.0, 0.5}, ""};
@@ -204,15 +204,15 @@ TEST(WallForceReport, WritesARowPerTriangleByNumber)
             "7,1,2,3,\"left \"\"a\"\", b\",0.5,2,0.25,0.001\n");
 }
 
-TEST(WallForceReport, ThinsTheVesselsPointsOutEvenly)
+TEST(WallForceReport, SamplesTheVerticesOfTheVesselUniformly)
 {
   const std::vector<Eigen::Vector3d> vertices(11, Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(vesselPointsCsv(vertices, 4), "x,y,z\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n");
   EXPECT_EQ(vesselPointsCsv({vertices.begin(), vertices.begin() + 2}, 4), "x,y,z\n1,2,3\n1,2,3\n");
 }
 
-/** A wire pushed into the tube's bend: what the map holds at the end is what the steps told, contact by contact. */
-TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
+// Pushes a wire into the bend of a tube and compares the map with a separate sum over all steps and contacts.
+TEST(WallForceMap, EqualsTheSumOverTheStepsOfARun)
 {
   const scene::Scene scene =
       scene::loadScene(PROJECT_DIR "/config/scenes/tube.yaml",
@@ -231,7 +231,7 @@ TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
     const std::vector<simulation::WallContact> contacts = simulation::wallContacts(simulation);
     map.add(contacts, simulation.time(), scene.solver.time_step);
     double sum = 0.0;
-    for (const Eigen::Vector3d& force : simulation.state().wall_force)  // not by way of wallContacts()
+    for (const Eigen::Vector3d& force : simulation.state().wall_force)  // independent of wallContacts()
     {
       sum += force.norm();
       peak = std::max(peak, force.norm());
@@ -257,7 +257,7 @@ TEST(WallForceMap, OfARunHoldsTheSumOfItsSteps)
   EXPECT_NEAR(of_regions, integral, 1e-9 * integral);
 }
 
-/** A wall that touches the wire at one place of one edge only. */
+/** Contact source with a single contact at a given point of an edge. */
 class OneTouch : public contact::ContactSource
 {
 public:
@@ -277,7 +277,7 @@ public:
     feature.parameter = parameter_;
     feature.normal = Eigen::Vector3d::UnitX();
     const Eigen::Vector3d axis = (1.0 - parameter_) * query.nodes[edge] + parameter_ * query.nodes[edge + 1];
-    feature.gap = axis.x() - 10e-6;  // a wall at 10 µm less than the radius from the straight wire
+    feature.gap = axis.x() - 10e-6;  // penetration of 10 µm at the straight wire
     feature.point = axis - (feature.gap + query.radius[edge]) * feature.normal;
     feature.triangle = 7;
     feature.id = 21;
@@ -288,7 +288,7 @@ private:
   double parameter_;
 };
 
-TEST(WallContacts, KnowTheTriangleAtBothNodesOfAnEdgeThatIsTouchedBetweenThem)
+TEST(WallContacts, ReportTheTriangleAtBothNodesOfAContactedEdge)
 {
   for (const double parameter : {0.3, 0.5, 0.8})
   {
@@ -298,7 +298,7 @@ TEST(WallContacts, KnowTheTriangleAtBothNodesOfAnEdgeThatIsTouchedBetweenThem)
     entry.d1 = Eigen::Vector3d::UnitY();
     OneTouch wall(parameter);
     simulation::Simulation simulation(scene, entry, &wall);
-    simulation.step({0.1, 0.0});  // which pushes the wire off
+    simulation.step({0.1, 0.0});  // the contact pushes the wire away
     const std::vector<simulation::WallContact> contacts = simulation::wallContacts(simulation);
     ASSERT_EQ(contacts.size(), 2U) << parameter;
     for (const simulation::WallContact& contact : contacts)

@@ -222,7 +222,7 @@ struct Refusal
 {
   std::string instrument;
   std::string change;
-  std::string place;
+  std::string location;
   std::string remedy;
 };
 
@@ -284,14 +284,14 @@ TEST_P(InstrumentRefusal, ReportsFileKeyAndRemedy)
   {
     const std::string message = error.what();
     EXPECT_NE(message.find(expected.instrument + ".yaml: "), std::string::npos) << message;
-    EXPECT_NE(message.find(expected.place), std::string::npos) << message;
+    EXPECT_NE(message.find(expected.location), std::string::npos) << message;
     EXPECT_NE(message.find(expected.remedy), std::string::npos) << message;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, InstrumentRefusal, ::testing::ValuesIn(kRefusals));
 
-void expectSceneRefusal(const std::string& change, const std::string& place, const std::string& remedy)
+void expectSceneRefusal(const std::string& change, const std::string& location, const std::string& remedy)
 {
   try
   {
@@ -300,7 +300,7 @@ void expectSceneRefusal(const std::string& change, const std::string& place, con
   }
   catch (const InputError& error)
   {
-    EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(location), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find(remedy), std::string::npos) << error.what();
   }
 }

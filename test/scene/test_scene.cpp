@@ -57,7 +57,7 @@ void expectSameWire(const instrument::Instrument& a, const instrument::Instrumen
 }
 
 /** Compares all values of two scenes except the file name. The resolved text contains all of them, so equal texts
- * complete the check. */
+ *  complete the check. */
 void expectSameScene(const Scene& a, const Scene& b)
 {
   EXPECT_EQ(a.resolved_yaml, b.resolved_yaml);

@@ -224,10 +224,10 @@ TEST(SceneVessel, RejectsAnInitialInsertionThroughTheWallAndReportsTheLimit)
   // The wire meets the outer wall where the bend of radius R has a lateral offset equal to the tube's radius r.
   const double bend = 0.03;
   const double side = scene.vessel->tube->radius;
-  const double most = 0.05 + std::sqrt((bend + side) * (bend + side) - bend * bend);
+  const double limit = 0.05 + std::sqrt((bend + side) * (bend + side) - bend * bend);
   const std::size_t number = message.find("less than ");
   ASSERT_NE(number, std::string::npos) << message;
-  EXPECT_NEAR(std::stod(message.substr(number + 10)), most, 0.5e-3) << message;
+  EXPECT_NEAR(std::stod(message.substr(number + 10)), limit, 0.5e-3) << message;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3d> helix(std::size_t count)
   return nodes;
 }
 
-/** Six times the volume enclosed, by the divergence theorem: positive when the faces look outwards. */
+/** Six times the enclosed volume by the divergence theorem; positive for outward normals. */
 double sixVolumes(const TubeMesh& mesh)
 {
   double sum = 0.0;
@@ -31,7 +31,7 @@ double sixVolumes(const TubeMesh& mesh)
   return sum;
 }
 
-TEST(TubeMesh, OfAStraightWireHasThePrismsVolumeAndLooksOutwards)
+TEST(TubeMesh, OfAStraightWireHasTheVolumeOfAPrismAndOutwardNormals)
 {
   const std::vector<Eigen::Vector3d> nodes{{0, 0, 0}, {0, 0, 0.05}, {0, 0, 0.1}};
   const TubeMesh mesh = tubeMesh(nodes, {1e-3, 1e-3, 1e-3}, 8);
@@ -39,7 +39,7 @@ TEST(TubeMesh, OfAStraightWireHasThePrismsVolumeAndLooksOutwards)
   EXPECT_NEAR(sixVolumes(mesh) / 6.0, octagon * 0.1, 1e-15);
 }
 
-TEST(TubeMesh, HasEveryCornerOneRadiusFromItsNode)
+TEST(TubeMesh, HasAllCornersOneRadiusFromTheirNodes)
 {
   const std::vector<Eigen::Vector3d> nodes = helix(60);
   std::vector<double> radius(nodes.size());
@@ -58,7 +58,7 @@ TEST(TubeMesh, HasEveryCornerOneRadiusFromItsNode)
 
 TEST(TubeMesh, ClosesItsSurface)
 {
-  // The vector areas of a closed surface add up to nothing.
+  // The vector areas of a closed surface sum to zero.
   const TubeMesh mesh = tubeMesh(helix(40), std::vector<double>(40, 1e-3), 8);
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
@@ -67,7 +67,7 @@ TEST(TubeMesh, ClosesItsSurface)
   EXPECT_GT(sixVolumes(mesh), 0.0);
 }
 
-TEST(TubeMesh, CarriesItsFrameWithoutTwist)
+TEST(TubeMesh, TransportsItsFrameWithoutTwist)
 {
   const std::vector<Eigen::Vector3d> nodes = helix(200);
   const std::vector<Eigen::Vector3d> normals = transportedNormals(nodes);
@@ -76,14 +76,14 @@ TEST(TubeMesh, CarriesItsFrameWithoutTwist)
     const Eigen::Vector3d tangent =
         ((nodes[i] - nodes[i - 1]).normalized() + (nodes[i + 1] - nodes[i]).normalized()).normalized();
     EXPECT_NEAR(normals[i].dot(tangent), 0.0, 1e-9);
-    // Rotation-minimising: the normal changes along the tangent only, so its step across tangent and normal is of
-    // third order (curvature 50/m, edge 2 mm).
+    // Rotation-minimising frame: the normal changes along the tangent only. Its change normal to tangent and normal is
+    // therefore of third order (curvature 50/m, edge 2 mm).
     const Eigen::Vector3d across = tangent.cross(normals[i]);
     EXPECT_LT(std::abs((normals[i] - normals[i - 1]).dot(across)), 1e-2);
   }
 }
 
-TEST(TubeMesh, OfAPlaneCurveKeepsTheNormalOfThePlane)
+TEST(TubeMesh, OfAPlanarCurveRetainsTheNormalOfThePlane)
 {
   std::vector<Eigen::Vector3d> nodes;
   for (int i = 0; i < 50; ++i)
@@ -110,14 +110,14 @@ TEST(TubeMesh, IsEmptyWithoutAnEdge)
   EXPECT_TRUE(tubeMesh({{0, 0, 0}, {0, 0, 1}}, {1e-3}, 8).corners.empty());
 }
 
-TEST(TubeMesh, SurvivesACurveThatTurnsBackOnItself)
+TEST(TubeMesh, HandlesAReversalOfTheCurve)
 {
   const TubeMesh mesh = tubeMesh({{0, 0, 0}, {0, 0, 0.1}, {0, 0, 0.05}}, {1e-3, 1e-3, 1e-3}, 8);
   for (const Eigen::Vector3d& corner : mesh.corners)
     EXPECT_TRUE(corner.allFinite());
 }
 
-TEST(ForceColour, RunsFromGreyToRedAndStaysThere)
+TEST(ForceColour, ChangesFromGreyToRedAndSaturates)
 {
   EXPECT_FLOAT_EQ(forceColour(0.0, 0.1).red, 0.75F);
   EXPECT_FLOAT_EQ(forceColour(0.1, 0.1).red, 0.85F);

@@ -7,7 +7,7 @@ namespace endovascular_sim::visualization
 namespace
 {
 
-/** A square plate of 20 mm in the plane z = height, 0.5 mm between its vertices. */
+/** Square plate of 20 mm in the plane z = height, with vertices at a spacing of 0.5 mm. */
 void addPlate(geometry::TriangleMesh& mesh, double height, bool facing_up)
 {
   constexpr int kVertices = 41;
@@ -25,16 +25,16 @@ void addPlate(geometry::TriangleMesh& mesh, double height, bool facing_up)
     }
 }
 
-constexpr std::uint32_t kMiddle = 2 * (20 * 40 + 20);  // a triangle in the first plate's middle
+constexpr std::uint32_t kMiddle = 2 * (20 * 40 + 20);  // triangle at the centre of the first plate
 
-TEST(WallHeat, FadesOverTheRadiusAndLiesInsideTheLumen)
+TEST(WallHeatMap, DecaysOverTheRadiusAndLiesInsideTheLumen)
 {
   geometry::TriangleMesh mesh;
   addPlate(mesh, 0.0, true);
   const Eigen::Vector3i corners = mesh.triangles[kMiddle];
   const Eigen::Vector3d centre =
       (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
-  const HeatPatch patch = WallHeat(mesh, 2e-3, 0.1e-3).patch({kMiddle}, {0.5F});
+  const HeatPatch patch = WallHeatMap(mesh, 2e-3, 0.1e-3).patch({kMiddle}, {0.5F});
   ASSERT_FALSE(patch.corners.empty());
   ASSERT_EQ(patch.corners.size() % 3, 0U);
   ASSERT_EQ(patch.corners.size(), patch.values.size());
@@ -53,11 +53,11 @@ TEST(WallHeat, FadesOverTheRadiusAndLiesInsideTheLumen)
   EXPECT_NEAR(hottest, 0.5, 1e-7);
 }
 
-TEST(WallHeat, KeepsTheLargestWherePatchesMeet)
+TEST(WallHeatMap, UsesTheMaximumOfOverlappingPatches)
 {
   geometry::TriangleMesh mesh;
   addPlate(mesh, 0.0, true);
-  const WallHeat heat(mesh, 2e-3, 0.0);
+  const WallHeatMap heat(mesh, 2e-3, 0.0);
   const HeatPatch low = heat.patch({kMiddle}, {0.1F});
   const HeatPatch both = heat.patch({kMiddle, kMiddle}, {0.1F, 0.3F});
   ASSERT_EQ(low.values.size(), both.values.size());
@@ -65,31 +65,31 @@ TEST(WallHeat, KeepsTheLargestWherePatchesMeet)
     EXPECT_NEAR(both.values[k], 3.0 * low.values[k], 1e-7);
 }
 
-TEST(WallHeat, DoesNotWarmTheOppositeWall)
+TEST(WallHeatMap, DoesNotAffectTheOppositeWall)
 {
   geometry::TriangleMesh mesh;
   addPlate(mesh, 0.0, true);
-  addPlate(mesh, -1e-3, false);  // the other side of a lumen 1 mm wide
-  for (const Eigen::Vector3d& corner : WallHeat(mesh, 2e-3, 0.0).patch({kMiddle}, {0.5F}).corners)
+  addPlate(mesh, -1e-3, false);  // the opposite wall of a lumen 1 mm wide
+  for (const Eigen::Vector3d& corner : WallHeatMap(mesh, 2e-3, 0.0).patch({kMiddle}, {0.5F}).corners)
     EXPECT_EQ(corner.z(), 0.0);
 }
 
-TEST(WallHeat, ColoursATriangleThatIsLargerThanTheRadius)
+TEST(WallHeatMap, IncludesATriangleLargerThanTheRadius)
 {
   geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  const HeatPatch patch = WallHeat(mesh, 2e-3, 0.0).patch({0}, {0.5F});
+  const HeatPatch patch = WallHeatMap(mesh, 2e-3, 0.0).patch({0}, {0.5F});
   ASSERT_EQ(patch.values.size(), 3U);
   for (const double value : patch.values)
     EXPECT_EQ(value, 0.5);
 }
 
-TEST(WallHeat, LeavesOutTrianglesThatTheMeshDoesNotHave)
+TEST(WallHeatMap, IgnoresInvalidTriangles)
 {
   geometry::TriangleMesh mesh;
   addPlate(mesh, 0.0, true);
-  const WallHeat heat(mesh, 2e-3, 0.0);
+  const WallHeatMap heat(mesh, 2e-3, 0.0);
   EXPECT_TRUE(heat.patch({4000000000U}, {0.5F}).corners.empty());
   EXPECT_TRUE(heat.patch({kMiddle}, {}).corners.empty());
 }

@@ -35,7 +35,7 @@ struct SimulatorOptions
 };
 
 /** Software haptic device: sends rosserial frames over a pseudo-terminal at the speed of a serial line, moves a
- * scripted hand, and measures the latency of the forces. Times `now` are seconds of a steady clock. */
+ *  scripted hand, and measures the latency of the forces. Times `now` are seconds of a steady clock. */
 class DeviceSimulator
 {
 public:

@@ -32,7 +32,7 @@ struct PassivityReport
  *
  *  Observer: E = Σ f_k (x_k+1 − x_k) + Σ b v² dt. The first sum is the exact work of a zero-order-hold force over the
  *  measured motion; f_k is the force sent one delay earlier. The second sum is the known dissipation of device and
- * hand.
+ *  hand.
  *
  *  Force and position pass the same high-pass filter (0.15 s) before. A linear passive port stays passive under this
  *  filter. Energy absorbed by friction over a long path, or stored in a spring for long, then gives no credit to an
@@ -41,7 +41,7 @@ struct PassivityReport
  *
  *  Controller: E < −resolution·|f| shows that the port has generated energy. The controller then injects the damping
  *  that recovers the deficit within one step, up to the limits, and lets it decay (50 ms). The velocity is averaged
- * over 2 ms, because a single count of a coarse encoder carries too little information.
+ *  over 2 ms, because a single count of a coarse encoder carries too little information.
  *
  *  Without an activation the force passes unchanged. Not thread-safe. */
 class PassivityChannel

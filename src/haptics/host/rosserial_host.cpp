@@ -324,7 +324,7 @@ void RosserialHost::updateState(double now)
   else if ((flags_ & HapticSample::kEnabled) == 0)
     enter(DeviceState::kDisabled, "the hand does not hold the instrument");
   else if (!topics_.force())
-    enter(DeviceState::kPaused, "the device takes no force");
+    enter(DeviceState::kPaused, "the device has not subscribed to the force");
   else if (now >= force_at_ + timing.force_timeout)
     enter(DeviceState::kPaused, "no force from the simulation for " + milliseconds(timing.force_timeout));
   else

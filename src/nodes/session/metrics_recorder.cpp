@@ -96,7 +96,7 @@ void MetricsRecorder::begin()
 
 void MetricsRecorder::add(const RodStateVisual& rod)
 {
-  if (!metrics_ || rod.nodes.empty() || rod.insertion.size() != scene_.instruments.size() || !metrics_->wants(rod.time))
+  if (!metrics_ || rod.nodes.empty() || rod.insertion.size() != scene_.instruments.size() || !metrics_->isDue(rod.time))
     return;
   results::Sample sample;
   sample.observation = observationFrom(rod, scene_, metrics_->locator(), pressures_);

@@ -165,7 +165,7 @@ private:
 
   void receiveVessel(const VesselMesh& vessel)
   {
-    heat_ = std::make_unique<visualization::WallHeat>(fromMessage(vessel), kHeatRadius, kHeatInset);
+    heat_ = std::make_unique<visualization::WallHeatMap>(fromMessage(vessel), kHeatRadius, kHeatInset);
     if (vessel.version == 1 || vessel_hash_ == 0)
       vessel_hash_ = vessel.content_hash;  // the map names the wall as it was at the beginning
     if (newest_map_)
@@ -279,7 +279,7 @@ private:
   double radius_scale_;
   std::string heat_of_;
   double heat_full_scale_;  ///< [N], [N·s] or [s]
-  std::unique_ptr<visualization::WallHeat> heat_;
+  std::unique_ptr<visualization::WallHeatMap> heat_;
   std::uint64_t vessel_hash_ = 0;
   ContactForceMapConstPtr newest_map_;
   double last_time_ = -1.0;

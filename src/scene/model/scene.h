@@ -129,14 +129,14 @@ struct DriveScene
    *  initial_insertion if the source is kNone [m]. */
   double insertionAt(double t) const;
   /** Commanded rotation at time t [s]: initial_rotation + rotation.at(t); initial_rotation if the source is kNone
-   * [rad]. */
+   *  [rad]. */
   double rotationAt(double t) const;
   /** Commanded pressure of the balloon above blood pressure at time t [s]; 0 if the source is kNone [Pa]. */
   double pressureAt(double t) const;
 };
 
 /** Instrument with its drive. Several instruments are concentric (docs/PHYSICS.md, "Concentric stack"): an outer one
- * can be inserted only over an inner one that fits into its lumen. */
+ *  can be inserted only over an inner one that fits into its lumen. */
 struct DrivenInstrument
 {
   instrument::Instrument instrument;

@@ -10,7 +10,7 @@ namespace endovascular_sim::scene
 {
 
 /** Schema of a scene: visits each key and, while reading, rejects inconsistent values. docs/SCENES.md documents the
- * same keys for the user. */
+ *  same keys for the user. */
 void visitScene(SceneFields& fields, Scene& scene);
 
 /** Parts of the schema. */

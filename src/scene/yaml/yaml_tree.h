@@ -42,7 +42,7 @@ SceneNode parseSceneTree(const std::string& yaml, const std::string& origin);
 SceneNode readSceneTree(const std::string& file);
 
 /** Applies an override `key.path=value`. The value is YAML, and a number in the path is a list index. Missing keys of
- * the path are created.
+ *  the path are created.
  *  @param origin name of the file in errors
  *  @throws InputError for a malformed override, a path through a scalar, or an index out of range */
 void overrideSceneTree(SceneNode& root, const std::string& override_text, const std::string& origin);

@@ -302,7 +302,7 @@ TEST(PassivityChannel, DeactivatesSoonAfterAnActivePortHasBecomePassive)
   settings.resolution = 1e-5;
   settings.delay = 0.0;
   PassivityChannel channel(settings);
-  double let_go = 0.0;
+  double last_active = 0.0;
   for (int k = 0; k < 4000; ++k)
   {
     const double now = k * kPeriod;
@@ -312,10 +312,10 @@ TEST(PassivityChannel, DeactivatesSoonAfterAnActivePortHasBecomePassive)
     const double port = now < 1.0 ? -40.0 * speed : 2.0 * speed;
     channel.rendered(channel.control(port), now);
     if (now < 1.0 || channel.report().injected_damping > 0.0)
-      let_go = now;
+      last_active = now;
   }
-  EXPECT_GT(let_go, 1.0);
-  EXPECT_LT(let_go, 1.5);
+  EXPECT_GT(last_active, 1.0);
+  EXPECT_LT(last_active, 1.5);
 }
 
 TEST(PassivityChannel, RestartsAfterAGapAndRetainsItsCounters)

@@ -16,9 +16,9 @@ const std::string kFolder = TEST_DATA_DIR "/scenes/";
 
 struct Refusal
 {
-  std::string file;    ///< below test/data/scenes
-  std::string place;   ///< key path and line
-  std::string remedy;  ///< words of the remedy
+  std::string file;      ///< below test/data/scenes
+  std::string location;  ///< key path and line
+  std::string remedy;    ///< words of the remedy
 };
 
 const std::vector<Refusal> kRefusals = {
@@ -142,8 +142,8 @@ TEST(SceneRefusals, ReportFileKeyLineAndRemedy)
   for (const Refusal& refusal : kRefusals)
   {
     const std::string message = refusalOf(kFolder + refusal.file);
-    EXPECT_TRUE(contains(message, kFolder + refusal.file + ": " + refusal.place + ": ")) << refusal.file << "\n"
-                                                                                         << message;
+    EXPECT_TRUE(contains(message, kFolder + refusal.file + ": " + refusal.location + ": ")) << refusal.file << "\n"
+                                                                                            << message;
     EXPECT_TRUE(contains(message, refusal.remedy)) << refusal.file << "\n" << message;
   }
 }
