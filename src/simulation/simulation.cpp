@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "rod/boundary/boundary_conditions.h"
 #include "scene/schema/scene_schema.h"
 #include "simulation/stepper_factory.h"
 
@@ -31,14 +32,6 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
   const double firm = 1.0 - (against - limit) / (kFreeBand * limit);
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
-}
-
-rod::State initialStack(const scene::Scene& scene, const rod::StackStepper& stack)
-{
-  std::vector<rod::LayerInput> layers;
-  for (const scene::DrivenInstrument& driven : scene.instruments)
-    layers.push_back({std::max(stack.outside(), driven.drive.insertionAt(0.0)), driven.drive.rotationAt(0.0)});
-  return stack.initialState(layers);
 }
 
 /** Motion of one hand that an old contact set covers: its share of the least margin, balloons folded, less what may
@@ -74,7 +67,6 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     channels_(scene.instruments.size(), Channel{StaleContactPacer(blindCover(scene), scene.solver.time_step)}),
     wanted_(channels_.size()),
     parts_(channels_.size()),
-    stack_(dynamic_cast<const rod::StackStepper*>(stepper_.get())),
     valve_(scene.entry.valve_friction),
     treatments_(scene, wall),
     pressures_(channels_.size(), 0.0)
@@ -88,25 +80,29 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     max_travel_ =
         std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
   setMaxInsertions();
-  state_ = stack_ != nullptr
-               ? initialStack(scene, *stack_)
-               : stepper_->initialState(
-                     scene.introducer ? std::max(0.0, scene.instruments.front().drive.insertionAt(0.0)) : 0.0,
-                     scene.instruments.front().drive.rotationAt(0.0));
+  state_ = initialState();
   while (sampling_ && sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
 }
 
-/** The introducer's guide must stay filled: an instrument's end cannot be pushed into it. */
+rod::State Simulation::initialState() const
+{
+  const double least = !scene_.introducer ? 0.0 : instruments() > 1 ? outsideInsertion() : 0.0;
+  std::vector<rod::LayerInput> layers;
+  for (const scene::DrivenInstrument& driven : scene_.instruments)
+    layers.push_back(
+        {scene_.introducer ? std::max(least, driven.drive.insertionAt(0.0)) : 0.0, driven.drive.rotationAt(0.0)});
+  return stepper_->initialState(layers);
+}
+
+/** Sets the largest insertions, at which the introducer's guide is still filled. */
 void Simulation::setMaxInsertions()
 {
   for (int k = 0; k < instruments(); ++k)
   {
-    const rod::Discretisation& wire = stepper_->discretisation();
     Channel& channel = channels_[k];
-    channel.max_insertion = stack_ != nullptr
-                                ? stack_->maxInsertion(k)
-                                : wire.length() - scene_.solver.guide_length - 3.0 * wire.rest_length.front();
+    channel.max_insertion =
+        rod::maxInsertion(stepper_->layerLength(k), stepper_->discretisation(), scene_.solver.guide_length);
     if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > channel.max_insertion)
       throw InputError(scene_.file, scene::drivePath(scene_, k) + "drive.initial_insertion",
                        "leaves less of the wire outside than the introducer's guide; at most " +
@@ -116,10 +112,14 @@ void Simulation::setMaxInsertions()
 
 HandState Simulation::hand(int instrument) const
 {
-  if (stack_ == nullptr)
-    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque, pressures_.front()};
-  const rod::LayerState& layer = state_.layers[instrument];
-  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque, pressures_[instrument]};
+  const rod::HandleState handle = rod::handleState(state_, instrument);
+  return {handle.inserted_length, handle.rotation, handle.force, handle.torque, pressures_[instrument]};
+}
+
+/** Insertion at which an instrument is outside the introducer [m]. */
+double Simulation::outsideInsertion() const
+{
+  return rod::outsideInsertion(discretisation(), scene_.solver.guide_length);
 }
 
 void Simulation::setPressures(const std::vector<HandCommand>& commands)
@@ -134,7 +134,7 @@ void Simulation::setPressures(const std::vector<HandCommand>& commands)
 
 bool Simulation::isOutside(int instrument) const
 {
-  return stack_ != nullptr && hand(instrument).insertion <= stack_->outside() + kAtIntroducer;
+  return instruments() > 1 && hand(instrument).insertion <= outsideInsertion() + kAtIntroducer;
 }
 
 /** What the hand asks for in a step, as far as it can move at all. */
@@ -146,7 +146,7 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
   const HandState now = hand(instrument);
   HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
-    rest.insertion = (stack_ != nullptr ? std::max(stack_->outside(), command.insertion) : command.insertion) -
+    rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), command.insertion) : command.insertion) -
                      channel.slipped_insertion - now.insertion;
   HandCommand wanted = channel.blind_hand.follow(rest, blind);
   wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
@@ -157,22 +157,22 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
 /** An instrument can leave the introducer where another one stays in it. */
 double Simulation::leastInsertion(int instrument) const
 {
-  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+  for (int k = 0; k < instruments(); ++k)
     if (k != instrument && hand(k).insertion >= 0.0)
-      return stack_->outside();
+      return outsideInsertion();
   return 0.0;
 }
 
 /** An instrument stays outside while one is inside that does not fit into it, or that it does not fit into. */
 double Simulation::mostInsertion(int instrument) const
 {
-  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+  for (int k = 0; k < instruments(); ++k)
   {
     const bool inner = k < instrument;
     if (k != instrument && !isOutside(k) &&
         !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
                                 scene_.instruments[inner ? instrument : k].instrument))
-      return std::max(stack_->outside(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
+      return std::max(outsideInsertion(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
   }
   return channels_[instrument].max_insertion;
 }
@@ -241,7 +241,7 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
     stepper_->setContactRadii(treatments_.contactRadii(state_, discretisation(), contactSet()));
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
-  if (stack_ != nullptr)
+  if (!valve_.present())
     return;
   const double outside = stepper_->discretisation().length() - state_.inserted_length;
   valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
@@ -266,20 +266,16 @@ int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::E
 /** Where every hand is at the end of a sub-step. */
 void Simulation::setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input)
 {
+  std::vector<rod::LayerInput> handles;
   for (int k = 0; k < instruments(); ++k)
   {
     const HandCommand motion = blind ? HandCommand() : allowedMotion(k, parts[k], dt);
     if (blind)
       channels_[k].blind_hand.miss(parts[k]);
     const HandState now = hand(k);
-    if (stack_ != nullptr)
-      input.layers.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
-    else
-    {
-      input.inserted_length = now.insertion + motion.insertion;
-      input.rotation = now.rotation + motion.rotation;
-    }
+    handles.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
   }
+  input.setHandles(handles);
 }
 
 void Simulation::stepAll(const std::vector<HandCommand>& commands)

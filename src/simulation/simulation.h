@@ -11,7 +11,6 @@
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
 #include "rod/boundary/hemostatic_valve.h"
-#include "rod/kkt/stack_layers.h"
 #include "rod/sampling/adaptive_sampling.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene.h"
@@ -126,6 +125,8 @@ private:
   };
 
   void setMaxInsertions();
+  rod::State initialState() const;
+  double outsideInsertion() const;
   void archive(Archive& archive);
   void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
@@ -149,7 +150,6 @@ private:
   rod::StepReport report_;
   std::vector<Channel> channels_;  ///< per instrument
   std::vector<HandCommand> wanted_, parts_;
-  const rod::StackStepper* stack_ = nullptr;  ///< the stepper, where there are several instruments
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
   std::vector<double> pressures_;  ///< commanded, per instrument [Pa]

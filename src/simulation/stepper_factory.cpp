@@ -5,7 +5,6 @@
 
 #include "common/error.h"
 #include "rod/kkt/kkt_stepper.h"
-#include "rod/kkt/stack_layers.h"
 #include "rod/mixed/mixed_stepper.h"
 #include "rod/paper/paper_stepper.h"
 #include "vessel/centreline/centreline_curvature.h"
@@ -147,7 +146,7 @@ std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene
     std::vector<rod::Layer> layers;
     for (const scene::DrivenInstrument& driven : scene.instruments)
       layers.push_back({driven.instrument.wire, driven.friction, driven.fit_load});
-    return std::make_unique<rod::StackStepper>(layers, wire.position, boundary, environment, settings);
+    return std::make_unique<rod::KktStepper>(layers, wire.position, boundary, environment, settings);
   }
   if (scene.solver.scheme == "paper")
     return std::make_unique<rod::PaperStepper>(std::move(wire), boundary, environment, settings);

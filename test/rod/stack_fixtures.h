@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/kkt/stack_layers.h"
+#include "rod/kkt/concentric_stack.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod

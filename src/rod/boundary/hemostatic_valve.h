@@ -18,6 +18,9 @@ public:
   /** @param friction [N]; 0: no valve */
   explicit HemostaticValve(double friction) : friction_(friction) {}
 
+  /** True where there is a valve. */
+  bool present() const { return friction_ != 0.0; }
+
   /** Takes the valve out of the hand's force and torque, which are then the wire's own. */
   void release(State& state) const;
 

@@ -33,9 +33,6 @@ public:
   const Layer& layer(int k) const { return layers_[k]; }
   const LayerProfile& profile(int k) const { return profiles_[k]; }
 
-  /** Puts another instrument in the place of a layer. */
-  void exchange(int k, Layer layer);
-
   /** Other nodes for all. */
   void setNodes(const std::vector<double>& position);
 

@@ -35,6 +35,14 @@ std::uint64_t State::hash() const
   return hash.value();
 }
 
+HandleState handleState(const State& state, int instrument)
+{
+  if (state.layers.empty())
+    return {state.inserted_length, state.rotation, state.hand_force, state.hand_torque};
+  const LayerState& layer = state.layers[static_cast<std::size_t>(instrument)];
+  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
+}
+
 double maxStrain(const Discretisation& rod, const State& state)
 {
   double worst = 0.0;

@@ -103,6 +103,18 @@ struct State
   std::uint64_t hash() const;
 };
 
+/** Position of the handle of one instrument, and its reaction. */
+struct HandleState
+{
+  double inserted_length = 0.0;  ///< tip beyond the introducer; negative: outside [m]
+  double rotation = 0.0;         ///< [rad]
+  double force = 0.0;            ///< on the hand, positive when it pushes back [N]
+  double torque = 0.0;           ///< that the hand holds [N·m]
+};
+
+/** Handle of one of the instruments of a state. */
+HandleState handleState(const State& state, int instrument);
+
 /** Saves or loads all of a state. */
 void archive(Archive& archive, State& state);
 

@@ -32,8 +32,8 @@ struct TightFit
   {
     Layer wire{curvedAtTip(uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), rest_curvature), 0.1, 2.0};
     Layer catheter{curvedAtTip(uniformWire(kLength, 8e-5, 0.9e-3, 6000.0), rest_curvature)};
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
-                                             calm(), StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
+                                           calm(), StepperSettings());
     state = stepper->initialState(input);
   }
 
@@ -55,7 +55,7 @@ struct TightFit
   static constexpr double kSlip = kLimit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);  // ∫(L − s)² ds/L² of both, by GJ
 
   std::vector<LayerInput> input = {{0.15, 0.0}, {0.1, 0.0}};
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   PhaseTimer timer;
   std::uint64_t steps = 0;

@@ -34,9 +34,9 @@ struct TwoTubes
     boundary.introducer = false;
     boundary.proximal = EndHold::kClamped;
     const Wire inner = tube(1e-3, torsional, 8.0);
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{{inner}, {tube(2e-3, 2.0 * torsional, 6.0)}},
-                                             discretiseUniformly(inner, kTubeNodes).position, boundary, Environment(),
-                                             StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{{inner}, {tube(2e-3, 2.0 * torsional, 6.0)}},
+                                           discretiseUniformly(inner, kTubeNodes).position, boundary, Environment(),
+                                           StepperSettings());
     length = inner.length();
     state = stepper->initialState({{length, 0.0}, {length, 0.0}});
     turnTo(0.0);
@@ -64,7 +64,7 @@ struct TwoTubes
 
   double tip() const { return state.layers[0].twist_angle.back() - state.layers[1].twist_angle.back(); }
 
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   double length = 0.0;
   int solves = 0;

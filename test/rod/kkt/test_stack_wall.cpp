@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "rod/sampling/adaptive_sampling.h"
+#include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/plane_wall.h"
 #include "test/rod/stack_fixtures.h"
 
@@ -28,8 +29,8 @@ struct OnFloor
     environment.gravity = Eigen::Vector3d(0.0, 0.0, -9.81);
     Boundary boundary;
     boundary.origin = Eigen::Vector3d(0.0, 0.0, kCatheterRadius);
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{{wire}, {catheter}}, equalNodes(kLength, 151), boundary,
-                                             environment, StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{{wire}, {catheter}}, equalNodes(kLength, 151), boundary,
+                                           environment, StepperSettings());
     state = stepper->initialState(input);
     step(200);
   }
@@ -57,13 +58,13 @@ struct OnFloor
   {
     double sum = 0.0;
     for (int i = state.first_node; i < stepper->discretisation().nodes(); ++i)
-      sum += stepper->stack().surfaceLayer(i) == layer ? state.wall_force[i].norm() : 0.0;
+      sum += KktStepperPeer::stack(*stepper).surfaceLayer(i) == layer ? state.wall_force[i].norm() : 0.0;
     return sum;
   }
 
   std::vector<LayerInput> input = {{0.16, 0.0}, {0.1, 0.0}};
   PlaneWall floor{kFriction};
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   PhaseTimer timer;
   std::uint64_t steps = 0;
@@ -112,8 +113,8 @@ TEST(StackOnAWall, NodesThatAdaptCarryTheLayersAlong)
   settings.max_edge = 4e-3;
   AdaptiveSampling sampling(wire, Boundary(), settings);
   const std::vector<Layer> layers = {{wire}, {catheter}};
-  StackStepper adaptive(layers, sampling.discretisation().position, Boundary(), calm(), StepperSettings());
-  StackStepper fine(layers, equalNodes(kLength, 601), Boundary(), calm(), StepperSettings());
+  KktStepper adaptive(layers, sampling.discretisation().position, Boundary(), calm(), StepperSettings());
+  KktStepper fine(layers, equalNodes(kLength, 601), Boundary(), calm(), StepperSettings());
   const std::vector<LayerInput> begin = {{0.1, 0.0}, {0.08, 0.5}};
   State state = adaptive.initialState(begin);
   State reference = fine.initialState(begin);
