@@ -40,7 +40,7 @@ const char* nameOf(TreatmentEvent event)
 }
 
 BalloonTreatments::BalloonTreatments(const scene::Scene& scene, intervention::DeformableWall* wall)
-  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.contact_stiffness), wall_(wall)
+  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.stepper.contact_stiffness), wall_(wall)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {

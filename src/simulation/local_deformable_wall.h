@@ -46,6 +46,8 @@ private:
     void archive(Archive& archive);
   };
 
+  intervention::WallDisplacement shownDisplacement() const;
+
   intervention::VesselOpening opening_;
   contact::Detector& detector_;
   std::uint64_t version_ = 1;

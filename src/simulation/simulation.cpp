@@ -41,7 +41,7 @@ double blindCover(const scene::Scene& scene)
   double widest = 0.0;
   for (const scene::DrivenInstrument& driven : scene.instruments)
     widest = std::max(widest, instrument::crossingRadius(driven.instrument));
-  const double margin = scene.solver.contact_margin * contact::marginShare(widest);
+  const double margin = scene.solver.stepper.contact_margin * contact::marginShare(widest);
   const double left = std::max(0.5 * margin, margin - scene.solver.max_travel_per_substep);
   return left / static_cast<double>(scene.instruments.size());
 }
@@ -59,11 +59,14 @@ std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time)
 Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry, contact::ContactSource* contacts,
                        const vessel::CentrelineTree* centreline, intervention::DeformableWall* wall)
   : scene_(scene),
+    entry_(entry),
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
     contacts_(contacts),
     sampling_(makeSampling(scene, entry, centreline)),
+    samples_(sampling_ != nullptr),
     sampling_every_(samplingInterval(scene)),
-    stepper_(makeStepper(scene, entry, sampling_.get())),
+    initial_nodes_(initialNodes(scene, sampling_.get())),
+    stepper_(makeStepper(scene, entry, initial_nodes_)),
     channels_(scene.instruments.size(), Channel{StaleContactPacer(blindCover(scene), scene.solver.time_step)}),
     wanted_(channels_.size()),
     parts_(channels_.size()),
@@ -71,9 +74,6 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     treatments_(scene, wall),
     pressures_(channels_.size(), 0.0)
 {
-  if (sampling_ && !stepper_->resample(sampling_->discretisation()))
-    throw InputError(scene.file, "sampling.kind",
-                     "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
   const rod::Discretisation& wire = stepper_->discretisation();
   max_travel_ = scene.solver.max_travel_per_substep;
   if (!sampling_)
@@ -81,7 +81,7 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
         std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
   setMaxInsertions();
   state_ = initialState();
-  while (sampling_ && sampling_->update(state_))
+  while (samples_ && sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
 }
 
@@ -126,7 +126,7 @@ void Simulation::setPressures(const std::vector<HandCommand>& commands)
 {
   for (int k = 0; k < instruments(); ++k)
   {
-    if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || scene_.solver.scheme != "kkt"))
+    if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || !scene_.solver.traits().balloons))
       throw std::invalid_argument("Simulation: a pressure for an instrument without a balloon, or without scheme kkt");
     pressures_[k] = commands[k].pressure;
   }
@@ -225,7 +225,7 @@ rod::EndMotion Simulation::distalMotionAt(double t) const
 /** Old contacts are good for the edges that they were found at. */
 void Simulation::resample()
 {
-  if (!sampling_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
+  if (!samples_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
     return;
   PhaseTimer::Scope scope(timer_, Phase::kSampling);
   if (sampling_->update(state_))
@@ -332,7 +332,7 @@ void Simulation::setState(rod::State state)
 contact::Query Simulation::initialQuery() const
 {
   contact::Query query;
-  query.margin = scene_.solver.contact_margin;
+  query.margin = scene_.solver.stepper.contact_margin;
   query.first_node = state_.first_node;
   query.nodes.assign(state_.position.begin() + state_.first_node, state_.position.end());
   const std::vector<double>& radius = discretisation().radius;

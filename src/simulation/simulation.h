@@ -68,21 +68,22 @@ public:
   /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
   void setState(rod::State state);
 
-  /** Writes everything that the trajectory depends on from here on.
-   *  @param vessel_hash of the mesh as it was at the beginning; 0 without a vessel
-   *  @param more of whoever drives the simulation, saved after it
-   *  @throws InputError for a scheme whose state cannot be saved: all but `kkt` */
+  /** Saves all data on which the further trajectory depends.
+   *  @param vessel_hash of the mesh at the start; 0 without a vessel
+   *  @param more archives the caller's own data after those of the simulation
+   *  @throws InputError for a scheme without SchemeTraits::saves */
   void save(std::ostream& stream, std::uint64_t vessel_hash = 0, const std::function<void(Archive&)>& more = nullptr);
 
-  /** Goes on from a saved state, bit for bit as the simulation that was saved would have. To be called before the first
-   *  step; sums over past steps (forces on the wall, results) begin anew.
+  /** Continues from a saved state, bit for bit as the simulation that was saved. The present state, whatever it is, is
+   *  replaced. Sums over past steps (forces on the wall, results) start anew.
    *  @param origin names the stream in errors
-   *  @throws InputError when it is damaged, of another version, scene or vessel; the simulation is then of no use */
+   *  @throws InputError when the state is damaged or belongs to another version, scene or vessel; the simulation then
+   *          needs another load before its next step */
   void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
             const std::function<void(Archive&)>& more = nullptr);
 
-  /** From now on the nodes stay where they are along the wire. */
-  void keepSampling() { sampling_.reset(); }
+  /** Stops adaptive sampling: the nodes keep their positions along the wire. */
+  void keepSampling() { samples_ = false; }
 
   std::uint64_t steps() const { return steps_; }                                         ///< steps done
   double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
@@ -141,10 +142,13 @@ private:
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
 
   scene::Scene scene_;
+  scene::EntryPose entry_;
   Eigen::Vector3d distal_direction_;  ///< of the distal end's displacement, unit
   contact::ContactSource* contacts_;
   std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform
+  bool samples_ = false;                             ///< the nodes follow the sampling
   std::uint64_t sampling_every_ = 1;                 ///< steps
+  rod::Discretisation initial_nodes_;                ///< that the stepper is made with
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;

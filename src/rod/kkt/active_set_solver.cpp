@@ -71,7 +71,8 @@ void ActiveSetSolver::readMotion(ContactSolver::Motion& motion) const
 void ActiveSetSolver::correctLengths(const State& state, ContactSolver::Motion& motion)
 {
   const StepperSettings& settings = model_.settings;
-  if (settings.corrected_strain <= settings.strain_tolerance)
+  const double corrected_strain = settings.corrected_strain_ratio * settings.strain_tolerance;
+  if (corrected_strain <= settings.strain_tolerance)
     return;
   correction_.assign(rhs_.size(), 0.0);
   const int free = model_.conditions.firstFreeNode(state);
@@ -85,7 +86,7 @@ void ActiveSetSolver::correctLengths(const State& state, ContactSolver::Motion& 
     correction_[system_.multiplierRow(j)] = -system_.scale * stretch;
     largest = std::max(largest, std::abs(stretch) / model_.rod.rest_length[j]);
   }
-  if (largest <= settings.strain_tolerance || !(largest <= settings.corrected_strain))
+  if (largest <= settings.strain_tolerance || !(largest <= corrected_strain))
     return;
   solveWithFactors(correction_);
   for (std::size_t k = 0; k < rhs_.size(); ++k)

@@ -138,34 +138,6 @@ Vector3d MixedRod::chordAfter(const State& state, int node) const
   return node + 1 == nodes() ? distal_.tangent : Vector3d(state.position[node + 1] - state.position[node]);
 }
 
-double MixedRod::lagrangian(const State& state) const
-{
-  double value = 0.0;
-  for (int i = state.first_node; i < nodes(); ++i)
-    if (!turnsFreely(state, i))
-      value += state.moment[i].dot(TurningAngle(chordBefore(state, i), chordAfter(state, i)).value);
-  for (int j = state.first_node; j + 1 < nodes(); ++j)
-  {
-    const MixedEdge& edge = edges_[j];
-    const double h = edge.length;
-    const Vector3d& m0 = state.moment[j];
-    const Vector3d& m1 = state.moment[j + 1];
-    const Vector3d& k0 = edge.rest_curvature[0];
-    const Vector3d& k1 = edge.rest_curvature[1];
-    const EndCurvatures kappa(edge, m0, m1);
-    const Vector3d chord = state.position[j + 1] - state.position[j];
-    const double chord_length = chord.norm();
-    const double tension = state.tension[j];
-    value -= h * edge.flexibility / 6.0 * (m0.squaredNorm() + m0.dot(m1) + m1.squaredNorm());
-    value -= h / 6.0 * (m0.dot(2.0 * k0 + k1) + m1.dot(k0 + 2.0 * k1));
-    value += tension * (chord_length - h + kappa.shortening(h)) -
-             0.5 * tension * tension * (h * edge.axial_compliance + kappa.bowCompliance(edge));
-    const Vector3d bow = (h * h * h / 24.0) * (kappa.first + kappa.second).cross(chord / chord_length);
-    value -= edge.load.dot(0.5 * h * (state.position[j] + state.position[j + 1]) - bow);
-  }
-  return value;
-}
-
 void MixedRod::assemble(const State& state, std::vector<double>& gradient, Matrix& hessian) const
 {
   Chord before, after;

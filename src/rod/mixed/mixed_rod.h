@@ -85,9 +85,6 @@ public:
   /** A straight unloaded wire from @p origin along @p direction (unit). */
   State straight(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /** L of the simulated part [J]; without nodal forces. */
-  double lagrangian(const State& state) const;
-
   /** Adds ∂L/∂(x, M, λ) to @p gradient and the second derivatives to @p hessian, both of size(state). */
   void assemble(const State& state, std::vector<double>& gradient, Matrix& hessian) const;
 

@@ -67,10 +67,11 @@ enum class LinearSolver
 struct StepperSettings
 {
   LinearSolver linear_solver = LinearSolver::kBanded;
-  int max_iterations = 12;         ///< linear solves in one step, truncated ones included
+  int max_iterations = 8;          ///< linear solves in one step, truncated ones included
   double strain_tolerance = 5e-5;  ///< largest edge strain at which a step is accepted [1]
-  /** `kkt`: largest edge strain that a second-order correction removes in place of another solve; 0: none [1]. */
-  double corrected_strain = 0.0;
+  /** `kkt`: largest edge strain that a second-order correction removes in place of another solve, relative to
+   *  strain_tolerance; at most 1: no correction. A motion that leaves more strain is linearised again. */
+  double corrected_strain_ratio = 4.0;
   double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]
   double contact_margin = 0.25e-3;      ///< distance to the wall up to which contacts are detected [m]
   double penetration_tolerance = 3e-5;  ///< depth of a new contact beyond which the step is solved again [m]

@@ -7,15 +7,9 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Numbers of EndCondition, and of whether a twist is held.
+// Numbers of rod::EndHold, and of whether a twist is held.
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kTwists = {"free", "held"};
-
-/** Whether the distal end needs more words than the name of its hold. */
-bool isPlain(const DistalScene& distal)
-{
-  return !distal.twist_held && isTrivial(distal.displacement) && isTrivial(distal.tilt) && isTrivial(distal.rotation);
-}
 
 /** The wire begins straight, so what moves its end begins at zero. */
 void refuseMovedStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
@@ -27,16 +21,16 @@ void refuseMovedStart(const SceneFields& fields, const std::string& key, const D
 void checkDistalEnd(SceneFields& fields, const Scene& scene)
 {
   const DistalScene& distal = scene.distal;
-  const bool clamped = scene.distal_end == EndCondition::kClamped;
+  const bool clamped = scene.distal_end == rod::EndHold::kClamped;
   if (distal.twist_held && !clamped)
     fields.refuse("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
-  if (!isTrivial(distal.displacement) && scene.distal_end == EndCondition::kFree)
+  if (!distal.displacement.isTrivial() && scene.distal_end == rod::EndHold::kFree)
     fields.refuse("displacement", "moves an end that nothing holds; set hold: pinned or hold: clamped");
-  if (!isTrivial(distal.tilt) && !clamped)
+  if (!distal.tilt.isTrivial() && !clamped)
     fields.refuse("tilt", "turns a direction that nothing holds; set hold: clamped");
-  if (!isTrivial(distal.rotation) && !distal.twist_held)
+  if (!distal.rotation.isTrivial() && !distal.twist_held)
     fields.refuse("rotation", "turns a twist that nothing holds; set hold: clamped and twist: held");
-  if (!isTrivial(distal.tilt) && distal.tilt_axis.isZero())
+  if (!distal.tilt.isTrivial() && distal.tilt_axis.isZero())
     fields.refuse("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
   refuseMovedStart(fields, "displacement", distal.displacement);
   refuseMovedStart(fields, "tilt", distal.tilt);
@@ -69,7 +63,7 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
 /** Whether anything turns a straight bench wire out of its line. */
 bool isBentByAnything(const Scene& scene, const Eigen::Vector3d& along)
 {
-  bool bent = scene.vessel.has_value() || !isTrivial(scene.distal.tilt) ||
+  bool bent = scene.vessel.has_value() || !scene.distal.tilt.isTrivial() ||
               scene.instruments.front().instrument.wire.curvedTipLength() > 0.0 ||
               !scene.loads.gravity.cross(along).isZero(0.0);
   for (const PointLoad& load : scene.loads.point_loads)
@@ -100,7 +94,7 @@ void checkDisplacement(const SceneFields& fields, const Scene& scene)
 void visitEnds(SceneFields& fields, Scene& scene)
 {
   fields.option("proximal_end", scene.proximal_end, kEndConditions);
-  if (fields.reading() ? fields.hasMap("distal_end") : !isPlain(scene.distal))
+  if (fields.reading() ? fields.hasMap("distal_end") : scene.distal.isDriven())
     fields.map("distal_end", [&scene](SceneFields& end) { visitDistalEnd(end, scene); });
   else
     fields.option("distal_end", scene.distal_end, kEndConditions);
@@ -108,17 +102,24 @@ void visitEnds(SceneFields& fields, Scene& scene)
 
 void checkEnds(const SceneFields& fields, const Scene& scene)
 {
-  if (scene.introducer && scene.distal_end != EndCondition::kFree && scene.solver.scheme != "kkt")
+  if (scene.introducer && scene.distal_end != rod::EndHold::kFree && !scene.solver.traits().holds_inserted_end)
     fields.refuse("distal_end", "scheme '" + scene.solver.scheme +
                                     "' does not hold a far end behind an introducer; set distal_end: free, or "
                                     "solver.scheme: kkt");
+  if (scene.distal.isDriven() && !scene.solver.traits().moves_distal_end)
+    fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' does not move a far end or hold its twist; use kkt");
+  if (scene.distal_end == rod::EndHold::kClamped && !scene.solver.traits().clamped_tip_torque)
+    for (const PointLoad& load : scene.loads.point_loads)
+      if (load.torque != 0.0)
+        fields.refuse("solver.scheme",
+                      "'" + scene.solver.scheme + "' does not simulate a torque at a clamped tip; use kkt");
   if (scene.distal.twist_held)
     for (std::size_t k = 0; k < scene.loads.point_loads.size(); ++k)
       if (scene.loads.point_loads[k].torque != 0.0)
         fields.refuse("loads.point_loads." + std::to_string(k) + ".torque",
                       "acts on a tip whose twist is held; remove it, or set distal_end.twist: free");
   const bool entry_known = scene.entry.centreline_end.empty() && !scene.entry.nearest_centreline_end;
-  if (!scene.introducer && entry_known && !isTrivial(scene.distal.displacement))
+  if (!scene.introducer && entry_known && !scene.distal.displacement.isTrivial())
     checkDisplacement(fields, scene);
 }
 

@@ -44,9 +44,6 @@ void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
 /** Refuses a procedure that the scene cannot carry out. */
 void checkProcedure(const SceneFields& fields, const Scene& scene);
 
-/** Whether a profile is zero at all times. */
-bool isTrivial(const DriveProfile& profile);
-
 /** Lowest and highest value of a profile. */
 std::pair<double, double> bounds(const DriveProfile& profile);
 
