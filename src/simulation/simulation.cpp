@@ -18,14 +18,14 @@ constexpr double kMaxHandSpeed = 1.0;            // m/s
 constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
-constexpr double kTravelPerEdge = 0.25;          // of the shortest edge: more counts as its rotation
-constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
-constexpr double kAtIntroducer = 0.1e-3;         // m by which an instrument that is outside may stand deeper
-constexpr double kFreeBand = 0.5;                // of the limit, beyond it, from where nothing holds at all
+constexpr double kTravelPerEdge = 0.25;          // largest travel of a sub-step, in shortest edges
+constexpr double kSlipBand = 0.1;                // range of the force in which the grip fades, relative to the limit
+constexpr double kAtIntroducer = 0.1e-3;         // m, tolerance of the insertion of an instrument outside
+constexpr double kFreeBand = 0.5;                // excess of the force without any grip, relative to the limit
 
-/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. It
- *  follows the force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every
- *  change. Far beyond the limit it lets go at once: a fast hand would push millimetres in the delay. */
+/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. The
+ * grip follows the force with a delay: without it, grip and inertia of the wire would oscillate. Far beyond the limit
+ * the grip vanishes at once, since a fast hand would push by millimetres during the delay. */
 double nextGrip(double grip, double wanted, double resistance, double limit, double dt)
 {
   const double against = wanted > 0.0 ? resistance : -resistance;
@@ -34,9 +34,9 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
 }
 
-/** Motion of one hand that an old contact set covers: its share of the least margin, balloons folded, less what may
- * have been moved on that set before [m]. */
-double blindCover(const scene::Scene& scene)
+/** Motion of one handle that a stale contact set covers: its share of the least margin, with folded balloons, less the
+ *  motion of the sub-step before [m]. */
+double staleCover(const scene::Scene& scene)
 {
   double widest = 0.0;
   for (const scene::DrivenInstrument& driven : scene.instruments)
@@ -67,7 +67,7 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     sampling_every_(samplingInterval(scene)),
     initial_nodes_(initialNodes(scene, sampling_.get())),
     stepper_(makeStepper(scene, entry, initial_nodes_)),
-    channels_(scene.instruments.size(), Channel{StaleContactPacer(blindCover(scene), scene.solver.time_step)}),
+    channels_(scene.instruments.size(), Channel{StaleContactPacer(staleCover(scene), scene.solver.time_step)}),
     wanted_(channels_.size()),
     parts_(channels_.size()),
     valve_(scene.entry.valve_friction),
@@ -137,24 +137,24 @@ bool Simulation::isOutside(int instrument) const
   return instruments() > 1 && hand(instrument).insertion <= outsideInsertion() + kAtIntroducer;
 }
 
-/** What the hand asks for in a step, as far as it can move at all. */
+/** Commanded motion of a handle in a step, limited to the largest speed and paced while contact sets are stale. */
 HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
-  const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
+  const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
   Channel& channel = channels_[instrument];
   const HandState now = hand(instrument);
   HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
     rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), command.insertion) : command.insertion) -
                      channel.slipped_insertion - now.insertion;
-  HandCommand wanted = channel.blind_hand.follow(rest, blind);
+  HandCommand wanted = channel.pacer.follow(rest, stale);
   wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
   wanted.rotation = std::clamp(wanted.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
   return wanted;
 }
 
-/** An instrument can leave the introducer where another one stays in it. */
+/** Least insertion of an instrument. It can leave the introducer only while another one stays in it. */
 double Simulation::leastInsertion(int instrument) const
 {
   for (int k = 0; k < instruments(); ++k)
@@ -163,7 +163,7 @@ double Simulation::leastInsertion(int instrument) const
   return 0.0;
 }
 
-/** An instrument stays outside while one is inside that does not fit into it, or that it does not fit into. */
+/** Largest insertion of an instrument. It stays outside while another one is inside and neither fits into the other. */
 double Simulation::mostInsertion(int instrument) const
 {
   for (int k = 0; k < instruments(); ++k)
@@ -177,7 +177,7 @@ double Simulation::mostInsertion(int instrument) const
   return channels_[instrument].max_insertion;
 }
 
-/** What of a wanted motion reaches the wire in a sub-step of @p dt [s]: the grip answers in every one of them. */
+/** Part of a wanted motion that reaches the wire in a sub-step of @p dt [s]; the grip is updated in every sub-step. */
 HandCommand Simulation::allowedMotion(int instrument, const HandCommand& wanted, double dt)
 {
   HandCommand motion = wanted;
@@ -222,7 +222,7 @@ rod::EndMotion Simulation::distalMotionAt(double t) const
           distal.rotation.at(t)};
 }
 
-/** Old contacts are good for the edges that they were found at. */
+/** Updates adaptive sampling. A stale contact set holds only for the present edges. */
 void Simulation::resample()
 {
   if (!samples_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
@@ -232,7 +232,7 @@ void Simulation::resample()
     stepper_->resample(sampling_->discretisation());
 }
 
-/** The wire's own step, and what the introducer's valve adds to the force and the torque at the hand. */
+/** Steps the wire, and adds the force and the torque of the introducer's valve on the hand. */
 void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   const double insertion = state_.inserted_length;
@@ -248,7 +248,7 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
               scene_.instruments.front().instrument.wire.radiusAt(outside));
 }
 
-/** Sub-steps in which no hand moves further than the solver takes at once. */
+/** Number of sub-steps in which no handle moves further than allowed. */
 int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from,
                             const rod::EndMotion& to) const
 {
@@ -263,15 +263,15 @@ int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::E
   return std::max(1, static_cast<int>(std::ceil(substeps - 1e-9)));
 }
 
-/** Where every hand is at the end of a sub-step. */
-void Simulation::setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input)
+/** Sets the positions of all handles at the end of a sub-step. */
+void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input)
 {
   std::vector<rod::LayerInput> handles;
   for (int k = 0; k < instruments(); ++k)
   {
-    const HandCommand motion = blind ? HandCommand() : allowedMotion(k, parts[k], dt);
-    if (blind)
-      channels_[k].blind_hand.miss(parts[k]);
+    const HandCommand motion = stale ? HandCommand() : allowedMotion(k, parts[k], dt);
+    if (stale)
+      channels_[k].pacer.miss(parts[k]);
     const HandState now = hand(k);
     handles.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
   }
@@ -307,15 +307,15 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     input.vessel_version = vessel_version;
-    // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
-    const bool blind =
-        k > 1 && travel > channels_.front().blind_hand.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
-    setHands(parts_, blind, dt, input);
-    input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
+    // The pacer has slowed the handle already, unless the first stale set occurred in the middle of a fast step.
+    const bool stale =
+        k > 1 && travel > channels_.front().pacer.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
+    setHandles(parts_, stale, dt, input);
+    input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
     moveWire(input, dt, pass);
     if (!report_.solved)
-      break;  // the wire stays where it is; the hand's motion is made up for in the steps that follow
+      break;  // the wire keeps its position; later steps make up for the motion of the handle
   }
   treatments_.endStep(steps_, pressures_, state_, discretisation());
   ++steps_;

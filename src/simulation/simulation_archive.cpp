@@ -117,7 +117,7 @@ void checkHead(const Head& head, const Head& wanted, const std::string& origin)
 
 void Simulation::Channel::archive(Archive& archive)
 {
-  archive(blind_hand, slipped_insertion, slipped_rotation, grip, turning_grip);
+  archive(pacer, slipped_insertion, slipped_rotation, grip, turning_grip);
 }
 
 void Simulation::archive(Archive& archive)

@@ -17,7 +17,7 @@ constexpr double kLeastClearance = 20e-6;  // m
 constexpr double kClearanceShare = 0.9;    // of the clearance between wire and vessel at the introducer's mouth
 constexpr double kSamplingPeriod = 10e-3;  // s between two updates of adaptive sampling
 
-/** The introducer is narrower than the vessel that it lies in. */
+/** Boundary of the scene's wire. The introducer is narrower than the vessel around it. */
 rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entry)
 {
   rod::Boundary boundary;
@@ -37,7 +37,7 @@ rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entr
   return boundary;
 }
 
-/** The nodes are those of the longest instrument. */
+/** Wire of the longest instrument, which determines the nodes. */
 const rod::Wire& longestWire(const scene::Scene& scene)
 {
   return std::max_element(scene.instruments.begin(), scene.instruments.end(),

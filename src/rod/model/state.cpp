@@ -17,7 +17,7 @@ EndMotion between(const EndMotion& from, const EndMotion& to, double share)
 
 std::uint64_t State::hash() const
 {
-  // Four chains at a time: each waits for its own last word only.
+  // Four interleaved chains: each depends on its own last word only, so the processor runs them in parallel.
   std::array<Hash64, 4> chains;
   for (std::size_t i = static_cast<std::size_t>(first_node); i < position.size(); ++i)
   {
