@@ -12,8 +12,8 @@ namespace
 constexpr double kEi = 4.9469e-5;  // N·m², steel wire of 0.18 mm radius, E = 60 GPa
 constexpr double kLength = 0.38;
 
-// peers.md of the design: heavy cantilever wL³/EI = 8.75, exact tip (265.07, −252.90) mm.
-TEST(KktStepper, HeavyCantileverHangsWhereTheContinuumSays)
+// Heavy cantilever with wL³/EI = 8.75: exact tip (265.07, −252.90) mm.
+TEST(KktStepper, HeavyCantileverHangsAsTheContinuum)
 {
   const int nodes = 100;
   Environment environment;
@@ -74,11 +74,11 @@ TEST(KktStepper, AFreeWireKeepsLinearMomentumAndNearlyAllAngularMomentum)
   EXPECT_LT((momentum(state) - before).norm(), 1e-9 * before.norm());
 }
 
-/** A cantilever that swings down for 0.1 s. */
+/** Motion of a cantilever that swings down for 0.1 s. */
 struct Swing
 {
   State state;
-  double strain = 0.0;  ///< largest
+  double strain = 0.0;  ///< largest strain
   int solves = 0;
 };
 
@@ -164,7 +164,7 @@ TEST(KktStepper, GivesTheSameBitsForTheSameInputs)
   EXPECT_EQ(run(), run());
 }
 
-TEST(KktStepper, RefusesAStepThatCannotBeSolvedAndKeepsTheWireWhereItWas)
+TEST(KktStepper, RejectsAStepThatCannotBeSolvedAndKeepsTheWiresPosition)
 {
   KktStepper stepper(discretiseUniformly(uniformWire(kLength, kEi, 1.8e-4, 7900.0), 20), clampAtOrigin(kLength, 20),
                      Environment(), StepperSettings());

@@ -3,7 +3,7 @@
 #include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/stack_fixtures.h"
 
-// Layers that slide in each other: what their hands feel, and that nothing jumps.
+// Layers that slide in each other: forces on their handles, and continuity.
 
 namespace endovascular_sim::rod
 {
@@ -13,7 +13,7 @@ namespace
 constexpr double kLength = 0.3;
 constexpr double kStep = 1e-3;  // [s]
 
-/** A J wire (or another) in a catheter with a bent tip, both free beyond the introducer. */
+/** Wire (by default with a J tip) in a catheter with a bent tip, both free beyond the introducer. */
 struct WireAndCatheter
 {
   explicit WireAndCatheter(const std::vector<LayerInput>& begin, const Wire& wire = jWire(),
@@ -69,7 +69,7 @@ double mismatch(double stiffness, double other_stiffness, double curvature, doub
   return 0.5 * stiffness * other_stiffness / (stiffness + other_stiffness) * difference * difference;
 }
 
-TEST(StackSliding, WhereNothingElseBendsALayersEndsHoldTheEnergyThatTheLayersGainThere)
+TEST(StackSliding, InsertionForceOfFreeLayersIsTheEnergyPerLengthAtTheirEnds)
 {
   const Wire wire = curvedTipWire(kLength, 0.04, 2e-5, 0.4e-3, 10.0);
   for (const double catheter : {0.1150, 0.1157, 0.1170, 0.1189})
@@ -77,14 +77,14 @@ TEST(StackSliding, WhereNothingElseBendsALayersEndsHoldTheEnergyThatTheLayersGai
     WireAndCatheter setup({{0.14, 0.0}, {catheter, 0.0}}, wire);
     StepInput at;
     at.layers = setup.input;
-    // The bent part of the catheter goes on in the wire's bent tip and leaves its straight shaft.
+    // The bent part of the catheter advances over the wire's bent tip and leaves its straight shaft.
     const double expected = mismatch(4e-5, 1e-5, 30.0, 10.0) - mismatch(4e-5, 2e-5, 30.0, 0.0);
     EXPECT_NEAR(KktStepperPeer::insertionGradient(*setup.stepper, setup.state, at)[1], expected,
                 0.01 * std::abs(expected));
   }
 }
 
-/** Of weight less buoyancy. */
+/** Potential energy of weight less buoyancy [J]. */
 double weightEnergy(const Discretisation& rod, const Environment& environment, const State& state)
 {
   double sum = 0.0;
@@ -94,7 +94,7 @@ double weightEnergy(const Discretisation& rod, const Environment& environment, c
   return sum;
 }
 
-/** Straight layers where nothing bends them: only weight depends on the insertion. */
+/** Straight layers that do not bend: only the energy of weight depends on the insertion. */
 TEST(StackSliding, TheWeightsGradientByTheInsertionAgreesWithFiniteDifferences)
 {
   const Wire wire = uniformWire(kLength, 2e-5, 0.4e-3, 6000.0);
@@ -120,8 +120,8 @@ TEST(StackSliding, TheWeightsGradientByTheInsertionAgreesWithFiniteDifferences)
   }
 }
 
-/** Straight layers that bend under their weight: the hands' work is what elastic energy and weight gain. */
-TEST(StackSliding, EveryHandsWorkIsWhatTheEnergyGains)
+/** Straight layers that bend under their weight: the work of the handles is the gain of elastic energy and weight. */
+TEST(StackSliding, WorkOfEveryHandleEqualsTheGainOfEnergy)
 {
   const Wire wire = uniformWire(kLength, 2e-5, 0.4e-3, 6000.0);
   const Wire catheter = uniformWire(kLength, 8e-5, 0.9e-3, 6000.0);
@@ -150,7 +150,7 @@ TEST(StackSliding, EveryHandsWorkIsWhatTheEnergyGains)
   }
 }
 
-/** Path of a hand that gets to its speed smoothly in 0.3 s, in steps of full speed. */
+/** Path of a handle that accelerates smoothly for 0.3 s, in steps of full speed. */
 double softStart(int step)
 {
   constexpr double kSteps = 300.0;
@@ -158,7 +158,7 @@ double softStart(int step)
   return share < 1.0 ? kSteps * share * share * share * (1.0 - 0.5 * share) : step - 0.5 * kSteps;
 }
 
-/** Largest force of a run, and the largest change in one step. */
+/** Largest force of a run, and its largest change in one step. */
 struct Smoothness
 {
   double peak = 0.0;
@@ -249,7 +249,7 @@ TEST(StackSliding, NothingJumpsWhenALongerLayerIsWithdrawnPastAShorterOne)
     const bool wire_leads = setup.state.reference == 0;
     setup.input[0].inserted_length = 0.085 - 2.53e-5 * softStart(k);
     setup.step();
-    // The shape, not the material: how far the tip has moved across the wire.
+    // Change of the shape: lateral displacement of the tip.
     const Eigen::Vector3d moved = setup.state.position[130] - before[130];
     const double relative = wire_leads && setup.state.reference == 0 ? -2.53e-5 : 0.0;
     farthest = std::max(farthest, moved.norm());
@@ -274,7 +274,7 @@ TEST(StackSliding, NothingJumpsWhenALongerLayerIsWithdrawnPastAShorterOne)
   }
 }
 
-TEST(StackSliding, AStateGoesOnInAnotherStepperBitForBitAlsoPastAChangeOfTheReference)
+TEST(StackSliding, AStateContinuesInAnotherStepperBitForBitAlsoPastAChangeOfTheReference)
 {
   WireAndCatheter one({{0.085, 0.0}, {0.08, 0.4}});
   WireAndCatheter other({{0.06, 0.0}, {0.09, 0.0}});

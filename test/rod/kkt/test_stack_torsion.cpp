@@ -24,7 +24,7 @@ Wire tube(double bending_stiffness, double torsional_stiffness, double curvature
   return wire;
 }
 
-/** Two tubes of 8 and 6 /m, the outer one twice as stiff, with √c L = lambda. */
+/** Two tubes with rest curvatures of 8 and 6 /m, the outer one twice as stiff, with √c L = lambda. */
 struct TwoTubes
 {
   explicit TwoTubes(double lambda)
@@ -70,7 +70,7 @@ struct TwoTubes
   int solves = 0;
 };
 
-/** A tip angle and the base angle that goes with it [deg]. */
+/** Tip angle with its base angle [deg]. */
 struct Transmission
 {
   double tip, base;
@@ -99,7 +99,7 @@ TEST(StackTorsion, TubesSnapThroughWhereTheTorsionEquationLosesItsSolution)
     after = tubes.turnTo((base + 0.5) * kDegree);
   }
   EXPECT_NEAR(base, 197.7856, 2.0);
-  EXPECT_NEAR(before / kDegree, 116.721, 10.0);  // the tip angle's slope is infinite there
+  EXPECT_NEAR(before / kDegree, 116.721, 10.0);  // the slope of the tip angle is infinite at this point
   EXPECT_NEAR(after / kDegree, 301.612, 3.0);
 }
 
