@@ -11,9 +11,9 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr double kGrip = 200.0;        // N/m with which an inflated balloon presses on what holds it back: assumed
-constexpr double kGrowth = 10e-6;      // m by which a balloon may widen at once
-constexpr int kSettlePressings = 200;  // after the last pressure: the wall has come to rest by then
+constexpr double kGrip = 200.0;     // N/m, load of an inflated balloon on a wall that limits it: assumed
+constexpr double kGrowth = 10e-6;   // m, growth of a balloon's radius per contact query
+constexpr int kSettleRounds = 200;  // rounds after the last pressure until the wall is at rest
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -40,7 +40,7 @@ const char* nameOf(TreatmentEvent event)
 }
 
 BalloonTreatments::BalloonTreatments(const scene::Scene& scene, intervention::DeformableWall* wall)
-  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.contact_stiffness), wall_(wall)
+  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.stepper.contact_stiffness), wall_(wall)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
@@ -55,13 +55,13 @@ BalloonTreatments::BalloonTreatments(const scene::Scene& scene, intervention::De
 
 const intervention::Treatment* BalloonTreatments::of(int instrument) const
 {
-  for (const Worked& worked : treatments_)
-    if (worked.instrument == instrument)
-      return &worked.treatment;
+  for (const InstrumentTreatment& treated : treatments_)
+    if (treated.instrument == instrument)
+      return &treated.treatment;
   return nullptr;
 }
 
-/** Place of an instrument's tip along the nodes [m]. */
+/** Arc length of an instrument's tip along the nodes [m]. */
 double BalloonTreatments::tipOf(int instrument, const rod::State& state, const rod::Discretisation& rod) const
 {
   if (state.layers.empty())
@@ -71,11 +71,11 @@ double BalloonTreatments::tipOf(int instrument, const rod::State& state, const r
   return rod.length() - std::max(0.0, behind);
 }
 
-/** Distance from an instrument's tip from which on a wider one covers it [m]. */
+/** Distance from an instrument's tip beyond which a wider instrument covers it [m]. */
 double BalloonTreatments::coveredFrom(int instrument, const rod::State& state, const rod::Discretisation& rod) const
 {
   double covered = kInfinity;
-  // In front of the introducer the order of the places is not that of the instruments: nothing covers another one.
+  // Outside the introducer the order of the tips is not that of the instruments: no instrument covers another.
   if (!state.layers.empty() && state.layers[static_cast<std::size_t>(instrument)].inserted_length <= 0.0)
     return covered;
   const double tip = tipOf(instrument, state, rod);
@@ -85,13 +85,14 @@ double BalloonTreatments::coveredFrom(int instrument, const rod::State& state, c
   return covered;
 }
 
-/** The part of the shaft under a balloon that is in the vessel, as far as the nodes know; none when it is outside. */
-std::optional<intervention::ShaftLine> BalloonTreatments::shaftOf(const Worked& worked, const rod::State& state,
+/** Part of the shaft under a balloon that is in the vessel; none when the balloon is outside. */
+std::optional<intervention::ShaftLine> BalloonTreatments::shaftOf(const InstrumentTreatment& treated,
+                                                                  const rod::State& state,
                                                                   const rod::Discretisation& rod) const
 {
-  const intervention::Treatment& treatment = worked.treatment;
-  const double tip = tipOf(worked.instrument, state, rod);
-  const double inserted = rod.length() - state.inserted_length;  // place of the introducer along the nodes
+  const intervention::Treatment& treatment = treated.treatment;
+  const double tip = tipOf(treated.instrument, state, rod);
+  const double inserted = rod.length() - state.inserted_length;  // arc length of the introducer along the nodes
   if (tip - inserted <= treatment.inflation().balloon().from_tip)
     return std::nullopt;
   const auto from =
@@ -109,16 +110,17 @@ std::optional<intervention::ShaftLine> BalloonTreatments::shaftOf(const Worked& 
   return intervention::ShaftLine(std::move(from_tip), std::move(points));
 }
 
-/** A stent that is wider than the catheter into which it is drawn stays at that catheter's tip. */
-bool BalloonTreatments::isHeldBack(const Worked& worked, double covered_from, const rod::State& state) const
+/** True where a catheter, narrower than the stent, strips it off at its tip when the balloon is drawn in. */
+bool BalloonTreatments::isHeldBack(const InstrumentTreatment& treated, double covered_from,
+                                   const rod::State& state) const
 {
-  if (!worked.treatment.carriesStent() || covered_from == kInfinity)
+  if (!treated.treatment.carriesStent() || covered_from == kInfinity)
     return false;
-  const intervention::StentPlacement& stent = *worked.treatment.stent();
-  const instrument::Balloon& balloon = worked.treatment.inflation().balloon();
+  const intervention::StentPlacement& stent = *treated.treatment.stent();
+  const instrument::Balloon& balloon = treated.treatment.inflation().balloon();
   const double proximal_end = balloon.from_tip + 0.5 * balloon.length + 0.5 * stent.length();
   double lumen = kInfinity;
-  for (std::size_t k = static_cast<std::size_t>(worked.instrument) + 1; k < lumens_.size(); ++k)
+  for (std::size_t k = static_cast<std::size_t>(treated.instrument) + 1; k < lumens_.size(); ++k)
     if (state.layers[k].inserted_length > 0.0)
       lumen = std::min(lumen, lumens_[k]);
   return covered_from < proximal_end && 0.5 * stent.outerDiameter() > lumen;
@@ -133,46 +135,48 @@ std::uint64_t BalloonTreatments::beginStep(std::uint64_t step)
   return shown_;
 }
 
-/** Radius at a place when contacts were last asked for; 0 where it was not there [m]. */
-double BalloonTreatments::lastWidth(const Worked& worked, double from_tip)
+/** Radius at a distance from the tip at the last contact query; 0 where there was none [m]. */
+double BalloonTreatments::lastWidth(const InstrumentTreatment& treated, double from_tip)
 {
-  const std::vector<double>& places = worked.places;
-  const auto next = std::upper_bound(places.begin(), places.end(), from_tip);
-  if (next == places.begin() || next == places.end())
+  const std::vector<double>& positions = treated.positions;
+  const auto next = std::upper_bound(positions.begin(), positions.end(), from_tip);
+  if (next == positions.begin() || next == positions.end())
     return 0.0;
-  const auto k = static_cast<std::size_t>(next - places.begin());
-  const double t = (from_tip - places[k - 1]) / (places[k] - places[k - 1]);
-  return worked.widths[k - 1] + t * (worked.widths[k] - worked.widths[k - 1]);
+  const auto k = static_cast<std::size_t>(next - positions.begin());
+  const double t = (from_tip - positions[k - 1]) / (positions[k] - positions[k - 1]);
+  return treated.widths[k - 1] + t * (treated.widths[k] - treated.widths[k - 1]);
 }
 
-/** Radii that a balloon would have in a wider vessel. @param growth that it may widen by [m] */
-void BalloonTreatments::widen(Worked& worked, const rod::State& state, const rod::Discretisation& rod, double growth)
+/** Sets the radii of a balloon without the wall.
+ *  @param growth largest growth since the last contact query [m] */
+void BalloonTreatments::widen(InstrumentTreatment& treated, const rod::State& state, const rod::Discretisation& rod,
+                              double growth)
 {
-  const double tip = tipOf(worked.instrument, state, rod);
-  const double covered_from = coveredFrom(worked.instrument, state, rod);
-  places_.clear();
+  const double tip = tipOf(treated.instrument, state, rod);
+  const double covered_from = coveredFrom(treated.instrument, state, rod);
+  positions_.clear();
   for (int i = rod.nodes() - 1; i >= state.first_node; --i)
   {
     const double from_tip = tip - rod.position[i];
-    if (from_tip >= std::min(worked.treatment.end(), covered_from))
+    if (from_tip >= std::min(treated.treatment.end(), covered_from))
       break;
-    if (from_tip <= worked.treatment.begin())
+    if (from_tip <= treated.treatment.begin())
       continue;
-    if (places_.empty())
-      worked.last_node = i;
-    const double hard = worked.treatment.crossingRadiusAt(from_tip);
-    const double most = std::max(hard, lastWidth(worked, from_tip)) + growth;
-    radii_[i] = std::max({radii_[i], hard, std::min(worked.treatment.radiusAt(from_tip), most)});
+    if (positions_.empty())
+      treated.last_node = i;
+    const double hard = treated.treatment.crossingRadiusAt(from_tip);
+    const double most = std::max(hard, lastWidth(treated, from_tip)) + growth;
+    radii_[i] = std::max({radii_[i], hard, std::min(treated.treatment.radiusAt(from_tip), most)});
     hard_[i] = std::max(hard_[i], hard);
-    places_.push_back(from_tip);
+    positions_.push_back(from_tip);
   }
-  worked.places.swap(places_);
+  treated.positions.swap(positions_);
 }
 
-/** Makes balloons narrower where they would press on the wall by more than their grip. Between two nodes both give way,
- *  the nearer one more, so that a contact that moves along the edge does not jump from one to the other. */
-void BalloonTreatments::giveWay(const rod::State& state, const rod::Discretisation& rod,
-                                const contact::ContactSet& contacts)
+/** Reduces the radii of balloons where they would press on the wall with more than kGrip. Both nodes of an edge yield,
+ *  the nearer one more, so that the radii are continuous while a contact moves along the edge. */
+void BalloonTreatments::complyWithWall(const rod::State& state, const rod::Discretisation& rod,
+                                       const contact::ContactSet& contacts)
 {
   for (const contact::Feature& feature : contacts.features)
   {
@@ -199,14 +203,14 @@ const std::vector<double>& BalloonTreatments::contactRadii(const rod::State& sta
 {
   radii_.assign(state.position.size(), 0.0);
   hard_.assign(state.position.size(), 0.0);
-  for (Worked& worked : treatments_)
-    widen(worked, state, rod, contacts.stale ? 0.0 : kGrowth);  // not into a wall that nobody has seen
-  giveWay(state, rod, contacts);
-  for (Worked& worked : treatments_)
+  for (InstrumentTreatment& treated : treatments_)
+    widen(treated, state, rod, contacts.stale ? 0.0 : kGrowth);  // no growth without a fresh contact set
+  complyWithWall(state, rod, contacts);
+  for (InstrumentTreatment& treated : treatments_)
   {
-    worked.widths.clear();
-    for (std::size_t k = 0; k < worked.places.size(); ++k)
-      worked.widths.push_back(radii_[static_cast<std::size_t>(worked.last_node) - k]);
+    treated.widths.clear();
+    for (std::size_t k = 0; k < treated.positions.size(); ++k)
+      treated.widths.push_back(radii_[static_cast<std::size_t>(treated.last_node) - k]);
   }
   return radii_;
 }
@@ -216,49 +220,49 @@ void BalloonTreatments::addEvent(std::uint64_t step, int instrument, TreatmentEv
   events_.push_back({step, static_cast<double>(step + 1) * time_step_, instrument, event});
 }
 
-void BalloonTreatments::collectEvents(const Worked& worked, std::uint64_t step)
+void BalloonTreatments::collectEvents(const InstrumentTreatment& treated, std::uint64_t step)
 {
-  const intervention::TreatmentEvents& events = worked.treatment.events();
+  const intervention::TreatmentEvents& events = treated.treatment.events();
   if (events.above_rated)
-    addEvent(step, worked.instrument, TreatmentEvent::kAboveRated);
+    addEvent(step, treated.instrument, TreatmentEvent::kAboveRated);
   if (events.burst)
-    addEvent(step, worked.instrument, TreatmentEvent::kBurst);
+    addEvent(step, treated.instrument, TreatmentEvent::kBurst);
   if (events.over_expanded)
-    addEvent(step, worked.instrument, TreatmentEvent::kOverExpanded);
+    addEvent(step, treated.instrument, TreatmentEvent::kOverExpanded);
   if (events.stent_placed)
-    addEvent(step, worked.instrument, TreatmentEvent::kStentPlaced);
+    addEvent(step, treated.instrument, TreatmentEvent::kStentPlaced);
   if (events.stent_lost)
-    addEvent(step, worked.instrument, TreatmentEvent::kStentLost);
+    addEvent(step, treated.instrument, TreatmentEvent::kStentLost);
 }
 
 void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& commanded, const rod::State& state,
                                 const rod::Discretisation& rod)
 {
   const intervention::Treatment* strongest = nullptr;
-  for (Worked& worked : treatments_)
+  for (InstrumentTreatment& treated : treatments_)
   {
-    const double covered_from = coveredFrom(worked.instrument, state, rod);
-    if (isHeldBack(worked, covered_from, state))
-      worked.treatment.stripStent();
-    const std::optional<intervention::ShaftLine> shaft = shaftOf(worked, state, rod);
-    const intervention::BalloonLoad& pressing = worked.treatment.step(
-        time_step_, commanded[static_cast<std::size_t>(worked.instrument)], shaft ? &*shaft : nullptr, covered_from);
+    const double covered_from = coveredFrom(treated.instrument, state, rod);
+    if (isHeldBack(treated, covered_from, state))
+      treated.treatment.stripStent();
+    const std::optional<intervention::ShaftLine> shaft = shaftOf(treated, state, rod);
+    const intervention::BalloonLoad& pressing = treated.treatment.step(
+        time_step_, commanded[static_cast<std::size_t>(treated.instrument)], shaft ? &*shaft : nullptr, covered_from);
     if (pressing.sleeve)
       next_.sleeve = pressing.sleeve;
     if (strongest == nullptr || pressing.pressure > strongest->pressing().pressure)
-      strongest = &worked.treatment;
-    collectEvents(worked, step);
+      strongest = &treated.treatment;
+    collectEvents(treated, step);
   }
   if (wall_ == nullptr || strongest == nullptr || (step + 1) % kPressEvery != 0)
     return;
   due_ = promised_;
   next_.balloon = strongest->pressing().balloon;
   next_.pressure = strongest->pressing().pressure;
-  pressWall(step);
+  loadWall(step);
 }
 
-/** Only while something presses, or the wall may still move. */
-void BalloonTreatments::pressWall(std::uint64_t step)
+/** Loads the wall while there is a load, or until the wall is at rest. */
+void BalloonTreatments::loadWall(std::uint64_t step)
 {
   if (next_.pressure > 0.0 || next_.sleeve)
   {
@@ -267,7 +271,7 @@ void BalloonTreatments::pressWall(std::uint64_t step)
   }
   else
     ++still_;
-  if (!pressed_ || still_ > kSettlePressings)
+  if (!pressed_ || still_ > kSettleRounds)
     return;
   promised_ = wall_->press(step, next_);
   next_.sleeve.reset();
@@ -281,15 +285,15 @@ void archive(Archive& archive, TimedEvent& event)
   archive(event.step, event.time, event.instrument, event.event);
 }
 
-void BalloonTreatments::Worked::archive(Archive& archive)
+void BalloonTreatments::InstrumentTreatment::archive(Archive& archive)
 {
-  archive(treatment, places, widths);
+  archive(treatment, positions, widths);
 }
 
 void BalloonTreatments::archive(Archive& archive)
 {
-  for (Worked& worked : treatments_)
-    archive(worked);
+  for (InstrumentTreatment& treated : treatments_)
+    archive(treated);
   archive(events_, next_, shown_, due_, promised_, still_, pressed_, at_risk_);
   if (wall_ != nullptr)
     archive(*wall_);

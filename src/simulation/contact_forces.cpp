@@ -24,7 +24,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
 {
   const rod::State& state = simulation.state();
   const int nodes = simulation.discretisation().nodes();
-  std::vector<int> at_node(static_cast<std::size_t>(nodes), -1);  // the contact there
+  std::vector<int> at_node(static_cast<std::size_t>(nodes), -1);  // index of the contact at a node
   contacts.clear();
   for (int i = state.first_node; i < nodes; ++i)
   {
@@ -46,7 +46,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
     if (k >= 0)
       takeNearer(contacts[static_cast<std::size_t>(k)], feature);
   }
-  // A node whose own halves of its edges have none got its force from the far halves.
+  // A node without a feature on its own halves of its edges got its force from the far halves.
   const auto unlisted = [](const WallContact& contact) { return contact.triangle < 0; };
   for (WallContact& contact : contacts)
     if (unlisted(contact))

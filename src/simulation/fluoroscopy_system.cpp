@@ -12,7 +12,7 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr double kBalloonIodine = 185.0;  // mgI/ml: contrast of 370 mgI/ml, diluted by half (assumed)
+constexpr double kBalloonIodine = 185.0;  // mgI/ml: contrast medium of 370 mgI/ml, diluted by half (assumed)
 
 const scene::FluoroscopyScene& xRayOf(const scene::Scene& scene)
 {
@@ -43,7 +43,7 @@ fluoroscopy::XRayScene surroundingsOf(const scene::FluoroscopyScene& scene, cons
   return result;
 }
 
-/** What instruments displace: contrast in a vessel, else tissue, else air [1/m]. */
+/** Attenuation of the instruments' surroundings: contrast medium in a vessel, else tissue, else air [1/m]. */
 double displaced(const scene::Scene& scene, const fluoroscopy::XRayScene& xray)
 {
   if (scene.vessel)

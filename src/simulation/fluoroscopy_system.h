@@ -11,7 +11,7 @@
 namespace endovascular_sim::simulation
 {
 
-/** The scene's X-ray system, and what it sees of instruments, balloons and stents. */
+/** X-ray system of a scene, and the X-ray wires of instruments, balloons and stents. */
 class FluoroscopySystem
 {
 public:
@@ -21,10 +21,13 @@ public:
 
   fluoroscopy::Fluoroscope& fluoroscope() { return fluoroscope_; }
   const std::vector<fluoroscopy::XRayInstrument>& instruments() const { return instruments_; }
-  double filling() const { return filling_; }  ///< attenuation of a balloon's filling less what it displaces [1/m]
-  double metal() const { return metal_; }      ///< of a stent's struts, likewise [1/m]
+  double filling() const
+  {
+    return filling_;
+  }                                        ///< attenuation of a balloon's filling less that of its surroundings [1/m]
+  double metal() const { return metal_; }  ///< attenuation of a stent's struts less that of its surroundings [1/m]
 
-  /** Everything that a simulation has in the field. */
+  /** X-ray wires of all instruments, balloons and stents of a simulation. */
   std::vector<fluoroscopy::XRayWire> wires(const Simulation& simulation) const;
 
 private:

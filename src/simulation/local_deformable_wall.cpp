@@ -30,18 +30,30 @@ void LocalDeformableWall::Change::archive(Archive& archive)
   archive(version, moved.indices, moved.positions);
 }
 
-void LocalDeformableWall::archive(Archive& archive)
+/** Vertices that the detector shows at other positions than at the start; the detector lags behind the opening. */
+intervention::WallDisplacement LocalDeformableWall::shownDisplacement() const
 {
-  // The detector lags behind the opening: its vertices are compared with those of the beginning.
   intervention::WallDisplacement moved;
   const std::vector<Eigen::Vector3d>& shown = detector_.wall().vertices;
   const std::vector<Eigen::Vector3d>& first = opening_.firstVertices();
-  for (std::size_t v = 0; v < first.size() && !archive.reading(); ++v)
+  for (std::size_t v = 0; v < first.size(); ++v)
     if (shown[v] != first[v])
     {
       moved.indices.push_back(static_cast<int>(v));
       moved.positions.push_back(shown[v]);
     }
+  return moved;
+}
+
+void LocalDeformableWall::archive(Archive& archive)
+{
+  intervention::WallDisplacement moved = shownDisplacement();
+  if (archive.reading())
+  {
+    for (std::size_t k = 0; k < moved.indices.size(); ++k)
+      moved.positions[k] = opening_.firstVertices()[static_cast<std::size_t>(moved.indices[k])];
+    detector_.moveVertices(moved.indices, moved.positions, shown_);
+  }
   archive(opening_, version_, shown_, waiting_, moved.indices, moved.positions);
   if (archive.reading())
     detector_.moveVertices(moved.indices, moved.positions, shown_);

@@ -17,14 +17,14 @@ class Archive;
 namespace endovascular_sim::simulation
 {
 
-/** Vertices that may move in one pressing: what contact must take up at once. */
+/** Largest number of vertices that move in one round: contact detection updates them at once. */
 constexpr std::size_t kMostMovedVertices = 200;
 
-/** The wall of a vessel that balloons move, and the detector that searches it, in this process. */
+/** Wall of a vessel that balloons deform, and the detector that uses it, in this process. */
 class LocalDeformableWall : public intervention::DeformableWall
 {
 public:
-  /** @param vessel as the detector has it
+  /** @param vessel the same as that of the detector
    *  @param detector must outlive this */
   LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector);
 
@@ -46,17 +46,19 @@ private:
     void archive(Archive& archive);
   };
 
+  intervention::WallDisplacement shownDisplacement() const;
+
   intervention::VesselOpening opening_;
   contact::Detector& detector_;
   std::uint64_t version_ = 1;
-  std::uint64_t shown_ = 1;     ///< that contact searches
-  std::deque<Change> waiting_;  ///< that contact does not search yet
+  std::uint64_t shown_ = 1;     ///< version in the detector
+  std::deque<Change> waiting_;  ///< displacements that are not in the detector yet
 };
 
-/** Whether any instrument can move a wall. */
+/** True when an instrument of the scene has a balloon, which deforms the wall. */
 bool hasBalloon(const scene::Scene& scene);
 
-/** The moving wall of a scene; null where no instrument has a balloon. Parameters as of LocalDeformableWall. */
+/** Deformable wall of a scene; null where no instrument has a balloon. Parameters as of LocalDeformableWall. */
 std::unique_ptr<LocalDeformableWall> makeLocalDeformableWall(const scene::Scene& scene, const vessel::Vessel& vessel,
                                                              contact::Detector& detector);
 

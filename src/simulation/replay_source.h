@@ -7,14 +7,13 @@
 namespace endovascular_sim::simulation
 {
 
-/** A detector that fails where a recording says that contact sets came too late, so that the solver uses its old set at
- *  the very same passes. */
+/** Contact source that reports stale sets at the passes at which contact sets came too late in a recording. */
 class ReplayContactSource : public contact::ContactSource
 {
 public:
   explicit ReplayContactSource(contact::ContactSource& detector) : detector_(detector) {}
 
-  /** @param pass from this pass on the coming step gets no answers; contact::kNoStalePass: it gets all */
+  /** @param pass first pass of the coming step without a fresh set; contact::kNoStalePass: none */
   void setFirstStalePass(std::uint32_t pass) { first_stale_pass_ = pass; }
 
   void detect(const contact::Query& query, contact::ContactSet& set) override

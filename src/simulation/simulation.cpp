@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "rod/boundary/boundary_conditions.h"
 #include "scene/schema/scene_schema.h"
 #include "simulation/stepper_factory.h"
 
@@ -17,14 +18,14 @@ constexpr double kMaxHandSpeed = 1.0;            // m/s
 constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
-constexpr double kTravelPerEdge = 0.25;          // of the shortest edge: more counts as its rotation
-constexpr double kSlipBand = 0.1;                // of the limit, over which the grip lets go
-constexpr double kAtIntroducer = 0.1e-3;         // m by which an instrument that is outside may stand deeper
-constexpr double kFreeBand = 0.5;                // of the limit, beyond it, from where nothing holds at all
+constexpr double kTravelPerEdge = 0.25;          // largest travel of a sub-step, in shortest edges
+constexpr double kSlipBand = 0.1;                // range of the force in which the grip fades, relative to the limit
+constexpr double kAtIntroducer = 0.1e-3;         // m, tolerance of the insertion of an instrument outside
+constexpr double kFreeBand = 0.5;                // excess of the force without any grip, relative to the limit
 
-/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. It
- *  follows the force with a delay: a grip that answered at once would chatter, because the wire's inertia answers every
- *  change. Far beyond the limit it lets go at once: a fast hand would push millimetres in the delay. */
+/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. The
+ * grip follows the force with a delay: without it, grip and inertia of the wire would oscillate. Far beyond the limit
+ * the grip vanishes at once, since a fast hand would push by millimetres during the delay. */
 double nextGrip(double grip, double wanted, double resistance, double limit, double dt)
 {
   const double against = wanted > 0.0 ? resistance : -resistance;
@@ -33,22 +34,14 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
 }
 
-rod::State initialStack(const scene::Scene& scene, const rod::StackStepper& stack)
-{
-  std::vector<rod::LayerInput> layers;
-  for (const scene::DrivenInstrument& driven : scene.instruments)
-    layers.push_back({std::max(stack.outside(), driven.drive.insertionAt(0.0)), driven.drive.rotationAt(0.0)});
-  return stack.initialState(layers);
-}
-
-/** Motion of one hand that an old contact set covers: its share of the least margin, balloons folded, less what may
- * have been moved on that set before [m]. */
-double blindCover(const scene::Scene& scene)
+/** Motion of one handle that a stale contact set covers: its share of the least margin, with folded balloons, less the
+ *  motion of the sub-step before [m]. */
+double staleCover(const scene::Scene& scene)
 {
   double widest = 0.0;
   for (const scene::DrivenInstrument& driven : scene.instruments)
     widest = std::max(widest, instrument::crossingRadius(driven.instrument));
-  const double margin = scene.solver.contact_margin * contact::marginShare(widest);
+  const double margin = scene.solver.stepper.contact_margin * contact::marginShare(widest);
   const double left = std::max(0.5 * margin, margin - scene.solver.max_travel_per_substep);
   return left / static_cast<double>(scene.instruments.size());
 }
@@ -66,47 +59,50 @@ std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time)
 Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry, contact::ContactSource* contacts,
                        const vessel::CentrelineTree* centreline, intervention::DeformableWall* wall)
   : scene_(scene),
+    entry_(entry),
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
     contacts_(contacts),
     sampling_(makeSampling(scene, entry, centreline)),
+    samples_(sampling_ != nullptr),
     sampling_every_(samplingInterval(scene)),
-    stepper_(makeStepper(scene, entry, sampling_.get())),
-    channels_(scene.instruments.size(), Channel{StaleContactPacer(blindCover(scene), scene.solver.time_step)}),
+    initial_nodes_(initialNodes(scene, sampling_.get())),
+    stepper_(makeStepper(scene, entry, initial_nodes_)),
+    channels_(scene.instruments.size(), Channel{StaleContactPacer(staleCover(scene), scene.solver.time_step)}),
     wanted_(channels_.size()),
     parts_(channels_.size()),
-    stack_(dynamic_cast<const rod::StackStepper*>(stepper_.get())),
     valve_(scene.entry.valve_friction),
     treatments_(scene, wall),
     pressures_(channels_.size(), 0.0)
 {
-  if (sampling_ && !stepper_->resample(sampling_->discretisation()))
-    throw InputError(scene.file, "sampling.kind",
-                     "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
   const rod::Discretisation& wire = stepper_->discretisation();
   max_travel_ = scene.solver.max_travel_per_substep;
   if (!sampling_)
     max_travel_ =
         std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
   setMaxInsertions();
-  state_ = stack_ != nullptr
-               ? initialStack(scene, *stack_)
-               : stepper_->initialState(
-                     scene.introducer ? std::max(0.0, scene.instruments.front().drive.insertionAt(0.0)) : 0.0,
-                     scene.instruments.front().drive.rotationAt(0.0));
-  while (sampling_ && sampling_->update(state_))
+  state_ = initialState();
+  while (samples_ && sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
 }
 
-/** The introducer's guide must stay filled: an instrument's end cannot be pushed into it. */
+rod::State Simulation::initialState() const
+{
+  const double least = !scene_.introducer ? 0.0 : instruments() > 1 ? outsideInsertion() : 0.0;
+  std::vector<rod::LayerInput> layers;
+  for (const scene::DrivenInstrument& driven : scene_.instruments)
+    layers.push_back(
+        {scene_.introducer ? std::max(least, driven.drive.insertionAt(0.0)) : 0.0, driven.drive.rotationAt(0.0)});
+  return stepper_->initialState(layers);
+}
+
+/** Sets the largest insertions, at which the introducer's guide is still filled. */
 void Simulation::setMaxInsertions()
 {
   for (int k = 0; k < instruments(); ++k)
   {
-    const rod::Discretisation& wire = stepper_->discretisation();
     Channel& channel = channels_[k];
-    channel.max_insertion = stack_ != nullptr
-                                ? stack_->maxInsertion(k)
-                                : wire.length() - scene_.solver.guide_length - 3.0 * wire.rest_length.front();
+    channel.max_insertion =
+        rod::maxInsertion(stepper_->layerLength(k), stepper_->discretisation(), scene_.solver.guide_length);
     if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > channel.max_insertion)
       throw InputError(scene_.file, scene::drivePath(scene_, k) + "drive.initial_insertion",
                        "leaves less of the wire outside than the introducer's guide; at most " +
@@ -116,17 +112,21 @@ void Simulation::setMaxInsertions()
 
 HandState Simulation::hand(int instrument) const
 {
-  if (stack_ == nullptr)
-    return {state_.inserted_length, state_.rotation, state_.hand_force, state_.hand_torque, pressures_.front()};
-  const rod::LayerState& layer = state_.layers[instrument];
-  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque, pressures_[instrument]};
+  const rod::HandleState handle = rod::handleState(state_, instrument);
+  return {handle.inserted_length, handle.rotation, handle.force, handle.torque, pressures_[instrument]};
+}
+
+/** Insertion at which an instrument is outside the introducer [m]. */
+double Simulation::outsideInsertion() const
+{
+  return rod::outsideInsertion(discretisation(), scene_.solver.guide_length);
 }
 
 void Simulation::setPressures(const std::vector<HandCommand>& commands)
 {
   for (int k = 0; k < instruments(); ++k)
   {
-    if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || scene_.solver.scheme != "kkt"))
+    if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || !scene_.solver.traits().balloons))
       throw std::invalid_argument("Simulation: a pressure for an instrument without a balloon, or without scheme kkt");
     pressures_[k] = commands[k].pressure;
   }
@@ -134,50 +134,50 @@ void Simulation::setPressures(const std::vector<HandCommand>& commands)
 
 bool Simulation::isOutside(int instrument) const
 {
-  return stack_ != nullptr && hand(instrument).insertion <= stack_->outside() + kAtIntroducer;
+  return instruments() > 1 && hand(instrument).insertion <= outsideInsertion() + kAtIntroducer;
 }
 
-/** What the hand asks for in a step, as far as it can move at all. */
+/** Commanded motion of a handle in a step, limited to the largest speed and paced while contact sets are stale. */
 HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
-  const bool blind = contacts_ != nullptr && stepper_->contactSet().stale;
+  const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
   Channel& channel = channels_[instrument];
   const HandState now = hand(instrument);
   HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
-    rest.insertion = (stack_ != nullptr ? std::max(stack_->outside(), command.insertion) : command.insertion) -
+    rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), command.insertion) : command.insertion) -
                      channel.slipped_insertion - now.insertion;
-  HandCommand wanted = channel.blind_hand.follow(rest, blind);
+  HandCommand wanted = channel.pacer.follow(rest, stale);
   wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
   wanted.rotation = std::clamp(wanted.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
   return wanted;
 }
 
-/** An instrument can leave the introducer where another one stays in it. */
+/** Least insertion of an instrument. It can leave the introducer only while another one stays in it. */
 double Simulation::leastInsertion(int instrument) const
 {
-  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+  for (int k = 0; k < instruments(); ++k)
     if (k != instrument && hand(k).insertion >= 0.0)
-      return stack_->outside();
+      return outsideInsertion();
   return 0.0;
 }
 
-/** An instrument stays outside while one is inside that does not fit into it, or that it does not fit into. */
+/** Largest insertion of an instrument. It stays outside while another one is inside and neither fits into the other. */
 double Simulation::mostInsertion(int instrument) const
 {
-  for (int k = 0; stack_ != nullptr && k < instruments(); ++k)
+  for (int k = 0; k < instruments(); ++k)
   {
     const bool inner = k < instrument;
     if (k != instrument && !isOutside(k) &&
         !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
                                 scene_.instruments[inner ? instrument : k].instrument))
-      return std::max(stack_->outside(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
+      return std::max(outsideInsertion(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
   }
   return channels_[instrument].max_insertion;
 }
 
-/** What of a wanted motion reaches the wire in a sub-step of @p dt [s]: the grip answers in every one of them. */
+/** Part of a wanted motion that reaches the wire in a sub-step of @p dt [s]; the grip is updated in every sub-step. */
 HandCommand Simulation::allowedMotion(int instrument, const HandCommand& wanted, double dt)
 {
   HandCommand motion = wanted;
@@ -222,17 +222,17 @@ rod::EndMotion Simulation::distalMotionAt(double t) const
           distal.rotation.at(t)};
 }
 
-/** Old contacts are good for the edges that they were found at. */
+/** Updates adaptive sampling. A stale contact set holds only for the present edges. */
 void Simulation::resample()
 {
-  if (!sampling_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
+  if (!samples_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
     return;
   PhaseTimer::Scope scope(timer_, Phase::kSampling);
   if (sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
 }
 
-/** The wire's own step, and what the introducer's valve adds to the force and the torque at the hand. */
+/** Steps the wire, and adds the force and the torque of the introducer's valve on the hand. */
 void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   const double insertion = state_.inserted_length;
@@ -241,14 +241,14 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
     stepper_->setContactRadii(treatments_.contactRadii(state_, discretisation(), contactSet()));
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
-  if (stack_ != nullptr)
+  if (!valve_.present())
     return;
   const double outside = stepper_->discretisation().length() - state_.inserted_length;
   valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
               scene_.instruments.front().instrument.wire.radiusAt(outside));
 }
 
-/** Sub-steps in which no hand moves further than the solver takes at once. */
+/** Number of sub-steps in which no handle moves further than allowed. */
 int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from,
                             const rod::EndMotion& to) const
 {
@@ -263,23 +263,19 @@ int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::E
   return std::max(1, static_cast<int>(std::ceil(substeps - 1e-9)));
 }
 
-/** Where every hand is at the end of a sub-step. */
-void Simulation::setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input)
+/** Sets the positions of all handles at the end of a sub-step. */
+void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input)
 {
+  std::vector<rod::LayerInput> handles;
   for (int k = 0; k < instruments(); ++k)
   {
-    const HandCommand motion = blind ? HandCommand() : allowedMotion(k, parts[k], dt);
-    if (blind)
-      channels_[k].blind_hand.miss(parts[k]);
+    const HandCommand motion = stale ? HandCommand() : allowedMotion(k, parts[k], dt);
+    if (stale)
+      channels_[k].pacer.miss(parts[k]);
     const HandState now = hand(k);
-    if (stack_ != nullptr)
-      input.layers.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
-    else
-    {
-      input.inserted_length = now.insertion + motion.insertion;
-      input.rotation = now.rotation + motion.rotation;
-    }
+    handles.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
   }
+  input.setHandles(handles);
 }
 
 void Simulation::stepAll(const std::vector<HandCommand>& commands)
@@ -311,15 +307,15 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     input.vessel_version = vessel_version;
-    // The hand is slow enough already, unless the first set that failed to come did so in the middle of a fast step.
-    const bool blind =
-        k > 1 && travel > channels_.front().blind_hand.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
-    setHands(parts_, blind, dt, input);
-    input.distal = blind ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
+    // The pacer has slowed the handle already, unless the first stale set occurred in the middle of a fast step.
+    const bool stale =
+        k > 1 && travel > channels_.front().pacer.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
+    setHandles(parts_, stale, dt, input);
+    input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
     moveWire(input, dt, pass);
     if (!report_.solved)
-      break;  // the wire stays where it is; the hand's motion is made up for in the steps that follow
+      break;  // the wire keeps its position; later steps make up for the motion of the handle
   }
   treatments_.endStep(steps_, pressures_, state_, discretisation());
   ++steps_;
@@ -336,7 +332,7 @@ void Simulation::setState(rod::State state)
 contact::Query Simulation::initialQuery() const
 {
   contact::Query query;
-  query.margin = scene_.solver.contact_margin;
+  query.margin = scene_.solver.stepper.contact_margin;
   query.first_node = state_.first_node;
   query.nodes.assign(state_.position.begin() + state_.first_node, state_.position.end());
   const std::vector<double>& radius = discretisation().radius;

@@ -11,7 +11,6 @@
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
 #include "rod/boundary/hemostatic_valve.h"
-#include "rod/kkt/stack_layers.h"
 #include "rod/sampling/adaptive_sampling.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene.h"
@@ -22,110 +21,114 @@
 namespace endovascular_sim::simulation
 {
 
-/** What the scene's drives ask every instrument for at a time [s]. */
+/** Commands of the scene's drives for all instruments at a time [s]. */
 std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time);
 
-/** One instrument at its hand. */
+/** Handle of one instrument: its position, and force and torque on the user's hand. */
 struct HandState
 {
-  double insertion = 0.0;  ///< of its tip beyond the introducer; negative: outside [m]
-  double rotation = 0.0;   ///< of its handle [rad]
+  double insertion = 0.0;  ///< tip beyond the introducer; negative: outside [m]
+  double rotation = 0.0;   ///< rotation of the handle [rad]
   double force = 0.0;      ///< on the hand, positive where it resists pushing [N]
-  double torque = 0.0;     ///< that the hand holds [N·m]
-  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
+  double torque = 0.0;     ///< torque that the hand holds [N·m]
+  double pressure = 0.0;   ///< at the inflator of the instrument's balloon [Pa]
 };
 
-/** The simulation loop's body: one fixed step of a scene. The nodes and the offline tool run this same code, so the
- * same commands give the same trajectory bit for bit. */
+/** Simulation of a scene in fixed time steps. The nodes and the offline tool run this same code, so that the same
+ *  commands give the same trajectory bit for bit. */
 class Simulation
 {
 public:
-  /** @param contacts where contact sets come from, null without a vessel; must outlive the simulation
-   *  @param centreline of the vessel, by which adaptive sampling looks ahead of the tip; null: it does not
-   *  @param wall what balloons move, e.g. a LocalDeformableWall; null: no wall moves. Must outlive the simulation
+  /** @param contacts source of contact sets, null without a vessel; must outlive the simulation
+   *  @param centreline of the vessel, whose curvature adaptive sampling uses ahead of the tip; may be null
+   *  @param wall that balloons deform, e.g. a LocalDeformableWall; null: a rigid wall. Must outlive the simulation
    *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
   Simulation(const scene::Scene& scene, const scene::EntryPose& entry, contact::ContactSource* contacts,
              const vessel::CentrelineTree* centreline = nullptr, intervention::DeformableWall* wall = nullptr);
 
-  /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves no
-   *  faster than 1 m/s: what is left of a faster command follows in the next steps. */
+  /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves at
+   *  most at 1 m/s: the rest of a faster command follows in the next steps. */
   void step(const HandCommand& command) { stepAll({command}); }
 
-  /** The same with one command for every instrument of the scene, in its order. An instrument goes no further than its
-   *  length, comes no further back than the introducer, and waits there while one that does not fit is inside.
+  /** Advances by one time step with one command for every instrument of the scene, in its order. The insertion of an
+   *  instrument is limited by its length and by the introducer, where it waits while an instrument that does not fit is
+   *  inside.
    *  @throws std::invalid_argument when there is not one command for every instrument, or a pressure for one without a
    *          balloon */
   void stepAll(const std::vector<HandCommand>& commands);
 
-  /** Of the scene. */
+  /** Number of the scene's instruments. */
   int instruments() const { return static_cast<int>(channels_.size()); }
 
-  /** What the hand on an instrument has and feels. */
+  /** Handle of an instrument. */
   HandState hand(int instrument) const;
 
-  /** Whether an instrument has left the introducer altogether, so that others need not fit to it. */
+  /** True where an instrument has left the introducer altogether, so that others need not fit into it. */
   bool isOutside(int instrument) const;
 
-  /** Replaces the state, which must belong to the same wire and sampling; contacts are looked for anew. */
+  /** Replaces the state by one of the same wire and sampling; contacts are detected again. */
   void setState(rod::State state);
 
-  /** Writes everything that the trajectory depends on from here on.
-   *  @param vessel_hash of the mesh as it was at the beginning; 0 without a vessel
-   *  @param more of whoever drives the simulation, saved after it
-   *  @throws InputError for a scheme whose state cannot be saved: all but `kkt` */
+  /** Saves all data on which the further trajectory depends.
+   *  @param vessel_hash of the mesh at the start; 0 without a vessel
+   *  @param more archives the caller's own data after those of the simulation
+   *  @throws InputError for a scheme without SchemeTraits::saves */
   void save(std::ostream& stream, std::uint64_t vessel_hash = 0, const std::function<void(Archive&)>& more = nullptr);
 
-  /** Goes on from a saved state, bit for bit as the simulation that was saved would have. To be called before the first
-   *  step; sums over past steps (forces on the wall, results) begin anew.
+  /** Continues from a saved state, bit for bit as the simulation that was saved. The present state, whatever it is, is
+   *  replaced. Sums over past steps (forces on the wall, results) start anew.
    *  @param origin names the stream in errors
-   *  @throws InputError when it is damaged, of another version, scene or vessel; the simulation is then of no use */
+   *  @throws InputError when the state is damaged or belongs to another version, scene or vessel; the simulation then
+   *          needs another load before its next step */
   void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
             const std::function<void(Archive&)>& more = nullptr);
 
-  /** From now on the nodes stay where they are along the wire. */
-  void keepSampling() { sampling_.reset(); }
+  /** Stops adaptive sampling: the nodes keep their positions along the wire. */
+  void keepSampling() { samples_ = false; }
 
-  std::uint64_t steps() const { return steps_; }                                         ///< steps done
+  std::uint64_t steps() const { return steps_; }                                         ///< number of steps so far
   double time() const { return static_cast<double>(steps_) * scene_.solver.time_step; }  ///< [s]
   const rod::State& state() const { return state_; }
   const rod::Discretisation& discretisation() const { return stepper_->discretisation(); }
   const contact::ContactSet& contactSet() const { return stepper_->contactSet(); }
-  const rod::StepReport& report() const { return report_; }  ///< of the last step
-  const PhaseTimer& timer() const { return timer_; }         ///< of the last step
+  const rod::StepReport& report() const { return report_; }  ///< report of the last step
+  const PhaseTimer& timer() const { return timer_; }         ///< durations of the last step
   rod::Energy energy() const { return stepper_->energy(state_); }
 
   /** Depth of the wire's surface beyond the wall after the last step, by the contact set; 0 without contact [m]. */
   double surfacePenetration() const;
 
-  /** What balloons and stents did so far. */
+  /** Events of balloons and stents so far. */
   const std::vector<TimedEvent>& events() const { return treatments_.events(); }
 
-  /** The balloon of an instrument, with its stent; null where there is none. */
+  /** Balloon of an instrument, with its stent; null without. */
   const intervention::Treatment* treatment(int instrument) const { return treatments_.of(instrument); }
 
-  std::uint64_t stateHash() const { return state_hash_; }  ///< of the state after the last step
+  std::uint64_t stateHash() const { return state_hash_; }  ///< hash of the state after the last step
 
-  /** What the solver asks before its first step: for finding out whether the contact source answers. */
+  /** Contact query of the initial state, to check that the contact source answers. */
   contact::Query initialQuery() const;
 
   /** Hash over the states of all steps so far. */
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
 
 private:
-  /** What a hand has asked for and not got. */
+  /** Limits of the motion from one handle to its wire. */
   struct Channel
   {
-    StaleContactPacer blind_hand;
+    StaleContactPacer pacer;
     double slipped_insertion = 0.0;  ///< command minus what reached the wire [m]
     double slipped_rotation = 0.0;   ///< [rad]
-    double grip = 1.0;               ///< on pushing, 1 firm to 0 slipping
-    double turning_grip = 1.0;       ///< on turning
+    double grip = 1.0;               ///< of pushing, 1 firm to 0 slipping
+    double turning_grip = 1.0;       ///< of turning, 1 firm to 0 slipping
     double max_insertion = 0.0;      ///< [m]
 
     void archive(Archive& archive);
   };
 
   void setMaxInsertions();
+  rod::State initialState() const;
+  double outsideInsertion() const;
   void archive(Archive& archive);
   void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
@@ -133,31 +136,33 @@ private:
   double leastInsertion(int instrument) const;
   double mostInsertion(int instrument) const;
   int substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
-  void setHands(const std::vector<HandCommand>& parts, bool blind, double dt, rod::StepInput& input);
+  void setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
 
   scene::Scene scene_;
-  Eigen::Vector3d distal_direction_;  ///< of the distal end's displacement, unit
+  scene::EntryPose entry_;
+  Eigen::Vector3d distal_direction_;  ///< direction of the distal end's displacement, unit
   contact::ContactSource* contacts_;
   std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform
-  std::uint64_t sampling_every_ = 1;                 ///< steps
+  bool samples_ = false;                             ///< the nodes follow the sampling
+  std::uint64_t sampling_every_ = 1;                 ///< steps between two updates of the sampling
+  rod::Discretisation initial_nodes_;                ///< with which the stepper is constructed
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;
-  std::vector<Channel> channels_;  ///< per instrument
+  std::vector<Channel> channels_;  ///< one per instrument
   std::vector<HandCommand> wanted_, parts_;
-  const rod::StackStepper* stack_ = nullptr;  ///< the stepper, where there are several instruments
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
-  std::vector<double> pressures_;  ///< commanded, per instrument [Pa]
+  std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t steps_ = 0;
-  double max_travel_ = 0.0;  ///< of the hand in one sub-step [m]
+  double max_travel_ = 0.0;  ///< largest travel of a handle in one sub-step [m]
 };
 
 }  // namespace endovascular_sim::simulation

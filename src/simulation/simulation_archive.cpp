@@ -6,9 +6,11 @@
 
 #include "common/archive.h"
 #include "common/error.h"
+#include "common/version.h"
 #include "simulation/simulation.h"
+#include "simulation/stepper_factory.h"
 
-// A simulation's state in a file: a head, the bytes of the archive, and a hash over both.
+// File of a saved state: a head, the bytes of the archive, and a hash over both.
 
 namespace endovascular_sim::simulation
 {
@@ -16,13 +18,22 @@ namespace
 {
 
 constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
-constexpr std::uint32_t kFormat = 4;  ///< to be counted up with every change of what is saved
+constexpr std::uint32_t kFormat = 5;        ///< incremented with every change of the saved data
+constexpr std::uint32_t kOldestFormat = 4;  ///< that this version loads
+constexpr std::uint32_t kNamesWriter = 5;   ///< first format whose head names the version that wrote it
+constexpr int kFirstPhysicsNumber = 1;      ///< of formats that do not hold one
 
-/** What must agree before a state is used. */
+/** First commits of the formats whose heads do not name the version that wrote them. */
+constexpr std::array<const char*, 4> kFormatCommits = {"3dc36e6", "613f4dc", "6b5167a", "ca765d6"};
+
+/** Data that must agree before a state is used. The layout up to and including the writer is the same in all formats
+ *  from kNamesWriter on, so that every later version can name the writer of a state that it does not load. */
 struct Head
 {
   std::array<char, 8> magic = kMagic;
   std::uint32_t format = kFormat;
+  std::string writer = std::string(version()) + ", commit " + commit();
+  int physics = kPhysicsNumber;
   std::uint64_t scene_hash = 0;
   std::uint64_t vessel_hash = 0;
 
@@ -30,7 +41,31 @@ struct Head
   {
     for (char& letter : magic)
       archive(letter);
-    archive(format, scene_hash, vessel_hash);
+    archive(format);
+    if (format < kNamesWriter)
+      readOldWriter();
+    else
+      archiveWriter(archive);
+    if (format > kFormat || format < kOldestFormat)
+      return;  // an unknown layout
+    if (format >= kNamesWriter)
+      archive(physics);
+    archive(scene_hash, vessel_hash);
+  }
+
+private:
+  void readOldWriter()
+  {
+    const bool known = format >= 1 && format <= kFormatCommits.size();
+    writer = known ? std::string("0.1.0, commit ") + kFormatCommits[format - 1] + " or a later one" : "unknown";
+    physics = kFirstPhysicsNumber;
+  }
+
+  void archiveWriter(Archive& archive)
+  {
+    std::vector<char> letters(writer.begin(), writer.end());
+    archive(letters);
+    writer.assign(letters.begin(), letters.end());
   }
 };
 
@@ -41,16 +76,17 @@ std::uint64_t hashOf(const char* data, std::size_t size)
   return hash.value();
 }
 
-/** The text without the hash at its end, which must be right. */
+/** Bytes without the hash at their end.
+ *  @throws InputError when the hash does not fit */
 std::string checked(std::string bytes, const std::string& origin)
 {
-  std::uint64_t told = 0;
+  std::uint64_t stored = 0;
   const bool magic = bytes.size() > kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
-  if (!magic || bytes.size() < kMagic.size() + sizeof told)
+  if (!magic || bytes.size() < kMagic.size() + sizeof stored)
     throw InputError(origin, "", "is not a saved state; save one with simulate --save-state");
-  const std::size_t size = bytes.size() - sizeof told;
-  std::memcpy(&told, bytes.data() + size, sizeof told);
-  if (told != hashOf(bytes.data(), size))
+  const std::size_t size = bytes.size() - sizeof stored;
+  std::memcpy(&stored, bytes.data() + size, sizeof stored);
+  if (stored != hashOf(bytes.data(), size))
     throw InputError(origin, "", "is damaged or cut off: its content does not match its hash; save it again");
   bytes.resize(size);
   return bytes;
@@ -58,10 +94,16 @@ std::string checked(std::string bytes, const std::string& origin)
 
 void checkHead(const Head& head, const Head& wanted, const std::string& origin)
 {
-  if (head.format != wanted.format)
+  if (head.format > kFormat || head.format < kOldestFormat)
     throw InputError(origin, "",
-                     "has format " + std::to_string(head.format) + ", this version reads format " +
-                         std::to_string(wanted.format) + "; save it again with this version");
+                     "has format " + std::to_string(head.format) + ", written by endovascular_sim " + head.writer +
+                         "; this version reads formats " + std::to_string(kOldestFormat) + " to " +
+                         std::to_string(kFormat) + "; load it with the version that wrote it, or save it again");
+  if (head.physics != wanted.physics)
+    throw InputError(origin, "",
+                     "was saved with physics number " + std::to_string(head.physics) + " by endovascular_sim " +
+                         head.writer + "; this version has number " + std::to_string(wanted.physics) +
+                         "; load it with the version that wrote it, or save it again");
   if (head.scene_hash != wanted.scene_hash)
     throw InputError(origin, "",
                      "was saved in another scene, or with other values (hash " + Hash64::toHex(head.scene_hash) +
@@ -75,19 +117,18 @@ void checkHead(const Head& head, const Head& wanted, const std::string& origin)
 
 void Simulation::Channel::archive(Archive& archive)
 {
-  archive(blind_hand, slipped_insertion, slipped_rotation, grip, turning_grip);
+  archive(pacer, slipped_insertion, slipped_rotation, grip, turning_grip);
 }
 
 void Simulation::archive(Archive& archive)
 {
   std::uint64_t trajectory = trajectory_.value();
-  bool sampled = sampling_ != nullptr;
-  archive(steps_, trajectory, state_hash_, pressures_, sampled);
+  archive(steps_, trajectory, state_hash_, pressures_, samples_);
   for (Channel& channel : channels_)
     archive(channel);
   trajectory_.resume(trajectory);
-  if (!sampled)
-    sampling_.reset();
+  if (samples_ && !sampling_)
+    throw ArchiveError("has adaptive sampling, which the scene has not");
   if (sampling_)
   {
     archive(*sampling_);
@@ -101,7 +142,7 @@ void Simulation::archive(Archive& archive)
 
 void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std::function<void(Archive&)>& more)
 {
-  if (scene_.solver.scheme != "kkt")
+  if (!scene_.solver.traits().saves)
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be saved; use kkt");
   Archive out;
   Head head;
@@ -120,7 +161,7 @@ void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std
 void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin,
                       const std::function<void(Archive&)>& more)
 {
-  if (scene_.solver.scheme != "kkt")
+  if (!scene_.solver.traits().saves)
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be loaded; use kkt");
   Archive in(checked({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, origin));
   Head head;
@@ -131,6 +172,8 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   {
     in(head);
     checkHead(head, wanted, origin);
+    stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // members that are not saved begin anew
+    report_ = rod::StepReport();
     archive(in);
     if (more)
       more(in);

@@ -12,18 +12,20 @@
 namespace endovascular_sim::simulation
 {
 
-/** Steps between two looks of adaptive sampling at the wire's shape. */
+/** Steps between two updates of adaptive sampling. */
 std::uint64_t samplingInterval(const scene::Scene& scene);
 
-/** The scene's adaptive sampling, null where it is uniform.
+/** Adaptive sampling of a scene; null where it is uniform.
  *  @param centreline of the vessel, null without one */
 std::unique_ptr<rod::AdaptiveSampling> makeSampling(const scene::Scene& scene, const scene::EntryPose& entry,
                                                     const vessel::CentrelineTree* centreline);
 
-/** The scheme that a scene asks for, with the scene's wire, ends, environment and settings.
- *  @param sampling null: uniform
- *  @throws InputError where the scheme cannot do what the scene asks */
+/** Nodes of the wire at the start of a scene.
+ *  @param sampling null: uniform */
+rod::Discretisation initialNodes(const scene::Scene& scene, const rod::AdaptiveSampling* sampling);
+
+/** Stepper of a scene's scheme, with the scene's wires, ends, environment and settings. */
 std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene::EntryPose& entry,
-                                          const rod::AdaptiveSampling* sampling);
+                                          rod::Discretisation nodes);
 
 }  // namespace endovascular_sim::simulation

@@ -9,6 +9,7 @@
 #include "rod/boundary/boundary_conditions.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/kkt/kkt_stepper.h"
+#include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::benchmark
@@ -83,7 +84,7 @@ rod::HandForceParts partsAnew(PushedWire& wire)
   std::vector<Vector3d> slide;
   rod::slideAlongItself(state.position, std::vector<Vector3d>(state.position.size(), Vector3d::Zero()),
                         state.first_node, last_held, boundary.direction, slide);
-  const std::vector<Vector3d> gradient = wire.stepper.elasticGradient(state, wire.input);
+  const std::vector<Vector3d> gradient = rod::KktStepperPeer::elasticGradient(wire.stepper, state, wire.input);
   rod::HandForceParts parts;
   parts.bending = parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
   for (int i = state.first_node; i < rod.nodes(); ++i)

@@ -9,7 +9,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A cylinder about the z axis as the wall, the wire outside it; every node near it has a contact. */
+/** Wall: a cylinder about the z axis with the wire outside; every node near it has a contact. */
 class CylinderWall : public contact::ContactSource
 {
 public:

@@ -11,7 +11,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A plane through the origin as the wall; every node near it has a contact. */
+/** Wall: a plane through the origin; every node near it has a contact. */
 class PlaneWall : public contact::ContactSource
 {
 public:

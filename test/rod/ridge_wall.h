@@ -10,7 +10,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A compliant roof z = −slope·|x − ridge| as the wall: nodes meet its faces, an edge of the wire its ridge. */
+/** Wall: a compliant roof z = −slope·|x − ridge|. Nodes contact its faces, an edge of the wire its ridge. */
 class RidgeWall : public contact::ContactSource
 {
 public:
@@ -38,14 +38,14 @@ private:
   void add(const contact::Query& query, int edge, double t, contact::ContactSet& set) const
   {
     const auto e = static_cast<std::size_t>(edge);
-    const Eigen::Vector3d place = (1.0 - t) * query.nodes[e] + t * query.nodes[e + 1];
-    const double along = place.x() - ridge_;
+    const Eigen::Vector3d on_edge = (1.0 - t) * query.nodes[e] + t * query.nodes[e + 1];
+    const double along = on_edge.x() - ridge_;
     contact::Feature feature;
     feature.edge = query.first_node + edge;
     feature.parameter = t;
     feature.normal = Eigen::Vector3d(along == 0.0 ? 0.0 : std::copysign(slope_, along), 0.0, 1.0).normalized();
-    feature.gap = (place.z() + slope_ * std::abs(along)) * feature.normal.z() - query.radius[e];
-    feature.point = place - (feature.gap + query.radius[e]) * feature.normal;
+    feature.gap = (on_edge.z() + slope_ * std::abs(along)) * feature.normal.z() - query.radius[e];
+    feature.point = on_edge - (feature.gap + query.radius[e]) * feature.normal;
     feature.stiffness = stiffness_;
     feature.id = 3 * edge + (t > 0.0 && t < 1.0 ? 1 : 0);
     if (feature.gap < query.margin)

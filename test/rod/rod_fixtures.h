@@ -9,7 +9,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A straight wire of one section. */
+/** Straight wire of one section. */
 inline Wire uniformWire(double length, double bending_stiffness, double radius, double density)
 {
   Section section;
@@ -24,8 +24,9 @@ inline Wire uniformWire(double length, double bending_stiffness, double radius, 
   return wire;
 }
 
-/** A clamped bench wire along x whose clamp acts exactly at the origin: the clamp of the discrete rod acts at the
- * middle of the first edge. @p length is the free one. */
+/** Boundary of a bench wire along x that is clamped exactly at the origin: the clamp of the discrete rod acts at the
+ *  middle of the first edge.
+ *  @param length free length [m] */
 inline Boundary clampAtOrigin(double length, int nodes)
 {
   Boundary boundary;
@@ -35,14 +36,14 @@ inline Boundary clampAtOrigin(double length, int nodes)
   return boundary;
 }
 
-/** Total length of the wire that has @p length free of a mid-edge clamp. */
+/** Total length of a wire with the free length @p length beyond a clamp at the middle of an edge. */
 inline double clampedLength(double length, int nodes)
 {
   return length * (nodes - 1) / (nodes - 1.5);
 }
 
-/** A bench wire along x held at both ends; clamps act at the origin and at (length, 0, 0), in the middles of the end
- * edges of the wire of heldLength(). */
+/** Boundary of a bench wire along x that is held at both ends, at the origin and at (length, 0, 0); clamps act at the
+ *  middles of the end edges of the wire of heldLength(). */
 inline Boundary heldAtBothEnds(double length, int nodes, EndHold hold)
 {
   Boundary boundary;
@@ -53,13 +54,14 @@ inline Boundary heldAtBothEnds(double length, int nodes, EndHold hold)
   return boundary;
 }
 
-/** Total length of the wire that has @p length between its holds. */
+/** Total length of a wire with @p length between its holds. */
 inline double heldLength(double length, int nodes, EndHold hold)
 {
   return hold == EndHold::kClamped ? length * (nodes - 1) / (nodes - 2) : length;
 }
 
-/** Steps until nothing moves any more; returns the number of steps, or −1 when it does not come to rest. */
+/** Steps until the wire is at rest.
+ *  @return the number of steps, or −1 when it does not come to rest */
 inline int settle(Stepper& stepper, State& state, StepInput input, double dt, double slowest, int max_steps)
 {
   PhaseTimer timer;
@@ -77,8 +79,8 @@ inline int settle(Stepper& stepper, State& state, StepInput input, double dt, do
   return -1;
 }
 
-/** Static equilibrium of the discrete wire: every step starts from rest, so that each is a damped Newton iteration
- *  on the energy. Long steps first, then shorter ones, because the constraints yield by 1e-10·tension·Δt².
+/** Computes the static equilibrium of the discrete wire. Every step starts from rest, so that it is a damped Newton
+ *  iteration on the energy. Shorter steps follow, because the constraints yield by 1e-10·tension·Δt².
  *  @param dt of the long steps, about the inverse of the lowest frequency [s]
  *  @return false when it still moves by more than 1e-13 m per step at the end */
 inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput input, double dt)

@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "rod/kkt/stack_layers.h"
+#include "rod/kkt/concentric_stack.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
 {
 
-/** A wire with a straight shaft and a pre-curved tip. */
+/** Wire with a straight shaft and a pre-curved tip. */
 inline Wire curvedTipWire(double length, double tip_length, double bending_stiffness, double radius, double curvature)
 {
   Wire wire = uniformWire(length - tip_length, bending_stiffness, radius, 6000.0);
@@ -27,7 +27,7 @@ inline std::vector<double> equalNodes(double length, int nodes)
   return position;
 }
 
-/** Fluid that brings a wire to rest, no weight. */
+/** Viscous fluid without weight, in which a wire comes to rest. */
 inline Environment calm()
 {
   Environment environment;

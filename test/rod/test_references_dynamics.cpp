@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/rod_fixtures.h"
 
-// Motion against the continuum and against backward Euler's own numbers (references 10), momentum (11), and the order
-// in the time step.
+// Motion against the continuum and against the exact solution of backward Euler (references 10), momentum (11), and the
+// order in the time step.
 
 namespace endovascular_sim::rod
 {
@@ -25,14 +26,14 @@ Boundary freeWire()
   return boundary;
 }
 
-/** One transverse mode of the discrete straight wire. */
+/** Transverse mode of the discrete straight wire. */
 struct Mode
 {
   double frequency;       ///< [rad/s]
   Eigen::VectorXd shape;  ///< y of every node, largest 1
 };
 
-/** Mode number @p index by frequency, from the stiffness that the stepper's own elastic forces have. */
+/** Mode number @p index by frequency, from the stiffness of the stepper's own elastic forces. */
 Mode modeOf(KktStepper& stepper, int held_nodes, int index)
 {
   const int n = stepper.discretisation().nodes();
@@ -44,7 +45,7 @@ Mode modeOf(KktStepper& stepper, int held_nodes, int index)
   {
     State state = stepper.initialState(0.0, 0.0);
     state.position[held_nodes + i].y() += small;
-    const std::vector<Eigen::Vector3d> gradient = stepper.elasticGradient(state, StepInput());
+    const std::vector<Eigen::Vector3d> gradient = KktStepperPeer::elasticGradient(stepper, state, StepInput());
     for (int j = 0; j < free; ++j)
       stiffness(j, i) = gradient[held_nodes + j].y() / small;
     mass[i] = stepper.discretisation().mass[held_nodes + i];
@@ -58,14 +59,14 @@ Mode modeOf(KktStepper& stepper, int held_nodes, int index)
   return mode;
 }
 
-/** What one step does to the amplitude of a mode: multiplies it by growth·exp(±i·angle). */
+/** Factor growth·exp(±i·angle) of a mode's amplitude in one step. */
 struct Propagation
 {
   double growth;
   double angle;  ///< [rad]
 };
 
-/** Lets a wire swing in one mode with a tiny amplitude, and fits q(k+1) = a q(k) − b q(k−1) to the first steps. */
+/** Fit of q(k+1) = a q(k) − b q(k−1) to the first steps of a wire that swings in one mode with a tiny amplitude. */
 Propagation swing(KktStepper& stepper, const Mode& mode, double dt)
 {
   State state = stepper.initialState(0.0, 0.0);
@@ -95,7 +96,7 @@ Propagation swing(KktStepper& stepper, const Mode& mode, double dt)
   return {growth, std::acos(0.5 * fit[0] / growth)};
 }
 
-/** Frequency of the undamped wire whose backward Euler step turns by @p angle [rad/s]. */
+/** Frequency of the undamped wire with the phase @p angle per backward Euler step [rad/s]. */
 double frequencyOf(const Propagation& propagation, double dt)
 {
   return std::tan(propagation.angle) / dt;
@@ -140,7 +141,7 @@ TEST(ReferencesDynamics, DampsAModeAsBackwardEulerDoesAndNothingElse)
   EXPECT_NEAR(swing(stepper, mode, 0.5 / mode.frequency).growth, 1.0 / std::sqrt(1.25), 1e-6);
 }
 
-/** Tip of a cantilever that falls from its straight state, after a time. */
+/** Position of the tip of a cantilever some time after its release from the straight state. */
 Eigen::Vector3d fallenTip(double dt, double time)
 {
   const int nodes = 31;
@@ -172,8 +173,8 @@ TEST(ReferencesDynamics, LargeMotionConvergesWithFirstOrderInTheTimeStep)
   EXPECT_NEAR(std::log2((coarse - fine).norm() / (fine - finest).norm()), 1.0, 0.1);
 }
 
-/** Largest change of angular momentum in one step of a free wire in tumbling motion, relative, that its inner forces
- *  make: about the origin, moments of the forces act at the new positions. */
+/** Largest relative change of angular momentum by inner forces in one step of a tumbling free wire, about the origin;
+ *  forces act at the new positions. */
 TEST(ReferencesDynamics, InnerForcesOfAFreeWireChangeNeitherMomentumNorMomentOfMomentum)
 {
   const int nodes = 31;
@@ -212,7 +213,7 @@ TEST(ReferencesDynamics, InnerForcesOfAFreeWireChangeNeitherMomentumNorMomentOfM
   EXPECT_GT((state.position.front() - state.position.back()).cross(Eigen::Vector3d::UnitX()).norm(), 1e-3);
 }
 
-/** Backward Euler takes angular momentum from a free wire that turns, in proportion to the time step. */
+/** Backward Euler reduces the angular momentum of a rotating free wire in proportion to the time step. */
 TEST(ReferencesDynamics, LossOfAngularMomentumIsOfFirstOrderInTheTimeStep)
 {
   const auto loss = [](double dt)

@@ -4,7 +4,7 @@
 #include "test/rod/rod_fixtures.h"
 
 // Torque transmission on a prescribed planar centreline (References 07): GJ φ″ = EI κ κ0 sin φ, φ between the wire's
-// natural bend and the centreline's; φ_in is the hand's angle, φ_out the tip's.
+// natural bend and the centreline's; φ_in is the handle's angle, φ_out the tip's.
 
 namespace endovascular_sim::rod
 {
@@ -14,8 +14,7 @@ namespace
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kStiffness = 1e-3;  // EI and GJ of the bend's wire [N·m²]
 
-/** A wire on a planar centreline that turns by the same angle at each of its last nodes; held at the middle of its
- *  first edge. */
+/** Wire on a planar centreline with equal turning angles at its last nodes, held at the middle of its first edge. */
 struct PlanarBend
 {
   PlanarBend(const Wire& wire, int nodes, int bent_nodes, double turn) : rod(discretiseUniformly(wire, nodes))
@@ -34,7 +33,7 @@ struct PlanarBend
     hold.position = 0.5 * rod.rest_length[0];
   }
 
-  /** Turns the hand to an angle; returns the tip's. */
+  /** Turns the handle to an angle; returns the angle of the tip. */
   double turnTo(double angle)
   {
     hold.rotation = angle;
@@ -61,7 +60,7 @@ PlanarBend distributedBend(double lambda, int nodes)
   return PlanarBend(wire, nodes, nodes - 2, 2.0 * std::atan(0.5 * curvature * edge));
 }
 
-/** Hand angle at which the tip first reaches an angle, turned in small steps. */
+/** Angle of the handle, turned in small steps, at which the tip first reaches an angle. */
 double handAngleFor(PlanarBend& bend, double tip)
 {
   const double step = 0.25 * kDegree;
@@ -81,10 +80,10 @@ struct Transmission
   double lambda;
   double out;     ///< [deg]
   double in;      ///< [deg]
-  double torque;  ///< of the hand, TL/GJ
+  double torque;  ///< torque at the handle, TL/GJ
 };
 
-TEST(ReferencesTwist, HandAngleForATipAngleInABendIsThatOfTheContinuum)
+TEST(ReferencesTwist, HandleAngleForATipAngleInABendIsThatOfTheContinuum)
 {
   for (const Transmission& exact : {Transmission{0.5, 60.0, 66.26484711852943, 0.22078327533305434},
                                     Transmission{1.0, 60.0, 85.69151950722886, 0.9218174202195772},
@@ -118,12 +117,12 @@ TEST(ReferencesTwist, TransmissionConvergesWithSecondOrder)
 
 struct Snap
 {
-  double hand = NAN;  ///< the last before it [rad]
-  double from = NAN;  ///< of the tip
+  double hand = NAN;  ///< last angle of the handle before the snap-through [rad]
+  double from = NAN;  ///< last angle of the tip before it [rad]
   double to = NAN;
 };
 
-/** Turns the hand by steps until the tip jumps. */
+/** Turns the handle by steps until the tip snaps through. */
 Snap snapOf(PlanarBend& bend, double begin, double step, double end)
 {
   double before = bend.turnTo(begin);
@@ -137,7 +136,7 @@ Snap snapOf(PlanarBend& bend, double begin, double step, double end)
   return {};
 }
 
-TEST(ReferencesTwist, APreCurvedWireSnapsWhereTheContinuumDoesAndLandsOnItsNextState)
+TEST(ReferencesTwist, APreCurvedWireSnapsThroughAsTheContinuumAndReachesItsNextState)
 {
   struct Exact
   {
@@ -149,16 +148,16 @@ TEST(ReferencesTwist, APreCurvedWireSnapsWhereTheContinuumDoesAndLandsOnItsNextS
     PlanarBend bend = distributedBend(exact.lambda, 80);
     const Snap forward = snapOf(bend, 0.0, 0.05 * kDegree, 7.0);
     EXPECT_NEAR(forward.hand / kDegree, exact.in, 0.15);
-    EXPECT_NEAR(forward.from / kDegree, exact.out, 5.0);  // the slope is infinite there
+    EXPECT_NEAR(forward.from / kDegree, exact.out, 5.0);  // the slope is infinite at this point
     EXPECT_NEAR(forward.to / kDegree, exact.landing, 0.3);
-    // Turned back it stays on the other side for longer: hysteresis, symmetric about half a turn.
+    // Hysteresis, symmetric about half a turn.
     const Snap back = snapOf(bend, forward.hand + 0.2 * kDegree, -0.05 * kDegree, 0.0);
     EXPECT_NEAR(back.hand / kDegree, 360.0 - exact.in, 0.15);
     EXPECT_NEAR(back.to / kDegree, 360.0 - exact.landing, 0.3);
   }
 }
 
-TEST(ReferencesTwist, BelowAQuarterWaveTheTipFollowsTheHandWithoutASnap)
+TEST(ReferencesTwist, BelowAQuarterWaveTheTipFollowsTheHandleWithoutASnapThrough)
 {
   for (const double lambda : {0.9, 0.98})
   {
@@ -193,8 +192,8 @@ TEST(ReferencesTwist, ALongShaftWithAShortPreCurvedTipSnapsByTheLumpedFormula)
   EXPECT_NEAR(snap.to / kDegree, 308.6866410295673, 0.5);
 }
 
-// Null test: a straight isotropic wire turns at its tip exactly as at the hand, in any bend, without torque.
-TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
+// Null test: a straight isotropic wire turns at its tip exactly as at the handle, in any bend, without torque.
+TEST(ReferencesTwist, AStraightWireTransmitsTheHandlesAngleThroughAnyBend)
 {
   const int nodes = 60;
   Boundary boundary = clampAtOrigin(0.2, nodes);
@@ -217,7 +216,7 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
   ASSERT_LT(state.position.back().x(), 0.18);
   EXPECT_NEAR(state.twist_angle.back(), state.rotation, 1e-9);
   EXPECT_EQ(state.hand_torque, 0.0);
-  // The twist solver itself says the same when it is made to solve.
+  // The twist solver gives the same result when it solves this case.
   TwistBoundary hold;
   hold.position = 0.5 * stepper.discretisation().rest_length[0];
   hold.rotation = state.rotation;
@@ -227,8 +226,8 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandsAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
-// A bent tip that swings freely holds no torque; what is left of it is how far the tip lags behind the hand.
-TEST(ReferencesTwist, AHandThatTurnsABentTipInTheOpenFeelsLessThanAStepsTurnAndLessWithShorterSteps)
+// A bent tip that swings freely transmits no torque; the remaining torque comes from its lag behind the handle.
+TEST(ReferencesTwist, TorqueOfATurningHandleWithoutLoadIsThatOfLessThanOneStepAndDecreasesWithTheTimeStep)
 {
   constexpr double kRate = 4.0;        // rad/s
   constexpr double kCurvature = 80.0;  // 1/m
@@ -263,7 +262,7 @@ TEST(ReferencesTwist, AHandThatTurnsABentTipInTheOpenFeelsLessThanAStepsTurnAndL
 }
 
 // References 11: over one turn of a helix (radius 1, pitch 2π·0.5) the Bishop frame falls behind Frenet's by 2.8099
-// rad, in a polygon of 16, 64 edges by 2.8537, 2.8126. A director held alike at both ends sees that as twist.
+// rad, in a polygon of 16, 64 edges by 2.8537, 2.8126. With equal directors at both ends that angle is twist.
 TEST(ReferencesTwist, TransportAlongAHelixTurnsByItsTorsion)
 {
   for (const auto& [edges, torsion] : {std::make_pair(16, 2.853683510031414), std::make_pair(64, 2.8126358328821897)})

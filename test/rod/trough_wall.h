@@ -10,7 +10,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A tube about the x axis as the wall, the wire inside; every node has a contact where it is nearest to it. */
+/** Wall: a tube about the x axis with the wire inside; every node has a contact at the nearest point. */
 class TroughWall : public contact::ContactSource
 {
 public:

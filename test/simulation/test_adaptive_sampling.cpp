@@ -16,7 +16,7 @@ namespace
 
 const std::string kTube = std::string(PROJECT_DIR) + "/config/scenes/tube.yaml";
 
-/** The wire in the bent tube, driven by the test. */
+/** Wire in the bent tube, driven by the test. */
 struct Bench
 {
   explicit Bench(const std::vector<std::string>& overrides = {"sampling={kind: adaptive}"})
@@ -59,7 +59,7 @@ double wireMass(const rod::Discretisation& wire)
   return sum;
 }
 
-TEST(AdaptiveSampling, PutsNodesWhereTheWireBendsAndStaysInTheTube)
+TEST(AdaptiveSampling, RefinesBendsAndStaysInTheTube)
 {
   Bench bench;
   const double mass = wireMass(bench.simulation.discretisation());
@@ -94,7 +94,7 @@ TEST(AdaptiveSampling, PutsNodesWhereTheWireBendsAndStaysInTheTube)
   EXPECT_LT(bench.inserted(), 120);
 }
 
-TEST(AdaptiveSampling, KeepsTheGuidesOuterEndFineWhetherPushedOrDrawnBack)
+TEST(AdaptiveSampling, KeepsTheGuidesOuterEndFineWhenPushedAndPulled)
 {
   Bench bench;
   double insertion = 0.010;
@@ -156,10 +156,10 @@ std::vector<std::pair<int, double>> changesOfNodes(const std::vector<std::string
   return some;
 }
 
-TEST(AdaptiveSampling, DoesNotShakeTheHandWhereItChangesTheNodes)
+TEST(AdaptiveSampling, ChangesOfTheNodesAreNotFeltAtTheHandle)
 {
-  // The same run with and without the change before one step: all that differs is the change. On long facets and a soft
-  // wall, contacts lie between nodes, too.
+  // The same run with and without one change of the nodes. On long facets and a soft wall, contacts lie between nodes,
+  // too.
   const std::vector<std::string> stiff = {"sampling={kind: adaptive}"};
   const std::vector<std::string> soft = {"sampling={kind: adaptive, turn_per_edge: 0.1}", "vessel.stiffness=5e6",
                                          "vessel.tube.facet_length=3e-3"};
@@ -230,7 +230,7 @@ TEST(AdaptiveSampling, SamplesABenchWireToo)
   }
 }
 
-TEST(AdaptiveSampling, ServesTheSchemeOfThePaperToo)
+TEST(AdaptiveSampling, ServesThePaperScheme)
 {
   Bench bench({"sampling={kind: adaptive}", "solver.scheme=paper", "solver.time_step=0.0002", "drive.speed=0.1"});
   const int nodes = bench.simulation.discretisation().nodes();

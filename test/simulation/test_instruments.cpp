@@ -50,7 +50,7 @@ struct Bench
         std::make_unique<Simulation>(scene, scene::resolveEntry(scene.entry, vessel, scene.file), detector.get());
   }
 
-  /** Moves every hand evenly to where it is to be. */
+  /** Moves every handle evenly to its target. */
   void move(const std::vector<HandCommand>& to, int steps)
   {
     std::vector<HandCommand> from;
@@ -106,7 +106,7 @@ TEST(Instruments, ACatheterFollowsItsWireAndStaysWhenTheWireLeaves)
   EXPECT_NEAR(bench.simulation->hand(1).insertion, 0.12, 1e-9);
 }
 
-TEST(Instruments, WhatDoesNotFitWaitsOutsideUntilTheOtherOneHasLeft)
+TEST(Instruments, AnInstrumentThatDoesNotFitWaitsOutsideUntilTheOtherHasLeft)
 {
   Bench bench(stack(layer(kThickWire, 0.05) + layer(kCatheter, -0.1)));
   const double outside = bench.simulation->hand(1).insertion;
@@ -153,7 +153,7 @@ TEST(Instruments, AreRefusedWithAReason)
             std::string::npos);
 }
 
-TEST(Instruments, ABalloonGetsThePressureOfItsDriveAndNothingElseDoes)
+TEST(Instruments, OnlyABalloonGetsThePressureOfItsDrive)
 {
   const scene::Scene scene = scene::parseScene(
       stack(layer(kWire, 0.05) + "  - {instrument: {use: balloon_300_12_nc, name: balloon}, drive: {source: script, "

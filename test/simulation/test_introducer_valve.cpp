@@ -38,7 +38,7 @@ void run(Simulation& simulation, const scene::Scene& scene, int steps)
 
 }  // namespace
 
-TEST(IntroducerValve, AddsItsFrictionToTheHandAndChangesNothingElse)
+TEST(IntroducerValve, AddsItsFrictionToTheForceOnTheHandAndChangesNothingElse)
 {
   const scene::Scene free = scene::parseScene(kScene, "test");
   const scene::Scene held = scene::parseScene(kScene, "test", {"entry.valve_friction=0.1"});

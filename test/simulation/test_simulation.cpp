@@ -16,7 +16,7 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-/** A scene with its vessel, ready to run. */
+/** Scene with its vessel. */
 struct Bench
 {
   explicit Bench(const std::string& name, const std::vector<std::string>& overrides = {})
@@ -56,9 +56,9 @@ struct Bench
         const Eigen::Vector3d p = (1.0 - t) * x[i] + t * x[i + 1];
         const double r = (1.0 - t) * radius[i] + t * radius[i + 1];
         const double clearance = distance.closest(p).distance;
-        // The sign costs a look at every triangle: for every node, and for points so near that it matters.
-        const bool asked = k == 0 || clearance < r;
-        const bool outside = asked && geometry::windingNumber(vessel.mesh, p) < 0.5;
+        // The sign needs all triangles: computed for every node, and for points near the wall only.
+        const bool queried = k == 0 || clearance < r;
+        const bool outside = queried && geometry::windingNumber(vessel.mesh, p) < 0.5;
         deepest = std::max(deepest, outside ? r + clearance : r - clearance);
       }
     return deepest;
@@ -113,7 +113,7 @@ TEST(Simulation, KeepsTheWireInsideTheGeneratedAnatomy)
   expectInside(bench, 15.0, 1e-4, 3000);
 }
 
-TEST(Simulation, GoesTheSameWayWithTheBandedSolverAndWithSuiteSparse)
+TEST(Simulation, MovesAlikeWithTheBandedSolverAndWithSuiteSparse)
 {
   Bench banded("tube.yaml");
   Bench sparse("tube.yaml", {"solver.linear_solver=suitesparse"});
@@ -132,7 +132,7 @@ TEST(Simulation, GoesTheSameWayWithTheBandedSolverAndWithSuiteSparse)
   EXPECT_LT(worst, 1e-9 * banded.simulation->discretisation().length());
 }
 
-TEST(Simulation, ThePaperSchemeStaysInsideABentTubeAtSmallTimeStepsAndDeeperThanTheOther)
+TEST(Simulation, ThePaperSchemeStaysInsideABentTubeAtSmallTimeStepsAndPenetratesDeeperThanKkt)
 {
   const std::vector<std::string> overrides = {"solver.time_step=1e-4", "drive.initial_insertion=0.045",
                                               "drive.speed=0.05", "drive.travel=0.045", "vessel.friction=0"};
@@ -171,7 +171,7 @@ TEST(Simulation, GivesTheSameBitsTwice)
   EXPECT_EQ(run(), run());
 }
 
-TEST(Simulation, GoesOnWithOldContactSetsAndStaysInsideWhileTheyLast)
+TEST(Simulation, ContinuesWithStaleContactSetsAndStaysInsideWithinTheirMargin)
 {
   Bench bench("tube.yaml");
   for (int k = 0; k < 2500; ++k)
@@ -185,8 +185,7 @@ TEST(Simulation, GoesOnWithOldContactSetsAndStaysInsideWhileTheyLast)
   EXPECT_LE(bench.bruteForcePenetration(), 1e-4);
 }
 
-// A curved tip that is pushed about while contact sets fail at random once folded back onto itself: the solver then
-// refused every further step.
+// Contact sets missing at random, with a curved tip that may fold back onto itself: every step has a solution.
 TEST(Simulation, SolvesEveryStepOfAViolentHandWithContactSetsMissingAtRandom)
 {
   Bench bench("tube.yaml", {"instrument=instruments/guidewire_035_j.yaml", "sampling.nodes=300"});
@@ -247,7 +246,7 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
   EXPECT_LT(slipping.simulation->state().inserted_length, free.simulation->state().inserted_length - 1e-3);
 }
 
-TEST(Simulation, CarriesOverMotionThatIsFasterThanAHandInsteadOfDroppingIt)
+TEST(Simulation, CarriesOverMotionBeyondTheLargestSpeed)
 {
   Bench bench("straight_wire.yaml");
   for (int k = 0; k < 100; ++k)
@@ -256,7 +255,7 @@ TEST(Simulation, CarriesOverMotionThatIsFasterThanAHandInsteadOfDroppingIt)
 }
 
 // References 03: clamped wire, ends brought together by 0.1 L: PL²/EI = 41.5703, deflection 0.19492 L.
-TEST(Simulation, BringsTheEndsOfAWireTogetherAndTurnsTheFarOne)
+TEST(Simulation, BringsTheEndsOfAWireTogetherAndTurnsTheDistalOne)
 {
   Bench bench("buckling.yaml");
   const rod::Section& section = bench.scene.instruments.front().instrument.wire.sections[0];

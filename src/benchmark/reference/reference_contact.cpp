@@ -22,6 +22,7 @@ rod::StepperSettings settings()
   rod::StepperSettings settings;
   settings.strain_tolerance = 1e-6;
   settings.contact_stiffness = 1e6;
+  settings.corrected_strain_ratio = 0.0;
   settings.max_iterations = 30;
   return settings;
 }

@@ -184,6 +184,8 @@ LocalisedHelix localisedHelixInSteps(int nodes)
   boundary.origin = guess[0];
   rod::StepperSettings settings;
   settings.strain_tolerance = 1e-7;
+  settings.corrected_strain_ratio = 0.0;
+  settings.max_iterations = 12;
   ReferenceWire wire("kkt", rod, boundary, rod::Environment(), settings);
   wire.state.position = guess;
   wire.input.distal.displacement.x() = -kShortening;

@@ -7,7 +7,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kSharpest = 0.05;  // of 1 + cos: at a fold no sliding keeps the lengths, and w would be infinite
+constexpr double kSharpest = 0.05;  // lower bound of 1 + cos: at a fold w would be infinite
 
 }  // namespace
 

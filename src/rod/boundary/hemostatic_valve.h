@@ -5,11 +5,11 @@
 namespace endovascular_sim::rod
 {
 
-/** Dry friction of the introducer's valve on the wire that the hand drives through it: Coulomb's, which sticks.
+/** Coulomb friction, with sticking, of the introducer's valve on the wire.
  *
- *  The wire's surface is dragged along and about its axis; up to kPreSliding the valve pulls in proportion, beyond it
- *  slides: the pull is then `friction`, against the direction of sliding, so that turning a wire that is pushed takes
- *  its force away from pushing. Depends on the way only, not on the time that it takes. */
+ *  The wire's surface moves along and about its axis. Up to a displacement of kPreSliding the friction is proportional
+ * to it; beyond, the surface slides and the friction is constant, against the direction of sliding. Turning a wire that
+ * is pushed therefore reduces the axial friction. The law is independent of speed. */
 class HemostaticValve
 {
 public:
@@ -18,12 +18,15 @@ public:
   /** @param friction [N]; 0: no valve */
   explicit HemostaticValve(double friction) : friction_(friction) {}
 
-  /** Takes the valve out of the hand's force and torque, which are then the wire's own. */
+  /** True where there is a valve. */
+  bool present() const { return friction_ != 0.0; }
+
+  /** Subtracts the valve from the force and torque on the hand, which are then the wire's own. */
   void release(State& state) const;
 
-  /** Drags the valve's friction along, and adds it to the hand's force and torque.
+  /** Advances the valve's friction by a motion of the wire, and adds it to the force and torque on the hand.
    *  @param travel of the wire into the vessel [m]
-   *  @param turn [rad]
+   *  @param turn of the wire about its axis [rad]
    *  @param radius of the wire in the valve [m] */
   void drag(State& state, double travel, double turn, double radius) const;
 

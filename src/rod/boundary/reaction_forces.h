@@ -12,11 +12,11 @@
 namespace endovascular_sim::rod
 {
 
-/** What a solution leaves of three lines of a banded system, rhs − A x: of a held node's own equation, the force of the
- *  wire on its hold, in the system's units.
+/** Remainder rhs − A x of three rows of a banded system. For the equations of a held node it is the force of the wire
+ * on the hold, in the system's units.
  *  @param matrix before its rows were prescribed or factorised
- *  @param rhs of the three lines, likewise
- *  @param row first of the three lines */
+ *  @param rhs of the three rows, likewise
+ *  @param row first of the three rows */
 template <int Bandwidth, int Period>
 Eigen::Vector3d remainder(const BandedLdlt<Bandwidth, Period>& matrix, Eigen::Vector3d rhs,
                           const std::vector<double>& solution, int row)
@@ -30,12 +30,12 @@ Eigen::Vector3d remainder(const BandedLdlt<Bandwidth, Period>& matrix, Eigen::Ve
   return rhs;
 }
 
-/** Sets the forces of the wire on what holds its ends, and the axial one on the hand.
+/** Updates the forces of the wire on the holds of its ends, and the axial force on the hand.
  *
- *  The hand's force is taken from the equations of the held nodes, not from an edge's multiplier: in a bent edge that
- *  one holds a part of the bending too.
+ *  They are computed from the equations of the held nodes. An edge's multiplier is no substitute: in a bent edge it
+ *  contains a part of the bending force.
  *  @param is_held (int node) → bool
- *  @param force_on_hold (int node) → Eigen::Vector3d, of a held node [N] */
+ *  @param force_on_hold (int node) → Eigen::Vector3d, force of the wire on the hold of a node [N] */
 template <typename IsHeld, typename ForceOnHold>
 void updateEndForces(State& state, const Boundary& boundary, IsHeld is_held, ForceOnHold force_on_hold)
 {

@@ -29,12 +29,6 @@ ConcentricStack::ConcentricStack(std::vector<Layer> layers, const std::vector<do
   setNodes(position);
 }
 
-void ConcentricStack::exchange(int k, Layer layer)
-{
-  layers_[k] = std::move(layer);
-  profiles_[k].setWire(layers_[k].wire);
-}
-
 void ConcentricStack::setNodes(const std::vector<double>& position)
 {
   for (LayerProfile& profile : profiles_)

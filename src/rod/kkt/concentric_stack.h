@@ -7,20 +7,20 @@
 namespace endovascular_sim::rod
 {
 
-/** One of several instruments, one inside the other. */
+/** Instrument of a stack, in which each lies inside the next. */
 struct Layer
 {
   Wire wire;
-  double friction = 0.0;  ///< Coulomb coefficient with the next outer layer
-  double fit_load = 0.0;  ///< normal load with which the two press on each other even when nothing bends [N/m]
+  double friction = 0.0;  ///< Coulomb coefficient with the next outer layer [1]
+  double fit_load = 0.0;  ///< normal load between the two without bending [N/m]
 };
 
 /** Several instruments on one centreline, as one rod (docs/PHYSICS.md, "Concentric stack").
  *
- *  All layers are isotropic in bending, so that the sum of their energies Σ B_k/c |κb − κ̄b_k|²/2 is that of one rod
- * with the stiffness B = Σ B_k and the rest curvature Σ B_k κ̄b_k / B, up to a constant. Only twist is each layer's own.
- *  The nodes are measured from the tip of the reference, the layer that reaches furthest, which is always at the last
- *  node: a change of the reference where two tips coincide changes no node. */
+ *  All layers are isotropic in bending. The sum of their energies, Σ B_k/c |κb − κ̄b_k|²/2, is therefore that of one rod
+ *  with the stiffness B = Σ B_k and the rest curvature Σ B_k κ̄b_k / B, up to a constant. Only the twist is each layer's
+ *  own. The last node is the tip of the reference, the layer that reaches furthest: a change of the reference where two
+ *  tips coincide changes no node. */
 class ConcentricStack
 {
 public:
@@ -33,23 +33,21 @@ public:
   const Layer& layer(int k) const { return layers_[k]; }
   const LayerProfile& profile(int k) const { return profiles_[k]; }
 
-  /** Puts another instrument in the place of a layer. */
-  void exchange(int k, Layer layer);
-
-  /** Other nodes for all. */
+  /** Sets the nodes of all layers. */
   void setNodes(const std::vector<double>& position);
 
-  /** Slides every layer to how far its tip lies behind the reference's [m], and updates the rod of them all.
+  /** Slides every layer over the nodes, and updates the properties of the rod of all layers.
+   *  @param behind distance of every layer's tip behind that of the reference [m]
    *  @param rod has the nodes of the stack */
   void place(const std::vector<double>& behind, Discretisation& rod);
 
-  /** Share of a node's surface that is a layer's, 0 to 1; all layers' shares together are 1. */
+  /** Part of a node's outer surface that belongs to a layer, 0 to 1; the parts of all layers add up to 1. */
   double outerShare(int k, int node) const { return outer_share_[static_cast<std::size_t>(node * count() + k)]; }
 
-  /** The layer whose surface a node's contacts are with: the outermost that covers half of it. */
+  /** Layer in contact with the wall at a node: the outermost one that covers half of the node. */
   int surfaceLayer(int node) const { return surface_layer_[node]; }
 
-  /** Share of a node that two layers cover both, 0 to 1. */
+  /** Part of a node that two layers both cover, 0 to 1. */
   double overlap(int k, int m, int node) const;
 
 private:

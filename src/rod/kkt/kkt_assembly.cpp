@@ -1,111 +1,109 @@
+#include "rod/kkt/kkt_assembly.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "rod/kkt/kkt_stepper.h"
-
-// The part of the scheme that sets up a solve's system: bending, constraints, nodes' masses and loads, the introducer.
 
 namespace endovascular_sim::rod
 {
 namespace
 {
 
-constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
-/** m of stretch per N of tension and kg of a node [s²]: nothing, but no zero pivot. */
+using Matrix = KktSystem::Matrix;
+
+/** Compliance of an edge times Δt² [s²]: negligible, but it keeps the pivots away from zero. */
 constexpr double kEdgeCompliance = 1e-16;
 constexpr double kSheathStiffness = 4e7;  // N/m², of the introducer's wall per length of wire
-constexpr double kMouthLength = 2.5e-3;   // m, of wire that the rim of its mouth stands for
+constexpr double kMouthLength = 2.5e-3;   // m, length of wire that the contact at the mouth's rim represents
 
 }  // namespace
 
-void KktStepper::addDiagonal(int node, double value)
+void KktAssembly::addDiagonal(int node, double value)
 {
-  const int r = row(node);
+  const int r = system_.row(node);
   for (int axis = 0; axis < 3; ++axis)
-    base_.at(r + axis, r + axis) += value;
+    system_.matrix.at(r + axis, r + axis) += value;
 }
 
-void KktStepper::addBlock(int node, const Eigen::Matrix3d& block)
+void KktAssembly::addBlock(int node, const Eigen::Matrix3d& block)
 {
-  const int r = row(node);
+  const int r = system_.row(node);
   for (int col = 0; col < 3; ++col)
     for (int line = col; line < 3; ++line)
-      base_.at(r + line, r + col) += block(line, col);
+      system_.matrix.at(r + line, r + col) += block(line, col);
 }
 
-void KktStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve)
+void KktAssembly::assemble(const KktIterate& at)
 {
-  const int n = rod_.nodes();
-  base_.reset(4 * (n - first_));
-  base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
-  base_.at(kIdleRow, kIdleRow) = -scale_;
-  resistance_.resize(static_cast<std::size_t>(n));
-  resisted_.resize(static_cast<std::size_t>(n));
-  surfaceAngles(state, surface_angle_);
-  const SurfaceMotion surface = surfaceMotion();
-  friction_.linearise(&surface);
-  addAllBending(state, dt);
-  for (int j = first_; j + 1 < n; ++j)
-    addConstraint(j, state, dt);
-  for (int i = first_; i < n; ++i)
-    addNodeTerms(i, state, dt, first_solve);
-  if (boundary_.introducer)
-    addMouth(state, dt);
-  for (const NodalForce& load : input.forces)
-    if (load.node >= first_)
+  const int n = model_.rod.nodes();
+  system_.reset(at.state.first_node, n);
+  resistance_.coefficient.resize(static_cast<std::size_t>(n));
+  resistance_.slide.resize(static_cast<std::size_t>(n));
+  addAllBending(at);
+  for (int j = system_.first; j + 1 < n; ++j)
+    addConstraint(j, at);
+  for (int i = system_.first; i < n; ++i)
+    addNodeTerms(i, at);
+  if (model_.boundary.introducer)
+    addMouth(at);
+  for (const NodalForce& load : at.forces)
+    if (load.node >= system_.first)
       for (int axis = 0; axis < 3; ++axis)
-        base_rhs_[row(load.node) + axis] += dt * dt * load.force[axis];
+        system_.rhs[system_.row(load.node) + axis] += at.dt * at.dt * load.force[axis];
 }
 
-/** What the bending of a node and of the one after it depends on; @p second is the same node where none is left. */
-BendingPairInput KktStepper::bendingInput(int first, int second, const State& state, double dt) const
+/** Input of the bending of two neighbouring nodes; @p second equals @p first at the last node of an odd number. */
+BendingPairInput KktAssembly::bendingInput(int first, int second, const KktIterate& at) const
 {
-  const std::vector<Eigen::Vector3d>& x = state.position;
+  const Discretisation& rod = model_.rod;
+  const TwistAction& twist = at.twist;
+  const double dt = at.dt;
+  const std::vector<Eigen::Vector3d>& x = at.state.position;
   BendingPairInput in;
   in.e = PairVector::of(x[first] - x[first - 1], x[second] - x[second - 1]);
   in.g = PairVector::of(x[first + 1] - x[first], x[second + 1] - x[second]);
-  const Pair before{rod_.rest_length[first - 1], rod_.rest_length[second - 1]};
-  const Pair after{rod_.rest_length[first], rod_.rest_length[second]};
+  const Pair before{rod.rest_length[first - 1], rod.rest_length[second - 1]};
+  const Pair after{rod.rest_length[first], rod.rest_length[second]};
   in.rest_product = before * after;
-  in.weight = dt * dt * Pair{rod_.bending_stiffness[first], rod_.bending_stiffness[second]} /
-              Pair{rod_.cell_length[first], rod_.cell_length[second]};
-  Eigen::Vector3d first_rest = state.curvature_offset[first];
-  Eigen::Vector3d second_rest = state.curvature_offset[second];
-  if (!action_.active)
+  in.weight = dt * dt * Pair{rod.bending_stiffness[first], rod.bending_stiffness[second]} /
+              Pair{rod.cell_length[first], rod.cell_length[second]};
+  Eigen::Vector3d first_rest = at.state.curvature_offset[first];
+  Eigen::Vector3d second_rest = at.state.curvature_offset[second];
+  if (!twist.active)
   {
     in.rest = PairVector::of(first_rest, second_rest);
     in.torque_before = in.torque_after = Pair{0.0, 0.0};
     return in;
   }
-  if (first >= action_.first_curved)
-    first_rest += action_.rest_binormal[first];
-  if (second >= action_.first_curved)
-    second_rest += action_.rest_binormal[second];
+  if (first >= twist.first_curved)
+    first_rest += twist.rest_binormal[first];
+  if (second >= twist.first_curved)
+    second_rest += twist.rest_binormal[second];
   in.rest = PairVector::of(first_rest, second_rest);
   // Gradient of the twist by the centreline (Bergou et al. 2010, eq. 7): ∂m/∂e = κb/(2|ē|) for both edges.
-  const Pair torque = 0.5 * dt * dt * Pair{action_.torque[first], action_.torque[second]};
+  const Pair torque = 0.5 * dt * dt * Pair{twist.torque[first], twist.torque[second]};
   in.torque_before = torque / before;
   in.torque_after = torque / after;
   return in;
 }
 
-void KktStepper::addAllBending(const State& state, double dt)
+void KktAssembly::addAllBending(const KktIterate& at)
 {
-  const int last = rod_.nodes() - 2;
-  for (int i = first_ + 1; i <= last; i += 2)
-    addBending(i, std::min(i + 1, last), BendingPair(bendingInput(i, std::min(i + 1, last), state, dt)));
+  const int last = model_.rod.nodes() - 2;
+  for (int i = system_.first + 1; i <= last; i += 2)
+    addBending(i, std::min(i + 1, last), BendingPair(bendingInput(i, std::min(i + 1, last), at)));
 }
 
-/** Adds the first node's terms, and the second's where it is another node. */
-void KktStepper::addBending(int first, int second, const BendingPair& bending)
+/** Adds the terms of the first node, and of the second where it differs. */
+void KktAssembly::addBending(int first, int second, const BendingPair& bending)
 {
   const auto& a = bending.before_before;
   const auto& b = bending.before_after;
   const auto& c = bending.after_after;
   for (int lane = 0; lane <= second - first; ++lane)
   {
-    const int proximal_row = row(first + lane - 1);
-    double* rhs = base_rhs_.data() + proximal_row;
+    const int proximal_row = system_.row(first + lane - 1);
+    double* rhs = system_.rhs.data() + proximal_row;
 #pragma GCC unroll 3
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -116,8 +114,8 @@ void KktStepper::addBending(int first, int second, const BendingPair& bending)
 #pragma GCC unroll 3
     for (int col = 0; col < 3; ++col)
     {
-      // Entry of a line below the column's diagonal; a node's rows lie 4 below those of the node before.
-      double* from0 = base_.column(proximal_row) + col * Matrix::kStride - col;
+      // Entries from the column's diagonal on; a node's rows lie 4 below those of the preceding node.
+      double* from0 = system_.matrix.column(proximal_row) + col * Matrix::kStride - col;
       double* from1 = from0 + 4 * Matrix::kStride;
       double* from2 = from1 + 4 * Matrix::kStride;
 #pragma GCC unroll 3
@@ -139,24 +137,27 @@ void KktStepper::addBending(int first, int second, const BendingPair& bending)
   }
 }
 
-void KktStepper::addConstraint(int edge, const State& state, double dt)
+void KktAssembly::addConstraint(int edge, const KktIterate& at)
 {
+  const State& state = at.state;
+  const double dt = at.dt;
+  const double scale = system_.scale;
   const Eigen::Vector3d e = state.position[edge + 1] - state.position[edge];
   const double length = e.norm();
   const double inverse = 1.0 / length;
   const Eigen::Vector3d direction = inverse * e;
-  const int r0 = row(edge);
-  const int rm = multiplierRow(edge);
+  const int r0 = system_.row(edge);
+  const int rm = system_.multiplierRow(edge);
   const double tension = std::max(0.0, state.tension[edge]) * dt * dt * inverse;
-  double* column0 = base_.column(r0);
-  double* column1 = base_.column(r0 + 4);
+  double* column0 = system_.matrix.column(r0);
+  double* column1 = system_.matrix.column(r0 + 4);
 #pragma GCC unroll 3
   for (int col = 0; col < 3; ++col)
   {
     double* from0 = column0 + col * Matrix::kStride - col;
     double* from1 = column1 + col * Matrix::kStride - col;
-    from0[7] = -scale_ * direction[col];
-    from1[3] = scale_ * direction[col];
+    from0[7] = -scale * direction[col];
+    from1[3] = scale * direction[col];
     if (tension <= 0.0)
       continue;
 #pragma GCC unroll 3
@@ -170,115 +171,107 @@ void KktStepper::addConstraint(int edge, const State& state, double dt)
       from1[line] += value;
     }
   }
-  base_.at(rm, rm) = -(kEdgeCompliance / (dt * dt)) * scale_;
-  base_rhs_[rm] = -scale_ * (length - rod_.rest_length[edge]);
+  system_.matrix.at(rm, rm) = -(kEdgeCompliance / (dt * dt)) * scale;
+  system_.rhs[rm] = -scale * (length - model_.rod.rest_length[edge]);
 }
 
-/** Where the wire passes the introducer's mouth, inside of an edge. */
-void KktStepper::addMouth(const State& state, double dt)
+/** Adds the contact of the wire with the rim of the introducer's mouth, inside an edge. */
+void KktAssembly::addMouth(const KktIterate& at)
 {
-  int edge = first_;
-  while (edge + 2 < rod_.nodes() && conditions_.bodyPosition(edge + 1, state.inserted_length) < 0.0)
+  const double inserted = at.state.inserted_length;
+  int edge = system_.first;
+  while (edge + 2 < model_.rod.nodes() && model_.conditions.bodyPosition(edge + 1, inserted) < 0.0)
     ++edge;
-  const double share = -conditions_.bodyPosition(edge, state.inserted_length) / rod_.rest_length[edge];
-  if (share >= 0.0 && share <= 1.0)
-    addSheath(edge, share, state, dt);
+  const double parameter = -model_.conditions.bodyPosition(edge, inserted) / model_.rod.rest_length[edge];
+  if (parameter >= 0.0 && parameter <= 1.0)
+    addSheath(edge, parameter, at);
 }
 
-/** The introducer is a tube: a point of the wire in it, at a share of an edge, stays within the clearance or near
- *  it. */
-void KktStepper::addSheath(int edge, double share, const State& state, double dt)
+/** Adds the contact of the introducer's tube with a point of the wire: a penalty beyond the radial clearance.
+ *  @param parameter of the point on its edge, 0 to 1 */
+void KktAssembly::addSheath(int edge, double parameter, const KktIterate& at)
 {
-  const std::array<double, 2> weight = {1.0 - share, share};
-  Eigen::Vector3d off = weight[0] * state.position[edge] - boundary_.origin;
-  if (share > 0.0)
-    off += share * state.position[edge + 1];
-  const Eigen::Vector3d lateral = off - boundary_.direction.dot(off) * boundary_.direction;
+  const Boundary& boundary = model_.boundary;
+  const std::array<double, 2> weight = {1.0 - parameter, parameter};
+  Eigen::Vector3d off = weight[0] * at.state.position[edge] - boundary.origin;
+  if (parameter > 0.0)
+    off += parameter * at.state.position[edge + 1];
+  const Eigen::Vector3d lateral = off - boundary.direction.dot(off) * boundary.direction;
   const double distance = lateral.norm();
-  if (distance <= boundary_.sheath_clearance)
+  if (distance <= boundary.sheath_clearance)
     return;
   const Eigen::Vector3d outward = lateral / distance;
-  const double length = share > 0.0 ? kMouthLength : rod_.cell_length[edge];
-  const double stiffness = dt * dt * kSheathStiffness * length;
-  const double tilt = 1.0 - boundary_.sheath_clearance / distance;  // the normal turns with the point
+  const double length = parameter > 0.0 ? kMouthLength : model_.rod.cell_length[edge];
+  const double stiffness = at.dt * at.dt * kSheathStiffness * length;
+  const double tilt = 1.0 - boundary.sheath_clearance / distance;  // the normal turns with the point
   const Eigen::Matrix3d radial = outward * outward.transpose();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary.direction * boundary.direction.transpose();
   const Eigen::Matrix3d hessian = stiffness * (radial + tilt * (across - radial));
-  const Eigen::Vector3d force = (stiffness * (distance - boundary_.sheath_clearance)) * outward;
-  for (int end = 0; end < (share > 0.0 ? 2 : 1); ++end)
+  const Eigen::Vector3d force = (stiffness * (distance - boundary.sheath_clearance)) * outward;
+  for (int end = 0; end < (parameter > 0.0 ? 2 : 1); ++end)
   {
     for (int axis = 0; axis < 3; ++axis)
-      base_rhs_[row(edge + end) + axis] -= weight[end] * force[axis];
+      system_.rhs[system_.row(edge + end) + axis] -= weight[end] * force[axis];
     addBlock(edge + end, weight[end] * weight[end] * hessian);
   }
-  for (int col = 0; share > 0.0 && col < 3; ++col)
+  for (int col = 0; parameter > 0.0 && col < 3; ++col)
     for (int line = 0; line < 3; ++line)
-      base_.at(row(edge + 1) + line, row(edge) + col) += weight[0] * weight[1] * hessian(line, col);
+      system_.matrix.at(system_.row(edge + 1) + line, system_.row(edge) + col) +=
+          weight[0] * weight[1] * hessian(line, col);
 }
 
-/** Less the mass of the fluid that the node displaces [kg]. */
-double KktStepper::heavyMass(int node) const
+void KktAssembly::addNodeTerms(int node, const KktIterate& at)
 {
-  const double displaced =
-      environment_.fluid_density * M_PI * rod_.radius[node] * rod_.radius[node] * rod_.cell_length[node];
-  return rod_.mass[node] - displaced;
-}
-
-double KktStepper::dragCoefficient(int node, double speed, const State& state) const
-{
-  if (environment_.fluid_density <= 0.0 ||
-      (boundary_.introducer && conditions_.bodyPosition(node, state.inserted_length) < 0.0))
-    return 0.0;
-  return environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] * rod_.cell_length[node] *
-         speed;
-}
-
-void KktStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
-{
-  const double mass = rod_.mass[node];
-  const Eigen::Vector3d travel = state.position[node] - begin_[node];
-  Eigen::Vector3d residual = mass * (travel - dt * state.velocity[node]);
-  if (!environment_.gravity.isZero(0.0))
-    residual -= (dt * dt * heavyMass(node)) * environment_.gravity;
-  const double damped = mass * dt * environment_.damping;
+  const double dt = at.dt;
+  const double mass = model_.rod.mass[node];
+  const Eigen::Vector3d travel = at.state.position[node] - at.begin[node];
+  Eigen::Vector3d residual = mass * (travel - dt * at.state.velocity[node]);
+  if (!model_.environment.gravity.isZero(0.0))
+    residual -= (dt * dt * model_.immersedMass(node)) * model_.environment.gravity;
+  const double damped = mass * dt * model_.environment.damping;
   residual += damped * travel;
   addDiagonal(node, mass + damped);
-  resistance_[node] = damped;
-  resisted_[node].setZero();
-  const double beyond = conditions_.bodyPosition(node, state.inserted_length);
-  Eigen::Vector3d velocity = first_solve ? state.velocity[node] : Eigen::Vector3d(travel / dt);
-  const bool slides = massSlide() != nullptr && !restoring_;
-  if (slides)
+  resistance_.coefficient[node] = damped;
+  resistance_.slide[node].setZero();
+  Eigen::Vector3d velocity = at.first_solve ? at.state.velocity[node] : Eigen::Vector3d(travel / dt);
+  if (at.slides != nullptr)
   {
-    const MassSlide& slide = (*massSlide())[node];
+    const MassSlide& slide = at.slides->mass[node];
     residual += mass * slide.gained;
-    resisted_[node] = damped * slide.travel;
-    velocity += (*surfaceSlide())[node] / dt;
+    resistance_.slide[node] = damped * slide.travel;
+    velocity += at.slides->surface[node] / dt;
   }
-  const double coefficient = dragCoefficient(node, velocity.norm(), state);
+  const double coefficient = model_.dragCoefficient(node, velocity.norm(), at.state);
   if (coefficient != 0.0)
   {
     const double drag = dt * coefficient;
     residual += drag * travel;
     addDiagonal(node, drag);
-    resistance_[node] += drag;
-    if (slides)
-      resisted_[node] += drag * (*surfaceSlide())[node];
+    resistance_.coefficient[node] += drag;
+    if (at.slides != nullptr)
+      resistance_.slide[node] += drag * at.slides->surface[node];
   }
-  if (slides)
-    residual += resisted_[node];
-  if (boundary_.introducer && beyond < 0.0 && beyond >= -boundary_.guide_length)
-  {
-    const double depth = beyond / boundary_.guide_length;
-    const double stiffness = dt * dt * boundary_.guide_stiffness * rod_.cell_length[node] * depth * depth;
-    const Eigen::Matrix3d across =
-        stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
-    residual += across * (state.position[node] - boundary_.origin);
-    addBlock(node, across);
-    addSheath(node, 0.0, state, dt);
-  }
+  if (at.slides != nullptr)
+    residual += resistance_.slide[node];
+  addGuide(node, at, residual);
   for (int axis = 0; axis < 3; ++axis)
-    base_rhs_[row(node) + axis] -= residual[axis];
+    system_.rhs[system_.row(node) + axis] -= residual[axis];
+}
+
+/** Adds the lateral force of the introducer's guide, whose stiffness fades towards the mouth, and its tube. */
+void KktAssembly::addGuide(int node, const KktIterate& at, Eigen::Vector3d& residual)
+{
+  const Boundary& boundary = model_.boundary;
+  const double beyond = model_.conditions.bodyPosition(node, at.state.inserted_length);
+  if (!boundary.introducer || beyond >= 0.0 || beyond < -boundary.guide_length)
+    return;
+  const double depth = beyond / boundary.guide_length;
+  const double stiffness = at.dt * at.dt * boundary.guide_stiffness * model_.rod.cell_length[node] * depth * depth;
+  const Eigen::Matrix3d across =
+      stiffness * (Eigen::Matrix3d::Identity() - boundary.direction * boundary.direction.transpose());
+  residual += across * (at.state.position[node] - boundary.origin);
+  addBlock(node, across);
+  addSheath(node, 0.0, at);
 }
 
 }  // namespace endovascular_sim::rod

@@ -1,57 +1,76 @@
+#include "rod/kkt/kkt_reactions.h"
+
 #include "rod/boundary/hand_force_parts.h"
 #include "rod/boundary/reaction_forces.h"
-#include "rod/kkt/kkt_stepper.h"
-
-// Reaction forces at the held ends, and the parts of the handle force.
 
 namespace endovascular_sim::rod
 {
-
-/** Force of the wire on what holds a node: what is left of the node's own equation at the solution [N]. */
-Eigen::Vector3d KktStepper::forceOnHold(int node, double dt) const
+namespace
 {
-  return remainder(base_, Eigen::Vector3d(base_rhs_.data() + row(node)), rhs_, row(node)) / (dt * dt);
+
+void updateTensions(const KktSolution& solution, State& state)
+{
+  const double to_force = solution.system.scale / (solution.dt * solution.dt);
+  for (int j = state.first_node; j + 1 < solution.model.rod.nodes(); ++j)
+    state.tension[j] = to_force * solution.unknowns[solution.system.multiplierRow(j)];
 }
 
-void KktStepper::updateEndForces(State& state, double dt) const
+/** Force of the wire on the hold of a node: the remainder of the node's own equation [N]. */
+Eigen::Vector3d forceOnHold(const KktSolution& solution, int node)
 {
-  const int free = conditions_.firstFreeNode(state);
-  rod::updateEndForces(
-      state, boundary_, [this, free](int node) { return node < free || conditions_.isDistalHeld(node); },
-      [this, dt](int node) { return forceOnHold(node, dt); });
+  const KktSystem& system = solution.system;
+  const int row = system.row(node);
+  return remainder(system.matrix, Eigen::Vector3d(system.rhs.data() + row), solution.unknowns, row) /
+         (solution.dt * solution.dt);
 }
 
-/** Bending takes what the others leave: elastic forces, the wall's normal ones and the guide's. */
-void KktStepper::updateHandParts(State& state, double dt)
+}  // namespace
+
+void KktReactions::update(const KktSolution& solution, State& state)
 {
-  const int n = rod_.nodes();
-  slideAlongItself(state.position, motion_, first_, conditions_.firstFreeNode(state) - 1, boundary_.direction, slide_);
-  const double inverse = 1.0 / dt;
-  const std::vector<MassSlide>* mass_slide = massSlide();
-  const bool heavy = !environment_.gravity.isZero(0.0);
+  updateTensions(solution, state);
+  const BoundaryConditions& conditions = solution.model.conditions;
+  const int free = conditions.firstFreeNode(state);
+  updateEndForces(
+      state, solution.model.boundary,
+      [&conditions, free](int node) { return node < free || conditions.isDistalHeld(node); },
+      [&solution](int node) { return forceOnHold(solution, node); });
+  updateHandParts(solution, state);
+}
+
+/** Bending is the remainder of the force: elastic forces, the normal forces of the wall and those of the guide. */
+void KktReactions::updateHandParts(const KktSolution& solution, State& state)
+{
+  const KktModel& model = solution.model;
+  const int n = model.rod.nodes();
+  const int first = state.first_node;
+  slideAlongItself(state.position, solution.motion, first, model.conditions.firstFreeNode(state) - 1,
+                   model.boundary.direction, slide_);
+  const double inverse = 1.0 / solution.dt;
+  const bool heavy = !model.environment.gravity.isZero(0.0);
   HandForceParts parts;
   parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
-  for (int i = first_; i < n; ++i)
+  for (int i = first; i < n; ++i)
   {
-    const double travel = slide_[i].dot(state.position[i] - begin_[i]);
-    parts.inertia += rod_.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
-    parts.drag += resistance_[i] * inverse * inverse * travel;
-    if (mass_slide != nullptr)
+    const double travel = slide_[i].dot(state.position[i] - solution.begin[i]);
+    parts.inertia += model.rod.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
+    parts.drag += solution.resistance.coefficient[i] * inverse * inverse * travel;
+    if (solution.slides != nullptr)
     {
-      parts.inertia += rod_.mass[i] * inverse * inverse * slide_[i].dot((*mass_slide)[i].gained);
-      parts.drag += inverse * inverse * slide_[i].dot(resisted_[i]);
+      parts.inertia += model.rod.mass[i] * inverse * inverse * slide_[i].dot(solution.slides->mass[i].gained);
+      parts.drag += inverse * inverse * slide_[i].dot(solution.resistance.slide[i]);
     }
     if (heavy)
-      parts.load -= heavyMass(i) * slide_[i].dot(environment_.gravity);
+      parts.load -= model.immersedMass(i) * slide_[i].dot(model.environment.gravity);
   }
-  for (const NodalForce& force : last_input_.forces)
-    if (force.node >= first_)
+  for (const NodalForce& force : solution.forces)
+    if (force.node >= first)
       parts.load -= slide_[force.node].dot(force.force);
   parts.load += slide_.back().dot(state.distal_force);
-  for (std::size_t k = 0; k < friction_.count(); ++k)
+  for (std::size_t k = 0; k < solution.friction.count(); ++k)
   {
-    const WallFriction::Term& term = friction_.term(k);
-    parts.friction += slide_[term.node].dot(term.pull + term.stiffness * motion_[term.node]);
+    const WallFriction::Term& term = solution.friction.term(k);
+    parts.friction += slide_[term.node].dot(term.pull + term.stiffness * solution.motion[term.node]);
   }
   parts.bending = state.hand_force - (parts.friction + parts.inertia + parts.drag + parts.load);
   state.hand_parts = parts;

@@ -1,10 +1,12 @@
 #include "rod/kkt/kkt_stepper.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "rod/boundary/boundary_conditions.h"
+#include "common/archive.h"
+#include "rod/kkt/layer_stack.h"
+#include "rod/kkt/single_layer.h"
+#include "rod/kkt/turn_truncation.h"
 #include "rod/sampling/resampling.h"
 
 namespace endovascular_sim::rod
@@ -12,90 +14,43 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr int kIdleRow = 3;  // after the first node's, where a multiplier would stand
 constexpr double kEnergyGrowth = 1.1;
 constexpr int kMaxRestoringSolves = 4;
-constexpr double kRestoringFraction = 0.03;  // of the time step, and at most
-constexpr double kRestoringTime = 30e-6;     // s: elastic forces move next to nothing in it
-constexpr double kLargestMotion = 1e3;       // m: beyond it a solution counts as failed
+constexpr double kRestoringFraction = 0.03;  // of the time step, and at most kRestoringTime
+constexpr double kRestoringTime = 30e-6;     // s: elastic forces cause negligible motion in it
 constexpr double kLargestStrain = 1e-2;      // that a step may leave, e.g. of a straight wire that is shortened
-constexpr double kLargestTension = 1e9;      // the same, in units of the multiplier
+constexpr int kMaxDepthHalvings = 6;
+
+/** A rod with the stack's nodes, whose properties the stack sets. */
+Discretisation rodOf(const std::vector<Layer>& layers, const std::vector<double>& position)
+{
+  const auto longest = std::max_element(
+      layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.wire.length() < b.wire.length(); });
+  if (longest == layers.end() || position.size() < 3)
+    throw std::invalid_argument("KktStepper: at least one layer and three nodes");
+  return discretise(longest->wire, position);
+}
+
+double scaleOf(const Discretisation& rod)
+{
+  return rod.mass[static_cast<std::size_t>(rod.nodes() / 2)];
+}
 
 }  // namespace
 
 KktStepper::KktStepper(Discretisation rod, Boundary boundary, Environment environment, StepperSettings settings)
-  : rod_(std::move(rod)), boundary_(std::move(boundary)), environment_(std::move(environment)), settings_(settings)
+  : model_(std::move(rod), std::move(boundary), std::move(environment), settings),
+    layers_(std::make_unique<SingleLayer>(model_))
 {
-  scale_ = rod_.mass[static_cast<std::size_t>(rod_.nodes() / 2)];
+  system_.scale = scaleOf(model_.rod);
 }
 
-State KktStepper::initialState(double inserted_length, double rotation) const
+KktStepper::KktStepper(const std::vector<Layer>& layers, const std::vector<double>& position, Boundary boundary,
+                       Environment environment, StepperSettings settings)
+  : model_(rodOf(layers, position), std::move(boundary), std::move(environment), settings),
+    layers_(std::make_unique<LayerStack>(layers, model_))
 {
-  return conditions_.initialState(inserted_length, rotation);
-}
-
-void KktStepper::placePrescribedNodes(State& state, double inserted_length, double dt)
-{
-  const PlacedNodes placed = conditions_.placePrescribedNodes(state, inserted_length, dt);
-  for (int i = placed.begin; i < placed.end; ++i)
-    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
-  for (int i = placed.begin; i < placed.born; ++i)
-    begin_twist_[i] = state.rotation;
-  first_ = state.first_node;
-}
-
-KktStepper::TwistAction KktStepper::relaxTwist(State& state, const StepInput& input,
-                                               const std::vector<TwistFriction>& friction)
-{
-  TwistBoundary boundary = conditions_.twistBoundary(state, input);
-  boundary.friction = &friction;
-  if (!QuasiStaticTwist::matters(rod_, boundary))
-  {
-    std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
-    state.hand_torque = state.distal_torque = 0.0;
-    return {};
-  }
-  PhaseTimer::Scope scope(*timer_, Phase::kTwist);
-  twist_.solve(rod_, boundary, state);
-  return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
-}
-
-bool KktStepper::run(State& state, const StepInput& input, double dt, StepReport& report)
-{
-  return advance(state, input, dt, report);
-}
-
-void KktStepper::refreshRod(State& /*state*/, const StepInput& /*input*/, double /*dt*/) {}
-
-void KktStepper::complete(State& /*state*/, double /*dt*/) {}
-
-/** Twist was relaxed with the hand turned on already and the centreline not yet: while a hand turns, that torque is too
- *  large by the bent tip's stiffness times the turn of a step. */
-void KktStepper::renewTorques(State& state, const StepInput& input)
-{
-  kept_twist_ = state.twist_angle;
-  relaxTwist(state, input, friction_.lastAboutAxis());
-  state.twist_angle.swap(kept_twist_);
-}
-
-void KktStepper::surfaceAngles(const State& state, std::vector<double>& angle) const
-{
-  angle.resize(state.position.size());
-  for (int i = state.first_node; i < rod_.nodes(); ++i)
-    angle[i] = nodeAngle(state.twist_angle, i, state.first_node);
-}
-
-void KktStepper::surfaceBeginAngles(const State& state, std::vector<double>& angle) const
-{
-  angle.resize(state.position.size());
-  for (int i = state.first_node; i < rod_.nodes(); ++i)
-    angle[i] = nodeAngle(begin_twist_, i, state.first_node);
-}
-
-double KktStepper::handWork(const State& before, const State& after) const
-{
-  return std::abs(after.hand_force * (after.inserted_length - before.inserted_length)) +
-         std::abs(after.hand_torque * (after.rotation - before.rotation));
+  system_.scale = scaleOf(model_.rod);
 }
 
 StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
@@ -105,9 +60,10 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   timer_ = &timer;
   motion_.resize(state.position.size());
   last_input_ = input;
+  if (layers_->beginStep(state, input, dt, friction_))
+    contacts_.invalidate();
   StepReport report;
-  if (!run(state, input, dt, report))
-    report.solved = false;
+  report.solved = advance(state, layers_->centrelineInput(state, input), dt, report);
   report.max_strain = strain_;
   return report;
 }
@@ -119,13 +75,15 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, StepRe
       [this, &report](State& part, const State& before, const StepInput& at, double part_dt, bool shortest)
       { return solveStep(part, at, part_dt, report) && (shortest || !gainedEnergy(before, part, part_dt)); },
       [this] { contacts_.invalidate(); });
-  if (!solved)
-    strain_ = maxStrain(rod_, state);
-  return solved;
+  if (solved)
+    return true;
+  layers_->stop(state);
+  strain_ = maxStrain(model_.rod, state);
+  return false;
 }
 
-/** Whether a step that was accepted unfinished has more energy than it began with and the hand gave: a snap that was
- *  too violent for the step. */
+/** True where a step that was accepted at the limit of solves has more energy than at its beginning and the work of the
+ *  handle: a snap-through too violent for the step. */
 bool KktStepper::gainedEnergy(const State& before, const State& state, double dt)
 {
   if (!hit_iteration_limit_)
@@ -134,218 +92,221 @@ bool KktStepper::gainedEnergy(const State& before, const State& state, double dt
   double mass = 0.0;
   double kinetic = 0.0;
   double kinetic_before = 0.0;
-  for (int i = first_; i < rod_.nodes(); ++i)
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
   {
-    mass += rod_.mass[i];
-    kinetic += 0.5 * rod_.mass[i] * state.velocity[i].squaredNorm();
-    kinetic_before += 0.5 * rod_.mass[i] * before.velocity[i].squaredNorm();
+    mass += model_.rod.mass[i];
+    kinetic += 0.5 * model_.rod.mass[i] * state.velocity[i].squaredNorm();
+    kinetic_before += 0.5 * model_.rod.mass[i] * before.velocity[i].squaredNorm();
   }
-  const double given = handWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt);
-  PhaseTimer* const timer = timer_;
+  const double work = layers_->handleWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt);
   const Energy elastic_before = energy(before);
   const Energy elastic = energy(state);
-  timer_ = timer;
-  const double allowed = kEnergyGrowth * (kinetic_before + elastic_before.bending + elastic_before.twist) + given;
+  const double allowed = kEnergyGrowth * (kinetic_before + elastic_before.bending + elastic_before.twist) + work;
   return kinetic + elastic.bending + elastic.twist > allowed;
 }
 
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
-  begin_twist_ = state.twist_angle;
-  const bool turned = turns(state, input);
-  refreshRod(state, input, dt);
-  placePrescribedNodes(state, input.inserted_length, dt);
-  conditions_.placeDistalEnd(state, input.distal, dt);
-  state.rotation = input.rotation;
+  const bool turned = layers_->advance(state, input, dt);
+  placeEnds(state, input, dt);
   contacts_.refresh(state, report);
   contacts_.settle(state);
-  hit_iteration_limit_ = false;
-  bool moved = true;
-  for (int solve = 0; solve < settings_.max_iterations; ++solve)
-  {
-    collectFriction(state, dt, solve == 0);
-    action_ = relaxTwist(state, input, friction_.aboutAxis());
-    {
-      PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
-      contacts_.prepare(state, dt);
-      assemble(state, input, dt, solve == 0);
-    }
-    ++report.solves;
-    if (!solveActiveSet(state, dt, report))
-      return false;
-    correctLengths(state);
-    const double factor = move(state, truncation(state, report), report);
-    // Where nothing could move twice the next solve would be the same again.
-    const bool last = solve + 1 == settings_.max_iterations || (factor == 0.0 && !moved);
-    moved = factor != 0.0;
-    if (solve > 0)
-      contacts_.retainActiveContacts(state);
-    if (factor == 1.0)
-      accept(state, dt);
-    if (contacts_.present() && contacts_.set().stale)
-      break;  // one solve per step is all that old contacts are good for
-    strain_ = maxStrain(rod_, state);
-    if (factor == 1.0 && strain_ <= settings_.strain_tolerance && !contacts_.foundUnknown(state))
-      break;
-    hit_iteration_limit_ = last;
-    report.hit_iteration_limit += last;
-    if (last && (!restoreLengths(state, input, dt, report) || maxStrain(rod_, state) > kLargestStrain))
-      return false;
-    if (last)
-      break;
-  }
+  if (!iterate(state, input, dt, report))
+    return false;
   contacts_.releaseRetained();
   finish(state, dt);
   if (turned)
-    renewTorques(state, input);
+    layers_->updateTorques(state, input, friction_.lastAboutAxis(), *timer_);
   if (fading_)
     fading_ = fadeOffsets(state, dt);
   return true;
 }
 
-/** After a step that was accepted unfinished (a snap that the trust region cut short): brings the edges back to their
- *  lengths without moving on, by solves over a small fraction of the step from rest. */
-bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt, StepReport& report)
+void KktStepper::placeEnds(State& state, const StepInput& input, double dt)
 {
-  restore_begin_ = begin_;
-  restore_velocity_ = state.velocity;
-  bool solved = true;
-  restoring_ = true;
-  for (int solve = 0; solve < kMaxRestoringSolves && solved; ++solve)
+  const PlacedNodes placed = model_.conditions.placePrescribedNodes(state, input.inserted_length, dt);
+  for (int i = placed.begin; i < placed.end; ++i)
+    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
+  model_.conditions.placeDistalEnd(state, input.distal, dt);
+  state.rotation = input.rotation;
+}
+
+/** Solves a step until its strain and its contacts are within their tolerances. */
+bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  hit_iteration_limit_ = false;
+  bool moved = true;
+  for (int k = 0; k < model_.settings.max_iterations; ++k)
   {
-    if (maxStrain(rod_, state) <= settings_.strain_tolerance)
-      break;
-    begin_ = state.position;
-    std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
-    const double fraction = std::min(kRestoringFraction * dt, kRestoringTime);
-    contacts_.prepare(state, fraction);
-    collectFriction(state, fraction, true);
-    assemble(state, input, fraction, true);
+    collectFriction(state, dt, k == 0);
+    twist_ = layers_->relaxTwist(state, input, friction_.aboutAxis(), *timer_);
+    {
+      PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
+      contacts_.prepare(state, dt);
+      assemble(state, input, dt, k == 0, layers_->slides());
+    }
     ++report.solves;
-    solved = solveActiveSet(state, fraction, report);
-    if (!solved)
-      break;
-    move(state, truncation(state, report), report);
-  }
-  restoring_ = false;
-  begin_ = restore_begin_;
-  state.velocity = restore_velocity_;
-  strain_ = maxStrain(rod_, state);
-  return solved;
-}
-
-void KktStepper::finish(State& state, double dt)
-{
-  surfaceAngles(state, surface_angle_);
-  const SurfaceMotion surface = surfaceMotion();
-  friction_.finish(state, begin_, &surface);
-  const double inverse = 1.0 / dt;
-  for (int i = conditions_.firstFreeNode(state); i < rod_.nodes(); ++i)
-    if (!conditions_.isDistalHeld(i))
-      state.velocity[i] = inverse * (state.position[i] - begin_[i]);
-  complete(state, dt);
-}
-
-void KktStepper::collectFriction(const State& state, double dt, bool first_solve)
-{
-  surfaceBeginAngles(state, surface_begin_);
-  const SurfaceMotion surface = surfaceMotion();
-  friction_.collect(state, begin_, &rod_.mass, dt, first_solve, &surface);
-}
-
-SurfaceMotion KktStepper::surfaceMotion() const
-{
-  return {rod_.radius, surface_begin_, surface_angle_, surfaceSlide()};
-}
-
-void KktStepper::prescribeNodes(const State& state)
-{
-  for (int i = first_; i < rod_.nodes(); ++i)
-  {
-    if (!conditions_.isPrescribed(i, state))
-    {
-      if (boundary_.introducer && boundary_.distal == EndHold::kFree)
-        break;
-      continue;
-    }
-    const bool next_too = i + 1 < rod_.nodes() && conditions_.isPrescribed(i + 1, state);
-    if (fresh_ > 0)  // the matrix knows already
-      std::fill_n(rhs_.begin() + row(i), next_too ? 8 : 3, 0.0);
-    else
-    {
-      for (int axis = 0; axis < 3; ++axis)
-        matrix_.prescribe(row(i) + axis, 0.0, scale_, rhs_);
-      if (next_too)
-        matrix_.prescribe(multiplierRow(i), 0.0, -scale_, rhs_);
-    }
-  }
-}
-
-bool KktStepper::factoriseAndSolve(const State& state, StepReport& report)
-{
-  prescribeNodes(state);
-  ++report.factorisations;
-  if (settings_.linear_solver == LinearSolver::kSparse)
-  {
-    if (!klu_.factorise(sparseFromBand(matrix_)))
+    if (!solve(state, dt, true, report))
       return false;
-  }
-  else if (matrix_.factorise() != rod_.nodes() - first_)
-    return false;
-  solveAgain(rhs_);
-  // Tensions may be huge for one solve, where a straight wire is shortened; motions may not.
-  for (std::size_t k = 0; k < rhs_.size(); ++k)
-  {
-    const bool multiplier = k % 4 == kIdleRow;
-    if (!(std::abs(rhs_[k]) < (multiplier ? kLargestTension : kLargestMotion)))
-      return false;
+    const double factor = move(state, truncation(state, report), report);
+    // Where nothing could move twice, the next solve would repeat this one.
+    const bool last = k + 1 == model_.settings.max_iterations || (factor == 0.0 && !moved);
+    moved = factor != 0.0;
+    if (k > 0)
+      contacts_.retainActiveContacts(state);
+    if (factor == 1.0)
+      accept(state, dt);
+    if (contacts_.present() && contacts_.set().stale)
+      return true;  // a stale contact set serves one solve per step
+    strain_ = maxStrain(model_.rod, state);
+    if (factor == 1.0 && strain_ <= model_.settings.strain_tolerance && !contacts_.foundUnknown(state))
+      return true;
+    hit_iteration_limit_ = last;
+    report.hit_iteration_limit += last;
+    if (last)
+      return restoreLengths(state, input, dt, report) && !(maxStrain(model_.rod, state) > kLargestStrain);
   }
   return true;
 }
 
-/** With the factors that are there. */
-void KktStepper::solveAgain(std::vector<double>& rhs)
+void KktStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve,
+                          const LayerSlides* slides)
 {
-  if (settings_.linear_solver == LinearSolver::kSparse)
-    klu_.solve(rhs.data());
-  else
-    matrix_.solve(rhs);
+  layers_->surfaceAngles(state, surface_angle_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.linearise(&surface);
+  assembly_.assemble({state, begin_, twist_, slides, input.forces, dt, first_solve});
 }
 
-Energy KktStepper::energy(const State& state)
+/** Computes the motion of a system.
+ *  @param corrected also removes the strain that the motion would leave */
+bool KktStepper::solve(const State& state, double dt, bool corrected, StepReport& report)
 {
-  State relaxed = state;
-  PhaseTimer unused;
-  timer_ = &unused;
-  action_ = relaxTwist(relaxed, last_input_, frictionAtRest(state));
-  return elasticEnergy(rod_, state, action_.active ? &twist_ : nullptr);
+  PhaseTimer::Scope scope(*timer_, Phase::kSolve);
+  if (!solver_.solve(state, dt, contacts_, friction_, motion_, report))
+    return false;
+  if (corrected)
+    solver_.correctLengths(state, motion_);
+  return true;
 }
 
-const std::vector<TwistFriction>& KktStepper::frictionAtRest(const State& state)
+/** After a step that was accepted at the limit of solves (a snap-through that the trust region cut short): restores the
+ *  lengths of the edges without advancing the motion, by solves over a small fraction of the step from rest. */
+bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt, StepReport& report)
 {
-  surfaceAngles(state, surface_begin_);
-  const SurfaceMotion at_rest{rod_.radius, surface_begin_, surface_begin_};
-  friction_.collect(state, state.position, nullptr, 1.0, false, &at_rest);
-  return friction_.aboutAxis();
+  saved_begin_ = begin_;
+  saved_velocity_ = state.velocity;
+  bool solved = true;
+  for (int k = 0; k < kMaxRestoringSolves && solved; ++k)
+  {
+    if (maxStrain(model_.rod, state) <= model_.settings.strain_tolerance)
+      break;
+    solved = restoreOnce(state, input, std::min(kRestoringFraction * dt, kRestoringTime), report);
+  }
+  begin_ = saved_begin_;
+  state.velocity = saved_velocity_;
+  strain_ = maxStrain(model_.rod, state);
+  return solved;
 }
 
-std::vector<Eigen::Vector3d> KktStepper::elasticGradient(State state, const StepInput& input)
+bool KktStepper::restoreOnce(State& state, const StepInput& input, double dt, StepReport& report)
 {
-  PhaseTimer unused;
-  timer_ = &unused;
-  first_ = state.first_node;
-  last_input_ = input;
-  refreshRod(state, input, 1.0);
-  action_ = relaxTwist(state, input, {});
-  base_.reset(4 * (rod_.nodes() - first_));
-  base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
-  addAllBending(state, 1.0);
-  std::vector<Eigen::Vector3d> gradient(state.position.size(), Eigen::Vector3d::Zero());
-  for (int i = first_; i < rod_.nodes(); ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      gradient[i][axis] = -base_rhs_[row(i) + axis];
-  return gradient;
+  begin_ = state.position;
+  std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
+  contacts_.prepare(state, dt);
+  collectFriction(state, dt, true);
+  assemble(state, input, dt, true, nullptr);
+  ++report.solves;
+  if (!solve(state, dt, false, report))
+    return false;
+  move(state, truncation(state, report), report);
+  return true;
+}
+
+double KktStepper::truncation(const State& state, StepReport& report)
+{
+  double factor = turnTruncation(model_.rod, state, motion_, model_.settings.max_rotation);
+  factor = contacts_.truncation(state, motion_, factor, report);
+  report.truncations += factor < 1.0;
+  return factor;
+}
+
+/** Moves the wire by a share of the solution and detects the contacts there. A motion that would put the wire deeper
+ *  into a rigid wall than before, and deeper than tolerated, is halved: from a state inside, whatever the solution is,
+ *  only states inside are reached.
+ *  @return the remaining share */
+double KktStepper::move(State& state, double factor, StepReport& report)
+{
+  const int n = model_.rod.nodes();
+  for (int i = state.first_node; i < n; ++i)
+    state.position[i] += factor * motion_[i];
+  if (!contacts_.present())
+    return factor;
+  contacts_.noteDepths();
+  double moved = factor;
+  contacts_.detect(state, report);
+  for (int halving = 0; !contacts_.set().stale && contacts_.isDeeper() && moved > 0.0; ++halving)
+  {
+    const double shorter = halving < kMaxDepthHalvings ? 0.5 * moved : 0.0;
+    for (int i = state.first_node; i < n; ++i)
+      state.position[i] -= (moved - shorter) * motion_[i];
+    moved = shorter;
+    contacts_.detectAgain(state, report);
+  }
+  report.truncations += moved < factor;
+  return moved;
+}
+
+/** Lagged forces are taken from accepted solutions only: a truncated one is not an equilibrium. */
+void KktStepper::accept(State& state, double dt)
+{
+  contacts_.updateWallForces(state, motion_);
+  reactions_.update({model_, system_, solver_.solution(), motion_, begin_, assembly_.resistance(), layers_->slides(),
+                     friction_, last_input_.forces, dt},
+                    state);
+}
+
+void KktStepper::finish(State& state, double dt)
+{
+  layers_->surfaceAngles(state, surface_angle_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.finish(state, begin_, &surface);
+  const double inverse = 1.0 / dt;
+  for (int i = model_.conditions.firstFreeNode(state); i < model_.rod.nodes(); ++i)
+    if (!model_.conditions.isDistalHeld(i))
+      state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+  layers_->finish(state, dt);
+}
+
+void KktStepper::collectFriction(const State& state, double dt, bool first_solve)
+{
+  layers_->initialSurfaceAngles(state, surface_begin_);
+  const SurfaceMotion surface = surfaceMotion();
+  friction_.collect(state, begin_, &model_.rod.mass, dt, first_solve, &surface);
+}
+
+SurfaceMotion KktStepper::surfaceMotion() const
+{
+  const LayerSlides* slides = layers_->slides();
+  return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr};
+}
+
+bool KktStepper::resample(const Discretisation& rod)
+{
+  contacts_.resample(rod);
+  fading_ = true;
+  model_.rod = rod;
+  layers_->resample();
+  return true;
+}
+
+/** All other members are recomputed in every step. */
+void KktStepper::archive(Archive& archive, const State& state)
+{
+  archive(contacts_, fading_, strain_);
+  if (archive.reading())
+    layers_->restore(state);
 }
 
 }  // namespace endovascular_sim::rod

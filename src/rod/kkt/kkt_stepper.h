@@ -1,187 +1,97 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "rod/boundary/boundary_conditions.h"
 #include "rod/contact/contact_solver_state.h"
 #include "rod/contact/wall_friction.h"
-#include "rod/linear/banded_ldlt.h"
-#include "rod/linear/sparse_solver.h"
-#include "rod/model/bending_pair.h"
+#include "rod/kkt/active_set_solver.h"
+#include "rod/kkt/concentric_stack.h"
+#include "rod/kkt/kkt_assembly.h"
+#include "rod/kkt/kkt_model.h"
+#include "rod/kkt/kkt_reactions.h"
+#include "rod/kkt/kkt_system.h"
+#include "rod/kkt/layer_model.h"
 #include "rod/stepping/step_bisection.h"
 #include "rod/stepping/stepper.h"
-#include "rod/twist/twist.h"
 
 namespace endovascular_sim::rod
 {
 
 /** The `kkt` scheme (docs/PHYSICS.md): backward Euler as one banded saddle system per solve.
  *
- *  Unknowns are interleaved x0, –, x1, λ0, x2, λ1, …: half bandwidth 10, every multiplier after both its nodes, so LDLᵀ
- *  needs no pivoting; the unknown that follows x0 stands for nothing and gives all nodes the same pattern.
- * Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided springs re-evaluated inside
- * the step, friction lagged in its normal force. A solve that would move a point further than its known free distance
- * is truncated, contacts are found again, and the same step is solved again. */
+ *  Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided springs re-evaluated
+ * inside the step, friction lagged in its normal force. A solve that would move a point further than its free distance
+ * is truncated; contacts are detected again, and the same step is solved again. The instruments are a LayerModel. */
 class KktStepper : public Stepper
 {
 public:
+  /** One wire. */
   KktStepper(Discretisation rod, Boundary boundary, Environment environment, StepperSettings settings);
 
-  State initialState(double inserted_length, double rotation) const override;
+  /** Several instruments, one inside the other (docs/PHYSICS.md, "Concentric stack").
+   *  @param layers from the inside out, see ConcentricStack
+   *  @param position of the nodes, from 0 to the longest wire's length [m]
+   *  @throws std::invalid_argument for nodes that do not fit, or a boundary that holds the twist of the distal end */
+  KktStepper(const std::vector<Layer>& layers, const std::vector<double>& position, Boundary boundary,
+             Environment environment, StepperSettings settings);
+
+  /** The first layer inserted, all others outside. */
+  State initialState(double inserted_length, double rotation) const override
+  {
+    return layers_->initialState(inserted_length, rotation);
+  }
+  State initialState(const std::vector<LayerInput>& layers) const override { return layers_->initialState(layers); }
+  double layerLength(int layer) const override { return layers_->length(layer); }
   StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
-  Energy energy(const State& state) override;
+  Energy energy(const State& state) override { return layers_->energy(state, last_input_, friction_); }
   const contact::ContactSet& contactSet() const override { return contacts_.set(); }
   void setContactRadii(const std::vector<double>& radii) override { contacts_.setRadii(radii); }
   void invalidateContacts() override { contacts_.invalidate(); }
-  const Discretisation& discretisation() const override { return rod_; }
+  const Discretisation& discretisation() const override { return model_.rod; }
   bool resample(const Discretisation& rod) override;
   void archive(Archive& archive, const State& state) override;
 
-  /** Gradient of the elastic energy at the nodes of a state whose twist has been relaxed [N]; for tests. */
-  std::vector<Eigen::Vector3d> elasticGradient(State state, const StepInput& input);
-
-protected:
-  // What a stack of several instruments does in another way (StackStepper).
-
-  /** What the twist does to the centreline. */
-  struct TwistAction
-  {
-    bool active = false;
-    int first_curved = 0;                            ///< first node with rest curvature
-    const Eigen::Vector3d* rest_binormal = nullptr;  ///< per node from first_curved on [1]
-    const double* torque = nullptr;                  ///< per node, or of all layers together [N·m]
-  };
-
-  /** How a node's mass moves along the wire beside the node itself, where layers slide over the nodes. */
-  struct MassSlide
-  {
-    Eigen::Vector3d travel = Eigen::Vector3d::Zero();  ///< in the step [m]
-    Eigen::Vector3d gained = Eigen::Vector3d::Zero();  ///< less what it would be at the speed of the last step [m]
-  };
-
-  /** A step, once the contacts have been told of it. */
-  virtual bool run(State& state, const StepInput& input, double dt, StepReport& report);
-  /** Sets the rod's properties for the end of a step (or a part of one). */
-  virtual void refreshRod(State& state, const StepInput& input, double dt);
-  /** Brings the twist to rest for the present centreline.
-   *  @param friction of the wall about the axis */
-  virtual TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction);
-  /** Angle of the surface at every node [rad], n. */
-  virtual void surfaceAngles(const State& state, std::vector<double>& angle) const;
-  /** The same at the beginning of the step. */
-  virtual void surfaceBeginAngles(const State& state, std::vector<double>& angle) const;
-  /** Whether a step turns a hand. */
-  virtual bool turns(const State& state, const StepInput& input) const { return state.rotation != input.rotation; }
-  /** Sets the torques at the ends to those of the centreline as it is now; nothing else changes. */
-  virtual void renewTorques(State& state, const StepInput& input);
-  /** After a step that was solved. */
-  virtual void complete(State& state, double dt);
-  /** Largest work that the hands may have done between two states [J]. */
-  virtual double handWork(const State& before, const State& after) const;
-  /** Motion of the surface over the nodes in the step; null: none. */
-  virtual const std::vector<Eigen::Vector3d>* surfaceSlide() const { return nullptr; }
-
-  /** Motion of the nodes' masses; null: with the nodes. */
-  virtual const std::vector<MassSlide>* massSlide() const { return nullptr; }
+private:
+  friend struct KktStepperPeer;  // of the tests
 
   bool advance(State& state, const StepInput& input, double dt, StepReport& report);
-  /** Drag of the fluid on a node per speed of its surface [N·s/m]; outside of the body 0. */
-  double dragCoefficient(int node, double speed, const State& state) const;
-  /** Friction about the axis of a state that goes on from where it is. */
-  const std::vector<TwistFriction>& frictionAtRest(const State& state);
-  const BoundaryConditions& conditions() const { return conditions_; }
-  const Boundary& boundary() const { return boundary_; }
-  const Environment& environment() const { return environment_; }
-  const StepperSettings& settings() const { return settings_; }
-  /** To be used with another input or model until the next step. */
-  void useTimer(PhaseTimer& timer) { timer_ = &timer; }
-  const std::vector<TwistFriction>& frictionAboutAxis() const { return friction_.lastAboutAxis(); }
-  const StepInput& lastInput() const { return last_input_; }
-  Discretisation& rod() { return rod_; }
-  const Discretisation& rod() const { return rod_; }
-
-private:
-  static constexpr int kBandwidth = 10;
-  using Matrix = BandedLdlt<kBandwidth, 4>;
-
   bool gainedEnergy(const State& before, const State& state, double dt);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
+  void placeEnds(State& state, const StepInput& input, double dt);
+  bool iterate(State& state, const StepInput& input, double dt, StepReport& report);
+  void assemble(const State& state, const StepInput& input, double dt, bool first_solve, const LayerSlides* slides);
+  bool solve(const State& state, double dt, bool corrected, StepReport& report);
   bool restoreLengths(State& state, const StepInput& input, double dt, StepReport& report);
-  void placePrescribedNodes(State& state, double inserted_length, double dt);
-  SurfaceMotion surfaceMotion() const;
-  void collectFriction(const State& state, double dt, bool first_solve);
-
-  void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
-  void addAllBending(const State& state, double dt);
-  BendingPairInput bendingInput(int first, int second, const State& state, double dt) const;
-  void addBending(int first, int second, const BendingPair& bending);
-  void addConstraint(int edge, const State& state, double dt);
-  void addMouth(const State& state, double dt);
-  void addSheath(int edge, double share, const State& state, double dt);
-  void addNodeTerms(int node, const State& state, double dt, bool first_solve);
-  void addFriction(const WallFriction::Term& term, double dt);
-  void addDiagonal(int node, double value);
-  void addBlock(int node, const Eigen::Matrix3d& block);
-  void prescribeNodes(const State& state);
-  bool solveActiveSet(const State& state, double dt, StepReport& report);
-  bool canRewind(const State& state) const;
-  bool factoriseAndSolve(const State& state, StepReport& report);
-  void solveAgain(std::vector<double>& rhs);
-  void correctLengths(const State& state);
-  void addContact(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt);
+  bool restoreOnce(State& state, const StepInput& input, double dt, StepReport& report);
   double truncation(const State& state, StepReport& report);
   double move(State& state, double factor, StepReport& report);
   void accept(State& state, double dt);
-  void updateEndForces(State& state, double dt) const;
-  void updateHandParts(State& state, double dt);
-  Eigen::Vector3d forceOnHold(int node, double dt) const;
-  double heavyMass(int node) const;
-  double foldTruncation(const State& state, double factor) const;
   void finish(State& state, double dt);
+  void collectFriction(const State& state, double dt, bool first_solve);
+  SurfaceMotion surfaceMotion() const;
 
-  int row(int node) const { return 4 * (node - first_); }
-  int multiplierRow(int edge) const { return 4 * (edge - first_) + 7; }
-  Eigen::Vector3d increment(int node) const
-  {
-    const double* value = rhs_.data() + row(node);
-    return {value[0], value[1], value[2]};
-  }
-
-  Discretisation rod_;
-  const Boundary boundary_;
-  const Environment environment_;
-  const StepperSettings settings_;
-  BoundaryConditions conditions_{rod_, boundary_};
-  double scale_;  ///< of the constraint rows [kg]
-
-  QuasiStaticTwist twist_;
-  TwistAction action_;
-  ContactSolver contacts_{rod_, boundary_, settings_};
-  ContactSolver::Motion motion_;  ///< of the last solve, n
-  WallFriction friction_{settings_.friction_slip};
-  PhaseTimer* timer_ = nullptr;
-  bool fading_ = true;                ///< the state may have offsets
-  bool hit_iteration_limit_ = false;  ///< the last step was accepted unfinished
-  bool restoring_ = false;            ///< lengths, from rest
-  double strain_ = 0.0;               ///< largest of the last accepted iterate
-  StepInput last_input_;
-
-  int first_ = 0;  ///< first simulated node
-  Matrix base_, matrix_;
-  int fresh_ = 0;  ///< first column of the matrix that holds nothing but the base
-  KluSolver klu_;
-  std::vector<double> base_rhs_, rhs_;
-  std::vector<double> correction_;      ///< of the solution
-  std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
-  std::vector<double> begin_twist_;     ///< and twist angles
-  std::vector<double> kept_twist_;
-  std::vector<double> surface_begin_, surface_angle_;  ///< of the surface at every node, at the beginning and now
-  std::vector<Eigen::Vector3d> slide_;                 ///< motion of every node when the wire slides along itself
-  std::vector<double> resistance_;                     ///< of fluid and damping to a node's travel, times Δt² [kg]
-  std::vector<Eigen::Vector3d> resisted_;  ///< and what it resists of its masses' and surface's slide [kg·m]
-  std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
+  KktModel model_;
+  std::unique_ptr<LayerModel> layers_;
+  KktSystem system_;
+  KktAssembly assembly_{model_, system_};
+  ActiveSetSolver solver_{model_, system_};
+  KktReactions reactions_;
+  ContactSolver contacts_{model_.rod, model_.boundary, model_.settings};
+  WallFriction friction_{model_.settings.friction_slip};
   StepBisection bisection_;
+
+  TwistAction twist_;
+  ContactSolver::Motion motion_;  ///< increment of every node in the last solve [m]
+  PhaseTimer* timer_ = nullptr;
+  bool fading_ = true;                ///< the state may have offsets from a change of nodes
+  bool hit_iteration_limit_ = false;  ///< the last step was accepted at the limit of solves
+  double strain_ = 0.0;               ///< largest strain of the last accepted iterate
+  StepInput last_input_;
+  std::vector<Eigen::Vector3d> begin_;                         ///< positions at the beginning of the step [m]
+  std::vector<Eigen::Vector3d> saved_begin_, saved_velocity_;  ///< while lengths are restored
+  std::vector<double> surface_begin_, surface_angle_;          ///< angles of the surface at every node [rad]
 };
 
 }  // namespace endovascular_sim::rod

@@ -8,11 +8,11 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kLeastCover = 1e-9;  // of a node: less counts as none
+constexpr double kLeastCover = 1e-9;  // part of a node below which it counts as not covered
 
 }  // namespace
 
-/** Of section properties times a node's hat function, or their derivatives by the insertion. */
+/** Integrals of section properties times a node's hat function, or their derivatives by the insertion. */
 struct LayerProfile::Integrals
 {
   double length = 0.0;
@@ -21,7 +21,7 @@ struct LayerProfile::Integrals
   double mass = 0.0;
   double radius = 0.0;
   double own_friction = 0.0;
-  double own_length = 0.0;  ///< that has a friction coefficient of its own
+  double own_length = 0.0;  ///< length with a friction coefficient of its own
   Eigen::Vector2d rest_angle = Eigen::Vector2d::Zero();
 
   void add(const Section& section, double weight)
@@ -40,24 +40,17 @@ struct LayerProfile::Integrals
 };
 
 LayerProfile::LayerProfile(Wire wire, const std::vector<double>& position)
+  : wire_(std::move(wire)), length_(wire_.length())
 {
-  setWire(std::move(wire));
   setNodes(position);
-}
-
-void LayerProfile::setWire(Wire wire)
-{
-  wire_ = std::move(wire);
-  length_ = wire_.length();
-  placed_ = false;
 }
 
 double LayerProfile::sectionEnd(std::size_t section) const
 {
-  double place = tip_;
+  double end = tip_;
   for (std::size_t m = section + 1; m < wire_.sections.size(); ++m)
-    place -= wire_.sections[m].length;
-  return place;
+    end -= wire_.sections[m].length;
+  return end;
 }
 
 void LayerProfile::setNodes(const std::vector<double>& position)
@@ -83,13 +76,13 @@ void LayerProfile::setNodes(const std::vector<double>& position)
   placed_ = false;
 }
 
-double LayerProfile::hat(int node, double place) const
+double LayerProfile::hat(int node, double arc_length) const
 {
   const int n = static_cast<int>(position_.size());
-  const double offset = place - position_[node];
-  if (node + 2 >= n && place > position_[n - 2])
+  const double offset = arc_length - position_[node];
+  if (node + 2 >= n && arc_length > position_[n - 2])
   {
-    const double t = std::min(1.0, (place - position_[n - 2]) / rod_.rest_length[n - 2]);
+    const double t = std::min(1.0, (arc_length - position_[n - 2]) / rod_.rest_length[n - 2]);
     return node + 2 == n ? 1.0 - 3.0 * t + 3.0 * t * t : 3.0 * t - 3.0 * t * t;
   }
   if (offset <= 0.0)
@@ -97,19 +90,20 @@ double LayerProfile::hat(int node, double place) const
   return node + 1 < n ? std::max(0.0, 1.0 - offset / rod_.rest_length[node]) : 0.0;
 }
 
-/** Integral of a node's hat function from the nodes' beginning to a place; exactly the cell's length beyond it [m]. */
-double LayerProfile::hatIntegral(int node, double place) const
+/** Integral of a node's hat function from the first node to an arc length; beyond the hat, exactly the cell's length
+ *  [m]. */
+double LayerProfile::hatIntegral(int node, double arc_length) const
 {
   const int n = static_cast<int>(position_.size());
-  const double offset = place - position_[node];
+  const double offset = arc_length - position_[node];
   const double before = node > 0 ? rod_.rest_length[node - 1] : 0.0;
   const double after = node + 1 < n ? rod_.rest_length[node] : 0.0;
   if (offset >= after)
     return rod_.cell_length[node];
-  if (node + 2 >= n && place > position_[n - 2])
+  if (node + 2 >= n && arc_length > position_[n - 2])
   {
     const double last = rod_.rest_length[n - 2];
-    const double t = (place - position_[n - 2]) / last;
+    const double t = (arc_length - position_[n - 2]) / last;
     const double beyond = last * (t - 1.5 * t * t + t * t * t);
     return node + 2 == n ? rod_.cell_length[node] - 0.5 * last + beyond : last * t - beyond;
   }
@@ -136,7 +130,7 @@ LayerProfile::Integrals LayerProfile::integrate(int node) const
   return sum;
 }
 
-/** Derivatives of the integrals by the insertion: the ends of the sections move over the nodes. */
+/** Derivatives of the integrals by the insertion, with which the ends of the sections move over the nodes. */
 LayerProfile::Integrals LayerProfile::integrateSlopes(int node) const
 {
   Integrals sum;
@@ -186,7 +180,7 @@ LayerProfile::Slope LayerProfile::slope(int node) const
   return slope;
 }
 
-/** Those whose hat functions reach between two places. */
+/** Updates the nodes whose hat functions overlap an interval of arc length. */
 void LayerProfile::setNodesBetween(double begin, double end, std::vector<int>& changed)
 {
   const int n = static_cast<int>(position_.size());
@@ -236,16 +230,16 @@ void LayerProfile::findSlidingNodes()
   for (std::size_t m = 0; m < wire_.sections.size(); ++m)
   {
     to_tip = m + 1 < wire_.sections.size() ? to_tip - wire_.sections[m].length : 0.0;
-    const double place = tip_ - to_tip;
-    const int next = static_cast<int>(std::lower_bound(position_.begin(), position_.end(), place) - position_.begin());
+    const double end = tip_ - to_tip;
+    const int next = static_cast<int>(std::lower_bound(position_.begin(), position_.end(), end) - position_.begin());
     for (int i = next - 1; i <= next; ++i)
-      if (i >= 0 && i < static_cast<int>(position_.size()) && hat(i, place) > 0.0 &&
+      if (i >= 0 && i < static_cast<int>(position_.size()) && hat(i, end) > 0.0 &&
           std::find(sliding_.begin(), sliding_.end(), i) == sliding_.end())
         sliding_.push_back(i);
   }
 }
 
-/** The nodes that the layer has, and the first with rest curvature. */
+/** Finds the nodes of the layer, and the first one with rest curvature. */
 void LayerProfile::findRange()
 {
   const int n = static_cast<int>(position_.size());

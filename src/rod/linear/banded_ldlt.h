@@ -21,7 +21,7 @@ class BandedLdlt
 {
 public:
   static constexpr int kStride = Bandwidth + 1;
-  static constexpr int kMarkEvery = 16 * Period;  ///< columns between the places to which rewind() can go back
+  static constexpr int kMarkEvery = 16 * Period;  ///< columns between the marks to which rewind() can return
 
   /** Sets the size and zeroes the band; allocates only when it grows. */
   void reset(int size)
@@ -38,7 +38,7 @@ public:
   double& at(int row, int col) { return band_[static_cast<std::size_t>(col) * kStride + (row - col)]; }
   double at(int row, int col) const { return band_[static_cast<std::size_t>(col) * kStride + (row - col)]; }
 
-  /** The column's lower band, from its diagonal entry down; columns follow each other at kStride. */
+  /** Lower band of a column, from its diagonal entry down; columns follow each other at kStride. */
   double* column(int col) { return band_.data() + static_cast<std::size_t>(col) * kStride; }
 
   /** Copies another matrix's entries; allocates only when it grows. */
@@ -49,10 +49,11 @@ public:
     band_.assign(other.band_.begin(), other.band_.end());
   }
 
-  /** Makes ready to factorise a matrix that differs from the one factorised last in the columns from @p changed on
-   * only: what was done before them stays done, and factorise() goes on from there to the same bits.
-   *  @param other what the columns not done are copied from
-   *  @return the first column copied; what was added to it and those behind it must be added again */
+  /** Prepares the factorisation of a matrix that differs from the last one only in the columns from @p changed on. The
+   *  factors of earlier columns stay; factorise() continues from there and gives the same bits as a whole
+   * factorisation.
+   *  @param other matrix from which the remaining columns are copied
+   *  @return the first column copied; terms added to it and to later columns must be added again */
   int rewind(const BandedLdlt& other, int changed)
   {
     int mark = std::min((changed - kWindow) / kMarkEvery, marks_) - 1;
@@ -110,7 +111,7 @@ public:
   void solve(std::vector<double>& rhs) const
   {
     double* x = rhs.data();
-    // Sums run from the farthest entry to the nearest, the only one that was not known long before.
+    // Sums run from the farthest entry to the nearest: only the nearest depends on the preceding row.
     int row = 0;
     for (; row < std::min(Bandwidth + Period, size_); ++row)
       forwardShort(x, row);
@@ -128,11 +129,11 @@ public:
   }
 
 private:
-  /** Columns that those before a mark reach into, made whole blocks. */
+  /** Number of columns after a mark that earlier columns modify, rounded up to whole blocks. */
   static constexpr int kWindow = (Bandwidth + Period - 1) / Period * Period;
   static constexpr int kWindowSize = kWindow * kStride;
 
-  /** Remembers how the columns from one on stand before they are eliminated. */
+  /** Saves the columns from one on before their elimination. */
   void mark(int col)
   {
     if (col + kWindow > size_)
@@ -143,8 +144,8 @@ private:
     negative_before_[marks_++] = negative_;
   }
 
-  /** Entries below the diagonal of a column of the given place in its block, made even: pairs of entries are worked on
-   *  together, and one that was stored alone would have to be waited for. */
+  /** Entries below the diagonal of a column at the given place in its block, rounded up to an even number: entries are
+   *  processed in pairs, and the load of a pair would stall on a single stored entry. */
   static constexpr int columnLength(int place) { return Bandwidth - place + (place > 0 ? (Bandwidth - place) % 2 : 0); }
   /** Entries left of the diagonal of such a row: back to the first column whose block still reaches it. */
   static constexpr int rowLength(int place) { return place + (Bandwidth - place) / Period * Period; }
@@ -174,7 +175,8 @@ private:
     return true;
   }
 
-  /** Takes the pivot column, times a factor, off the column K further; its length is known when compiling. */
+  /** Subtracts the pivot column, times a factor, from the column K further on; the length is a compile-time constant.
+   */
   template <int Length, int K>
   static void subtract(double* __restrict pivot_column, double factor)
   {
@@ -260,8 +262,8 @@ private:
   int begin_ = 0;  ///< column at which factorise() begins
   int marks_ = 0;
   std::vector<double> band_;
-  std::vector<double> windows_;       ///< per mark the columns from there, as they stood
-  std::vector<int> negative_before_;  ///< per mark
+  std::vector<double> windows_;       ///< saved columns of every mark
+  std::vector<int> negative_before_;  ///< negative pivots before every mark
 };
 
 }  // namespace endovascular_sim::rod

@@ -10,12 +10,13 @@ namespace endovascular_sim::rod
 namespace
 {
 
-/** The pattern of nonzeros that an ordering was found for. */
+/** Pattern of nonzeros that an ordering was computed for. */
 struct Pattern
 {
   std::vector<int> begin, row;
 
-  /** Takes over the matrix's pattern; @return true when it is another one than before. */
+  /** Takes over a matrix's pattern.
+   *  @return true when it differs from the last one */
   bool update(const SparseMatrix& matrix)
   {
     const int* outer = matrix.outerIndexPtr();
@@ -102,7 +103,7 @@ struct CholmodSolver::Factors
     cholmod_finish(&common);
   }
 
-  /** CHOLMOD's view of the last matrix. */
+  /** View of the last matrix in CHOLMOD's format. */
   cholmod_sparse view()
   {
     cholmod_sparse sparse{};
@@ -120,7 +121,7 @@ struct CholmodSolver::Factors
     return sparse;
   }
 
-  /** LDLᵀ goes on past negative pivots: the matrix is positive definite when D is. */
+  /** True when D is positive; the factorisation itself continues past negative pivots. */
   bool positive() const
   {
     if (common.status != CHOLMOD_OK || factor->minor < factor->n)

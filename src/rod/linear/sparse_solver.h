@@ -13,11 +13,11 @@ namespace endovascular_sim::rod
 /** Compressed columns with int indices; symmetric matrices hold both triangles. */
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/** LU factorisation with partial pivoting by SuiteSparse's KLU: any regular square matrix, saddle matrices among them.
+/** LU factorisation with partial pivoting by SuiteSparse's KLU, for any regular square matrix.
  *
- *  Its pivots say nothing about inertia (an unsymmetric LU has no signature): a saddle matrix goes unchecked for it.
- *  The general path and the check of the banded kernel, not the fast one: it allocates at every factorisation. The
- *  ordering is found anew only when the pattern of nonzeros has changed. */
+ *  An unsymmetric LU has no signature, so that the inertia of a saddle matrix is not checked. It serves as the general
+ *  solver and as a check of the banded one; it is slower and allocates at every factorisation. The ordering is
+ *  recomputed only when the pattern of nonzeros changes. */
 class KluSolver
 {
 public:
@@ -60,7 +60,7 @@ private:
   std::unique_ptr<Factors> factors_;
 };
 
-/** The nonzeros of a banded symmetric matrix, both triangles. */
+/** Nonzeros of a banded symmetric matrix, both triangles. */
 template <int Bandwidth, int Period>
 SparseMatrix sparseFromBand(const BandedLdlt<Bandwidth, Period>& band)
 {

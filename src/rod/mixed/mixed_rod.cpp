@@ -138,34 +138,6 @@ Vector3d MixedRod::chordAfter(const State& state, int node) const
   return node + 1 == nodes() ? distal_.tangent : Vector3d(state.position[node + 1] - state.position[node]);
 }
 
-double MixedRod::lagrangian(const State& state) const
-{
-  double value = 0.0;
-  for (int i = state.first_node; i < nodes(); ++i)
-    if (!turnsFreely(state, i))
-      value += state.moment[i].dot(TurningAngle(chordBefore(state, i), chordAfter(state, i)).value);
-  for (int j = state.first_node; j + 1 < nodes(); ++j)
-  {
-    const MixedEdge& edge = edges_[j];
-    const double h = edge.length;
-    const Vector3d& m0 = state.moment[j];
-    const Vector3d& m1 = state.moment[j + 1];
-    const Vector3d& k0 = edge.rest_curvature[0];
-    const Vector3d& k1 = edge.rest_curvature[1];
-    const EndCurvatures kappa(edge, m0, m1);
-    const Vector3d chord = state.position[j + 1] - state.position[j];
-    const double chord_length = chord.norm();
-    const double tension = state.tension[j];
-    value -= h * edge.flexibility / 6.0 * (m0.squaredNorm() + m0.dot(m1) + m1.squaredNorm());
-    value -= h / 6.0 * (m0.dot(2.0 * k0 + k1) + m1.dot(k0 + 2.0 * k1));
-    value += tension * (chord_length - h + kappa.shortening(h)) -
-             0.5 * tension * tension * (h * edge.axial_compliance + kappa.bowCompliance(edge));
-    const Vector3d bow = (h * h * h / 24.0) * (kappa.first + kappa.second).cross(chord / chord_length);
-    value -= edge.load.dot(0.5 * h * (state.position[j] + state.position[j + 1]) - bow);
-  }
-  return value;
-}
-
 void MixedRod::assemble(const State& state, std::vector<double>& gradient, Matrix& hessian) const
 {
   Chord before, after;
@@ -185,7 +157,7 @@ void MixedRod::assemble(const State& state, std::vector<double>& gradient, Matri
   }
 }
 
-/** What depends on the chord x_{j+1} − x_j, into the rows of both nodes. */
+/** Adds derivatives by the chord x_{j+1} − x_j to the rows of both nodes. */
 void MixedRod::scatter(const State& state, int j, const Chord& chord, std::vector<double>& gradient, Matrix& hessian)
 {
   const int first = positionRow(state, j);
@@ -197,7 +169,7 @@ void MixedRod::scatter(const State& state, int j, const Chord& chord, std::vecto
   addOffDiagonal(hessian, second, first, -chord.hessian);
 }
 
-/** M_i·Φ_i. */
+/** Adds the terms of M_i·Φ_i. */
 void MixedRod::assembleNode(const State& state, int node, Chord& before, Chord& after, std::vector<double>& gradient,
                             Matrix& hessian) const
 {
@@ -239,7 +211,7 @@ void MixedRod::assembleNode(const State& state, int node, Chord& before, Chord& 
   }
 }
 
-/** Flexibility, rest curvature and arc length of an edge. */
+/** Adds the terms of flexibility, rest curvature and arc length of an edge. */
 void MixedRod::assembleEdge(const State& state, int j, Chord& chord, std::vector<double>& gradient,
                             Matrix& hessian) const
 {
@@ -290,7 +262,7 @@ void MixedRod::assembleEdge(const State& state, int j, Chord& chord, std::vector
   chord.hessian.diagonal().array() += pull;
 }
 
-/** Work of the distributed force, on the chord and on the bow between chord and arc. */
+/** Adds the work of the distributed force on the chord, and on the bow between chord and arc. */
 void MixedRod::assembleBow(const State& state, int j, Chord& chord, std::vector<double>& gradient,
                            Matrix& hessian) const
 {
@@ -363,7 +335,7 @@ double MixedRod::bendingEnergy(const State& state) const
     const Vector3d& m0 = state.moment[j];
     const Vector3d& m1 = state.moment[j + 1];
     sum += h * c / 6.0 * (m0.squaredNorm() + m0.dot(m1) + m1.squaredNorm());
-    // The moment bulges between the nodes by the tension's and the load's moment about the bow.
+    // Between the nodes the moment deviates by that of tension and load about the bow.
     const EndCurvatures kappa(edge, m0, m1);
     const Vector3d t = (state.position[j + 1] - state.position[j]).normalized();
     const Vector3d pull = (h * h * h / 720.0 * state.tension[j]) * (16.0 * kappa.first + 14.0 * kappa.second);

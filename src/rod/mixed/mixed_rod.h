@@ -13,7 +13,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A stretch of wire between two nodes of the mixed rod. Sections change at nodes only. */
+/** Part of a wire between two nodes of the mixed rod. Sections change at nodes only. */
 struct MixedEdge
 {
   double length = 0.0;             ///< h, rest arc length [m]
@@ -21,42 +21,45 @@ struct MixedEdge
   double axial_compliance = 0.0;   ///< 1/EA, 0: inextensible [1/N]
   double twist_flexibility = 0.0;  ///< 1/GJ [1/(N·m²)]
   double linear_density = 0.0;     ///< ρA [kg/m]
-  double cross_section = 0.0;      ///< A, fluid that a length of wire displaces [m²]
+  double cross_section = 0.0;      ///< A, displaced volume of fluid per length [m²]
   /** κ̄ at the edge's two ends, in space, along the binormal [1/m]. */
   std::array<Eigen::Vector3d, 2> rest_curvature{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector2d material_curvature = Eigen::Vector2d::Zero();  ///< rest curvature in the material frame [1/m]
   Eigen::Vector3d load = Eigen::Vector3d::Zero();                ///< force per length of wire [N/m]
 };
 
-/** How an end of the mixed rod is held: at its node. */
+/** Hold of an end of the mixed rod, at its node. */
 struct MixedEnd
 {
   EndHold hold = EndHold::kFree;
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< of a clamp, towards the tip, unit
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< direction of a clamp, towards the tip, unit
 };
 
-/** Cuts a wire at the given arc lengths into edges of the mixed rod, properties averaged over each edge; loads and rest
- *  curvature in space are left zero.
+/** Edges of the mixed rod between given arc lengths of a wire, with properties averaged over each edge. Loads and the
+ *  rest curvature in space are zero.
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */
 std::vector<MixedEdge> mixedEdges(const Wire& wire, const std::vector<double>& position);
 
-/** The fourth-order rod: a mixed (Hellinger–Reissner) form with the bending moment as a second unknown per node.
+/** Rod of fourth order: a mixed (Hellinger–Reissner) form with the bending moment as a second unknown per node.
  *
  *  Nodes lie on the curve, edge j is a chord of it. The state is a stationary point (a minimum in x, a maximum in M
  *  and λ) of
  *
  *    L = Σ_i M_i·Φ_i − Σ_j [ h/(6EI) (|M_j|² + M_j·M_{j+1} + |M_{j+1}|²) + h/6 (M_j·(2κ̄_j + κ̄_{j+1}) + M_{j+1}·(κ̄_j +
  *        2κ̄_{j+1})) ] + Σ_j [ λ_j (|e_j| − h + s_j) − ½ λ_j² (h/EA + b_j) ] − W
- *    s_j = h³ (8|κ_j|² + 14 κ_j·κ_{j+1} + 8|κ_{j+1}|²)/720, κ = M/EI + κ̄: how much shorter the chord is than its arc
- *    b_j = ∫y²/EI over the edge, y the bow of the arc over the chord
+ *    s_j = h³ (8|κ_j|² + 14 κ_j·κ_{j+1} + 8|κ_{j+1}|²)/720, κ = M/EI + κ̄: the arc's length less the chord's
+ *    b_j = ∫y²/EI over the edge, y the distance of the arc from the chord
  *    W = Σ_i F_i·x_i + Σ_j q·( h (x_j + x_{j+1})/2 − h³/24 (κ_j + κ_{j+1})×t_j )
  *
- *  with Φ_i the turning angle vector between the chords, at a clamp between its tangent and the chord. Fourth order in
- *  h for nodal forces and for q constant along an edge. b is of the order h⁵, below that of the method, but without it
- * the chord's compliance −∂²L/∂λ² is negative once M is eliminated, and motion is unstable where Δt²/m is less than it:
- *  −½M²h/EI + λs − ½λ²b are the first terms of the complementary energy of a beam under tension, concave in (M, λ).
- * Unknowns are ordered x0, M0, x1, M1, λ0, x2, M2, λ1, …: half bandwidth 16; where the inertia or the load makes the x
- * block positive, the matrix is quasi-definite with 4(n − 1) + 3 negative pivots. */
+ *  with Φ_i the turning angle vector between the chords, at a clamp between its tangent and the chord. The method is of
+ *  fourth order in h for nodal forces and for q constant along an edge.
+ *
+ *  b is of the order h⁵, below that of the method, but it is needed for stability. Without it the chord's compliance
+ *  −∂²L/∂λ² is negative once M is eliminated, and motion is unstable where Δt²/m is smaller. −½M²h/EI + λs − ½λ²b are
+ *  the first terms of the complementary energy of a beam under tension, concave in (M, λ).
+ *
+ *  Unknowns are ordered x0, M0, x1, M1, λ0, x2, M2, λ1, …: half bandwidth 16. Where inertia or load make the x block
+ *  positive, the matrix is quasi-definite with 4(n − 1) + 3 negative pivots. */
 class MixedRod
 {
 public:
@@ -85,25 +88,22 @@ public:
   /** A straight unloaded wire from @p origin along @p direction (unit). */
   State straight(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /** L of the simulated part [J]; without nodal forces. */
-  double lagrangian(const State& state) const;
-
   /** Adds ∂L/∂(x, M, λ) to @p gradient and the second derivatives to @p hessian, both of size(state). */
   void assemble(const State& state, std::vector<double>& gradient, Matrix& hessian) const;
 
-  /** Fixes what the ends hold: positions of held ends, zero moment where an end may turn.
+  /** Prescribes the ends: positions of held ends, zero moment where an end may turn.
    *  @param rhs right-hand side, of the same system */
   void prescribeEnds(const State& state, Matrix& matrix, std::vector<double>& rhs) const;
 
-  /** Fixes the increment of one node's position, or of its moment. */
+  /** Prescribes a zero increment of one node's position, or of its moment. */
   static void prescribe(int first_row, double pivot, Matrix& matrix, std::vector<double>& rhs);
 
   int negativePivots(const State& state) const { return 4 * (nodes() - state.first_node) - 1; }
 
-  /** By how much chord j is longer than its arc allows, as a strain: the constraint's residual. */
+  /** Strain of an edge, the residual of its constraint: chord plus shortening less the arc's length, over that [1]. */
   double strain(const State& state, int edge) const;
 
-  /** Elastic bending energy ½∫EI|κ − κ̄|² of the simulated part at equilibrium [J]; fourth order in h too. */
+  /** Elastic bending energy ½∫EI|κ − κ̄|² of the simulated part at equilibrium, of fourth order in h [J]. */
   double bendingEnergy(const State& state) const;
 
 private:

@@ -4,7 +4,7 @@
 #include "rod/boundary/reaction_forces.h"
 #include "rod/mixed/mixed_stepper.h"
 
-// The part of the scheme that solves an assembled system: contact springs and friction, inertia of the matrix, trust
+// Solution of an assembled system of the `mixed` scheme: contact springs and friction, inertia of the matrix, trust
 // region.
 
 namespace endovascular_sim::rod
@@ -20,7 +20,7 @@ constexpr double kShiftGrowth = 30.0;
 constexpr double kMostShift = 1e6;
 constexpr double kLargestMotion = 1e3;  // m: beyond it a solution counts as failed
 constexpr int kMaxRestoringSolves = 4;
-constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces move next to nothing in it
+constexpr double kRestoringFraction = 0.03;  // of the time step: elastic forces cause negligible motion in it
 
 }  // namespace
 
@@ -60,7 +60,8 @@ void MixedStepper::addSpring(const State& state, std::size_t index)
 }
 
 /** Solves until no spring opens or closes. A matrix without the inertia of a minimum gets more mass, which shortens the
- *  motion; the caller then solves again. */
+ *  motion.
+ *  @param shifted set when that happened: the step needs another solve */
 bool MixedStepper::solveActiveSet(const State& state, double dt, StepReport& report, bool& shifted)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
@@ -114,8 +115,8 @@ bool MixedStepper::factoriseAndSolve(const State& state, double shift, StepRepor
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
 }
 
-/** After a step that was accepted unfinished (a snap that the trust region cut short): brings the edges back to their
- *  lengths without moving on, by solves over a small fraction of the step from rest. */
+/** After a step that was accepted at the limit of solves (a snap-through that the trust region cut short): restores the
+ *  lengths of the edges without advancing the motion, by solves over a small fraction of the step from rest. */
 bool MixedStepper::restoreLengths(State& state, const StepInput& input, double dt, StepReport& report)
 {
   restore_begin_ = begin_;
@@ -170,7 +171,7 @@ void MixedStepper::accept(State& state, double factor)
   }
   for (int j = state.first_node; j + 1 < rod_.nodes(); ++j)
     state.tension[j] += factor * rhs_[model_.tensionRow(state, j)];
-  // Lagged forces follow accepted solutions only: a truncated one is not an equilibrium.
+  // Lagged forces are taken from accepted solutions only: a truncated one is not an equilibrium.
   if (factor < 1.0)
     return;
   contacts_.updateWallForces(state, motion_);

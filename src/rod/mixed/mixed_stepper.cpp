@@ -17,17 +17,18 @@ EndHold atNode(const Boundary& boundary, EndHold hold)
 
 using MassMatrix = std::vector<std::array<double, 2>>;
 
-/** Share of consistent mass at an edge's end, from the edge's and its neighbour's ρA h². */
+/** Share of consistent mass at an edge's end, from ρA h² of the edge and of its neighbour. */
 double consistentShare(double own, double neighbour)
 {
   return own > 0.0 ? std::max(0.0, std::min(1.0, 1.0 - neighbour / own)) : 0.0;
 }
 
-/** @param density of every edge, per length */
+/** Mass matrix of all nodes.
+ *  @param density of every edge, per length [kg/m] */
 MassMatrix massMatrix(const MixedRod& rod, const std::vector<double>& density)
 {
   const std::vector<MixedEdge>& edges = rod.edges();
-  // Euler–Maclaurin's end term has the rotation of the end as its factor, none at a clamp.
+  // Euler–Maclaurin's end term is proportional to the rotation of the end: zero at a clamp.
   const bool held = rod.proximal().hold == EndHold::kClamped;
   const bool tip_held = rod.distal().hold == EndHold::kClamped;
   const auto weight = [&](std::size_t j) { return density[j] * edges[j].length * edges[j].length; };
@@ -60,7 +61,7 @@ MixedStepper::MixedStepper(const Wire& wire, Discretisation rod, Boundary bounda
   for (int j = 0; j + 1 < rod_.nodes(); ++j)
   {
     MixedEdge& edge = model_.edge(j);
-    edge.axial_compliance = 0.0;  // the wire keeps its length, as in the other schemes
+    edge.axial_compliance = 0.0;  // inextensible, as in the other schemes
     density.push_back(edge.linear_density);
     immersed.push_back(edge.linear_density - environment_.fluid_density * edge.cross_section);
   }
@@ -131,7 +132,7 @@ bool MixedStepper::solveStep(State& state, const StepInput& input, double dt, St
     {
       contacts_.detect(state, report);
       if (contacts_.set().stale)
-        break;  // one solve per step is all that old contacts are good for
+        break;  // a stale contact set serves one solve per step
     }
     if (factor == 1.0 && !shifted && largestStrain(state) <= settings_.strain_tolerance &&
         !contacts_.foundUnknown(state))
@@ -178,7 +179,7 @@ void MixedStepper::assemble(const State& state, const StepInput& input, double d
         gradient_[model_.positionRow(state, load.node) + axis] -= load.force[axis];
 }
 
-/** Gradient and second derivative of ½(x − x*)ᵀM(x − x*)/Δt² + ½c(x − x⁰)ᵀM(x − x⁰)/Δt, x* = x⁰ + Δt v. */
+/** Adds gradient and second derivative of ½(x − x*)ᵀM(x − x*)/Δt² + ½c(x − x⁰)ᵀM(x − x⁰)/Δt, x* = x⁰ + Δt v. */
 void MixedStepper::addInertia(const State& state, double dt)
 {
   const double damped = 1.0 + dt * environment_.damping;
@@ -217,7 +218,7 @@ void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d&
       base_.at(r + line, r + col) += block(line, col);
 }
 
-/** Weight, drag of the fluid, and the introducer's guide. */
+/** Adds weight, drag of the fluid, and the introducer's guide. */
 void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const BoundaryConditions held = conditions();
@@ -246,7 +247,7 @@ void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool fi
     gradient_[model_.positionRow(state, node) + axis] += force[axis];
 }
 
-/** Of the edges that are free to keep their lengths. */
+/** Largest strain of the edges between nodes that are not both prescribed. */
 double MixedStepper::largestStrain(const State& state) const
 {
   double worst = 0.0;

@@ -15,15 +15,15 @@ namespace endovascular_sim::rod
 /** The `mixed` scheme: backward Euler for the fourth-order rod of mixed_rod.h, one banded quasi-definite system per
  *  solve with the exact second derivatives.
  *
- *  Inertia is nodal except at ends and jumps of density or edge length: there Euler–Maclaurin's end term, written as a
- *  convex combination of lumped and consistent mass, keeps it fourth order (third at a jump). Weight acts through the
- *  same matrix, so that a free wire falls without bending; other forces act at nodes; contact is that of the chords
- * (nodal_contacts.h). A solve that would turn an edge too far is truncated and the same step is solved again; a
- * factorisation without the inertia of a minimum is shifted; then the step is halved. */
+ *  Inertia is nodal except at ends and at jumps of density or edge length. There Euler–Maclaurin's end term, written as
+ * a convex combination of lumped and consistent mass, keeps it of fourth order (third at a jump). Weight acts through
+ * the same matrix, so that a free wire falls without bending; other forces act at nodes. Contact is that of the chords
+ *  (ContactSolver). A solve that would turn an edge too far is truncated, and the same step is solved again. A
+ *  factorisation without the inertia of a minimum is shifted; if that fails, the step is bisected. */
 class MixedStepper : public Stepper
 {
 public:
-  /** @param wire the same that @p rod was cut from; its sections should end at nodes */
+  /** @param wire of which @p rod is a discretisation; its sections should end at nodes */
   MixedStepper(const Wire& wire, Discretisation rod, Boundary boundary, Environment environment,
                StepperSettings settings);
 
@@ -35,8 +35,7 @@ public:
   void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return rod_; }
 
-  /** Mass matrix of the simulated part, as it couples nodes: entry [i][0] of node i itself, [i][1] with node i + 1
-   *  [kg]. */
+  /** Mass matrix: entry [i][0] is that of node i itself, [i][1] that between the nodes i and i + 1 [kg]. */
   const std::vector<std::array<double, 2>>& mass() const { return mass_; }
   const MixedRod& model() const { return model_; }
 
@@ -72,13 +71,13 @@ private:
   bool twist_active_ = false;
   double last_tip_torque_ = 0.0;
   std::vector<std::array<double, 2>> mass_;
-  std::vector<Eigen::Vector3d> weight_;  ///< under buoyancy, at every node [N]
+  std::vector<Eigen::Vector3d> weight_;  ///< weight less buoyancy at every node [N]
   PhaseTimer* timer_ = nullptr;
 
   MixedRod::Matrix base_, matrix_;
   std::vector<double> gradient_, rhs_;
-  ContactSolver::Motion motion_;        ///< the last solve's increments of the nodes [m]
-  std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step
+  ContactSolver::Motion motion_;        ///< increments of the nodes in the last solve [m]
+  std::vector<Eigen::Vector3d> begin_;  ///< positions at the beginning of the step [m]
   std::vector<Eigen::Vector3d> restore_begin_, restore_velocity_;
   StepBisection bisection_;
 };

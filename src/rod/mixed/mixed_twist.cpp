@@ -17,10 +17,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kMaxIterations = 200;
-constexpr double kMaxTurn = 0.3;     // rad per iteration: a snap-through is followed, not jumped over
+constexpr double kMaxTurn = 0.3;     // rad per iteration, so that a snap-through ends in the next minimum
 constexpr double kConverged = 1e-8;  // rad
-constexpr double kRigid = 1e-6;      // of an edge's twist flexibility, where the hand turns it
-constexpr int kTipPasses = 3;        // for the direction of a torque at the tip, each better by T h/(3EI)
+constexpr double kRigid = 1e-6;      // factor on the twist flexibility of edges that turn with the handle
+constexpr int kTipPasses = 3;        // on the direction of a torque at the tip; each reduces the error by T h/(3EI)
 
 Vector3d across(const Vector3d& v, const Vector3d& axis)
 {
@@ -39,7 +39,7 @@ void add(std::vector<double>& vector, int row, const Vector3d& value)
     vector[static_cast<std::size_t>(row + axis)] += value[axis];
 }
 
-/** Share of an edge's twist that belongs to one of its ends, from the torques there and at the other [rad]. */
+/** Part of an edge's twist at one of its ends, from the torques at both ends [rad]. */
 double twistOfEdge(double h, double flexibility, double near, double far)
 {
   return h * flexibility / 6.0 * (2.0 * near + far);
@@ -82,7 +82,7 @@ void MixedTwist::transportBishopFrame(const MixedRod& rod, const TwistBoundary& 
   }
 }
 
-/** τ: the chords' directions weighted so that it is the tangent but for terms of the order h². */
+/** Computes τ, a weighted mean of the chords' directions: the tangent up to terms of the order h². */
 void MixedTwist::findAxes(const MixedRod& rod, const State& state)
 {
   const int last = rod.nodes() - 1;
@@ -106,7 +106,7 @@ void MixedTwist::findAxes(const MixedRod& rod, const State& state)
   }
 }
 
-/** T from the balance of moment about the chords, from the tip on. */
+/** Computes T from the balance of moments about the chords, from the tip on. */
 void MixedTwist::findTorque(const State& state, double tip_torque)
 {
   const int last = static_cast<int>(state.position.size()) - 1;
@@ -126,7 +126,7 @@ void MixedTwist::findMoments(const MixedRod& rod, const State& state)
     moment_[i] = state.moment[i] + torque_[i] * axis_[i];
 }
 
-/** Finds the material frames at the ends of an edge and the curvature in its middle. */
+/** Computes the material frames at the ends of an edge and the curvature in its middle. */
 void MixedTwist::shapeEdge(const MixedRod& rod, const State& state, int j)
 {
   const MixedEdge& edge = rod.edges()[j];
@@ -150,7 +150,7 @@ void MixedTwist::shapeEdge(const MixedRod& rod, const State& state, int j)
   e.energy.twist = shape.twist_energy;
 }
 
-/** By how much the frame after a node is turned about the tangent against the one before it [rad], less full turns. */
+/** Angle about the tangent from the frame before a node to the frame after it, without full turns [rad]. */
 double MixedTwist::twistMismatch(const TwistBoundary& boundary, int node) const
 {
   const Matrix3d& after = edges_[node].end[0];
@@ -170,7 +170,7 @@ double MixedTwist::twistMismatch(const TwistBoundary& boundary, int node) const
   return std::atan2(director.cross(after.col(0)).dot(after.col(2)), director.dot(after.col(0)));
 }
 
-/** Twist at a node between the angles of its edges, less that of the torques [rad]. */
+/** Twist at a node by the angles of its edges less that by the torques [rad]. */
 double MixedTwist::twistBetween(const MixedRod& rod, const State& state, int node) const
 {
   double twist = state.twist_angle[node] - (node > first_ ? state.twist_angle[node - 1] : angle_before_);
@@ -180,7 +180,7 @@ double MixedTwist::twistBetween(const MixedRod& rod, const State& state, int nod
   return twist;
 }
 
-/** One Newton step for torques and angles, left in rhs_. */
+/** Computes one Newton step of torques and angles, in rhs_. */
 void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const State& state)
 {
   const int last = rod.nodes() - 2;
@@ -194,7 +194,7 @@ void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const
     const double turn = state.twist_angle[j] - e.angle;
     const double half = std::sin(0.5 * turn);
     const double s = 2.0 * half * std::cos(0.5 * turn);
-    // By T_j the twist that is missing, by θ^j the torque that is not balanced.
+    // Row of T_j: the missing twist. Row of θ^j: the unbalanced torque.
     rhs_[rt] = missing_[j] - twistBetween(rod, state, j);
     rhs_[rt + 1] = torque_[j + 1] - torque_[j] - e.rise - e.cosine * s - 2.0 * e.sine * half * half;
     matrix_.at(rt, rt) -= third;
@@ -217,7 +217,7 @@ void MixedTwist::solve(const MixedRod& rod, const TwistBoundary& boundary, const
   matrix_.solve(rhs_);
 }
 
-/** Torques, moments and frames that belong to the angles as they are. */
+/** Computes torques, moments and frames for the present angles. */
 void MixedTwist::evaluate(const MixedRod& rod, const State& state, double tip_torque)
 {
   findAxes(rod, state);
@@ -237,7 +237,7 @@ void MixedTwist::evaluate(const MixedRod& rod, const State& state, double tip_to
   }
 }
 
-/** How torques and angles depend on each other near the angles as they are. */
+/** Linearises the relation of torques and angles about the present angles. */
 void MixedTwist::linearise(const MixedRod& rod, const TwistBoundary& boundary, const State& state)
 {
   for (int j = first_; j + 1 < rod.nodes(); ++j)
@@ -247,7 +247,7 @@ void MixedTwist::linearise(const MixedRod& rod, const TwistBoundary& boundary, c
     const double weight = rod.edges()[j].length / rod.edges()[j].flexibility;
     e.cosine = weight * e.curvature.dot(rest);
     e.sine = weight * e.tangent.dot(rest.cross(e.curvature));
-    // Frames count no full turns.
+    // The angle between frames contains no full turns.
     missing_[j] = std::remainder(twistBetween(rod, state, j) - twistMismatch(boundary, j), 2.0 * M_PI);
   }
 }
@@ -291,7 +291,7 @@ void MixedTwist::relax(MixedRod& rod, const TwistBoundary& boundary, State& stat
   state.hand_torque = boundary.held ? -moment_[first_].dot(boundary.tangent) : 0.0;
 }
 
-/** Force of an edge from the exact balance of moment; assembleNode() takes L's away. */
+/** Adds the force of an edge from the exact balance of moments; assembleNode() subtracts that of L. */
 void MixedTwist::assembleForce(const MixedRod& rod, const State& state, int j, std::vector<double>& gradient) const
 {
   const Edge& e = edges_[j];
@@ -300,7 +300,7 @@ void MixedTwist::assembleForce(const MixedRod& rod, const State& state, int j, s
   add(gradient, rod.positionRow(state, j + 1), force);
 }
 
-/** What L's gradient by M makes of an edge at one of its ends, apart from the tiny bow compliance [rad]. */
+/** Contribution of an edge to the gradient of L by M at one of its ends, without the tiny bow compliance [rad]. */
 Vector3d MixedTwist::bendOfEdge(const MixedRod& rod, const State& state, int j, int side) const
 {
   const MixedEdge& edge = rod.edges()[j];
@@ -313,8 +313,8 @@ Vector3d MixedTwist::bendOfEdge(const MixedRod& rod, const State& state, int j, 
               (h * h * c / 24.0) * edges_[j].tangent.cross(edge.load));
 }
 
-/** Across the tangent the turn from the frame before a node to that after it, instead of L's gradient by M; and takes
- *  the forces of M·Φ away. */
+/** Replaces the gradient of L by M, across the tangent, by the rotation from the frame before a node to the one after
+ *  it, and subtracts the forces of M·Φ. */
 void MixedTwist::assembleNode(const MixedRod& rod, const State& state, int i, std::vector<double>& gradient) const
 {
   const bool has_before = i > first_;
@@ -343,7 +343,7 @@ void MixedTwist::assembleNode(const MixedRod& rod, const State& state, int i, st
   add(gradient, rod.momentRow(state, i), across(tilt, axis_[i]));
 }
 
-/** The rest curvature stays across the chord: ∂²L/∂M∂e = t (∫hat κ̄)ᵀ/|e|. */
+/** Adds ∂²L/∂M∂e = t (∫hat κ̄)ᵀ/|e|: the rest curvature stays perpendicular to the chord. */
 void MixedTwist::assembleRestCurvature(const MixedRod& rod, const State& state, int j, MixedRod::Matrix& hessian) const
 {
   const MixedEdge& edge = rod.edges()[j];

@@ -12,8 +12,8 @@ namespace endovascular_sim::rod
  *  κb = 2 e×g / (|ē||ḡ| + e·g), an integrated quantity [1]; |κb| = 2 tan(turning angle / 2) for unstretched edges. */
 struct CurvatureBinormal
 {
-  /** The denominator goes no lower than this share of |ē||ḡ| (a turn of 163°): edges that fold back onto each other
-   * would make it zero, or negative. */
+  /** Lower bound of the denominator over |ē||ḡ|, reached at a turn of 163°. Edges that fold back onto each other would
+   *  make the denominator zero or negative. */
   static constexpr double kFolded = 0.02;
 
   Eigen::Vector3d edge;        ///< e, the edge before the node [m]
@@ -63,7 +63,7 @@ struct BendingHessian
     const Eigen::Vector3d q = (0.5 * w * (kk - 4.0)) * e + (2.0 * w) * ek;
     const Eigen::Vector3d u = (w * kk) * g - (2.0 * w) * gk;
     const Eigen::Vector3d wg = (2.0 * w) * g;
-    // Entry by entry, because this is the hot spot of assembly.
+    // Entry by entry: assembly spends most of its time here.
     //   (∂κb/∂e)ᵀ(∂κb/∂e) = (4|g|²I − 4ggᵀ − 2(g×k)gᵀ − 2g(g×k)ᵀ + |k|²ggᵀ)/D²
     //   (∂κb/∂g)ᵀ(∂κb/∂g) = (4|e|²I − 4eeᵀ + 2(e×k)eᵀ + 2e(e×k)ᵀ + |k|²eeᵀ)/D²
     //   (∂κb/∂e)ᵀ(∂κb/∂g) = (4egᵀ − 4(g·e)I − 2(g×k)eᵀ + 2g(e×k)ᵀ + |k|²geᵀ)/D²
@@ -92,7 +92,7 @@ struct BendingHessian
 };
 
 /** Exact Hessian blocks of ½|κb − c|² by both edges, c constant: the Gauss–Newton part and the curvature of κb along
- *  the strain κb − c. Indefinite at bent states; for statics and stability analysis, not for time stepping. */
+ *  the strain κb − c. Indefinite at bent states: for statics and stability analysis, not for time stepping. */
 struct BendingExactHessian : BendingHessian
 {
   /** @param rest c, the rest curvature binormal at fixed twist angles [1]

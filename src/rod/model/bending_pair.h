@@ -7,10 +7,10 @@
 namespace endovascular_sim::rod
 {
 
-/** Two doubles that the processor works on at once; plain SSE2, so the bits are the same on every machine. */
+/** Packet of two doubles (SIMD); plain SSE2, so the bits are the same on every machine. */
 typedef double Pair __attribute__((vector_size(16)));  // NOLINT: the form in which compilers take the attribute
 
-/** Two vectors in space. */
+/** Packet of two vectors in space. */
 struct PairVector
 {
   Pair x, y, z;
@@ -27,19 +27,19 @@ struct PairVector
   friend PairVector operator*(double s, const PairVector& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 
-/** What the bending of two nodes depends on; e is the edge before each node, g the one after it. */
+/** Input of the bending of two nodes; e is the edge before each node, g the edge after it. */
 struct BendingPairInput
 {
   PairVector e, g;     ///< [m]
   Pair rest_product;   ///< |ē||ḡ| [m²]
-  Pair weight;         ///< of ½|κb − c|²
+  Pair weight;         ///< factor on ½|κb − c|²
   PairVector rest;     ///< c, rest curvature binormal in space [1]
-  Pair torque_before;  ///< twist torque's share by the edge before, over κb: the gradient takes −torque_before·κb
-  Pair torque_after;
+  Pair torque_before;  ///< gradient of the twist by the edge before, divided by −κb
+  Pair torque_after;   ///< gradient of the twist by the edge after, divided by κb
 };
 
 /** Gradient and Gauss–Newton blocks of the bending of two nodes: CurvatureBinormal and BendingHessian, two at a time.
- * It is the hot spot of assembly. */
+ *  Assembly spends most of its time here. */
 struct BendingPair
 {
   Pair before_before[3][3];  ///< lower triangle, [line][col]

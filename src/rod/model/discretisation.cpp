@@ -8,7 +8,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-/** Integrals of a section property over a stretch of wire. */
+/** Integrals of section properties over a part of the wire. */
 struct StretchIntegrals
 {
   double bending_compliance = 0.0;

@@ -11,36 +11,36 @@
 namespace endovascular_sim::rod
 {
 
-/** A wire cut into nodes: what the solver needs per node and per edge. Constant while the sampling is.
+/** Discrete rod: the wire's properties per node and per edge. Constant between changes of the nodes.
  *
- *  Node i sits at arc length position[i] from the proximal end; edge j joins nodes j and j+1. Nodal stiffnesses are
- *  those of the Voronoi cell, its compliances added in series, so that a section joint may fall anywhere. */
+ *  Node i lies at arc length position[i] from the proximal end; edge j joins nodes j and j+1. Nodal stiffnesses are
+ *  those of the Voronoi cell, its compliances added in series, so that a section joint may lie anywhere. */
 struct Discretisation
 {
   std::vector<double> position;                 ///< arc length from the proximal end [m], n
   std::vector<double> rest_length;              ///< ē of every edge [m], n−1
-  std::vector<double> cell_length;              ///< Voronoi length, half of both edges [m], n
+  std::vector<double> cell_length;              ///< Voronoi length, the sum of both half edges [m], n
   std::vector<double> bending_stiffness;        ///< EI [N·m²], n
   std::vector<double> torsional_stiffness;      ///< GJ [N·m²], n
   std::vector<double> axial_stiffness;          ///< EA per edge [N], n−1
   std::vector<double> mass;                     ///< lumped [kg], n
-  std::vector<double> radius;                   ///< outer [m], n
-  std::vector<double> friction;                 ///< Coulomb coefficient, NaN: the wall's, n
-  std::vector<double> friction_share;           ///< of the surface that has it, the rest the wall's; empty: all, n
-  std::vector<Eigen::Vector2d> rest_curvature;  ///< integrated over the cell, 2 tan(angle/2) [1], n
+  std::vector<double> radius;                   ///< outer radius [m], n
+  std::vector<double> friction;                 ///< Coulomb coefficient; NaN: the wall's coefficient [1], n
+  std::vector<double> friction_share;           ///< part of the surface with that coefficient; empty: all [1], n
+  std::vector<Eigen::Vector2d> rest_curvature;  ///< integral over the cell, 2 tan(angle/2) [1], n
   int first_curved = 0;                         ///< first node with rest curvature, n when there is none
 
   int nodes() const { return static_cast<int>(position.size()); }
   double length() const { return position.back(); }
 
-  /** Share of an inner node's cell that lies beyond a place [m] along the wire, 0 to 1. */
-  double shareBeyond(int node, double place) const
+  /** Part of an inner node's cell that lies beyond an arc length [m], 0 to 1. */
+  double shareBeyond(int node, double arc_length) const
   {
     const double begin = position[node] - 0.5 * rest_length[node - 1];
-    return std::max(0.0, std::min(1.0, 1.0 - (place - begin) / cell_length[node]));
+    return std::max(0.0, std::min(1.0, 1.0 - (arc_length - begin) / cell_length[node]));
   }
 
-  /** Coulomb coefficient of a node on a wall whose own one is @p wall. */
+  /** Coulomb coefficient between a node and a wall whose coefficient is @p wall. */
   double frictionOn(double wall, int node) const
   {
     if (std::isnan(friction[node]))
@@ -49,20 +49,21 @@ struct Discretisation
   }
 };
 
-/** Integrated curvature, 2 tan(angle/2), whose turning angle is @p angle [1]. */
+/** Integrated curvature, 2 tan(angle/2), of a turning angle [1]. */
 Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle);
 
-/** Cuts a wire at the given arc lengths.
+/** Discretises a wire at the given arc lengths.
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */
 Discretisation discretise(const Wire& wire, const std::vector<double>& position);
 
-/** The same into an existing object, whose memory is used again. */
+/** The same, reusing the memory of an existing object. */
 void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& rod);
 
 /** Mass of the wire between two arc lengths from the proximal end [kg]. */
 double massBetween(const Wire& wire, double begin, double end);
 
-/** @param nodes number of equally spaced nodes over the wire, at least 3 */
+/** Discretises a wire with equally spaced nodes.
+ *  @param nodes at least 3 */
 Discretisation discretiseUniformly(const Wire& wire, int nodes);
 
 }  // namespace endovascular_sim::rod

@@ -7,7 +7,7 @@
 namespace endovascular_sim::rod
 {
 
-/** Curvature binormal of a wire at a node that has a simulated edge on both sides. */
+/** Curvature binormal of a wire at a node between two simulated edges. */
 inline CurvatureBinormal binormalAt(const Discretisation& rod, const State& state, int node)
 {
   return {state.position[node] - state.position[node - 1], state.position[node + 1] - state.position[node],

@@ -29,7 +29,7 @@ struct Rodrigues
   }
 };
 
-/** v turned by a rotation vector [rad]. */
+/** Rotation of v by a rotation vector [rad]. */
 inline Eigen::Vector3d turned(const Eigen::Vector3d& v, const Eigen::Vector3d& w)
 {
   const Rodrigues r(w);
@@ -54,34 +54,34 @@ inline Eigen::Matrix3d rotationOf(const Eigen::Vector3d& w)
   return m;
 }
 
-/** What a stretch of Kirchhoff rod is made of and carries. Vectors along (d1, d2, chord). */
+/** Properties and loads of one edge of a Kirchhoff rod. Vectors are in the frame (d1, d2, chord). */
 struct EdgeLoad
 {
-  double length = 0.0;                                       ///< h, of arc [m]
+  double length = 0.0;                                       ///< arc length h [m]
   double flexibility = 0.0;                                  ///< 1/EI [1/(N·m²)]
   double twist_flexibility = 0.0;                            ///< 1/GJ [1/(N·m²)]
-  Eigen::Vector3d rest_curvature = Eigen::Vector3d::Zero();  ///< in the material frame [1/m]
-  double tension = 0.0;                                      ///< along the chord [N]
+  Eigen::Vector3d rest_curvature = Eigen::Vector3d::Zero();  ///< κ̄ in the material frame [1/m]
+  double tension = 0.0;                                      ///< force along the chord [N]
   Eigen::Vector3d load = Eigen::Vector3d::Zero();            ///< force per length [N/m]
   std::array<Eigen::Vector3d, 2> moment{Eigen::Vector3d::Zero(),
-                                        Eigen::Vector3d::Zero()};  ///< whole, at the ends [N·m]
+                                        Eigen::Vector3d::Zero()};  ///< bending moment and torque at the ends [N·m]
 };
 
-/** How the material frames at the ends of a stretch of rod stand to its chord, to fourth order in the length.
+/** Rotations from the chord of an edge to the material frames at its ends, to fourth order in its length.
  *
- *  In the material frame R, R′ = R[κ]× with κ = (m₁/EI, m₂/EI, m₃/GJ) + κ̄, and κ̄ does not turn. The moment inside is
- *  known but for terms of the order h³ in its middle: m = mean of the ends + F×bow + h²/8 q×t, F×chord = the ends'
- *  difference. With κ taken as a parabola through both ends and the middle (k₀ there, k₁ the ends' difference) the
- *  Magnus expansion about the middle gives the frames at the ends,
+ *  In the material frame R, R′ = R[κ]× with κ = (m₁/EI, m₂/EI, m₃/GJ) + κ̄, and κ̄ is constant. The moment in the middle
+ *  is known up to terms of the order h³: m = mean of the ends + F×bow + h²/8 q×t, with F×chord the difference of the
+ *  ends. For κ a parabola through both ends and the middle (k₀ in the middle, k₁ the difference of the ends), the
+ * Magnus expansion about the middle gives the frames at the ends,
  *
  *    Q exp(±[∫κ/2 + h² k₀×k₁/96] + h k₁/8),   ∫κ by Simpson's rule,
  *
  *  and the chord is along e₃ + h/24 k₁×e₃ + h²/24 (k₀·e₃) k₀ in the middle's frame Q. Terms that are even in h change
- *  little from edge to edge and cancel at the node between them, so that those of the order h⁴ may be left out. */
+ *  little from edge to edge and cancel at the node between them, so that those of the order h⁴ are omitted. */
 struct RodEdgeFrames
 {
   std::array<Eigen::Matrix3d, 2> turn;  ///< material frame at the ends, as columns along (d1, d2, chord)
-  Eigen::Vector3d curvature;            ///< κ in the middle, along the same [1/m]
+  Eigen::Vector3d curvature;            ///< κ in the middle, in the frame (d1, d2, chord) [1/m]
   double bending_energy;                ///< ½∫(m₁² + m₂²)/EI by Simpson's rule [J]
   double twist_energy;                  ///< ½∫m₃²/GJ [J]
 
@@ -97,7 +97,7 @@ struct RodEdgeFrames
     const Vector3d force(-across.y() / h, across.x() / h, edge.tension);
     Vector3d middle = 0.5 * (edge.moment[0] + edge.moment[1]);
     Vector3d k0 = bend(middle);
-    const Vector3d bow(-k0.y(), k0.x(), 0.0);  // of the arc's middle over the chord, in units of h²/8
+    const Vector3d bow(-k0.y(), k0.x(), 0.0);  // offset of the arc's middle from the chord, in units of h²/8
     middle += (0.125 * h * h) * (force.cross(bow) + Vector3d(edge.load.y(), -edge.load.x(), 0.0));
     k0 = bend(middle);
     Vector3d k1 = flexibility.cwiseProduct(across - h * k0.cross(middle));

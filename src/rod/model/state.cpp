@@ -17,7 +17,7 @@ EndMotion between(const EndMotion& from, const EndMotion& to, double share)
 
 std::uint64_t State::hash() const
 {
-  // Four chains at a time: each waits for its own last word only.
+  // Four interleaved chains: each depends on its own last word only, so the processor runs them in parallel.
   std::array<Hash64, 4> chains;
   for (std::size_t i = static_cast<std::size_t>(first_node); i < position.size(); ++i)
   {
@@ -33,6 +33,14 @@ std::uint64_t State::hash() const
   for (const Hash64& chain : chains)
     hash.add(chain.value());
   return hash.value();
+}
+
+HandleState handleState(const State& state, int instrument)
+{
+  if (state.layers.empty())
+    return {state.inserted_length, state.rotation, state.hand_force, state.hand_torque};
+  const LayerState& layer = state.layers[static_cast<std::size_t>(instrument)];
+  return {layer.inserted_length, layer.rotation, layer.hand_force, layer.hand_torque};
 }
 
 double maxStrain(const Discretisation& rod, const State& state)

@@ -7,7 +7,7 @@
 namespace endovascular_sim::rod
 {
 
-/** Stretch of one edge, E = ½ EA (|e|/ē − 1)² ē: value, gradient and Hessians by the edge e. */
+/** Stretch energy of one edge, E = ½ EA (|e|/ē − 1)² ē: value, gradient and Hessian by the edge e. */
 struct Stretching
 {
   Eigen::Vector3d direction;  ///< e/|e|
@@ -25,26 +25,23 @@ struct Stretching
   {
   }
 
-  /** [J] */
+  /** Energy [J]. */
   double energy() const { return 0.5 * tension * (length - rest_length); }
 
   /** ∂E/∂e: the tension along the edge [N]. */
   Eigen::Vector3d gradient() const { return tension * direction; }
 
-  /** ∂²E/∂e² [N/m]; indefinite under compression. */
-  Eigen::Matrix3d exactHessian() const { return axial() + geometric(tension); }
-
-  /** The part that is positive semi-definite at every state: without compression's geometric term [N/m]. */
-  Eigen::Matrix3d positiveHessian() const { return axial() + geometric(std::max(0.0, tension)); }
+  /** Positive semi-definite part of ∂²E/∂e²: without the geometric term of compression [N/m]. */
+  Eigen::Matrix3d positiveHessian() const
+  {
+    return (axial_stiffness / rest_length) * direction * direction.transpose() + geometric(std::max(0.0, tension));
+  }
 
   /** Second derivative of λ(|e| − ē) with the multiplier λ of an inextensible edge: λ/|e| (I − ttᵀ) [N/m]. */
   Eigen::Matrix3d geometric(double multiplier) const
   {
     return (multiplier / length) * (Eigen::Matrix3d::Identity() - direction * direction.transpose());
   }
-
-private:
-  Eigen::Matrix3d axial() const { return (axial_stiffness / rest_length) * direction * direction.transpose(); }
 };
 
 }  // namespace endovascular_sim::rod

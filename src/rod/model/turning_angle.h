@@ -55,16 +55,16 @@ private:
                                          2048.0 / 145422675.0};
 };
 
-/** Turning angle vector between two directions: along e×g, as long as the angle between them [rad].
+/** Turning angle vector between two directions: along e×g, its length the angle between them [rad].
  *
  *  With u = e/|e|, v = g/|g|, c = u×v, d = u·v: Φ = g(d) c, and its derivatives are
  *  ∂Φ/∂e = (c aᵀ − g[v]×)/|e|, a = g′v − (g′d + g)u, and ∂Φ/∂g = (c bᵀ + g[u]×)/|g|, b = g′u − (g′d + g)v. */
 struct TurningAngle
 {
-  /** The cosine goes no lower than this (a turn of 168°): at a fold the angle has no direction. */
+  /** Lower bound of the cosine, reached at a turn of 168°: at a fold the angle has no direction. */
   static constexpr double kFolded = -0.98;
 
-  double inverse_before, inverse_after;  ///< of the edges' lengths [1/m]
+  double inverse_before, inverse_after;  ///< inverses of the edges' lengths [1/m]
   Eigen::Vector3d before, after;         ///< unit tangents u, v
   double cosine;                         ///< d
   Eigen::Vector3d cross;                 ///< c
@@ -144,8 +144,7 @@ inline Eigen::Matrix3d symmetricBlock(const Eigen::Vector3d& p, const Eigen::Vec
   return block;
 }
 
-/** Second derivatives by e of a function of the direction u = e/|e| whose second derivatives by u, taken as free, are
- *  p qᵀ + q pᵀ.
+/** Second derivatives by e of a function of the direction u = e/|e|. Those by u, as if |u| were free, are p qᵀ + q pᵀ.
  *  @param inverse 1/|e|
  *  @param gradient by u */
 inline Eigen::Matrix3d hessianByEdge(const Eigen::Vector3d& u, double inverse, const Eigen::Vector3d& gradient,

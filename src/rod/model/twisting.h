@@ -7,7 +7,7 @@ namespace endovascular_sim::rod
 {
 
 /** Energy ½ k m² of the twist m between two edges, k = GJ over the node's Voronoi length [N·m], and its derivative by
- *  θ of the edge after the node; by θ of the edge before it, the derivative has the opposite sign. */
+ *  the angle θ of the edge after the node. The derivative by θ of the edge before has the opposite sign. */
 struct Twisting
 {
   double twist;    ///< m = θ⁺ − θ⁻ [rad]
@@ -19,15 +19,15 @@ struct Twisting
   {
   }
 
-  double energy() const { return 0.5 * torque * twist; }  ///< [J]
+  double energy() const { return 0.5 * torque * twist; }  ///< ½ k m² [J]
 };
 
-/** How the twist at a node follows from its edges e (before) and g (after) while their material frames only move
- *  along with them (parallel transport in time): ∂m/∂e = κb/(2|e|), ∂m/∂g = κb/(2|g|) (Bergou et al. 2010, eq. 7),
- *  with the actual lengths also in κb, which make it exact for stretched edges.
+/** Derivatives of the twist at a node by its edges e (before) and g (after), whose material frames follow them by
+ *  parallel transport in time: ∂m/∂e = κb/(2|e|), ∂m/∂g = κb/(2|g|) (Bergou et al. 2010, eq. 7). The actual lengths in
+ *  κb make the derivatives exact for stretched edges.
  *
- *  The second derivatives are symmetrised: a single node's twist depends on the path by the holonomy of its edges, but
- *  these parts cancel between neighbours, so that the sum over a wire with held ends, or over a ring, is exact. */
+ *  The second derivatives are symmetrised. The twist of a single node depends on the path by the holonomy of its edges,
+ *  but these parts cancel between neighbours: the sum over a wire with held ends, or over a ring, is exact. */
 struct TwistOfCentreline
 {
   Eigen::Vector3d by_before;      ///< ∂m/∂e [1/m]

@@ -8,7 +8,7 @@
 namespace endovascular_sim::rod
 {
 
-/** A stretch of wire with constant properties. */
+/** Part of a wire with constant properties. */
 struct Section
 {
   double length = 0.0;               ///< [m]
@@ -17,12 +17,12 @@ struct Section
   double axial_stiffness = 0.0;      ///< EA [N]
   double radius = 0.0;               ///< outer radius [m]
   double density = 0.0;              ///< mass per volume of the solid cylinder of this radius [kg/m³]
-  /** Coulomb coefficient against the wall; NaN leaves it to the wall. */
+  /** Coulomb coefficient against the wall; NaN: the wall's own coefficient. */
   double friction = std::numeric_limits<double>::quiet_NaN();
-  Eigen::Vector2d rest_curvature = Eigen::Vector2d::Zero();  ///< in the material frame [1/m]
+  Eigen::Vector2d rest_curvature = Eigen::Vector2d::Zero();  ///< components in the material frame [1/m]
 };
 
-/** A wire (or the shaft of a catheter): sections from the proximal (hand's) end to the tip. */
+/** Wire, or shaft of a catheter: sections from the proximal end to the tip. */
 struct Wire
 {
   std::vector<Section> sections;
@@ -30,10 +30,10 @@ struct Wire
   /** Sum of the sections' lengths [m]. */
   double length() const;
 
-  /** Length from the proximal end of the first section with rest curvature to the tip [m]; 0 for a straight wire. */
+  /** Length from the first section with rest curvature to the tip [m]; 0 for a straight wire. */
   double curvedTipLength() const;
 
-  /** Outer radius at a length from the proximal end [m]. */
+  /** Outer radius at an arc length from the proximal end [m]. */
   double radiusAt(double position) const;
 };
 

@@ -23,7 +23,7 @@ bool FastProjection::project(const Discretisation& rod, int first, const std::ve
   for (iterations_ = 0; iterations_ < kMaxIterations; ++iterations_)
   {
     const double strain = residual(rod, first, inverse_mass, position);
-    // Once at least: a strain within the tolerance, left to the stretch energy, would shake the tension.
+    // At least once: a strain within the tolerance, left to the stretch energy, would make the tension oscillate.
     if (strain <= tolerance && iterations_ > 0)
       return true;
     if (!std::isfinite(strain) || !solve(first, last, inverse_mass))
@@ -39,7 +39,8 @@ bool FastProjection::project(const Discretisation& rod, int first, const std::ve
   return residual(rod, first, inverse_mass, position) <= tolerance;
 }
 
-/** Edges and constraints; @return the largest strain of an edge that can move. */
+/** Computes edges and constraints.
+ *  @return the largest strain of an edge that can move */
 double FastProjection::residual(const Discretisation& rod, int first, const std::vector<double>& inverse_mass,
                                 const std::vector<Eigen::Vector3d>& position)
 {
@@ -56,7 +57,7 @@ double FastProjection::residual(const Discretisation& rod, int first, const std:
   return worst;
 }
 
-/** Tridiagonal LDLᵀ; the multipliers, times Δt², take the constraints' place. */
+/** Solves by tridiagonal LDLᵀ; the multipliers, times Δt², replace the constraints. */
 bool FastProjection::solve(int first, int last, const std::vector<double>& inverse_mass)
 {
   for (int j = first; j <= last; ++j)

@@ -9,17 +9,18 @@
 namespace endovascular_sim::rod
 {
 
-/** Fast projection (Goldenthal et al. 2007): moves nodes so that every edge gets its rest length back, along the
- *  constraints' gradients and weighted by the masses, which keeps linear momentum.
+/** Fast projection (Goldenthal et al. 2007): moves the nodes to restore the rest length of every edge, along the
+ *  gradients of the constraints and weighted with the inverse masses, which conserves linear momentum.
  *
  *  Constraints C_j = |e_j|² − ē_j². Every iteration substitutes δx = −Δt² M⁻¹ ∇Cᵀ δλ into C + ∇C δx = 0 and solves the
  *  tridiagonal system ∇C M⁻¹ ∇Cᵀ (Δt² δλ) = C. */
 class FastProjection
 {
 public:
-  /** @param rod of n nodes
-   *  @param first first simulated node; the nodes before it are left alone
-   *  @param inverse_mass of every node, 0 holds it [1/kg], n
+  /** Projects the positions of the nodes.
+   *  @param rod of n nodes
+   *  @param first first simulated node; the nodes before it do not move
+   *  @param inverse_mass of every node, 0 for held ones [1/kg], n
    *  @param tolerance of | |e|/ē − 1 |
    *  @param position changed in place [m], n
    *  @return true when every edge that can move is within the tolerance */
@@ -29,7 +30,7 @@ public:
   /** Tension of an edge over the last projection, times Δt² [kg·m]. */
   double tension(int edge) const { return tension_[edge]; }
 
-  int iterations() const { return iterations_; }  ///< of the last projection
+  int iterations() const { return iterations_; }  ///< number of iterations of the last projection
 
 private:
   double residual(const Discretisation& rod, int first, const std::vector<double>& inverse_mass,

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kLargestMotion = 1e3;   // m: beyond it a solution counts as failed
-constexpr double kLargestStrain = 1e-2;  // left by a projection that has not converged, still accepted
+constexpr double kLargestStrain = 1e-2;  // accepted after a projection that has not converged
 
 }  // namespace
 
@@ -25,7 +25,7 @@ PaperStepper::PaperStepper(Discretisation rod, Boundary boundary, Environment en
 
 State PaperStepper::initialState(double inserted_length, double rotation) const
 {
-  return heldWire().initialState(inserted_length, rotation);
+  return conditions().initialState(inserted_length, rotation);
 }
 
 StepReport PaperStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
@@ -54,7 +54,7 @@ StepReport PaperStepper::step(State& state, const StepInput& input, double dt, s
   return report;
 }
 
-/** The wire waits for new contacts before it moves on. */
+/** Invalidates the contacts: the wire waits for new ones before it moves. */
 bool PaperStepper::resample(const Discretisation& rod)
 {
   rod_ = rod;
@@ -87,8 +87,8 @@ void PaperStepper::detect(const State& state, StepReport& report)
   query_.substep = substep_;
   query_.pass = *pass_;
   query_.margin = settings_.contact_margin;
-  heldWire().describe(state, query_);
-  // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
+  conditions().describe(state, query_);
+  // After a missing answer the rest of the step uses the stale set: a replay then needs one number only.
   contacts_.stale = step_is_stale_;
   if (!step_is_stale_)
     source_->detect(query_, contacts_);
@@ -102,7 +102,7 @@ void PaperStepper::detect(const State& state, StepReport& report)
 bool PaperStepper::advance(State& state, const StepInput& input, double dt, StepReport& report)
 {
   beginStep(state, input, dt);
-  twist_active_ = heldWire().relaxTwist(twist_, state, input.tip_torque, *timer_);
+  twist_active_ = conditions().relaxTwist(twist_, state, input.tip_torque, *timer_);
   {
     PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
     assemble(state, input, dt);
@@ -111,10 +111,10 @@ bool PaperStepper::advance(State& state, const StepInput& input, double dt, Step
   return solve(state, dt, report) && project(state, dt, report);
 }
 
-/** Prescribed nodes have a velocity for this step; all forces are those of the positions before it. */
+/** Sets the velocities of prescribed nodes; all forces are evaluated at the positions before the step. */
 void PaperStepper::beginStep(State& state, const StepInput& input, double dt)
 {
-  const BoundaryConditions held = heldWire();
+  const BoundaryConditions held = conditions();
   held.placePrescribedNodes(state, input.inserted_length, dt);
   state.rotation = input.rotation;
   first_ = state.first_node;
@@ -135,7 +135,8 @@ Eigen::Vector3d PaperStepper::displacement(int node) const
   return {value[0], value[1], value[2]};
 }
 
-/** The unknowns are displacements Δt v⁺, the rows are multiplied by Δt: matrix in kg, right-hand side in kg·m. */
+/** Assembles the linear step for the displacements Δt v⁺, its rows multiplied by Δt: matrix in kg, right-hand side in
+ *  kg·m. */
 void PaperStepper::assemble(const State& state, const StepInput& input, double dt)
 {
   const int n = rod_.nodes();
@@ -145,7 +146,7 @@ void PaperStepper::assemble(const State& state, const StepInput& input, double d
     addBending(i, state, dt);
   for (int j = first_; j + 1 < n; ++j)
     addStretch(j, state, dt);
-  friction_.collect(state, begin_, nullptr, dt, true);  // with the impulse of the step before
+  friction_.collect(state, begin_, nullptr, dt, true);  // with the normal forces of the last step
   friction_.linearise();
   for (std::size_t k = 0; k < friction_.count(); ++k)
   {
@@ -167,7 +168,8 @@ void PaperStepper::addForce(int node, const Eigen::Vector3d& force)
     rhs_[row(node) + axis] += force[axis];
 }
 
-/** @param row_node not before @p col_node; of a diagonal block, the lower triangle counts */
+/** Adds a block to the matrix.
+ *  @param row_node not before @p col_node; of a diagonal block only the lower triangle is used */
 void PaperStepper::addBlock(int row_node, int col_node, const Eigen::Matrix3d& block)
 {
   const int r = row(row_node);
@@ -223,7 +225,7 @@ void PaperStepper::addStretch(int edge, const State& state, double dt)
 
 void PaperStepper::addNodeTerms(int node, const State& state, double dt)
 {
-  const BoundaryConditions held = heldWire();
+  const BoundaryConditions held = conditions();
   const Eigen::Vector3d& velocity = state.velocity[node];
   const double mass = rod_.mass[node];
   const double area = M_PI * rod_.radius[node] * rod_.radius[node];
@@ -245,7 +247,7 @@ void PaperStepper::addNodeTerms(int node, const State& state, double dt)
   addBlock(node, node, block);
 }
 
-/** Rows of prescribed nodes, factorisation, solution. */
+/** Prescribes nodes, factorises and solves. */
 bool PaperStepper::solve(const State& state, double dt, StepReport& report)
 {
   base_.copyFrom(matrix_);
@@ -270,7 +272,7 @@ bool PaperStepper::solve(const State& state, double dt, StepReport& report)
   return std::all_of(rhs_.begin(), rhs_.end(), [](double value) { return std::abs(value) < kLargestMotion; });
 }
 
-/** Takes the linear step, gives the edges their lengths back, and makes velocities and forces follow. */
+/** Applies the linear step, restores the lengths of the edges, and updates velocities and forces. */
 bool PaperStepper::project(State& state, double dt, StepReport& report)
 {
   for (int j = first_; j + 1 < rod_.nodes(); ++j)
@@ -299,8 +301,8 @@ bool PaperStepper::project(State& state, double dt, StepReport& report)
   return true;
 }
 
-/** Force of the wire on what holds a node [N]: what the linear step leaves of its equation, and what the projection
- *  pulls at it along the edges that it found. */
+/** Force of the wire on the hold of a node [N]: the remainder of its equation in the linear step, and the tensions of
+ *  the projection along the edges before it. */
 Eigen::Vector3d PaperStepper::forceOnHold(int node, double dt) const
 {
   Eigen::Vector3d force = remainder(base_, Eigen::Vector3d(base_rhs_.data() + row(node)), rhs_, row(node));
@@ -316,7 +318,7 @@ Energy PaperStepper::energy(const State& state)
 {
   State relaxed = state;
   PhaseTimer unused;
-  const bool active = heldWire().relaxTwist(twist_, relaxed, last_tip_torque_, unused);
+  const bool active = conditions().relaxTwist(twist_, relaxed, last_tip_torque_, unused);
   return elasticEnergy(rod_, state, active ? &twist_ : nullptr);
 }
 

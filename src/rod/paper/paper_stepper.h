@@ -18,9 +18,8 @@ namespace endovascular_sim::rod
  *  The step solves (M + Δt D + Δt² K) v⁺ = M v + Δt f at the positions where it begins, which is
  *  (M − Δt ∂f/∂v − Δt² ∂f/∂x) Δv = Δt (f + Δt ∂f/∂x v) with the unknown v⁺ = v + Δv: symmetric, positive definite,
  *  block-pentadiagonal (half bandwidth 8). K holds Gauss–Newton bending, stretch, the guide and contact. Contact is a
- *  spring of stiffness m/Δt² per feature, so a force F penetrates F Δt²/m whatever the wall is made of. Features are
- *  found once per step, and nothing keeps a fast wire from passing through a wall: the baseline that `kkt` is
- *  measured against. */
+ *  spring of stiffness m/Δt² per feature: a force F penetrates F Δt²/m, whatever the wall's stiffness. Features are
+ *  detected once per step, so that a fast wire may pass through a wall. The scheme is the baseline for `kkt`. */
 class PaperStepper : public Stepper
 {
 public:
@@ -28,8 +27,8 @@ public:
 
   State initialState(double inserted_length, double rotation) const override;
 
-  /** A step whose result is not finite, or whose edges cannot be brought back to their lengths, is refused: the wire
-   *  stays where it was, at rest. Without a fresh contact set it waits. */
+  /** Rejects a step whose result is not finite, or whose edges cannot be restored to their lengths: the wire keeps its
+   *  position, at rest. Without a fresh contact set the wire waits. */
   StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override;
@@ -41,17 +40,17 @@ public:
 private:
   static constexpr int kBandwidth = 8;
 
-  /** A feature as the step uses it. */
+  /** Contact spring of a feature. */
   struct Spring
   {
     int node = 0;  ///< the edge's first node
     double weight0 = 0.0;
     double weight1 = 0.0;
-    double mass = 0.0;  ///< that the spring acts on: its stiffness is this over Δt² [kg]
+    double mass = 0.0;  ///< effective mass; the stiffness is mass/Δt² [kg]
     bool active = false;
   };
 
-  BoundaryConditions heldWire() const { return BoundaryConditions(rod_, boundary_); }
+  BoundaryConditions conditions() const { return BoundaryConditions(rod_, boundary_); }
   bool haveContacts(const State& state, StepReport& report);
   void detect(const State& state, StepReport& report);
   void hold(State& state);
@@ -96,7 +95,7 @@ private:
   BandedLdlt<kBandwidth> base_, matrix_;
   CholmodSolver cholmod_;
   std::vector<double> base_rhs_;
-  std::vector<double> rhs_;  ///< then the displacements of the linear step [m]
+  std::vector<double> rhs_;  ///< after the solve, the displacements of the linear step [m]
   std::vector<Spring> springs_;
   WallFriction friction_{settings_.friction_slip};
   std::vector<double> inverse_mass_;

@@ -3,7 +3,7 @@
 
 #include "rod/paper/paper_stepper.h"
 
-// The part of the scheme that deals with contact: impulses of the features that were found where the step begins.
+// Contact impulses of the `paper` scheme, from the features at the beginning of the step.
 
 namespace endovascular_sim::rod
 {
@@ -14,7 +14,7 @@ PaperStepper::Spring PaperStepper::spring(const contact::Feature& feature, const
   spring.node = std::min(feature.edge, rod_.nodes() - 2);
   spring.weight1 = feature.edge + 1 < rod_.nodes() ? feature.parameter : 1.0;
   spring.weight0 = 1.0 - spring.weight1;
-  // What the place between two nodes weighs to a force on it.
+  // Effective mass of a point between two nodes.
   spring.mass = 1.0 / (spring.weight0 * spring.weight0 / rod_.mass[spring.node] +
                        spring.weight1 * spring.weight1 / rod_.mass[spring.node + 1]);
   const Eigen::Vector3d velocity =
@@ -23,7 +23,8 @@ PaperStepper::Spring PaperStepper::spring(const contact::Feature& feature, const
   return spring;
 }
 
-/** Impulse (6) of the paper, once per feature: depth along the normal, by the wire's surface; and its derivative. */
+/** Adds the impulse (6) of the paper, once per feature, in the depth of the wire's surface along the normal, and its
+ *  derivative. */
 void PaperStepper::addContacts(const State& state, double dt)
 {
   springs_.clear();

@@ -11,14 +11,14 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kWindow = 3.0;       // of the shortest edge: how far a curvature reaches along the wire
-constexpr double kTipEdges = 3.0;     // of the longest edge: the part of the wire that looks ahead, and how far it does
-constexpr int kLooksAhead = 4;        // places at which it looks
-constexpr double kFineTip = 3.0;      // shortest edges: the tip presses with its end on the wall
-constexpr int kGuideLevels = 1;       // bisections of the shortest edge where the guide begins
-constexpr double kFineGuide = 1.0;    // shortest edges from there on that are as fine as that
-constexpr double kMergeGuide = 1.0;   // shortest edges after which they may merge again: hysteresis
-constexpr double kFineOutside = 4.0;  // longest edges: the wire comes in as fine as that
+constexpr double kWindow = 3.0;       // range of a curvature along the wire, in shortest edges
+constexpr double kTipEdges = 3.0;     // length of the tip that looks ahead, and its distance, in longest edges
+constexpr int kQueriesAhead = 4;      // intervals between the points queried ahead
+constexpr double kFineTip = 3.0;      // length of the fine tip, whose end touches the wall, in shortest edges
+constexpr int kGuideLevels = 1;       // bisections of the shortest edge at the outer end of the guide
+constexpr double kFineGuide = 1.0;    // length of that part inside the guide, in shortest edges
+constexpr double kMergeGuide = 1.0;   // further length before edges may merge (hysteresis), in shortest edges
+constexpr double kFineOutside = 4.0;  // length of that part outside the guide, in longest edges
 
 SamplingSettings withGuideLevels(SamplingSettings settings, const Boundary& boundary)
 {
@@ -73,20 +73,20 @@ void AdaptiveSampling::measureCurvature(const State& state)
 
 double AdaptiveSampling::curvatureBeyondTip(const Eigen::Vector3d& before_tip, const Eigen::Vector3d& tip)
 {
-  if (beyond_tip_ >= 0.0 && (tip - looked_from_).norm() < settings_.min_edge)
+  if (beyond_tip_ >= 0.0 && (tip - queried_from_).norm() < settings_.min_edge)
     return beyond_tip_;
   const Eigen::Vector3d along = (tip - before_tip).normalized();
-  looked_from_ = tip;
+  queried_from_ = tip;
   beyond_tip_ = 0.0;
-  for (int k = 0; k <= kLooksAhead; ++k)
+  for (int k = 0; k <= kQueriesAhead; ++k)
   {
-    const double distance = kTipEdges * settings_.max_edge * k / kLooksAhead;
+    const double distance = kTipEdges * settings_.max_edge * k / kQueriesAhead;
     beyond_tip_ = std::max(beyond_tip_, ahead_(tip + distance * along));
   }
   return beyond_tip_;
 }
 
-/** Largest curvature within the window round each edge. */
+/** Demands the largest curvature within the window around each edge. */
 void AdaptiveSampling::demandOfShape(const State& state)
 {
   const int n = rod_.nodes();
@@ -104,7 +104,7 @@ void AdaptiveSampling::demandOfShape(const State& state)
   }
 }
 
-/** Section joints stay fine, and a curved section is never coarser than its rest curvature asks for. */
+/** Demands fine section joints, and in curved sections edges no coarser than their rest curvature requires. */
 void AdaptiveSampling::setFixedDemand()
 {
   double begin = 0.0;
@@ -131,7 +131,7 @@ void AdaptiveSampling::setFixedDemand()
   }
 }
 
-/** Where the wire's ends want the sampling to be the same at all times. */
+/** Demands a fixed sampling at the ends of the wire. */
 void AdaptiveSampling::restrictDemand(const State& state)
 {
   const int leaves = rod_.nodes() - 1;
@@ -161,7 +161,7 @@ void AdaptiveSampling::restrictDemand(const State& state)
 
 void AdaptiveSampling::archive(Archive& archive)
 {
-  archive(tree_, beyond_tip_, looked_from_);
+  archive(tree_, beyond_tip_, queried_from_);
   if (!archive.reading())
     return;
   tree_.positions(position_);

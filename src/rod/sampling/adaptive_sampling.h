@@ -17,15 +17,15 @@ class Archive;
 namespace endovascular_sim::rod
 {
 
-/** Curvature that the wire will have to follow at a place that its tip has not reached yet [1/m]. */
+/** Curvature of the vessel at a point ahead of the tip [1/m]. */
 using CurvatureAhead = std::function<double(const Eigen::Vector3d&)>;
 
-/** Keeps the nodes of a wire where it bends (docs/PHYSICS.md, "Adaptive sampling").
+/** Adaptive sampling of a wire by its curvature (docs/PHYSICS.md, "Adaptive sampling").
  *
- *  An edge of length h is split where κh exceeds η and merged where it falls below 0.7 η, κ being the largest curvature
- *  of the wire within three shortest edges, and near the tip also the vessel's ahead of it. Finest whatever the
- *  curvature: edges at a section joint, those outside the introducer and in the outer part of its guide (where nodes
- *  are released and the hand's force is read), and those at a clamped end. */
+ *  An edge of length h is split where κh exceeds η and merged where it falls below 0.7 η. κ is the largest curvature of
+ *  the wire within three shortest edges, and near the tip also that of the vessel ahead. Some edges are finest whatever
+ *  the curvature: those at a section joint, at a clamped end, outside the introducer and in the outer part of its
+ * guide, where nodes are released and the force on the hand is computed. */
 class AdaptiveSampling
 {
 public:
@@ -34,11 +34,11 @@ public:
 
   const Discretisation& discretisation() const { return rod_; }
 
-  /** Splits and merges by the shape of the wire, and carries the state over.
-   *  @return whether the sampling changed; then the stepper must be told */
+  /** Splits and merges edges by the shape of the wire, and transfers the state.
+   *  @return true when the sampling changed; the stepper then needs Stepper::resample() */
   bool update(State& state);
 
-  /** Saves where the nodes are and what is known of the way ahead, or loads it. */
+  /** Saves or loads the positions of the nodes and the curvature ahead. */
   void archive(Archive& archive);
 
 private:
@@ -58,8 +58,8 @@ private:
   std::vector<double> position_;
   std::vector<double> curvature_;  ///< per node [1/m]
   std::vector<SamplingDemand> demand_;
-  double beyond_tip_ = -1.0;  ///< curvature ahead of where the tip was when it last looked; negative: never [1/m]
-  Eigen::Vector3d looked_from_ = Eigen::Vector3d::Zero();
+  double beyond_tip_ = -1.0;  ///< curvature ahead of the tip at the last query; negative: none yet [1/m]
+  Eigen::Vector3d queried_from_ = Eigen::Vector3d::Zero();  ///< position of the tip at that query [m]
 };
 
 }  // namespace endovascular_sim::rod

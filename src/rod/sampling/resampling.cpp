@@ -33,7 +33,7 @@ bool sameEdges(const Discretisation& from, int node, const Discretisation& to, i
   return edge(from, node - 1) == edge(to, new_node - 1) && edge(from, node) == edge(to, new_node);
 }
 
-/** Middle of the arc over an edge. */
+/** Middle of the circular arc over an edge. */
 Eigen::Vector3d arcMiddle(const Discretisation& rod, const State& state, int edge)
 {
   const Eigen::Vector3d middle = 0.5 * (state.position[edge] + state.position[edge + 1]);
@@ -145,7 +145,7 @@ void Resampling::carryEdges(const Discretisation& from, const Discretisation& to
   }
 }
 
-/** Loads per length: a new node has the mean of its neighbours'. */
+/** Transfers loads per length: a new node gets the mean of its neighbours. */
 void Resampling::carryLoad(const Discretisation& from, const Discretisation& to, const std::vector<double>& load,
                            std::vector<double>& next) const
 {
@@ -200,7 +200,7 @@ void Resampling::carryNodes(const Discretisation& from, const Discretisation& to
       remove(change, to, state);
 }
 
-/** A node goes on with the moment that it had, a new one with the mean of its neighbours. */
+/** Sets curvature offsets with which a node keeps its moment, and a new node gets the mean of its neighbours. */
 void Resampling::carryMoments(const Discretisation& from, const Discretisation& to, const State& state)
 {
   const auto binormal = [](const Discretisation& rod, const State& of, int node) -> Eigen::Vector3d
@@ -235,7 +235,7 @@ void Resampling::insert(const Change& change, const Discretisation& from, const 
                       (change.mass_before + change.mass_after);
   next_.wall_force[k].setZero();
   next_.friction_coefficient[k] = std::max(state.friction_coefficient[a], state.friction_coefficient[a + 1]);
-  // Of two neighbours that touch, the mean by force.
+  // Mean of both neighbours, weighted with their wall forces.
   const double before = state.wall_force[a].norm();
   const double after = state.wall_force[a + 1].norm();
   next_.friction_stretch[k].setZero();

@@ -9,36 +9,37 @@
 namespace endovascular_sim::rod
 {
 
-/** Carries a state from one sampling of a wire to another in which some edges are halved and some pairs of edges are
- *  one; a merge undoes a split to round-off.
+/** Transfer of a state from one sampling of a wire to another, in which some edges are split into halves and some pairs
+ *  of edges are merged. A merge undoes a split to round-off.
  *
- *  - A new node lies on the arc through its neighbours: half the chord less h²/8 times the mean curvature vector. The
- *    halves are then longer than their rest length by (κh)²/32; the next solve takes that back.
- *  - Linear momentum is conserved. A new node moves with the mean of its neighbours, each weighted with the mass it
- *    gives; a node that goes gives that mean back and shares what its momentum had beyond it. Splitting loses the
- *    kinetic energy of the mean, ½ m_a m_b/(m_a + m_b) |v_a − v_b|² of the masses given; merging returns no more.
- *  - Nodes keep their moments and the wall's forces; a new one gets the mean moment of its neighbours and no force, one
- *    that goes gives them half of its force each. What the new shape asks for beyond that is set as offsets of the
- *    curvature and, by the stepper that knows the contacts, of the gaps: they fade over some steps.
- *  - A new node's friction has the stretch of its neighbours'.
- *  - Tension is that of the edge, twist is interpolated; merging takes the mean. */
+ *  - A new node lies on the arc through its neighbours: the middle of the chord less h²/8 times the mean curvature
+ *    vector. The halves are then longer than their rest length by (κh)²/32; the next solve removes this strain.
+ *  - Linear momentum is conserved. A new node gets the mean velocity of its neighbours, each weighted with the mass
+ * that it gives. A removed node returns that momentum, and its neighbours share the rest. Splitting loses the kinetic
+ *    energy ½ m_a m_b/(m_a + m_b) |v_a − v_b|² of the masses m_a, m_b given; merging returns no more.
+ *  - Nodes keep their moments and the wall's forces. A new node gets the mean moment of its neighbours and no force; a
+ *    removed one gives half of its force to each of them. Offsets of the curvature and of the gaps (which the stepper
+ *    sets) balance the remaining difference; they fade over some steps.
+ *  - A new node gets the elastic displacement of its neighbours' friction.
+ *  - A half edge gets the tension of the whole edge and interpolated twist; a merged edge gets the mean of both. */
 class Resampling
 {
 public:
-  /** @param from the sampling that @p state has
-   *  @param to the one it gets; each of its edges is one of @p from, half of one, or two of them together
-   *  @throws std::logic_error when it is not */
+  /** Transfers a state.
+   *  @param from sampling of @p state
+   *  @param to new sampling; each of its edges is an edge of @p from, half of one, or two of them together
+   *  @throws std::logic_error for other samplings */
   void carry(const Wire& wire, const Discretisation& from, const Discretisation& to, State& state);
 
 private:
-  /** A node that comes between the nodes a and a+1 or goes from there, in indices of the sampling without it. */
+  /** Node that is inserted or removed between two others. */
   struct Change
   {
-    int coarse;                      ///< a in the sampling without the node
-    int fine;                        ///< the node itself in the sampling with it
-    bool split;                      ///< it comes
-    double mass_before, mass_after;  ///< mass that a and a+1 give to the node, or get from it [kg]
-    double cell_before, cell_after;  ///< length of the cells likewise [m]
+    int coarse;                      ///< index of the node before, in the sampling without the node
+    int fine;                        ///< index of the node, in the sampling with it
+    bool split;                      ///< true: inserted; false: removed
+    double mass_before, mass_after;  ///< mass that the node before and the one after give or get [kg]
+    double cell_before, cell_after;  ///< length of their cells that they give or get [m]
   };
 
   void findChanges(const Wire& wire, const Discretisation& from, const Discretisation& to);
@@ -56,11 +57,11 @@ private:
 
   State next_;
   std::vector<Change> changes_;
-  std::vector<int> new_node_;  ///< of each old one; −1: it goes
+  std::vector<int> new_node_;  ///< new index of every old node; −1: removed
 };
 
-/** Lets the offsets of gaps and curvatures fade, so that the wire settles to its new nodes unnoticed.
- *  @return true while any are left */
+/** Fades the offsets of gaps and curvatures, so that the wire adapts smoothly to its new nodes.
+ *  @return true while any remain */
 bool fadeOffsets(State& state, double dt);
 
 }  // namespace endovascular_sim::rod

@@ -10,9 +10,9 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kSameLength = 1e-9;  // relative: lengths that differ by less were meant to be equal
+constexpr double kSameLength = 1e-9;  // relative difference below which lengths count as equal
 constexpr int kDeepest = 20;
-constexpr int kOld = 1 << 20;  // age of leaves that were there from the beginning
+constexpr int kOld = 1 << 20;  // age of the initial leaves
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void SamplingTree::markSplits(const std::vector<SamplingDemand>& demand)
     if (leaf.level > 0 && (curved || leaf.level > demand[j].coarsest))
       change_[j] = Change::kSplit;
   }
-  // A split may leave a neighbour two levels coarser; then that one is split too, and so on outwards.
+  // A neighbour that would be two levels coarser than a split leaf is split too, and so on outwards.
   const auto balance = [this](std::size_t j, std::size_t neighbour)
   {
     if (change_[j] == Change::kNone && leaves_[j].level > levelAfterSplits(neighbour) + 1)

@@ -19,6 +19,24 @@ void StepReport::add(const StepReport& other)
   first_stale_pass = std::min(first_stale_pass, other.first_stale_pass);
 }
 
+void StepInput::setHandles(const std::vector<LayerInput>& handles)
+{
+  if (handles.size() > 1)
+  {
+    layers = handles;
+    return;
+  }
+  inserted_length = handles.front().inserted_length;
+  rotation = handles.front().rotation;
+}
+
+State Stepper::initialState(const std::vector<LayerInput>& layers) const
+{
+  if (layers.size() != 1)
+    throw std::invalid_argument("Stepper: this scheme simulates one instrument");
+  return initialState(layers.front().inserted_length, layers.front().rotation);
+}
+
 StepInput firstHalf(const State& state, const StepInput& input)
 {
   StepInput half = input;

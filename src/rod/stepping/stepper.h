@@ -20,59 +20,63 @@ class Archive;
 namespace endovascular_sim::rod
 {
 
-/** How an end of the wire is held when no introducer holds it. */
+/** Hold of an end of the wire. */
 enum class EndHold
 {
-  kFree,
-  kPinned,   ///< the end node is fixed
-  kClamped,  ///< the two end nodes are fixed: the clamp acts at the middle of the end edge
+  kFree,     ///< no force, no torque
+  kPinned,   ///< position held, direction free
+  kClamped,  ///< position and direction held: the clamp acts at the middle of the end edge
 };
 
-/** What holds the wire. */
+/** Holds of the wire: an introducer, or the holds of its two ends. */
 struct Boundary
 {
-  /** True: the wire enters at `origin` along `direction`, its proximal part is pushed; false: it is all there. */
+  /** True: the wire enters at `origin` along `direction`, its proximal part is pushed. False: the whole wire is there
+   *  from the start. */
   bool introducer = true;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();      ///< of the introducer, or the proximal end [m]
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();      ///< mouth of the introducer, or the proximal end [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< initial direction of the wire, unit
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();   ///< material direction d1 at rotation 0, unit, ⟂ direction
-  double guide_length = 19e-3;                           ///< over which the introducer's lateral guide fades [m]
-  double guide_stiffness = 5300.0;                       ///< at the guide's outer end, per length of wire [N/m²]
-  /** By which the wire's axis may leave the guide's, at most what the vessel leaves to it in the mouth [m]. */
+  double guide_length = 19e-3;                           ///< length over which the introducer's lateral guide fades [m]
+  double guide_stiffness = 5300.0;  ///< lateral, at the guide's outer end, per length of wire [N/m²]
+  /** Radial clearance between wire and introducer sheath [m]. It is at most the clearance between wire and vessel at
+   *  the mouth. */
   double sheath_clearance = std::numeric_limits<double>::infinity();
-  EndHold proximal = EndHold::kFree;  ///< without an introducer; a clamp holds the twist too
-  EndHold distal = EndHold::kFree;
-  bool distal_twist_held = false;  ///< of a clamped distal end
+  EndHold proximal = EndHold::kFree;  ///< hold of the proximal end without an introducer; a clamp holds the twist too
+  EndHold distal = EndHold::kFree;    ///< hold of the distal end
+  bool distal_twist_held = false;     ///< true: a clamped distal end holds the twist too
 };
 
-/** What acts on the whole wire. Zero leaves the term out. */
+/** Loads along the whole wire. Zero omits a term. */
 struct Environment
 {
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< buoyancy in the fluid is taken off [m/s²]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration; buoyancy is subtracted [m/s²]
   double fluid_density = 0.0;                         ///< for drag and buoyancy [kg/m³]
-  double drag_coefficient = 1.2;                      ///< of a cylinder
+  double drag_coefficient = 1.2;                      ///< of a cylinder across the stream [1]
   double damping = 0.0;                               ///< mass-proportional [1/s]
 };
 
-/** What solves the linear systems of a step. */
+/** Solver of the linear systems of a step. */
 enum class LinearSolver
 {
-  kBanded,  ///< the banded LDLᵀ
-  kSparse,  ///< SuiteSparse on the assembled matrix: general, slower, the check of the banded one
+  kBanded,  ///< banded LDLᵀ
+  kSparse,  ///< SuiteSparse on the assembled matrix: general and slower, a check of the banded solver
 };
 
+/** Settings of the solver. */
 struct StepperSettings
 {
   LinearSolver linear_solver = LinearSolver::kBanded;
-  int max_iterations = 12;         ///< linear solves in one step, truncated ones included
-  double strain_tolerance = 5e-5;  ///< a step that leaves more is solved again
-  /** `kkt`: a larger strain up to this is taken out by another right-hand side instead of another solve; 0: none. */
-  double corrected_strain = 0.0;
+  int max_iterations = 8;          ///< linear solves in one step, truncated ones included
+  double strain_tolerance = 5e-5;  ///< largest edge strain at which a step is accepted [1]
+  /** `kkt`: largest edge strain that a second-order correction removes in place of another solve, relative to
+   *  strain_tolerance; at most 1: no correction. A motion that leaves more strain is linearised again. */
+  double corrected_strain_ratio = 4.0;
   double contact_stiffness = 1e5;       ///< penalty of a rigid wall per contact [N/m]
-  double contact_margin = 0.25e-3;      ///< features closer than this are listed [m]
-  double penetration_tolerance = 3e-5;  ///< an unknown contact deeper than this is solved for again [m]
-  double max_rotation = 0.3;            ///< of an edge in one solve [rad]
-  double friction_slip = 0.5e-6;        ///< a node dragged further over the wall begins to slide [m]
+  double contact_margin = 0.25e-3;      ///< distance to the wall up to which contacts are detected [m]
+  double penetration_tolerance = 3e-5;  ///< depth of a new contact beyond which the step is solved again [m]
+  double max_rotation = 0.3;            ///< largest rotation of an edge in one solve [rad]
+  double friction_slip = 0.5e-6;        ///< tangential displacement of a node at which it begins to slide [m]
 };
 
 /** A force on one node [N]. */
@@ -82,55 +86,65 @@ struct NodalForce
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
-/** What drives one layer of a stack. */
+/** Position of the handle of one layer at the end of a step. */
 struct LayerInput
 {
-  double inserted_length = 0.0;  ///< at the end of the step; negative: outside [m]
-  double rotation = 0.0;         ///< at the end of the step [rad]
+  double inserted_length = 0.0;  ///< wire beyond the introducer; negative: outside [m]
+  double rotation = 0.0;         ///< [rad]
 };
 
-/** What drives one step. */
+/** Input of one step. */
 struct StepInput
 {
   std::uint64_t step = 0;
   std::uint32_t substep = 0;
-  std::uint64_t vessel_version = 0;  ///< that contact must be found with; 0: any
-  double inserted_length = 0.0;      ///< at the end of the step [m]
-  double rotation = 0.0;             ///< at the end of the step [rad]
+  std::uint64_t vessel_version = 0;  ///< version of the wall for contact detection; 0: any
+  double inserted_length = 0.0;      ///< wire beyond the introducer at the end of the step [m]
+  double rotation = 0.0;             ///< rotation of the handle at the end of the step [rad]
   std::vector<LayerInput> layers;    ///< of a stack, in place of the two above; empty for one wire
-  EndMotion distal;                  ///< of a held distal end, at the end of the step
+  EndMotion distal;                  ///< motion of a held distal end at the end of the step
   std::vector<NodalForce> forces;
-  double tip_torque = 0.0;          ///< [N·m]
-  std::vector<double> edge_torque;  ///< from outside about the axis of every edge; empty: none [N·m]
+  double tip_torque = 0.0;          ///< external torque at the tip [N·m]
+  std::vector<double> edge_torque;  ///< external torque about the axis of every edge; empty: none [N·m]
+
+  /** Sets the position of every handle: one for a wire, several for a stack. */
+  void setHandles(const std::vector<LayerInput>& handles);
 };
 
-/** What one step took. */
+/** Cost and result of one step. */
 struct StepReport
 {
-  bool solved = true;           ///< false: no solution even at an eighth of the step; the state stayed as it was
+  bool solved = true;           ///< false: no solution even at an eighth of the step; the state is unchanged
   int solves = 0;               ///< linear systems solved
   int factorisations = 0;       ///< active-set passes included
-  int truncations = 0;          ///< solves cut short by the trust region
+  int truncations = 0;          ///< solves truncated by the trust region
   int bisections = 0;           ///< of the time step
   int hit_iteration_limit = 0;  ///< steps accepted at the limit of solves
-  double max_strain = 0.0;      ///< after the step
-  /** First pass that used an old contact set, as all later ones of the step then do; kNoStalePass without. */
+  double max_strain = 0.0;      ///< largest edge strain after the step [1]
+  /** First pass with a stale contact set, as all later ones of the step then are; kNoStalePass without. */
   std::uint32_t first_stale_pass = contact::kNoStalePass;
 
   void add(const StepReport& other);
 };
 
-/** One time step of the rod: the interface that all schemes share. */
+/** Time integration scheme of the rod: one step. */
 class Stepper
 {
 public:
   virtual ~Stepper() = default;
 
-  /** Puts a straight wire at rest along the boundary's direction. */
+  /** A straight wire at rest along the boundary's direction. */
   virtual State initialState(double inserted_length, double rotation) const = 0;
 
+  /** The same for all instruments.
+   *  @throws std::invalid_argument when there is not one input for every instrument */
+  virtual State initialState(const std::vector<LayerInput>& layers) const;
+
+  /** Length of an instrument [m]. */
+  virtual double layerLength(int /*layer*/) const { return discretisation().length(); }
+
   /** Advances the state by @p dt [s].
-   *  @param pass counts the contact passes of the caller's step, over its sub-steps
+   *  @param pass counter of the contact passes of the caller's step, over its sub-steps
    *  @param contacts null without a vessel */
   virtual StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                           contact::ContactSource* contacts, PhaseTimer& timer) = 0;
@@ -138,25 +152,25 @@ public:
   /** Elastic energies of a state. */
   virtual Energy energy(const State& state) = 0;
 
-  /** Contact set of the state that the last step left; empty without a vessel. */
+  /** Contact set of the state after the last step; empty without a vessel. */
   virtual const contact::ContactSet& contactSet() const = 0;
 
-  /** Least radius of the surface at every node where it meets the wall, from now on until the nodes change; empty:
-   *  the wire's own [m]. Only what the `kkt` scheme is made of heeds it. */
+  /** Sets the least radius of the surface for contact at every node, until the nodes change; empty: the wire's own [m].
+   *  Schemes without SchemeTraits::balloons ignore it. */
   virtual void setContactRadii(const std::vector<double>& radii);
 
-  /** Forgets the contact set, after the state was changed from outside. */
+  /** Invalidates the contact set, after the state was changed from outside. */
   virtual void invalidateContacts() = 0;
 
   virtual const Discretisation& discretisation() const = 0;
 
-  /** Saves what the next step needs besides its state, or loads it into a stepper with the same nodes.
-   *  @param state that it belongs to
-   *  @throws std::logic_error in schemes that do not know how: all but `kkt` */
+  /** Saves the data that the next step needs besides its state, or loads them into a stepper with the same nodes.
+   *  @param state to which they belong
+   *  @throws std::logic_error in schemes without SchemeTraits::saves */
   virtual void archive(Archive& archive, const State& state);
 
-  /** Goes on with another sampling of the same wire; the state is carried over by the caller.
-   *  @return false when the scheme keeps the nodes that it was made with */
+  /** Takes over another sampling of the same wire; the caller resamples the state.
+   *  @return false in schemes without SchemeTraits::adaptive */
   virtual bool resample(const Discretisation& rod);
 };
 

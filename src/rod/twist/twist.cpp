@@ -12,16 +12,16 @@ namespace
 {
 
 constexpr int kMaxIterations = 200;
-constexpr double kMaxTurn = 0.3;      // rad per iteration: a snap-through is followed, not jumped over
+constexpr double kMaxTurn = 0.3;      // rad per iteration, so that a snap-through ends in the next minimum
 constexpr double kConverged = 1e-12;  // rad
-// With friction: a ten-thousandth of the turn in which it sticks, before a last step that squares it.
+// With friction: a ten-thousandth of the rotation at which it slips, before a last step that squares the error.
 constexpr double kConvergedInFriction = 1e-7;  // rad
-constexpr double kBalanced = 1e-7;             // of all friction's torque, that may be left over
-// Newton for so many iterations, then secants for as many, which always go downhill.
+constexpr double kBalanced = 1e-7;             // tolerated residual torque, relative to that of all friction
+// Iterations with Newton's tangents, then as many with secants, which always descend.
 constexpr int kNewtonIterations = 6;
-// Share of the Hessian's concave part that is left out: the first with which it is positive definite.
-constexpr std::array<double, 5> kLeftOut = {0.0, 1e-3, 1e-2, 0.1, 1.0};
-constexpr double kMinLength = 1e-9;  // of the body's compliance, in edges: keeps the spring finite
+// Omitted share of the Hessian's concave part: the first with which the Hessian is positive definite.
+constexpr std::array<double, 5> kOmitted = {0.0, 1e-3, 1e-2, 0.1, 1.0};
+constexpr double kMinLength = 1e-9;  // least length of the body, in edges: keeps the spring finite
 
 double edgeMiddle(const Discretisation& rod, int edge)
 {
@@ -89,7 +89,7 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
   evaluate(rod, boundary, state);
 }
 
-/** The straight body as a spring between the held place and its last edge, turned by the torques along it. */
+/** Prepares the straight body: a torsion spring between the hold and its last edge, loaded by the torques along it. */
 void QuasiStaticTwist::prepareBody(const Discretisation& rod, const TwistBoundary& boundary)
 {
   body_stiffness_ = 0.0;
@@ -150,8 +150,9 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
     binormal_[i] = binormalAt(rod, state, i).value;
 }
 
-/** Gradient and Hessian by the twist angles of the edges first_own_−1 … n−2, and apart what of the Hessian's diagonal
- *  curves down; returns the largest |gradient|. */
+/** Assembles gradient and Hessian by the twist angles of the edges first_own_−1 … n−2, and separately the concave part
+ *  of the Hessian's diagonal.
+ *  @return the largest |gradient| */
 double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state,
                                   bool secants)
 {
@@ -192,7 +193,7 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   return largest;
 }
 
-/** Angles of the curved tip's edges, each of which two nodes ask for. */
+/** Computes sines and cosines of the curved tip's edges, which two nodes each need. */
 void QuasiStaticTwist::turnFrames(const State& state)
 {
   for (int j = first_curved_ - 1; j + 1 < static_cast<int>(cosine_.size()); ++j)
@@ -202,7 +203,7 @@ void QuasiStaticTwist::turnFrames(const State& state)
   }
 }
 
-/** Bending of a node of the curved tip. */
+/** Adds the bending of a node of the curved tip. */
 void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
 {
   const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
@@ -220,7 +221,8 @@ void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
   }
 }
 
-/** A node turns by the mean of its edges; one before the held place turns with the hand, which takes its share. */
+/** Adds friction. A node turns by the mean of its edges; an edge before the hold turns with the handle, which carries
+ * its share of the torque. */
 void QuasiStaticTwist::addFriction(const TwistBoundary& boundary, const State& state, bool secants)
 {
   const int last = static_cast<int>(state.twist_angle.size()) - 1;
@@ -250,7 +252,7 @@ void QuasiStaticTwist::addFriction(const TwistBoundary& boundary, const State& s
   }
 }
 
-/** Torque on an edge that may be left over [N·m]. */
+/** Tolerated residual torque on an edge [N·m]. */
 double QuasiStaticTwist::balanced(const TwistBoundary& boundary) const
 {
   double sum = 0.0;
@@ -259,13 +261,13 @@ double QuasiStaticTwist::balanced(const TwistBoundary& boundary) const
   return kBalanced * sum;
 }
 
-/** Solves the tridiagonal system for the Newton step, with a share of the concave part left out of the matrix.
+/** Solves the tridiagonal system for the Newton step, a share of the concave part omitted.
  *  @return the largest step, or a negative number when the matrix is not positive definite */
-double QuasiStaticTwist::solveForStep(int first, int last, double left_out)
+double QuasiStaticTwist::solveForStep(int first, int last, double omitted)
 {
   for (int j = first; j <= last; ++j)
   {
-    pivot_[j] = diagonal_[j] + left_out * concave_[j];
+    pivot_[j] = diagonal_[j] + omitted * concave_[j];
     step_[j] = gradient_[j];
     if (j > first)
     {
@@ -285,22 +287,22 @@ double QuasiStaticTwist::solveForStep(int first, int last, double left_out)
   return largest;
 }
 
-/** Newton's method with the exact Hessian where that is positive definite. Beyond a snap-through it is not: there as
- *  little as needed of what curves down is left out, and the angles run downhill to the next minimum. */
+/** Newton's method with the exact Hessian where that is positive definite. Beyond a snap-through it is indefinite: the
+ *  least sufficient share of its concave part is omitted, and the angles descend to the next minimum. */
 void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
   const int first = first_own_ - 1;
   const int last = rod.nodes() - 2;
-  const double left_over = balanced(boundary);
+  const double tolerated = balanced(boundary);
   const double converged = boundary.hasFriction() ? kConvergedInFriction : kConverged;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration)
   {
     const bool secants = iteration / kNewtonIterations % 2 == 1;
-    if (assemble(rod, boundary, state, secants) <= left_over)
+    if (assemble(rod, boundary, state, secants) <= tolerated)
       return;
     double largest = -1.0;
-    for (std::size_t k = 0; k < kLeftOut.size() && largest < 0.0; ++k)
-      largest = solveForStep(first, last, kLeftOut[k]);
+    for (std::size_t k = 0; k < kOmitted.size() && largest < 0.0; ++k)
+      largest = solveForStep(first, last, kOmitted[k]);
     const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
     for (int j = first; j <= last; ++j)
       state.twist_angle[j] -= scale * step_[j];
@@ -317,18 +319,18 @@ void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& 
   state.distal_torque = 0.0;
   if (!boundary.tip_held)
     return;
-  // With angles of its own the last assembly knows it; a straight wire's last edge hands on the body's torque.
+  // The last assembly has computed it where edges have their own angles; a straight wire transmits the body's torque.
   state.distal_torque = tip_gradient_;
   if (first_own_ == rod.nodes())
     state.distal_torque = torque_[last_body_] - boundary.edgeTorque(last_body_) - boundary.tip_torque;
 }
 
-/** Torques, energy and angles of the straight body. */
+/** Computes torques, energy and angles of the straight body. */
 void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
-  const bool given = first_own_ < rod.nodes() || boundary.tip_held;  // the angle of the last edge is known
+  const bool known = first_own_ < rod.nodes() || boundary.tip_held;  // the angle of the body's last edge
   const double end_angle = state.twist_angle[last_body_];
-  double torque = given ? bodyTorque(boundary, end_angle) : boundary.tip_torque + boundary.edgeTorque(last_body_);
+  double torque = known ? bodyTorque(boundary, end_angle) : boundary.tip_torque + boundary.edgeTorque(last_body_);
   torque += body_load_;
   state.hand_torque = boundary.held ? held_friction_ - torque : 0.0;
   double angle = boundary.rotation;
@@ -345,17 +347,17 @@ void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBounda
       reached = edgeMiddle(rod, j);
       torque_[j] = torque;
     }
-    if (j < last_body_ || !given)
+    if (j < last_body_ || !known)
       state.twist_angle[j] = angle;
   }
-  if (boundary.held || !given)
+  if (boundary.held || !known)
     return;
   // Nothing holds the proximal end: the body turns with its last edge.
   for (int j = state.first_node; j < last_body_; ++j)
     state.twist_angle[j] += end_angle - angle;
 }
 
-/** Torques, energy and rest curvature beyond the body. */
+/** Computes torques, energy and rest curvature beyond the body. */
 void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
 {
   const int n = rod.nodes();
@@ -375,7 +377,7 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
   }
 }
 
-/** A node's binormal as one of its two edges has it, times a half. */
+/** Half of a node's rest curvature binormal in the material frame of one of its two edges. */
 Eigen::Vector3d QuasiStaticTwist::binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine,
                                                  double sine) const
 {

@@ -10,70 +10,71 @@
 namespace endovascular_sim::rod
 {
 
-/** Where and how the wire's twist is held. */
+/** Boundary conditions and external torques of the wire's twist. */
 struct TwistBoundary
 {
-  bool held = true;                                     ///< false: no torque reaches the wire from the hand
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();   ///< of the wire where it is held, unit
-  Eigen::Vector3d director = Eigen::Vector3d::UnitY();  ///< d1 there at rotation 0, unit, ⟂ tangent
-  double position = 0.0;                                ///< arc length of the held place from the proximal end [m]
-  double rotation = 0.0;                                ///< of the handle [rad]
-  double tip_torque = 0.0;                              ///< applied at the tip about the axis [N·m]
+  bool held = true;                                     ///< false: the proximal end turns freely
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();   ///< tangent of the wire at the hold, unit
+  Eigen::Vector3d director = Eigen::Vector3d::UnitY();  ///< d1 at the hold at rotation 0, unit, ⟂ tangent
+  double position = 0.0;                                ///< arc length of the hold from the proximal end [m]
+  double rotation = 0.0;                                ///< rotation of the handle [rad]
+  double tip_torque = 0.0;                              ///< external torque at the tip about the axis [N·m]
 
   bool tip_held = false;                                    ///< true: the last edge's material frame is held too
-  Eigen::Vector3d tip_director = Eigen::Vector3d::UnitY();  ///< d1 there at tip rotation 0, unit, ⟂ the last edge
-  double tip_rotation = 0.0;                                ///< of what holds the tip [rad]
+  Eigen::Vector3d tip_director = Eigen::Vector3d::UnitY();  ///< d1 of the last edge at tip rotation 0, unit
+  double tip_rotation = 0.0;                                ///< rotation of the tip's hold [rad]
 
-  /** Torque from outside about the axis of every edge [N·m], n−1; null or empty: none. */
+  /** External torque about the axis of every edge [N·m], n−1; null or empty: none. */
   const std::vector<double>* edge_torque = nullptr;
   /** Friction of the wall by ascending nodes; null or empty: none. */
   const std::vector<TwistFriction>* friction = nullptr;
 
-  /** Whether any torque from outside acts along the wire. */
+  /** True where an external torque acts along the wire. */
   bool hasEdgeTorque() const { return edge_torque != nullptr && !edge_torque->empty(); }
-  /** Whether the wall's friction acts on the twist. */
+  /** True where the wall's friction acts on the twist. */
   bool hasFriction() const { return friction != nullptr && !friction->empty(); }
-  /** Torque from outside on an edge [N·m]. */
+  /** External torque on an edge [N·m]. */
   double edgeTorque(int edge) const { return hasEdgeTorque() ? (*edge_torque)[edge] : 0.0; }
 };
 
 /** Quasi-static twist (Bergou et al. 2008, §5.1): twist waves are far faster than bending, so the twist angles
  *  minimise the elastic energy for the present centreline.
  *
- *  The straight isotropic body carries one torque and costs one scalar; only the edges of the pre-curved tip, and all
- *  from the first node with friction on, have angles of their own. They are found by a damped tridiagonal Newton method
- *  that follows a snap-through to the next minimum; friction, which is convex, gets secants where Newton does not
- * settle. */
+ *  The straight isotropic body carries one torque, a single unknown. Only the edges of the pre-curved tip, and all from
+ *  the first node with friction on, have angles of their own. They are solved for by a damped tridiagonal Newton method
+ *  that follows a snap-through to the next minimum. Friction, which is convex, gets secants where Newton's method does
+ *  not converge. */
 class QuasiStaticTwist
 {
 public:
-  /** @return true when the twist influences anything: rest curvature, a torque at the tip or along the wire, friction,
-   *  or both ends held */
+  /** True when the twist acts on the wire: with rest curvature, a torque at the tip or along the wire, friction, or
+   * both ends held. */
   static bool matters(const Discretisation& rod, const TwistBoundary& boundary);
 
-  /** Transports the Bishop frame from the held place along the centreline, then solves for state.twist_angle,
-   *  state.hand_torque and state.distal_torque. Edges before the held place turn with the hand. A held tip's angle is
-   *  followed over full turns by state.tip_transport.
-   *  @param same_centreline as in the last solve, with the same rod and the same hold: its frames are used again */
+  /** Transports the Bishop frame from the hold along the centreline, then solves for state.twist_angle,
+   *  state.hand_torque and state.distal_torque. Edges before the hold turn with the handle. State::tip_transport counts
+   *  the full turns of a held tip.
+   *  @param same_centreline true: centreline, rod and hold are those of the last solve, whose frames are reused */
   void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state, bool same_centreline = false);
 
-  /** First node at which rest curvature acts: beyond the held place and on the curved tip. */
+  /** First node at which rest curvature acts: beyond the hold and on the curved tip. */
   int firstCurved() const { return first_curved_; }
 
   /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁ [1]. */
   const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
 
-  /** The same of every node from firstCurved() on. */
+  /** Rest curvature binormals of all nodes from firstCurved() on [1]. */
   const std::vector<Eigen::Vector3d>& restCurvatureBinormals() const { return rest_binormal_; }
 
-  /** What a solve's angles make of another rest curvature, in its unit, at a node of the curved tip. */
+  /** Rest curvature binormal, in space, of another rest curvature at a node of the curved tip, in the unit of
+   *  @p rest_curvature. */
   Eigen::Vector3d binormalOf(const Eigen::Vector2d& rest_curvature, int node,
                              const std::vector<double>& twist_angle) const;
 
-  /** Torques carried at all nodes [N·m]. */
+  /** Torques at all nodes [N·m]. */
   const std::vector<double>& torques() const { return torque_; }
 
-  /** Torque carried at a node [N·m]: GJ·2m/l̄. */
+  /** Torque at a node [N·m]: GJ·2m/l̄. */
   double torque(int node) const { return torque_[node]; }
 
   /** Energy of the twist alone, GJ m²/l̄ summed [J]; of the state last solved. */
@@ -89,26 +90,26 @@ private:
   void addRestCurvature(const Discretisation& rod, int node);
   void addFriction(const TwistBoundary& boundary, const State& state, bool secants);
   double balanced(const TwistBoundary& boundary) const;
-  double solveForStep(int first, int last, double left_out);
+  double solveForStep(int first, int last, double omitted);
   void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateTip(const Discretisation& rod, State& state);
   void prepareBody(const Discretisation& rod, const TwistBoundary& boundary);
   double bodyTorque(const TwistBoundary& boundary, double angle) const;
 
-  int first_edge_ = 0;    ///< first edge beyond the held place
-  int first_curved_ = 0;  ///< first curved node beyond the held place; n without
+  int first_edge_ = 0;    ///< first edge beyond the hold
+  int first_curved_ = 0;  ///< first curved node beyond the hold; n without
   int first_own_ = 0;     ///< first node with angles of their own on both sides; n without
   int last_body_ = 0;     ///< last edge of the straight body
   double body_stiffness_ = 0.0;
-  double body_load_ = 0.0;        ///< torque from outside on the body before its last edge [N·m]
-  double body_load_angle_ = 0.0;  ///< by which that load turns the body's last edge [rad]
-  double held_friction_ = 0.0;    ///< friction's torque on edges that turn with the hand [N·m]
-  double tip_gradient_ = 0.0;     ///< of the energy less the work of torques, by the last edge's angle [N·m]
+  double body_load_ = 0.0;        ///< external torque on the body before its last edge [N·m]
+  double body_load_angle_ = 0.0;  ///< rotation of the body's last edge by that torque [rad]
+  double held_friction_ = 0.0;    ///< torque of friction on edges that turn with the handle [N·m]
+  double tip_gradient_ = 0.0;     ///< gradient of the potential energy by the last edge's angle [N·m]
   double energy_ = 0.0;
   std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
   std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
-  Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both of the last edge
+  Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both directors of the last edge
   std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
   std::vector<double> cosine_, sine_;           ///< of the twist angles of the curved tip's edges
   std::vector<Eigen::Vector3d> rest_binormal_;

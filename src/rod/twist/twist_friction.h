@@ -6,10 +6,10 @@
 namespace endovascular_sim::rod
 {
 
-/** Coulomb friction of the wall about the wire's axis on one node, its normal force and translation given.
+/** Coulomb friction of the wall about the wire's axis on one node, for a given normal force and translation.
  *
- *  Turned by φ, the wire's surface has been dragged over the wall by u(φ) = u₀ + φ p, where p is r times the direction
- * in which it moves: along p by `along` + φ·`arm`, across it by what `across_squared` says. The potential is that of
+ *  A rotation φ displaces the wire's surface over the wall by u(φ) = u₀ + φ p, where p is r times its direction: the
+ *  component along p is `along` + φ·`arm`, the square of the one across is `across_squared`. The potential is that of
  *  WallFriction, limit·(|u|²/2δ up to |u| = δ, |u| − δ/2 beyond): convex in φ. */
 struct TwistFriction
 {
@@ -19,12 +19,12 @@ struct TwistFriction
   double arm = 0.0;             ///< |p| [m/rad]
   double along = 0.0;           ///< u₀·p/|p| [m]
   double across_squared = 0.0;  ///< |u₀|² − along² [m²]
-  double begin_angle = 0.0;     ///< of the node, from which φ counts [rad]
+  double begin_angle = 0.0;     ///< angle of the node at φ = 0 [rad]
 
   /** First derivative of the potential by φ: minus the torque on the wire [N·m]. */
   double pull(double turn) const { return secant(turn) * (along + turn * arm) / arm; }
 
-  /** Second derivative by φ, the stiffer side's at |u| = δ [N·m/rad]. */
+  /** Second derivative by φ; at |u| = δ that of the stiffer side [N·m/rad]. */
   double stiffness(double turn) const
   {
     const double u = along + turn * arm;

@@ -10,20 +10,13 @@
 #include <Eigen/Geometry>
 
 #include "instrument/instrument.h"
+#include "rod/stepping/scheme_traits.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene_procedure.h"
 #include "vessel/model/lesion.h"
 
 namespace endovascular_sim::scene
 {
-
-/** How the wire behaves at one of its ends in a bench scene. */
-enum class EndCondition
-{
-  kFree,     ///< no force, no torque
-  kPinned,   ///< position held, direction free
-  kClamped,  ///< position, direction and twist held
-};
 
 /** Vessel of a scene. Exactly one of mesh, anatomy and tube is set. */
 struct VesselScene
@@ -98,6 +91,9 @@ struct DriveProfile
 
   /** Value at time t [s]. */
   double at(double t) const;
+
+  /** True where the value is zero at all times. */
+  bool isTrivial() const { return points.empty() && amplitude == 0.0; }
 };
 
 /** Source of the commands for an instrument. */
@@ -155,6 +151,12 @@ struct DistalScene
   Eigen::Vector3d tilt_axis = Eigen::Vector3d::Zero();  ///< axis of the tilt
   DriveProfile tilt;                                    ///< rotation of the clamp's direction about tilt_axis [rad]
   DriveProfile rotation;  ///< rotation of a clamp with held twist about the wire's axis [rad]
+
+  /** True where the end moves, or holds the twist (SchemeTraits::moves_distal_end). */
+  bool isDriven() const
+  {
+    return twist_held || !displacement.isTrivial() || !tilt.isTrivial() || !rotation.isTrivial();
+  }
 };
 
 /** Force or torque on a point of the wire (bench scenes). */
@@ -197,15 +199,13 @@ struct SamplingScene
 /** Time stepping. */
 struct SolverScene
 {
-  std::string scheme = "kkt";
-  rod::LinearSolver linear_solver = rod::LinearSolver::kBanded;
+  std::string scheme = "kkt";               ///< see rod::SchemeTraits
+  rod::StepperSettings stepper;             ///< settings of the scheme
   double time_step = 1e-3;                  ///< [s]
-  int max_iterations = 8;                   ///< iterations per step
-  double strain_tolerance = 5e-5;           ///< a solve that leaves more edge strain than this is repeated [1]
-  double contact_stiffness = 1e5;           ///< of the rigid wall's penalty per contact [N/m]
-  double contact_margin = 0.25e-3;          ///< features closer than this are listed [m]
-  double max_travel_per_substep = 0.05e-3;  ///< of the hand; faster motion is sub-stepped [m]
-  double guide_length = 19e-3;              ///< over which the introducer's guide fades [m]
+  double max_travel_per_substep = 0.05e-3;  ///< of a handle; faster motion is divided into sub-steps [m]
+  double guide_length = 19e-3;              ///< length over which the introducer's guide fades [m]
+
+  const rod::SchemeTraits& traits() const { return rod::schemeTraits(scheme); }
 };
 
 /** C-arm and X-ray imaging. */
@@ -247,8 +247,8 @@ struct Scene
   EntryScene entry;
   std::vector<DrivenInstrument> instruments;        ///< ordered from the inside out; at least one
   std::optional<ProcedureScene> procedure;          ///< procedure of the scripted operator
-  EndCondition proximal_end = EndCondition::kFree;  ///< bench scenes; a driven wire is held by its introducer
-  EndCondition distal_end = EndCondition::kFree;
+  rod::EndHold proximal_end = rod::EndHold::kFree;  ///< hold of a bench scene; an introducer holds a driven wire
+  rod::EndHold distal_end = rod::EndHold::kFree;
   DistalScene distal;      ///< motion of a held distal end
   bool introducer = true;  ///< true: the wire enters through an introducer; false: bench scene with the whole wire
   LoadScene loads;

@@ -7,15 +7,9 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Words of EndCondition, in the order of the enumerators, and of the twist.
+// Words of rod::EndHold, in the order of the enumerators, and of the twist.
 const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kTwists = {"free", "held"};
-
-/** True if the distal end has no motion and no held twist, so that the name of its hold describes it completely. */
-bool isPlain(const DistalScene& distal)
-{
-  return !distal.twist_held && isTrivial(distal.displacement) && isTrivial(distal.tilt) && isTrivial(distal.rotation);
-}
 
 /** Rejects a profile that is not zero at time 0. The wire is straight at the start. */
 void requireZeroStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
@@ -27,16 +21,16 @@ void requireZeroStart(const SceneFields& fields, const std::string& key, const D
 void checkDistalEnd(SceneFields& fields, const Scene& scene)
 {
   const DistalScene& distal = scene.distal;
-  const bool clamped = scene.distal_end == EndCondition::kClamped;
+  const bool clamped = scene.distal_end == rod::EndHold::kClamped;
   if (distal.twist_held && !clamped)
     fields.refuse("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
-  if (!isTrivial(distal.displacement) && scene.distal_end == EndCondition::kFree)
+  if (!distal.displacement.isTrivial() && scene.distal_end == rod::EndHold::kFree)
     fields.refuse("displacement", "requires a held end; set hold: pinned or hold: clamped");
-  if (!isTrivial(distal.tilt) && !clamped)
+  if (!distal.tilt.isTrivial() && !clamped)
     fields.refuse("tilt", "requires a held direction; set hold: clamped");
-  if (!isTrivial(distal.rotation) && !distal.twist_held)
+  if (!distal.rotation.isTrivial() && !distal.twist_held)
     fields.refuse("rotation", "requires a held twist; set hold: clamped and twist: held");
-  if (!isTrivial(distal.tilt) && distal.tilt_axis.isZero())
+  if (!distal.tilt.isTrivial() && distal.tilt_axis.isZero())
     fields.refuse("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
   requireZeroStart(fields, "displacement", distal.displacement);
   requireZeroStart(fields, "tilt", distal.tilt);
@@ -69,7 +63,7 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
 /** True if the vessel, the wire or a load bends an initially straight bench wire. */
 bool hasBendingCause(const Scene& scene, const Eigen::Vector3d& along)
 {
-  bool bent = scene.vessel.has_value() || !isTrivial(scene.distal.tilt) ||
+  bool bent = scene.vessel.has_value() || !scene.distal.tilt.isTrivial() ||
               scene.instruments.front().instrument.wire.curvedTipLength() > 0.0 ||
               !scene.loads.gravity.cross(along).isZero(0.0);
   for (const PointLoad& load : scene.loads.point_loads)
@@ -101,7 +95,7 @@ void checkDisplacement(const SceneFields& fields, const Scene& scene)
 void visitEnds(SceneFields& fields, Scene& scene)
 {
   fields.option("proximal_end", scene.proximal_end, kEndConditions);
-  if (fields.reading() ? fields.hasMap("distal_end") : !isPlain(scene.distal))
+  if (fields.reading() ? fields.hasMap("distal_end") : scene.distal.isDriven())
     fields.map("distal_end", [&scene](SceneFields& end) { visitDistalEnd(end, scene); });
   else
     fields.option("distal_end", scene.distal_end, kEndConditions);
@@ -109,17 +103,24 @@ void visitEnds(SceneFields& fields, Scene& scene)
 
 void checkEnds(const SceneFields& fields, const Scene& scene)
 {
-  if (scene.introducer && scene.distal_end != EndCondition::kFree && scene.solver.scheme != "kkt")
+  if (scene.introducer && scene.distal_end != rod::EndHold::kFree && !scene.solver.traits().holds_inserted_end)
     fields.refuse("distal_end", "scheme '" + scene.solver.scheme +
                                     "' does not hold a far end behind an introducer; set distal_end: free, or "
                                     "solver.scheme: kkt");
+  if (scene.distal.isDriven() && !scene.solver.traits().moves_distal_end)
+    fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' does not move a far end or hold its twist; use kkt");
+  if (scene.distal_end == rod::EndHold::kClamped && !scene.solver.traits().clamped_tip_torque)
+    for (const PointLoad& load : scene.loads.point_loads)
+      if (load.torque != 0.0)
+        fields.refuse("solver.scheme",
+                      "'" + scene.solver.scheme + "' does not simulate a torque at a clamped tip; use kkt");
   if (scene.distal.twist_held)
     for (std::size_t k = 0; k < scene.loads.point_loads.size(); ++k)
       if (scene.loads.point_loads[k].torque != 0.0)
         fields.refuse("loads.point_loads." + std::to_string(k) + ".torque",
                       "acts on a tip whose twist is held; remove it, or set distal_end.twist: free");
   const bool entry_known = scene.entry.centreline_end.empty() && !scene.entry.nearest_centreline_end;
-  if (!scene.introducer && entry_known && !isTrivial(scene.distal.displacement))
+  if (!scene.introducer && entry_known && !scene.distal.displacement.isTrivial())
     checkDisplacement(fields, scene);
 }
 

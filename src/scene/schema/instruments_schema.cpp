@@ -95,7 +95,7 @@ void checkStack(const SceneFields& fields, const Scene& scene)
       checkFit(fields, scene, inner, k);
     }
   }
-  if (scene.solver.scheme != "kkt")
+  if (!scene.solver.traits().stack)
     fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' simulates one instrument; use kkt for several");
   if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
                    [](const DrivenInstrument& driven) { return driven.drive.insertionAt(0.0) >= 0.0; }))

@@ -11,7 +11,6 @@ namespace
 // Words of DriveSource and SamplingKind, in the order of the enumerators.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
-const std::vector<std::string> kSchemes = {"kkt", "paper", "mixed"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // order of rod::LinearSolver
 
 constexpr double kSameLength = 1e-9;      // tolerance for the equality of lengths [m]
@@ -77,10 +76,10 @@ void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, c
 void checkBenchDrive(const SceneFields& fields, const Scene& scene)
 {
   const DriveScene& drive = scene.instruments.front().drive;
-  if (!std::isnan(drive.speed) || !isTrivial(drive.insertion) || drive.initial_insertion != 0.0)
+  if (!std::isnan(drive.speed) || !drive.insertion.isTrivial() || drive.initial_insertion != 0.0)
     fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
                   "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
-  if (drive.source != DriveSource::kNone && scene.proximal_end != EndCondition::kClamped)
+  if (drive.source != DriveSource::kNone && scene.proximal_end != rod::EndHold::kClamped)
     fields.refuse("proximal_end", "is not clamped, so that the drive has no effect; set proximal_end: clamped");
 }
 
@@ -119,7 +118,7 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
 void checkScene(const SceneFields& fields, const Scene& scene)
 {
   checkEdges(fields, scene);
-  const bool held_twice = scene.introducer && scene.proximal_end != EndCondition::kFree;
+  const bool held_twice = scene.introducer && scene.proximal_end != rod::EndHold::kFree;
   if (held_twice)
     fields.refuse("proximal_end",
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
@@ -128,9 +127,11 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
     checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
-    if (!isTrivial(scene.instruments[k].drive.pressure) && scene.solver.scheme != "kkt")
+    if (!scene.instruments[k].drive.pressure.isTrivial() && !scene.solver.traits().balloons)
       fields.refuse(drivePath(scene, k) + "drive.pressure",
                     "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
+  if (scene.sampling.kind == SamplingKind::kAdaptive && !scene.solver.traits().adaptive)
+    fields.refuse("sampling.kind", "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
   if (scene.instruments.size() > 1)
@@ -172,11 +173,6 @@ void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string&
   fields.number("phase", profile.phase, "rad", Range::any());
   if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
     fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
-}
-
-bool isTrivial(const DriveProfile& profile)
-{
-  return profile.points.empty() && profile.amplitude == 0.0;
 }
 
 std::pair<double, double> bounds(const DriveProfile& profile)
@@ -229,7 +225,7 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
   fields.number("force_limit", drive.force_limit, "N", Range::positive());
   fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
   const bool moves =
-      by_speed || !isTrivial(drive.insertion) || !isTrivial(drive.rotation) || !isTrivial(drive.pressure);
+      by_speed || !drive.insertion.isTrivial() || !drive.rotation.isTrivial() || !drive.pressure.isTrivial();
   if (fields.reading() && drive.source == DriveSource::kNone && moves)
     fields.refuse("source", "is none, but a motion is given; set source: script");
 }
@@ -263,16 +259,18 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
 
 void visitSolver(SceneFields& fields, SolverScene& solver)
 {
-  const auto known = std::find(kSchemes.begin(), kSchemes.end(), solver.scheme);
-  int scheme = static_cast<int>(known - kSchemes.begin());
-  fields.choice("scheme", scheme, kSchemes);
-  solver.scheme = kSchemes.at(static_cast<std::size_t>(scheme));
-  fields.option("linear_solver", solver.linear_solver, kLinearSolvers);
+  std::vector<std::string> names;
+  for (const rod::SchemeTraits& traits : rod::schemes())
+    names.push_back(traits.name);
+  int scheme = static_cast<int>(std::find(names.begin(), names.end(), solver.scheme) - names.begin());
+  fields.choice("scheme", scheme, names);
+  solver.scheme = names.at(static_cast<std::size_t>(scheme));
+  fields.option("linear_solver", solver.stepper.linear_solver, kLinearSolvers);
   fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
-  fields.integer("max_newton", solver.max_iterations, 1, 1000);
-  fields.number("strain_tolerance", solver.strain_tolerance, "1", Range::positive());
-  fields.number("contact_stiffness", solver.contact_stiffness, "N/m", Range::positive());
-  fields.number("contact_margin", solver.contact_margin, "m", Range::positive());
+  fields.integer("max_newton", solver.stepper.max_iterations, 1, 1000);
+  fields.number("strain_tolerance", solver.stepper.strain_tolerance, "1", Range::positive());
+  fields.number("contact_stiffness", solver.stepper.contact_stiffness, "N/m", Range::positive());
+  fields.number("contact_margin", solver.stepper.contact_margin, "m", Range::positive());
   fields.number("max_travel_per_substep", solver.max_travel_per_substep, "m", Range::positive());
   fields.number("guide_length", solver.guide_length, "m", Range::nonNegative());
 }

@@ -46,9 +46,6 @@ void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
 /** Rejects a procedure that is inconsistent with the scene. */
 void checkProcedure(const SceneFields& fields, const Scene& scene);
 
-/** True if a profile is zero at all times. */
-bool isTrivial(const DriveProfile& profile);
-
 /** Lower and upper bound of a profile. */
 std::pair<double, double> bounds(const DriveProfile& profile);
 

@@ -9,14 +9,14 @@ namespace endovascular_sim::rod
 namespace
 {
 
-class HeldInAnIntroducer : public testing::Test
+class BoundaryConditionsInAnIntroducer : public testing::Test
 {
 protected:
   Discretisation rod = discretiseUniformly(uniformWire(0.1, 1e-4, 2e-4, 8000.0), 51);
   Boundary boundary;
 };
 
-TEST_F(HeldInAnIntroducer, SimulatesTwoPrescribedNodesAndAllBeyondThem)
+TEST_F(BoundaryConditionsInAnIntroducer, SimulatesTwoPrescribedNodesAndAllBeyondThem)
 {
   const BoundaryConditions held(rod, boundary);
   const State state = held.initialState(0.03, 0.2);
@@ -27,7 +27,7 @@ TEST_F(HeldInAnIntroducer, SimulatesTwoPrescribedNodesAndAllBeyondThem)
   EXPECT_EQ(state.twist_angle.back(), 0.2);
 }
 
-TEST_F(HeldInAnIntroducer, BearsNodesWithTheHandsSpeedWhileTheWireIsPushedAndTakesThemBack)
+TEST_F(BoundaryConditionsInAnIntroducer, AddsNodesAtTheHandlesSpeedWhileTheWireIsPushedAndRemovesThemAgain)
 {
   const BoundaryConditions held(rod, boundary);
   State state = held.initialState(0.03, 0.0);
@@ -44,16 +44,16 @@ TEST_F(HeldInAnIntroducer, BearsNodesWithTheHandsSpeedWhileTheWireIsPushedAndTak
   EXPECT_NEAR(state.velocity[first].x(), -0.06, 1e-12);
 }
 
-TEST_F(HeldInAnIntroducer, GuideFadesFromItsOuterEndToTheMouth)
+TEST_F(BoundaryConditionsInAnIntroducer, GuideFadesFromItsOuterEndToTheMouth)
 {
   const BoundaryConditions held(rod, boundary);
   const State state = held.initialState(0.03, 0.0);
   double before = boundary.guide_stiffness * rod.cell_length[5];
   for (int i = 0; i < rod.nodes(); ++i)
   {
-    const double place = held.bodyPosition(i, 0.03);
+    const double beyond = held.bodyPosition(i, 0.03);
     const double stiffness = held.guideStiffness(i, state);
-    if (place < -boundary.guide_length || place >= 0.0)
+    if (beyond < -boundary.guide_length || beyond >= 0.0)
     {
       EXPECT_EQ(stiffness, 0.0);
       continue;
@@ -64,7 +64,7 @@ TEST_F(HeldInAnIntroducer, GuideFadesFromItsOuterEndToTheMouth)
   }
 }
 
-TEST_F(HeldInAnIntroducer, AsksForContactsBeyondTheMouthOnly)
+TEST_F(BoundaryConditionsInAnIntroducer, QueriesContactsBeyondTheMouthOnly)
 {
   const BoundaryConditions held(rod, boundary);
   const State state = held.initialState(0.03, 0.0);
@@ -76,7 +76,7 @@ TEST_F(HeldInAnIntroducer, AsksForContactsBeyondTheMouthOnly)
   EXPECT_EQ(query.nodes.back(), state.position.back());
 }
 
-TEST(HeldOnABench, PrescribesTheNodesOfItsEnds)
+TEST(BoundaryConditionsOnABench, PrescribesTheNodesOfItsEnds)
 {
   const Discretisation rod = discretiseUniformly(uniformWire(0.1, 1e-4, 2e-4, 8000.0), 11);
   Boundary boundary;
@@ -90,7 +90,7 @@ TEST(HeldOnABench, PrescribesTheNodesOfItsEnds)
     EXPECT_EQ(held.isPrescribed(i, state), i < 2 || i == 10) << i;
 }
 
-TEST(HeldOnABench, EnergyOfAnArcIsItsCurvatureSquared)
+TEST(BoundaryConditionsOnABench, EnergyOfAnArcIsItsCurvatureSquared)
 {
   const Discretisation rod = discretiseUniformly(uniformWire(0.1, 1e-4, 2e-4, 8000.0), 101);
   Boundary boundary;

@@ -12,7 +12,7 @@ namespace
 constexpr double kFriction = 0.3;  // N
 constexpr double kRadius = 4e-4;   // m
 
-/** Drags in equal parts, as sub-steps do. */
+/** Advances the valve in equal parts, as sub-steps do. */
 void move(const HemostaticValve& valve, State& state, double travel, double turn, int parts)
 {
   for (int k = 0; k < parts; ++k)
@@ -60,7 +60,7 @@ TEST(HemostaticValve, SharesItsFrictionBetweenPushingAndTurningByTheDirectionOfS
   EXPECT_NEAR(std::hypot(state.hand_force, state.hand_torque / kRadius), kFriction, 1e-12);
 }
 
-TEST(HemostaticValve, DependsOnTheWayAndNotOnTheSteps)
+TEST(HemostaticValve, DependsOnTheDisplacementAndNotOnTheSteps)
 {
   const HemostaticValve valve(kFriction);
   State coarse;
@@ -73,7 +73,7 @@ TEST(HemostaticValve, DependsOnTheWayAndNotOnTheSteps)
   }
 }
 
-TEST(HemostaticValve, WithoutFrictionLeavesEverythingAsItIs)
+TEST(HemostaticValve, WithoutFrictionChangesNothing)
 {
   State state;
   state.hand_force = 0.123;

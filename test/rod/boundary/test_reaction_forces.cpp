@@ -55,12 +55,12 @@ class ForceOnTheHand : public testing::TestWithParam<std::string>
 INSTANTIATE_TEST_SUITE_P(OfEveryScheme, ForceOnTheHand, testing::Values("kkt", "paper", "mixed"),
                          [](const auto& scheme) { return scheme.param; });
 
-// The guide pushes across its line only, so at rest the hand bears the load's axial part, however the wire bends.
+// The guide exerts lateral forces only: at rest the force on the hand is the axial part of the load.
 TEST_P(ForceOnTheHand, OfAWireBentInItsGuideIsTheAxialLoad)
 {
   const Wire wire = uniformWire(0.1, kEi, kRadius, kDensity);
   Boundary boundary;
-  boundary.guide_stiffness = 50.0;  // soft: it lets the wire bend in it
+  boundary.guide_stiffness = 50.0;  // soft: the wire bends inside the guide
   Environment environment;
   environment.damping = 400.0;
   const int nodes = 41;
@@ -78,7 +78,7 @@ TEST_P(ForceOnTheHand, OfAWireBentInItsGuideIsTheAxialLoad)
   EXPECT_NEAR(state.hand_force, 0.02, 1e-6);
 }
 
-// Change of momentum = impulse of the loads and of the hold.
+// The change of momentum is the impulse of the loads and of the hold.
 TEST_P(ForceOnTheHand, BalancesTheMomentumOfASwingingWire)
 {
   const double length = 0.1;

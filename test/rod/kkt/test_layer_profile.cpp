@@ -8,7 +8,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-/** Shaft, soft straight part and curved tip, 200 mm. */
+/** Wire of 200 mm: shaft, soft straight part and curved tip. */
 Wire threePartWire()
 {
   Wire wire = curvedTipWire(0.2, 0.02, 3e-5, 0.5e-3, 80.0);
@@ -59,7 +59,7 @@ TEST(LayerProfile, DerivativesByTheInsertionAgreeWithFiniteDifferences)
   }
 }
 
-TEST(LayerProfile, WhatALayerGivesToTheNodesDoesNotDependOnWhereItWasBefore)
+TEST(LayerProfile, PropertiesDoNotDependOnEarlierPositions)
 {
   LayerProfile travelled(threePartWire(), unevenNodes());
   LayerProfile fresh(threePartWire(), unevenNodes());
@@ -92,7 +92,7 @@ TEST(LayerProfile, ALayerKeepsItsMassAndItsRestAngleWhereverItsTipIs)
       // The rest angle of the covered part: 2 atan(κ̄b/2) times the cover.
       curved += profile.cover(static_cast<int>(i)) * 2.0 * std::atan(0.5 * profile.rod().rest_curvature[i].norm());
     }
-    // Behind the wire's proximal end its first section goes on.
+    // The first section is extended beyond the wire's proximal end.
     const double whole = massBetween(threePartWire(), 0.0, 0.2) + (tip - 0.2) * 6000.0 * M_PI * 0.25e-6;
     EXPECT_NEAR(mass, whole, 1e-9 * whole);
     EXPECT_NEAR(curved, 0.02 * Eigen::Vector2d(20.0, 80.0).norm(), 1e-9);

@@ -11,7 +11,7 @@ namespace
 
 constexpr double kLength = 0.3;
 
-/** Curved over its last 100 mm and no softer there, so that curvature couples two layers more than torsion does. */
+/** Wire curved, and no softer, over its last 100 mm: curvature couples two layers more than torsion does. */
 Wire curvedAtTip(Wire wire, double rest_curvature)
 {
   if (rest_curvature == 0.0)
@@ -24,16 +24,16 @@ Wire curvedAtTip(Wire wire, double rest_curvature)
   return wire;
 }
 
-/** A wire in a catheter that fits tightly: 2 N/m over 100 mm. */
+/** Wire in a tight catheter: normal load 2 N/m over 100 mm. */
 struct TightFit
 {
-  /** @param rest_curvature of both, over their last 100 mm [1/m] */
+  /** @param rest_curvature of both layers, over their last 100 mm [1/m] */
   explicit TightFit(double rest_curvature = 0.0)
   {
     Layer wire{curvedAtTip(uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), rest_curvature), 0.1, 2.0};
     Layer catheter{curvedAtTip(uniformWire(kLength, 8e-5, 0.9e-3, 6000.0), rest_curvature)};
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
-                                             calm(), StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
+                                           calm(), StepperSettings());
     state = stepper->initialState(input);
   }
 
@@ -42,7 +42,7 @@ struct TightFit
     input[0] = {insertion, rotation};
     StepInput all;
     all.layers = input;
-    for (int k = 0; k < count; ++k)  // 20: until inertia has no part any more
+    for (int k = 0; k < count; ++k)  // 20 repetitions: until inertia is negligible
     {
       std::uint32_t pass = 0;
       all.step = steps++;
@@ -50,12 +50,12 @@ struct TightFit
     }
   }
 
-  /** Of straight layers: the largest torque between them [N·m], and the turn of the wire at which they slip [rad]. */
+  /** Largest torque between straight layers [N·m], and rotation of the wire at which they slip [rad]. */
   static constexpr double kLimit = 0.1 * 0.4e-3 * 2.0 * 0.1;
   static constexpr double kSlip = kLimit * 0.1 / 3.0 * (1.3 / 2e-5 + 1.3 / 8e-5);  // ∫(L − s)² ds/L² of both, by GJ
 
   std::vector<LayerInput> input = {{0.15, 0.0}, {0.1, 0.0}};
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   PhaseTimer timer;
   std::uint64_t steps = 0;
@@ -78,7 +78,7 @@ TEST(StackFriction, FrictionBetweenLayersSticksSlidesAndHasHysteresis)
   }
 }
 
-TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
+TEST(StackFriction, AWireTurnedInATightCatheterTurnsItUntilItSlips)
 {
   TightFit fit;
   const double limit = TightFit::kLimit;
@@ -86,7 +86,7 @@ TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
   fit.moveTo(0.15, 0.25 * slip);
   EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.25 * limit, 0.01 * limit);
   EXPECT_NEAR(fit.state.layers[1].hand_torque, -0.25 * limit, 0.01 * limit);
-  // Turned on by the wire, which is held back: the angle between both is 0 in the mean.
+  // The pair sticks again: the mean angle between both is 0.
   EXPECT_GT(fit.state.layers[1].twist_angle.back(), 0.0);
   EXPECT_LT(fit.state.layers[1].twist_angle.back(), 0.25 * slip);
   EXPECT_LT(fit.state.layers[0].twist_angle.back(), 0.25 * slip);
@@ -100,8 +100,8 @@ TEST(StackFriction, AWireTurnedInATightCatheterTakesItAlongUntilItSlips)
   EXPECT_NEAR(fit.state.layers[0].hand_torque, -limit, 1e-2 * limit);
 }
 
-/** Curvature of both holds them together: a change of the friction turns them far less than it would straight ones. */
-TEST(StackFriction, CurvedLayersThatStickSettleSoonAndDoNotSlip)
+/** Curvature of both layers aligns them: a change of the friction turns them far less than straight layers. */
+TEST(StackFriction, CurvedLayersThatStickConvergeSoonAndDoNotSlip)
 {
   TightFit fit(40.0);
   const double stuck_at = fit.state.layers[0].friction_turn;

@@ -18,7 +18,7 @@ double largestDifference(const State& a, const State& b)
   return largest;
 }
 
-TEST(StackStepper, OneLayerIsThePlainRodBitForBitWithContactRotationAndWeight)
+TEST(LayerStack, OneLayerIsThePlainRodBitForBitWithContactRotationAndWeight)
 {
   const Wire wire = curvedTipWire(kLength, 0.03, 2e-5, 0.4e-3, 60.0);
   Environment environment = calm();
@@ -27,7 +27,7 @@ TEST(StackStepper, OneLayerIsThePlainRodBitForBitWithContactRotationAndWeight)
   boundary.origin = Eigen::Vector3d(-0.03, 0.012, 0.0);
   CylinderWall wall(0.01, 0.2);
   KktStepper plain(discretiseUniformly(wire, 151), boundary, environment, StepperSettings());
-  StackStepper stack({{wire}}, discretiseUniformly(wire, 151).position, boundary, environment, StepperSettings());
+  KktStepper stack({{wire}}, discretiseUniformly(wire, 151).position, boundary, environment, StepperSettings());
   State plain_state = plain.initialState(0.02, 0.0);
   State stack_state = stack.initialState({{0.02, 0.0}});
   PhaseTimer timer;
@@ -57,7 +57,7 @@ TEST(StackStepper, OneLayerIsThePlainRodBitForBitWithContactRotationAndWeight)
   EXPECT_EQ(plain_energy.twist, stack_energy.twist);
 }
 
-TEST(StackStepper, TwoEqualStraightLayersAreOneOfDoubleStiffnessAndMass)
+TEST(LayerStack, TwoEqualStraightLayersAreOneOfDoubleStiffnessAndMass)
 {
   const Wire wire = uniformWire(kLength, 2e-5, 0.4e-3, 6000.0);
   Wire doubled = wire;
@@ -70,7 +70,7 @@ TEST(StackStepper, TwoEqualStraightLayersAreOneOfDoubleStiffnessAndMass)
   boundary.origin = Eigen::Vector3d(-0.03, 0.012, 0.0);
   CylinderWall wall(0.01, 0.2);
   KktStepper plain(discretiseUniformly(doubled, 101), boundary, environment, StepperSettings());
-  StackStepper stack({{wire}, {wire}}, equalNodes(kLength, 101), boundary, environment, StepperSettings());
+  KktStepper stack({{wire}, {wire}}, equalNodes(kLength, 101), boundary, environment, StepperSettings());
   State plain_state = plain.initialState(0.05, 0.0);
   State stack_state = stack.initialState({{0.05, 0.0}, {0.05, 0.0}});
   PhaseTimer timer;

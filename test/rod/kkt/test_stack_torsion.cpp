@@ -24,7 +24,7 @@ Wire tube(double bending_stiffness, double torsional_stiffness, double curvature
   return wire;
 }
 
-/** Two tubes of 8 and 6 /m, the outer one twice as stiff, with √c L = lambda. */
+/** Two tubes with rest curvatures of 8 and 6 /m, the outer one twice as stiff, with √c L = lambda. */
 struct TwoTubes
 {
   explicit TwoTubes(double lambda)
@@ -34,9 +34,9 @@ struct TwoTubes
     boundary.introducer = false;
     boundary.proximal = EndHold::kClamped;
     const Wire inner = tube(1e-3, torsional, 8.0);
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{{inner}, {tube(2e-3, 2.0 * torsional, 6.0)}},
-                                             discretiseUniformly(inner, kTubeNodes).position, boundary, Environment(),
-                                             StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{{inner}, {tube(2e-3, 2.0 * torsional, 6.0)}},
+                                           discretiseUniformly(inner, kTubeNodes).position, boundary, Environment(),
+                                           StepperSettings());
     length = inner.length();
     state = stepper->initialState({{length, 0.0}, {length, 0.0}});
     turnTo(0.0);
@@ -64,13 +64,13 @@ struct TwoTubes
 
   double tip() const { return state.layers[0].twist_angle.back() - state.layers[1].twist_angle.back(); }
 
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   double length = 0.0;
   int solves = 0;
 };
 
-/** A tip angle and the base angle that goes with it [deg]. */
+/** Tip angle with its base angle [deg]. */
 struct Transmission
 {
   double tip, base;
@@ -99,7 +99,7 @@ TEST(StackTorsion, TubesSnapThroughWhereTheTorsionEquationLosesItsSolution)
     after = tubes.turnTo((base + 0.5) * kDegree);
   }
   EXPECT_NEAR(base, 197.7856, 2.0);
-  EXPECT_NEAR(before / kDegree, 116.721, 10.0);  // the tip angle's slope is infinite there
+  EXPECT_NEAR(before / kDegree, 116.721, 10.0);  // the slope of the tip angle is infinite at this point
   EXPECT_NEAR(after / kDegree, 301.612, 3.0);
 }
 

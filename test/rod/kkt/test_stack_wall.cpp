@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "rod/sampling/adaptive_sampling.h"
+#include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/plane_wall.h"
 #include "test/rod/stack_fixtures.h"
 
-// A stack that lies on a wall, which holds the layer that it touches.
+// A stack on a wall, whose friction acts on the outermost layer.
 
 namespace endovascular_sim::rod
 {
@@ -16,7 +17,7 @@ constexpr double kFriction = 0.2;
 constexpr double kCatheterRadius = 0.9e-3;
 constexpr double kWireRadius = 0.4e-3;
 
-/** A straight wire in a straight catheter, both heavy, on a floor. */
+/** Straight wire in a straight catheter, both heavy, on a floor. */
 struct OnFloor
 {
   OnFloor()
@@ -28,13 +29,13 @@ struct OnFloor
     environment.gravity = Eigen::Vector3d(0.0, 0.0, -9.81);
     Boundary boundary;
     boundary.origin = Eigen::Vector3d(0.0, 0.0, kCatheterRadius);
-    stepper = std::make_unique<StackStepper>(std::vector<Layer>{{wire}, {catheter}}, equalNodes(kLength, 151), boundary,
-                                             environment, StepperSettings());
+    stepper = std::make_unique<KktStepper>(std::vector<Layer>{{wire}, {catheter}}, equalNodes(kLength, 151), boundary,
+                                           environment, StepperSettings());
     state = stepper->initialState(input);
     step(200);
   }
 
-  /** Steps of 5 ms at given speeds of both hands. */
+  /** Advances in steps of 5 ms at given speeds of both handles. */
   void step(int count, const std::vector<LayerInput>& speed = {{}, {}})
   {
     for (int k = 0; k < count; ++k)
@@ -52,24 +53,24 @@ struct OnFloor
     }
   }
 
-  /** Wall's normal force on a layer [N]. */
+  /** Normal force of the wall on a layer [N]. */
   double load(int layer) const
   {
     double sum = 0.0;
     for (int i = state.first_node; i < stepper->discretisation().nodes(); ++i)
-      sum += stepper->stack().surfaceLayer(i) == layer ? state.wall_force[i].norm() : 0.0;
+      sum += KktStepperPeer::stack(*stepper).surfaceLayer(i) == layer ? state.wall_force[i].norm() : 0.0;
     return sum;
   }
 
   std::vector<LayerInput> input = {{0.16, 0.0}, {0.1, 0.0}};
   PlaneWall floor{kFriction};
-  std::unique_ptr<StackStepper> stepper;
+  std::unique_ptr<KktStepper> stepper;
   State state;
   PhaseTimer timer;
   std::uint64_t steps = 0;
 };
 
-TEST(StackOnAWall, TheWallHoldsBackTheLayerThatIsPulledNotTheOther)
+TEST(StackOnAWall, FrictionOfTheWallActsOnTheOutermostLayerOnly)
 {
   for (const int pulled : {0, 1})
   {
@@ -85,7 +86,7 @@ TEST(StackOnAWall, TheWallHoldsBackTheLayerThatIsPulledNotTheOther)
   }
 }
 
-TEST(StackOnAWall, TheWallsTorqueIsOnTheLayerThatTurns)
+TEST(StackOnAWall, TorqueOfTheWallActsOnTheLayerThatTurns)
 {
   for (const int turning : {0, 1})
   {
@@ -96,14 +97,14 @@ TEST(StackOnAWall, TheWallsTorqueIsOnTheLayerThatTurns)
     const double radius = turning == 1 ? kCatheterRadius : kWireRadius;
     const double torque = kFriction * radius * setup.load(turning);
     EXPECT_GT(torque, 1e-7);
-    // What rolls sideways does not slide, and takes the other along: that one's friction holds against it.
+    // A layer that rolls sideways does not slide, and turns the other one, whose friction resists.
     EXPECT_NEAR(setup.state.layers[turning].hand_torque, torque, 0.1 * torque) << turning;
     const double largest = kFriction * kCatheterRadius * setup.load(1);
     EXPECT_LT(std::abs(setup.state.layers[1 - turning].hand_torque), 0.05 * largest) << turning;
   }
 }
 
-TEST(StackOnAWall, NodesThatAdaptCarryTheLayersAlong)
+TEST(StackOnAWall, AdaptiveNodesKeepTheLayers)
 {
   const Wire wire = curvedTipWire(kLength, 0.02, 2e-5, kWireRadius, 70.0);
   const Wire catheter = curvedTipWire(kLength, 0.03, 8e-5, kCatheterRadius, 30.0);
@@ -112,8 +113,8 @@ TEST(StackOnAWall, NodesThatAdaptCarryTheLayersAlong)
   settings.max_edge = 4e-3;
   AdaptiveSampling sampling(wire, Boundary(), settings);
   const std::vector<Layer> layers = {{wire}, {catheter}};
-  StackStepper adaptive(layers, sampling.discretisation().position, Boundary(), calm(), StepperSettings());
-  StackStepper fine(layers, equalNodes(kLength, 601), Boundary(), calm(), StepperSettings());
+  KktStepper adaptive(layers, sampling.discretisation().position, Boundary(), calm(), StepperSettings());
+  KktStepper fine(layers, equalNodes(kLength, 601), Boundary(), calm(), StepperSettings());
   const std::vector<LayerInput> begin = {{0.1, 0.0}, {0.08, 0.5}};
   State state = adaptive.initialState(begin);
   State reference = fine.initialState(begin);
@@ -129,7 +130,7 @@ TEST(StackOnAWall, NodesThatAdaptCarryTheLayersAlong)
     input.layers[1].inserted_length += 5e-5 * std::max(0, k - 300);
     std::uint32_t pass = 0;
     adaptive.step(state, input, 5e-3, pass, nullptr, timer);
-    if (k > 310 && !std::isnan(last))  // it sets out at once
+    if (k > 310 && !std::isnan(last))  // the motion begins at once
       jump = std::max(jump, std::abs(state.layers[1].hand_force - last));
     last = state.layers[1].hand_force;
     pass = 0;

@@ -12,7 +12,7 @@ namespace
 
 constexpr int kBand = 10;
 
-/** A random banded matrix; every third unknown from the fifth on gets a negative diagonal, as a multiplier would. */
+/** Random banded matrix; every third unknown from the fifth on has a negative diagonal, like a multiplier. */
 template <int Period>
 BandedLdlt<kBand, Period> randomMatrix(int size, std::mt19937& random, Eigen::MatrixXd& dense, int& negative)
 {
@@ -78,7 +78,7 @@ TYPED_TEST(BandedLdltOfPeriod, GoesOnWhereTheMatrixChangedToTheSameBits)
       for (int col = std::max(from, changed); col < size; ++col)
         matrix.at(col, col) += 1.0 + 0.01 * changed;
     };
-    // What was added to the base for the last change lies behind this one, or is taken back with it.
+    // Terms of the last change lie behind this one, or are removed with it.
     auto slow = base;
     slow.copyFrom(base);
     add(slow, 0);

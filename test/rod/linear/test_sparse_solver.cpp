@@ -14,7 +14,7 @@ namespace
 
 constexpr int kSize = 40;
 
-/** Symmetric, sparse; positive definite when @p diagonal is large. */
+/** Symmetric sparse matrix, positive definite when @p diagonal is large. */
 SparseMatrix randomSymmetric(unsigned seed, double diagonal)
 {
   std::mt19937 random(seed);
@@ -71,7 +71,7 @@ TEST(SparseSolver, CholmodSolvesPositiveDefiniteMatricesAsTheDenseSolverDoes)
   expectAgreesWithDense(solver, SparseMatrix(root * root));
 }
 
-TEST(SparseSolver, RefusesSingularAndIndefiniteMatricesAndGoesOnWithGoodOnes)
+TEST(SparseSolver, RejectsSingularAndIndefiniteMatricesAndContinuesWithRegularOnes)
 {
   KluSolver klu;
   SparseMatrix singular = randomSymmetric(1, 0.0);
@@ -100,7 +100,7 @@ TEST(SparseSolver, BandIsCopiedEntryByEntry)
     }
 }
 
-/** Drives a pre-curved wire in, turning it; returns all positions after every step. */
+/** Positions after every step of a pre-curved wire that is pushed in and turned. */
 std::vector<Eigen::Vector3d> drivenTrajectory(LinearSolver linear_solver)
 {
   Wire wire = uniformWire(0.15, 4.9469e-5, 1.8e-4, 7900.0);
@@ -129,7 +129,7 @@ std::vector<Eigen::Vector3d> drivenTrajectory(LinearSolver linear_solver)
   return all;
 }
 
-TEST(SparseSolver, ADrivenPreCurvedWireGoesTheSameWayWithTheBandedAndTheSparseSolver)
+TEST(SparseSolver, ADrivenPreCurvedWireMovesAlikeWithTheBandedAndTheSparseSolver)
 {
   const std::vector<Eigen::Vector3d> banded = drivenTrajectory(LinearSolver::kBanded);
   const std::vector<Eigen::Vector3d> sparse = drivenTrajectory(LinearSolver::kSparse);

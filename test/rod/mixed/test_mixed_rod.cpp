@@ -11,7 +11,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/** Deterministic numbers in −1 … 1. */
+/** Deterministic pseudo-random numbers in −1 … 1. */
 class Numbers
 {
 public:
@@ -55,7 +55,7 @@ State bentState(const MixedRod& rod, Numbers& numbers)
   return state;
 }
 
-/** Adds a value to one unknown by its row. */
+/** Adds a value to the unknown of a row. */
 void nudge(const MixedRod& rod, State& state, int row, double by)
 {
   for (int i = state.first_node; i < rod.nodes(); ++i)
@@ -83,7 +83,7 @@ struct Derivatives
   }
 };
 
-TEST(TurningAngle, HasTheSeriesAndTheClosedFormMeetAndNothingBreaksAtZero)
+TEST(TurningAngle, SeriesAndClosedFormAgreeAndZeroIsRegular)
 {
   const AngleOverSine straight(1.0);
   EXPECT_EQ(straight.value, 1.0);
@@ -116,7 +116,7 @@ TEST(MixedRod, GradientEqualsFiniteDifferencesOfTheLagrangian)
       State down = state;
       nudge(rod, up, row, step);
       nudge(rod, down, row, -step);
-      EXPECT_NEAR(exact.gradient[row], (rod.lagrangian(up) - rod.lagrangian(down)) / (2.0 * step), 1e-7) << row;
+      EXPECT_NEAR(exact.gradient[row], (lagrangian(rod, up) - lagrangian(rod, down)) / (2.0 * step), 1e-7) << row;
     }
   }
 }

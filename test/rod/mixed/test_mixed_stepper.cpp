@@ -64,7 +64,7 @@ TEST(MixedStepper, HeavyCantileverComesToRestWithinAMillionthAt25Nodes)
       1e-12);
 }
 
-// Coarse edges whose bow is soft: without the bow's compliance in L the tension of this motion grows without bound.
+// Coarse edges with a soft bow: without the bow's compliance in L the tension of this motion is unstable.
 TEST(MixedStepper, CoarseFallingWireStaysStableAndFollowsTheFineOneWithFourthOrder)
 {
   const auto tip = [](int nodes)
@@ -201,7 +201,7 @@ TEST(MixedStepper, GivesTheSameBitsForTheSameInputs)
   EXPECT_EQ(hash(), hash());
 }
 
-TEST(MixedStepper, RefusesAStepThatCannotBeSolvedAndKeepsTheWireWhereItWas)
+TEST(MixedStepper, RejectsAStepThatCannotBeSolvedAndKeepsTheWiresPosition)
 {
   MixedStepper stepper = makeStepper(10, EndHold::kClamped, Environment());
   State state = stepper.initialState(0.0, 0.0);

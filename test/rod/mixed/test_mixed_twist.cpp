@@ -17,7 +17,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/** A rod of EI = 1 clamped at the origin along x, with d1 along y. */
+/** Rod of EI = 1, clamped at the origin along x, with d1 along y. */
 MixedRod unitRod(int edges, double length, double twist_flexibility, double curvature)
 {
   MixedEdge edge;
@@ -136,8 +136,8 @@ TEST(MixedTwist, MomentIsBalancedExactlyAtEveryNode)
   }
 }
 
-// The forces are not the derivatives of an energy of the discrete rod: those of the energy found, by the load and by
-// the hand, agree with displacement and torque to fourth order.
+// The forces are not derivatives of an energy of the discrete rod. The derivatives of the computed energy by load and
+// rotation of the handle agree with displacement and torque to fourth order.
 TEST(MixedTwist, EnergyChangesByTheWorkOfLoadAndHandToFourthOrder)
 {
   const auto energy = [](int edges, double rotation, double share, double& torque, double& tip)
@@ -202,7 +202,7 @@ TEST(MixedTwist, TorqueAtAFreeTipConvergesWithFourthOrder)
   const double coarse = error(8, coarse_torque);
   const double fine = error(16, fine_torque);
   EXPECT_NEAR(order(coarse, fine), 4.0, 0.2);
-  EXPECT_LT(coarse_torque, 1e-4);  // the balance is about the clamp's axis, the torque about the tip's
+  EXPECT_LT(coarse_torque, 1e-4);  // the moments balance about the clamp's axis, the torque acts about the tip's
   EXPECT_GT(order(coarse_torque, fine_torque), 3.5);
 }
 
@@ -217,8 +217,8 @@ TEST(MixedTwist, StraightWireTwistsAsALinearSpring)
     EXPECT_NEAR(state.twist_angle[j], 0.7 + 0.2 * 1.3 * (j + 0.5) / 10, 1e-12);
 }
 
-// References 07: the null test. A pre-curved wire's unloaded shape turns rigidly with the hand.
-TEST(MixedTwist, UnloadedCurvedWireTurnsWithTheHandWithoutTorque)
+// References 07, null test: the unloaded shape of a pre-curved wire turns rigidly with the handle.
+TEST(MixedTwist, UnloadedCurvedWireTurnsWithTheHandleWithoutTorque)
 {
   TwistBoundary twist;
   twist.rotation = M_PI_2;
@@ -256,8 +256,8 @@ TEST(MixedTwist, MovingWireComesToRestAtTheStaticShape)
 }
 
 /** Largest difference between the assembled second derivatives and those of the gradient by finite differences, the
- * twist relaxed anew for each: of moments' rows by positions, positions' by positions, and both by moments. In units of
- * what each block is to the solution: 1/h, EI/h³, and h/EI or 1/h. */
+ *  twist relaxed for each: rows of moments by positions, of positions by positions, and both by moments. Relative to
+ * the blocks' scales 1/h, EI/h³, and h/EI or 1/h. */
 std::array<double, 3> jacobianErrors(int edges)
 {
   MixedRod rod = steppedRod(edges);
@@ -311,11 +311,11 @@ std::array<double, 3> jacobianErrors(int edges)
   return worst;
 }
 
-TEST(MixedTwist, SecondDerivativesAreTheGradientsButForTermsThatVanishWithTheEdgeLength)
+TEST(MixedTwist, SecondDerivativesEqualThoseOfTheGradientUpToTermsThatVanishWithTheEdgeLength)
 {
   const auto coarse = jacobianErrors(16);
   const auto fine = jacobianErrors(32);
-  EXPECT_LT(coarse[0], 6e-3);  // 0.04 without the turn of the rest curvature with its chord
+  EXPECT_LT(coarse[0], 6e-3);  // 0.04 without the rotation of the rest curvature with its chord
   for (int block = 0; block < 3; ++block)
   {
     EXPECT_LT(coarse[block], 0.12);
@@ -325,7 +325,7 @@ TEST(MixedTwist, SecondDerivativesAreTheGradientsButForTermsThatVanishWithTheEdg
 
 // A J of 3 mm, opened straight, on edges that turn by 0.7 rad each: it snaps back within few steps, which the trust
 // region cuts short, and comes to rest as a semicircle.
-TEST(MixedTwist, ACoarseJThatWasStraightSnapsBackToASemicircle)
+TEST(MixedTwist, AStraightenedCoarseJSnapsBackToASemicircle)
 {
   Wire wire = uniformWire(0.01, 5e-6, 4.445e-4, 6450.0);
   wire.sections[0].torsional_stiffness = 5e-6 / 1.3;

@@ -132,7 +132,7 @@ TEST_F(Bending, GaussNewtonIsTheExactHessianWhereTheStrainVanishes)
   EXPECT_LT((gauss_newton.after_after - exact.after_after).norm(), 1e-14);
 }
 
-TEST_F(Bending, GradientNeitherPushesNorTurnsTheWireAsAWhole)
+TEST_F(Bending, GradientHasNoResultantForceOrMoment)
 {
   // About the node itself: forces −∂E/∂e, ∂E/∂e − ∂E/∂g, ∂E/∂g at −e, 0, g; a straight wire's energy has no frame.
   const CurvatureBinormal kb(e, g, rest);

@@ -24,13 +24,12 @@ TEST(RodEdgeFrames, RotationsAgreeWithEigens)
   }
 }
 
-/** A stretch of rod that carries a force, integrated by Runge and Kutta's method; by arc length s from its beginning.
- */
+/** Part of a loaded rod, integrated by the Runge–Kutta method over the arc length s from its beginning. */
 struct Integrated
 {
   static constexpr int kSteps = 400;
   Matrix3d frame = Matrix3d::Identity();
-  Vector3d place = Vector3d::Zero();
+  Vector3d point = Vector3d::Zero();
   Vector3d force{0.7, -1.1, 0.9};  ///< at s = 0
   Vector3d load{0.8, 1.3, -0.6};
   Vector3d moment{0.4, -0.3, 0.5};
@@ -40,7 +39,7 @@ struct Integrated
   struct Rate
   {
     Matrix3d frame;
-    Vector3d place, moment;
+    Vector3d point, moment;
   };
 
   Rate rate(double s, const Matrix3d& r, const Vector3d& m) const
@@ -62,19 +61,19 @@ struct Integrated
       const Rate c = rate(s + 0.5 * ds, frame + 0.5 * ds * b.frame, moment + 0.5 * ds * b.moment);
       const Rate d = rate(s + ds, frame + ds * c.frame, moment + ds * c.moment);
       frame += ds / 6.0 * (a.frame + 2.0 * b.frame + 2.0 * c.frame + d.frame);
-      place += ds / 6.0 * (a.place + 2.0 * b.place + 2.0 * c.place + d.place);
+      point += ds / 6.0 * (a.point + 2.0 * b.point + 2.0 * c.point + d.point);
       moment += ds / 6.0 * (a.moment + 2.0 * b.moment + 2.0 * c.moment + d.moment);
     }
   }
 };
 
-/** Errors of a stretch of the length h around s = 0.3. */
+/** Errors of an edge of the length h around s = 0.3. */
 struct Errors
 {
-  double ends = 0.0;       ///< of the frames at the ends against the chord
-  double between = 0.0;    ///< of one end's frame against the other's
-  double moment = 0.0;     ///< of the ends' difference of moment about the chord, from the load
-  double curvature = 0.0;  ///< in the middle
+  double ends = 0.0;       ///< error of the frames at the ends against the chord
+  double between = 0.0;    ///< error of the rotation between both frames
+  double moment = 0.0;     ///< error of the difference of the moments about the chord, from the load
+  double curvature = 0.0;  ///< error of the curvature in the middle
 };
 
 Errors errorsOf(double h)
@@ -85,8 +84,8 @@ Errors errorsOf(double h)
   middle.advance(0.3 - 0.5 * h, 0.3);
   Integrated end = middle;
   end.advance(0.3, 0.3 + 0.5 * h);
-  const Vector3d chord = (end.place - begin.place).normalized();
-  // Any frame that has the chord as its third axis will do: the material one, turned least.
+  const Vector3d chord = (end.point - begin.point).normalized();
+  // Frame with the chord as its third axis: the material frame, rotated least.
   const Vector3d across = middle.frame.col(2).cross(chord);
   Matrix3d frame = rotationOf(across) * middle.frame;
   frame.col(2) = chord;
@@ -101,7 +100,7 @@ Errors errorsOf(double h)
   edge.tension = (begin.force - 0.3 * begin.load).dot(chord);
   edge.moment = {frame.transpose() * begin.moment, frame.transpose() * end.moment};
   const RodEdgeFrames shape(edge);
-  // The angle of the frame about the chord is given, not found: it is taken from the end's.
+  // The angle of the frame about the chord is an input: that of the end.
   const Vector3d found = frame * shape.turn[1].col(0);
   const Vector3d tangent = end.frame.col(2);
   const double about = std::atan2(found.cross(end.frame.col(0)).dot(tangent), found.dot(end.frame.col(0)));

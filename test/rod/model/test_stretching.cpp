@@ -14,6 +14,13 @@ constexpr double kStep = 1e-6;
 const Eigen::Vector3d kStretched(0.9, 0.3, -0.2);
 const Eigen::Vector3d kCompressed(0.5, 0.2, 0.3);
 
+/** ∂²E/∂e², indefinite under compression [N/m]. */
+Eigen::Matrix3d exactHessian(const Stretching& edge)
+{
+  return (edge.axial_stiffness / edge.rest_length) * edge.direction * edge.direction.transpose() +
+         edge.geometric(edge.tension);
+}
+
 TEST(Stretching, EnergyIsHalfTheStiffnessTimesStrainSquaredTimesLength)
 {
   const Stretching edge(Eigen::Vector3d(1.08, 0.0, 0.0), kRest, kStiffness);
@@ -32,18 +39,18 @@ TEST(Stretching, GradientAndExactHessianEqualFiniteDifferences)
       const Stretching up(e + step, kRest, kStiffness);
       const Stretching down(e - step, kRest, kStiffness);
       EXPECT_NEAR((up.energy() - down.energy()) / (2.0 * kStep), edge.gradient()[axis], 1e-9);
-      EXPECT_LT(((up.gradient() - down.gradient()) / (2.0 * kStep) - edge.exactHessian().col(axis)).norm(), 1e-8);
+      EXPECT_LT(((up.gradient() - down.gradient()) / (2.0 * kStep) - exactHessian(edge).col(axis)).norm(), 1e-8);
     }
   }
 }
 
-TEST(Stretching, PositiveHessianLeavesOutCompressionsGeometricTermOnly)
+TEST(Stretching, PositiveHessianOmitsTheGeometricTermOfCompressionOnly)
 {
   const Stretching stretched(kStretched, kRest, kStiffness);
   const Stretching compressed(kCompressed, kRest, kStiffness);
-  EXPECT_EQ(stretched.exactHessian(), stretched.positiveHessian());
+  EXPECT_EQ(exactHessian(stretched), stretched.positiveHessian());
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
-  EXPECT_LT(Solver(compressed.exactHessian()).eigenvalues()[0], -0.1);
+  EXPECT_LT(Solver(exactHessian(compressed)).eigenvalues()[0], -0.1);
   EXPECT_GT(Solver(compressed.positiveHessian()).eigenvalues()[0], -1e-15);
 }
 

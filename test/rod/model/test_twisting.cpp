@@ -24,8 +24,8 @@ Chain bentChain()
   return x;
 }
 
-/** Twist of a wire whose end edges are held: from the first director, transported along the chain, to a director that
- * is fixed at the last edge. */
+/** Twist of a wire whose end edges are held: angle from the first director, transported along the wire, to a fixed
+ *  director at the last edge. */
 double heldTwist(const Chain& x)
 {
   const Eigen::Vector3d last = (x[kNodes - 1] - x[kNodes - 2]).normalized();
@@ -41,7 +41,7 @@ double heldTwist(const Chain& x)
   return std::atan2(director.cross(held).dot(tangent), director.dot(held));
 }
 
-/** Sum of ∂m/∂x over all nodes, as the class gives it. */
+/** Sum of ∂m/∂x over all nodes by TwistOfCentreline. */
 Chain twistGradient(const Chain& x)
 {
   Chain gradient(kNodes, Eigen::Vector3d::Zero());
@@ -83,7 +83,7 @@ TEST(Twisting, DerivativesByTheAnglesEqualFiniteDifferences)
               node.hessian, 1e-9);
 }
 
-TEST(Twisting, GradientByTheCentrelineIsTheDerivativeOfTheHeldWiresTwist)
+TEST(Twisting, GradientByTheCentrelineIsTheDerivativeOfTheTwistOfAHeldWire)
 {
   const Chain x = bentChain();
   const Chain gradient = twistGradient(x);

@@ -14,7 +14,7 @@ namespace
 
 constexpr int kNodes = 12;
 
-class FastProjecting : public testing::Test
+class FastProjectionTest : public testing::Test
 {
 protected:
   void SetUp() override
@@ -36,7 +36,7 @@ protected:
   FastProjection projection;
 };
 
-TEST_F(FastProjecting, GivesEveryEdgeItsLengthBackAndKeepsTheCentreOfMass)
+TEST_F(FastProjectionTest, RestoresTheLengthOfEveryEdgeAndKeepsTheCentreOfMass)
 {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (int i = 0; i < kNodes; ++i)
@@ -50,7 +50,7 @@ TEST_F(FastProjecting, GivesEveryEdgeItsLengthBackAndKeepsTheCentreOfMass)
   EXPECT_LT(moment.norm(), 1e-16);
 }
 
-TEST_F(FastProjecting, LeavesHeldNodesWhereTheyAreAndEdgesBetweenThemAlone)
+TEST_F(FastProjectionTest, KeepsHeldNodesAndTheEdgesBetweenThem)
 {
   inverse_mass[0] = inverse_mass[1] = inverse_mass[kNodes - 1] = 0.0;
   const std::vector<Eigen::Vector3d> before = x;
@@ -64,7 +64,7 @@ TEST_F(FastProjecting, LeavesHeldNodesWhereTheyAreAndEdgesBetweenThemAlone)
     EXPECT_NEAR(strain(j), 0.0, 1e-10);
 }
 
-TEST_F(FastProjecting, OneIterationIsTheDenseSolutionOfEquation12)
+TEST_F(FastProjectionTest, OneIterationIsTheDenseSolutionOfEquation12)
 {
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(kNodes - 1, 3 * kNodes);
   Eigen::VectorXd constraint(kNodes - 1);
@@ -87,7 +87,7 @@ TEST_F(FastProjecting, OneIterationIsTheDenseSolutionOfEquation12)
     EXPECT_LT((projected[i] - x[i] - move.segment<3>(3 * i)).norm(), 1e-15);
 }
 
-TEST_F(FastProjecting, TellsWhenEdgesCannotGetTheirLengthsBack)
+TEST_F(FastProjectionTest, ReportsEdgesWhoseLengthsCannotBeRestored)
 {
   inverse_mass[0] = inverse_mass[kNodes - 1] = 0.0;
   x[kNodes - 1] = x[0] + Eigen::Vector3d(0.2, 0.0, 0.0);

@@ -16,7 +16,7 @@ constexpr double kLength = 0.38;
 constexpr double kRadius = 1.8e-4;
 constexpr double kDensity = 7900.0;
 
-/** The half-space z > 0 as a lumen: every node sees the plane z = 0. */
+/** Lumen: the half-space z > 0; every node has the plane z = 0 as its feature. */
 class Floor : public contact::ContactSource
 {
 public:
@@ -64,14 +64,14 @@ Eigen::Vector3d heavyCantileverTip(double dt)
   return state.position.back();
 }
 
-TEST(PaperStepper, HeavyCantileverHangsWhereTheOtherSchemeSaysAtAnyTimeStep)
+TEST(PaperStepper, HeavyCantileverHangsAsInTheKktSchemeAtAnyTimeStep)
 {
   const Eigen::Vector3d kkt = heavyCantileverTip<KktStepper>(0.01);
   for (const double dt : {0.02, 0.01, 0.002})
     EXPECT_LT((heavyCantileverTip<PaperStepper>(dt) - kkt).norm(), 2e-7 * kLength);
 }
 
-/** Drives a pre-curved wire in, turning it; returns all positions after every step. */
+/** Positions after every step of a pre-curved wire that is pushed in and turned. */
 template <typename Scheme>
 std::vector<Eigen::Vector3d> drivenTrajectory(LinearSolver linear_solver, double dt)
 {
@@ -113,14 +113,14 @@ double largestDifference(const std::vector<Eigen::Vector3d>& one, const std::vec
   return worst;
 }
 
-TEST(PaperStepper, ADrivenPreCurvedWireGoesTheSameWayWithTheBandedAndTheSparseSolver)
+TEST(PaperStepper, ADrivenPreCurvedWireMovesAlikeWithTheBandedAndTheSparseSolver)
 {
   const auto banded = drivenTrajectory<PaperStepper>(LinearSolver::kBanded, 1e-3);
   const auto sparse = drivenTrajectory<PaperStepper>(LinearSolver::kSparse, 1e-3);
   EXPECT_LT(largestDifference(banded, sparse), 1e-9 * 0.12);
 }
 
-TEST(PaperStepper, ADrivenPreCurvedWireConvergesToTheOtherSchemesWayWithTheTimeStep)
+TEST(PaperStepper, ADrivenPreCurvedWireConvergesToTheKktSchemeWithTheTimeStep)
 {
   const auto paper = drivenTrajectory<PaperStepper>(LinearSolver::kBanded, 1e-3);
   const auto kkt = drivenTrajectory<KktStepper>(LinearSolver::kBanded, 1e-3);
@@ -129,7 +129,7 @@ TEST(PaperStepper, ADrivenPreCurvedWireConvergesToTheOtherSchemesWayWithTheTimeS
   const double coarse = largestDifference(paper, kkt);
   const double fine = largestDifference(fine_paper, fine_kkt);
   EXPECT_LT(fine, 5e-4);
-  EXPECT_GT(coarse / fine, 3.0);  // first order would be 4
+  EXPECT_GT(coarse / fine, 3.0);  // 4 at first order
   EXPECT_LT(coarse / fine, 5.0);
 }
 
@@ -158,8 +158,8 @@ double depthOnTheFloor(double load, double dt, double& mass)
   return kRadius - state.position[nodes / 2].z();
 }
 
-// physics.md: "its stiffness is m/Δt², so a static load F penetrates δ = F·Δt²/m".
-TEST(PaperStepper, AStaticLoadPenetratesByTheSquareOfTheTimeStepWhateverTheWallIsMadeOf)
+// The stiffness is m/Δt², so that a static load F penetrates δ = F·Δt²/m.
+TEST(PaperStepper, AStaticLoadPenetratesByTheSquareOfTheTimeStepWhateverTheStiffnessOfTheWall)
 {
   for (const double dt : {1e-3, 5e-4, 1e-4})
   {
@@ -169,7 +169,7 @@ TEST(PaperStepper, AStaticLoadPenetratesByTheSquareOfTheTimeStepWhateverTheWallI
   }
 }
 
-TEST(PaperStepper, WaitsWhileNoContactSetComesAndGoesOnAfterwards)
+TEST(PaperStepper, WaitsWhileContactSetsAreStaleAndContinuesAfterwards)
 {
   Floor floor;
   PaperStepper stepper(discretiseUniformly(uniformWire(0.1, kEi, kRadius, kDensity), 21), freeBoundary(), Environment(),
@@ -241,7 +241,7 @@ TEST(PaperStepper, AFlyingWireKeepsLinearMomentum)
   EXPECT_LT((momentum(state) - before).norm(), 1e-9 * before.norm());
 }
 
-TEST(PaperStepper, RefusesWhatItCannotDoAndKeepsTheWireWhereItWas)
+TEST(PaperStepper, RejectsStepsWithoutASolutionAndKeepsTheWiresPosition)
 {
   PaperStepper stepper(discretiseUniformly(uniformWire(kLength, kEi, kRadius, kDensity), 20),
                        clampAtOrigin(kLength, 20), Environment(), StepperSettings());
@@ -260,13 +260,13 @@ TEST(PaperStepper, RefusesWhatItCannotDoAndKeepsTheWireWhereItWas)
   EXPECT_TRUE(stepper.step(state, StepInput(), 1e-3, pass, nullptr, timer).solved);
 }
 
-/** Random wires, steps and motions far beyond any use, on a floor, with every node shaken now and then. */
-TEST(PaperStepper, NeverLosesAWireWhateverIsAskedOfIt)
+/** Random wires, steps and motions far beyond any use, on a floor, with random changes of all nodes. */
+TEST(PaperStepper, KeepsTheWireFiniteForExtremeInputs)
 {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto logarithmic = [&](double low, double high) { return low * std::pow(high / low, uniform(random)); };
-  int refused = 0;
+  int rejected = 0;
   for (int sample = 0; sample < 80; ++sample)
   {
     const int nodes = 3 + static_cast<int>(60 * uniform(random) * uniform(random));
@@ -307,14 +307,14 @@ TEST(PaperStepper, NeverLosesAWireWhateverIsAskedOfIt)
       }
       else
       {
-        ++refused;
+        ++rejected;
         ASSERT_EQ(state.position, before.position);
       }
       for (int i = state.first_node; i < nodes; ++i)
         ASSERT_TRUE(state.position[i].allFinite() && state.velocity[i].allFinite()) << sample << " step " << k;
     }
   }
-  EXPECT_LT(refused, 120);  // one in a hundred
+  EXPECT_LT(rejected, 120);  // one in a hundred
 }
 
 TEST(PaperStepper, GivesTheSameBitsForTheSameInputs)

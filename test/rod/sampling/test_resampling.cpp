@@ -30,7 +30,7 @@ std::vector<double> coarsePositions(int edges)
   return position;
 }
 
-/** Positions with the edges of these indices halved. */
+/** Positions with the edges of the given indices split. */
 std::vector<double> halved(const std::vector<double>& position, const std::vector<int>& edges)
 {
   std::vector<double> result;
@@ -51,7 +51,7 @@ Eigen::Vector3d curve(double s)
   return {radius * std::cos(angle), radius * std::sin(angle), 4e-3 * angle};
 }
 
-/** Every field different from node to node. */
+/** State whose members differ from node to node. */
 State wildState(const Discretisation& rod)
 {
   State state;
@@ -107,7 +107,7 @@ Eigen::Vector3d sumOf(const std::vector<Eigen::Vector3d>& vectors)
   return sum;
 }
 
-/** A wire in two samplings, and a state of the first. */
+/** Wire in two samplings, and a state of the first. */
 struct Bench
 {
   explicit Bench(const std::vector<int>& split)
@@ -120,7 +120,7 @@ struct Bench
   Resampling resampling;
 };
 
-TEST(Resampling, GivesTheStateBackWhenASplitIsMerged)
+TEST(Resampling, AMergeRestoresTheStateBeforeTheSplit)
 {
   for (const std::vector<int>& split : {std::vector<int>{7}, {0, 1, 16, 17, 18, 39}, {15, 16, 17}})
   {
@@ -147,7 +147,7 @@ TEST(Resampling, GivesTheStateBackWhenASplitIsMerged)
   }
 }
 
-TEST(Resampling, ConservesMassMomentumAndTheWallsForceBothWays)
+TEST(Resampling, ConservesMassMomentumAndWallForceInSplitsAndMerges)
 {
   Bench bench({0, 3, 4, 16, 17, 30, 39});
   State state = wildState(bench.coarse);
@@ -163,7 +163,7 @@ TEST(Resampling, ConservesMassMomentumAndTheWallsForceBothWays)
   bench.resampling.carry(bench.wire, bench.coarse, bench.fine, state);
   EXPECT_LT((momentum(bench.fine, state) - first_momentum).norm(), 1e-14 * first_momentum.norm());
   EXPECT_LT((sumOf(state.wall_force) - first_force).norm(), 1e-14);
-  // A state whose fine nodes do not move with their neighbours.
+  // A state whose fine nodes have other velocities than their neighbours.
   for (std::size_t i = 0; i < state.velocity.size(); ++i)
   {
     state.velocity[i] += 0.02 * Eigen::Vector3d(std::sin(5.0 * i), std::cos(3.0 * i), 0.3);
@@ -181,11 +181,11 @@ Eigen::Vector3d bentCurvature(const Discretisation& rod, const State& state, int
   return (binormalAt(rod, state, node).value - state.curvature_offset[node]) / rod.cell_length[node];
 }
 
-TEST(Resampling, LeavesEveryNodeTheMomentThatItHadAndGivesANewOneItsNeighboursMean)
+TEST(Resampling, KeepsTheMomentOfEveryNodeAndGivesANewNodeTheMeanOfItsNeighbours)
 {
   Bench bench({2, 9, 16, 17, 25});
   State state = wildState(bench.coarse);
-  // A kink, as where a contact pushes: the arc through it cannot have its curvature.
+  // A kink, as at a contact: the arc through it has another curvature.
   state.position[10] += Eigen::Vector3d(2e-5, 1e-5, 0.0);
   const State before = state;
   bench.resampling.carry(bench.wire, bench.coarse, bench.fine, state);
@@ -210,7 +210,7 @@ TEST(Resampling, LeavesEveryNodeTheMomentThatItHadAndGivesANewOneItsNeighboursMe
     EXPECT_LT(merged.curvature_offset[i].norm(), 1e-12) << i;
 }
 
-TEST(Resampling, GainsNoKineticEnergyBySplittingAndOnlyWhatASplitLostByMerging)
+TEST(Resampling, KineticEnergyDoesNotGrowInSplitsAndGrowsInMergesByTheirLossOnly)
 {
   Bench bench({2, 9, 16, 25});
   State state = wildState(bench.coarse);
@@ -223,7 +223,7 @@ TEST(Resampling, GainsNoKineticEnergyBySplittingAndOnlyWhatASplitLostByMerging)
 
 TEST(Resampling, ChangesTheBendingEnergyOfAResolvedCurveByLessThanOnePercent)
 {
-  // κh = 0.1: an edge that is about to be split.
+  // κh = 0.1: an edge close to a split.
   for (const std::vector<int>& split : {std::vector<int>{20}, {19, 20, 21}, {10, 20, 30}})
   {
     Bench bench(split);
@@ -233,13 +233,13 @@ TEST(Resampling, ChangesTheBendingEnergyOfAResolvedCurveByLessThanOnePercent)
     State state = wildState(bench.coarse);
     const double before = bendingEnergy(bench.coarse, state);
     bench.resampling.carry(bench.wire, bench.coarse, bench.fine, state);
-    // About the cells that changed. A node on the chord would raise their energy by a third.
+    // Energy of the changed cells. A node on the chord would raise it by a third.
     const double share = 3.0 * static_cast<double>(split.size()) / bench.coarse.nodes();
     EXPECT_LT(std::abs(bendingEnergy(bench.fine, state) - before), 0.01 * share * before);
   }
 }
 
-TEST(Resampling, PutsANewNodeOnTheCurveToFourthOrder)
+TEST(Resampling, PlacesANewNodeOnTheCurveToFourthOrder)
 {
   double previous = 0.0;
   for (const int edges : {20, 40, 80})
@@ -258,7 +258,7 @@ TEST(Resampling, PutsANewNodeOnTheCurveToFourthOrder)
   }
 }
 
-TEST(Resampling, RefusesSamplingsOfWhichOneDoesNotComeFromTheOther)
+TEST(Resampling, RejectsUnrelatedSamplings)
 {
   const Wire wire = twoSections();
   const Discretisation forty = discretise(wire, coarsePositions(40));
@@ -266,9 +266,9 @@ TEST(Resampling, RefusesSamplingsOfWhichOneDoesNotComeFromTheOther)
   EXPECT_THROW(Resampling().carry(wire, forty, discretise(wire, coarsePositions(30)), state), std::logic_error);
 }
 
-TEST(KktStepper, GoesOnAfterResamplingAsIfNothingHadHappened)
+TEST(KktStepper, ContinuesAfterResamplingAsWithoutIt)
 {
-  // A heavy cantilever at rest: after a split, and after the merge, its tip stays where it was and nothing shakes.
+  // A heavy cantilever at rest: its tip stays at rest after a split and after the merge.
   const Wire wire = uniformWire(0.1, 2e-4, 4e-4, 6450.0);
   std::vector<double> position;
   for (int i = 0; i <= 80; ++i)

@@ -16,7 +16,7 @@ SamplingSettings settings()
   return settings;
 }
 
-/** Demands of a curvature that depends on the place. */
+/** Demands for a curvature that depends on the arc length. */
 template <typename Curvature>
 std::vector<SamplingDemand> demands(const SamplingTree& tree, Curvature curvature)
 {
@@ -91,7 +91,7 @@ TEST(SamplingTree, SplitsWhereItBendsAndKeepsNeighboursWithinOneLevel)
   }
 }
 
-TEST(SamplingTree, ReturnsToItsFirstLeavesWhenTheBendHasGone)
+TEST(SamplingTree, ReturnsToItsFirstLeavesAfterTheBendIsGone)
 {
   SamplingTree tree(0.150, settings());
   std::vector<double> before;
@@ -106,7 +106,7 @@ TEST(SamplingTree, ReturnsToItsFirstLeavesWhenTheBendHasGone)
   EXPECT_EQ(before, after);
 }
 
-TEST(SamplingTree, DoesNotFlickerWhereTheCurvatureWaversRoundTheThreshold)
+TEST(SamplingTree, DoesNotAlternateWhereTheCurvatureVariesAboutTheThreshold)
 {
   SamplingTree tree(0.150, settings());
   const double threshold = settings().turn_per_edge / 1.5e-3;
@@ -119,7 +119,7 @@ TEST(SamplingTree, DoesNotFlickerWhereTheCurvatureWaversRoundTheThreshold)
   EXPECT_EQ(changes, 1);
 }
 
-TEST(SamplingTree, MergesOnlyWhatHasLivedLongEnough)
+TEST(SamplingTree, MergesOnlyLeavesOfTheLeastAge)
 {
   SamplingTree tree(0.150, settings());
   tree.update(demands(tree, [](double) { return 100.0; }));
@@ -129,7 +129,7 @@ TEST(SamplingTree, MergesOnlyWhatHasLivedLongEnough)
   EXPECT_EQ(updates, settings().min_age);
 }
 
-TEST(SamplingTree, GoesBelowItsFineLevelOnDemandOnly)
+TEST(SamplingTree, RefinesBelowItsFineLevelOnDemandOnly)
 {
   SamplingSettings with_extra = settings();
   with_extra.extra_levels = 2;

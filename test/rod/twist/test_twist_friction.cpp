@@ -19,8 +19,8 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kFriction = 0.2;
-constexpr double kRadius = 1.8e-4;    // of the wire [m]
-constexpr double kClearance = 20e-6;  // of the trough's radius over the wire's [m]
+constexpr double kRadius = 1.8e-4;    // m, radius of the wire
+constexpr double kClearance = 20e-6;  // m, radius of the trough less that of the wire
 constexpr double kGravity = 4000.0;   // m/s²: presses the wire into the trough
 constexpr double kLength = 0.2;       // m, free
 constexpr double kDensity = 7900.0;   // kg/m³
@@ -34,7 +34,7 @@ Wire troughWire(double length, double torsional_stiffness)
   return wire;
 }
 
-/** A wire that lies in a trough along x, clamped at the origin, where a hand turns it. */
+/** Wire in a trough along x, clamped at the origin, where a handle turns it. */
 class Spindle
 {
 public:
@@ -73,7 +73,7 @@ public:
     }
   }
 
-  /** Torque of friction when everything slides about the axis, as the wall presses [N·m]. */
+  /** Torque of friction when the whole wire slides about its axis, for the present normal forces [N·m]. */
   double slidingTorque() const
   {
     double sum = 0.0;
@@ -109,7 +109,7 @@ public:
   StepReport report;
 };
 
-/** Weight of the wire per length [N/m]; sliding, it climbs until friction holds it: N = weight/√(1 + μ²). */
+/** Weight of the wire per length [N/m]. A sliding wire climbs until friction balances it: N = weight/√(1 + μ²). */
 double pressure()
 {
   return kDensity * M_PI * kRadius * kRadius * kGravity / std::hypot(1.0, kFriction);
@@ -156,7 +156,7 @@ TEST(TwistFriction, DerivativesAreThoseOfThePotentialAndTheSecantLiesAboveIt)
     }
 }
 
-/** Minimises edge by edge: where one edge's gradient changes its sign. Independent of the solver. */
+/** Minimiser edge by edge, at the change of sign of each edge's gradient; independent of the solver. */
 std::vector<double> minimiseByEdges(const Discretisation& rod, const TwistBoundary& boundary)
 {
   const int edges = rod.nodes() - 1;
@@ -207,7 +207,7 @@ TEST(TwistFriction, AnglesMinimiseThePotential)
       frictions.push_back(friction);
     }
     TwistBoundary boundary;
-    boundary.position = 0.5 * rod.rest_length[0];  // of the first edge, which therefore turns with the hand
+    boundary.position = 0.5 * rod.rest_length[0];  // middle of the first edge, which therefore turns with the handle
     boundary.rotation = 0.3;
     boundary.friction = &frictions;
     State state;
@@ -226,7 +226,7 @@ TEST(TwistFriction, AnglesMinimiseThePotential)
   }
 }
 
-TEST(TwistFriction, SpinningTakesTheTorqueOfSlidingAndTheTipLagsByTheWindUp)
+TEST(TwistFriction, SpinningNeedsTheTorqueOfSlidingAndTheTipLagsByTheWindUp)
 {
   const double gj = 1e-5;
   const int nodes = 81;
@@ -299,7 +299,7 @@ TEST(TwistFriction, HoldsTheWindUpWithoutCreepAndRunsThroughTheLoopOfHysteresis)
   EXPECT_NEAR(spindle.state.hand_torque, wound, 0.005 * wound);
 }
 
-TEST(TwistFriction, AWoundWireGoesOnFromItsStateBitForBit)
+TEST(TwistFriction, AWoundWireContinuesFromItsStateBitForBit)
 {
   Spindle spindle(2.5e-7, 21);
   spindle.turnTo(1.0, 4.0);
@@ -337,7 +337,7 @@ TEST(TwistFriction, AWoundWireStaysWoundWhenItIsResampled)
   EXPECT_NEAR(spindle.state.hand_torque, wound, 0.01 * wound);
 }
 
-/** A wire pushed out of an introducer into a trough and turned meanwhile. */
+/** Wire that is pushed out of an introducer into a trough and turned at the same time. */
 struct Drill
 {
   /** @param speed of the push [m/s] @param turning speed of the surface [m/s] */
@@ -379,7 +379,7 @@ struct Drill
   StepReport report;
   double axial = 0.0;   // mean force on the hand [N]
   double torque = 0.0;  // mean torque on the hand by the wire's radius [N]
-  double limit = 0.0;   // mean of what friction can give [N]
+  double limit = 0.0;   // mean of the largest friction [N]
 };
 
 TEST(TwistFriction, IsSharedBetweenSlidingAlongTheAxisAndAboutIt)
@@ -394,7 +394,7 @@ TEST(TwistFriction, IsSharedBetweenSlidingAlongTheAxisAndAboutIt)
   }
 }
 
-TEST(TwistFriction, AHandThatDoesNotTurnMeetsNoneOfIt)
+TEST(TwistFriction, IsZeroForAHandleThatDoesNotTurn)
 {
   const Drill drill(0.02, 0.0);
   EXPECT_EQ(drill.state.hand_torque, 0.0);

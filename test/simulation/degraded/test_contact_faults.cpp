@@ -275,7 +275,7 @@ TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
   for (int k = 0; k < kLongestSilence; ++k)
     bench.step();
   EXPECT_GT(bench.simulation.state().inserted_length, before) << "it goes on";
-  EXPECT_LE(bench.simulation.state().inserted_length - before, bench.scene.solver.contact_margin + 0.06e-3)
+  EXPECT_LE(bench.simulation.state().inserted_length - before, bench.scene.solver.stepper.contact_margin + 0.06e-3)
       << "but not beyond what the last set covers, besides the step that began with a fresh one";
   bench.source.setDead(false);
   double fastest = 0.0;

@@ -2,8 +2,8 @@
 
 #include "test/rod/rod_fixtures.h"
 
-// What a scene does not have is not computed. Two witnesses: the count of entries into a phase, and values that are not
-// a number and would spread to every node if a term that needs them were computed.
+// Terms that a scene does not need are not computed. Two proofs: the number of entries into a phase, and properties of
+// NaN, which would spread to every node if a term used them.
 
 namespace endovascular_sim::rod
 {
@@ -12,7 +12,7 @@ namespace
 
 constexpr int kNodes = 30;
 
-/** A wire of which only what bends, stretches and weighs is known. */
+/** Wire with bending and axial stiffness and mass only; all other properties are NaN. */
 Discretisation bareWire(double rest_curvature = 0.0)
 {
   Wire wire = uniformWire(0.2, 5e-5, 1.8e-4, 7900.0);
@@ -54,7 +54,7 @@ struct Outcome
   PhaseTimer timer;
 };
 
-/** Twenty steps with a force across the tip. */
+/** Twenty steps with a lateral force at the tip. */
 Outcome run(Discretisation rod, const Boundary& boundary, const Environment& environment, StepInput input = {})
 {
   KktStepper stepper(std::move(rod), boundary, environment, withoutContact());
@@ -75,7 +75,7 @@ Outcome run(Discretisation rod, const Boundary& boundary, const Environment& env
   return outcome;
 }
 
-TEST(LeftOut, AWireThatOnlyBendsComputesNothingElse)
+TEST(OmittedTerms, AWireThatOnlyBendsComputesNothingElse)
 {
   const Outcome outcome = run(bareWire(), bareClamp(), vacuum());
   EXPECT_TRUE(outcome.solved);
@@ -85,14 +85,14 @@ TEST(LeftOut, AWireThatOnlyBendsComputesNothingElse)
   EXPECT_GE(outcome.timer.entries(Phase::kSolve), 20);
 }
 
-TEST(LeftOut, TurningAStraightIsotropicWireSolvesNoTwist)
+TEST(OmittedTerms, TurningAStraightIsotropicWireSolvesNoTwist)
 {
   StepInput input;
   input.rotation = 1.0;
   EXPECT_EQ(run(bareWire(), bareClamp(), vacuum(), input).timer.entries(Phase::kTwist), 0);
 }
 
-TEST(LeftOut, RestCurvatureATipTorqueATorqueAlongTheWireOrATwistHeldTwiceEachSolveTheTwist)
+TEST(OmittedTerms, TheTwistIsSolvedForRestCurvatureTorquesOrATwistHeldAtBothEnds)
 {
   EXPECT_GT(run(bareWire(5.0), bareClamp(), vacuum()).timer.entries(Phase::kTwist), 0);
   StepInput torque;
@@ -107,8 +107,8 @@ TEST(LeftOut, RestCurvatureATipTorqueATorqueAlongTheWireOrATwistHeldTwiceEachSol
   EXPECT_GT(run(bareWire(), both, vacuum()).timer.entries(Phase::kTwist), 0);
 }
 
-// The witnesses can speak: each term, once it is asked for, meets a value that is not a number.
-TEST(LeftOut, TheUnknownValuesAreMissedAsSoonAsATermNeedsThem)
+// The proof is valid: each term, once it is needed, uses a property of NaN.
+TEST(OmittedTerms, UndefinedPropertiesSpreadAsSoonAsATermUsesThem)
 {
   Environment fluid = vacuum();
   fluid.fluid_density = 1060.0;

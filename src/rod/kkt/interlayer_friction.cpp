@@ -1,29 +1,34 @@
+#include "rod/kkt/interlayer_friction.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "rod/kkt/stack_layers.h"
 #include "rod/model/node_curvature.h"
-
-// Friction between the layers of a stack, along the wire and about its axis. Inextensible layers on one centreline
-// slide in each other by the same length everywhere, so that along the wire one stretch per pair of neighbours sticks
-// or slides. About the axis a pair sticks at a mean angle between both, weighted with the friction.
 
 namespace endovascular_sim::rod
 {
 namespace
 {
 
-constexpr double kLayerSlip = 20e-6;     // m that a layer is dragged in the next one before it slides
-constexpr double kTurnTolerance = 1e-4;  // rad that stuck layers may turn on each other: 0.006°
-// Bounds of how far a share of the friction turns a pair, against straight layers that nothing else holds.
+constexpr double kLayerSlip = 20e-6;     // m, stretch between two layers at which sliding begins
+constexpr double kTurnTolerance = 1e-4;  // rad of relative rotation between stuck layers: 0.006°
+// Bounds of the rotation of a pair per share of its friction, relative to that of straight layers that nothing holds.
 constexpr double kLeastResponse = 0.2;
 constexpr double kMostResponse = 3.0;
 constexpr double kLeastTorque = 1e-12;  // N·m: a pair with less friction does not stick
 
 }  // namespace
 
-/** The next layer outside of one that is in the body too; −1 without. */
-int StackStepper::nextOuter(int k, const State& state) const
+InterlayerFriction::InterlayerFriction(const ConcentricStack& stack, const KktModel& model)
+  : stack_(stack),
+    model_(model),
+    turn_before_(static_cast<std::size_t>(stack.count()), 0.0),
+    share_before_(static_cast<std::size_t>(stack.count()), 0.0),
+    torque_limit_(static_cast<std::size_t>(stack.count()))
+{
+}
+
+int InterlayerFriction::nextOuter(int k, const State& state) const
 {
   for (int m = k + 1; m < stack_.count() && state.layers[k].inserted_length > 0.0; ++m)
     if (state.layers[m].inserted_length > 0.0)
@@ -31,7 +36,7 @@ int StackStepper::nextOuter(int k, const State& state) const
   return -1;
 }
 
-void StackStepper::dragLayers(State& state, const StepInput& input) const
+void InterlayerFriction::drag(State& state, const StepInput& input) const
 {
   for (int k = 0; k < stack_.count(); ++k)
   {
@@ -44,94 +49,93 @@ void StackStepper::dragLayers(State& state, const StepInput& input) const
   }
 }
 
-/** Loads between neighbours: what bends a layer, with those inside it, otherwise than it would bend on its own. */
-void StackStepper::setLoads(State& state)
+void InterlayerFriction::updateLoads(State& state, const LayerTwists& twists)
 {
-  int last = -1;  // layer that any friction is asked for
+  updateVesselShares(state);
+  int last = -1;  // outermost layer with friction on its next outer one
   for (int k = 0; k < stack_.count(); ++k)
     if (nextOuter(k, state) >= 0 && stack_.layer(k).friction > 0.0)
       last = k;
   if (last < 0)
     return;
   binormal_.resize(state.position.size());
-  for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
-    binormal_[i] = binormalAt(stack_rod(), state, i).value;
+  for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
+    binormal_[i] = binormalAt(model_.rod, state, i).value;
   moment_.assign(state.position.size(), Eigen::Vector3d::Zero());
   for (int k = 0; k <= last; ++k)
   {
-    addMoments(k, state);
+    addMoments(k, state, twists);
     const int outer = nextOuter(k, state);
     if (outer >= 0 && stack_.layer(k).friction > 0.0)
-      setLoad(state.layers[k].load, std::min(stack_rod().nodes() - 1, stack_.profile(outer).rod().nodes()), state);
+      setLoad(state.layers[k].load, std::min(model_.rod.nodes() - 1, stack_.profile(outer).rod().nodes()), state);
   }
 }
 
 /** Adds the moments that bend a layer to those of the layers inside it. */
-void StackStepper::addMoments(int k, const State& state)
+void InterlayerFriction::addMoments(int k, const State& state, const LayerTwists& twists)
 {
   const Discretisation& layer = stack_.profile(k).rod();
-  for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
+  for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
   {
     Eigen::Vector3d strain = binormal_[i];
-    if (twisted_[k] && i >= twist_[k].firstCurved() && i + 1 < layer.nodes())
-      strain -= twist_[k].restCurvatureBinormal(i);
+    if (twists.isActive(k) && i >= twists.of(k).firstCurved() && i + 1 < layer.nodes())
+      strain -= twists.of(k).restCurvatureBinormal(i);
     moment_[i] += (layer.bending_stiffness[i] / layer.cell_length[i]) * strain;
   }
 }
 
 /** @param end node before which the outer layer ends */
-void StackStepper::setLoad(std::vector<double>& load, int end, const State& state) const
+void InterlayerFriction::setLoad(std::vector<double>& load, int end, const State& state) const
 {
   std::fill(load.begin(), load.end(), 0.0);
   for (int i = state.first_node + 1; i < end; ++i)
   {
     const Eigen::Vector3d after = i + 1 < end ? moment_[i + 1] : Eigen::Vector3d::Zero();
-    const Eigen::Vector3d force = (after - moment_[i]) / stack_rod().rest_length[i] -
-                                  (moment_[i] - moment_[i - 1]) / stack_rod().rest_length[i - 1];
-    load[i] = force.norm() / stack_rod().cell_length[i];
+    const Eigen::Vector3d force = (after - moment_[i]) / model_.rod.rest_length[i] -
+                                  (moment_[i] - moment_[i - 1]) / model_.rod.rest_length[i - 1];
+    load[i] = force.norm() / model_.rod.cell_length[i];
   }
 }
 
-void StackStepper::setBodyShares(const State& state)
+void InterlayerFriction::updateVesselShares(const State& state)
 {
-  body_share_.assign(state.position.size(), 1.0);
-  const double introducer = stack_rod().length() - state.inserted_length;
-  for (int i = state.first_node + 1; boundary().introducer && i + 1 < stack_rod().nodes(); ++i)
+  vessel_share_.assign(state.position.size(), 1.0);
+  const double introducer = model_.rod.length() - state.inserted_length;
+  for (int i = state.first_node + 1; model_.boundary.introducer && i + 1 < model_.rod.nodes(); ++i)
   {
-    body_share_[i] = stack_rod().shareBeyond(i, introducer);
-    if (body_share_[i] >= 1.0)
+    vessel_share_[i] = model_.rod.shareBeyond(i, introducer);
+    if (vessel_share_[i] >= 1.0)
       break;
   }
 }
 
 /** Normal force between two neighbours at a node [N]. */
-double StackStepper::load(int k, int outer, int node, const State& state) const
+double InterlayerFriction::load(int k, int outer, int node, const State& state) const
 {
-  return body_share_[node] * stack_.overlap(k, outer, node) * stack_rod().cell_length[node] *
+  return vessel_share_[node] * stack_.overlap(k, outer, node) * model_.rod.cell_length[node] *
          (state.layers[k].load[node] + stack_.layer(k).fit_load);
 }
 
-/** Force along the wire of a layer's next outer one on it, against its insertion [N]. */
-double StackStepper::axialFriction(int k, int outer, const State& state) const
+double InterlayerFriction::axialForce(int k, int outer, const State& state) const
 {
   if (stack_.layer(k).friction <= 0.0)
     return 0.0;
   double sum = 0.0;
-  for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
+  for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
     sum += load(k, outer, i, state);
   return stack_.layer(k).friction * sum * state.layers[k].friction_stretch / kLayerSlip;
 }
 
-/** Whether friction torques between a layer and the next outer one are possible. */
-bool StackStepper::sticks(int k, const State& state) const
+/** True where friction torques between a layer and the next outer one are possible. */
+bool InterlayerFriction::canStick(int k, const State& state) const
 {
   return stack_.layer(k).friction > 0.0 && nextOuter(k, state) >= 0 && !torque_limit_[k].empty();
 }
 
-/** Largest friction torques between neighbours, at the inner one's surface; a node's goes to its edges by halves. */
-void StackStepper::setTorqueLimits(const State& state)
+/** Limits at the surface of the inner layer; both edges of a node get half of its torque. */
+void InterlayerFriction::updateTorqueLimits(const State& state)
 {
-  setBodyShares(state);
+  updateVesselShares(state);
   for (int k = 0; k < stack_.count(); ++k)
   {
     const int outer = nextOuter(k, state);
@@ -141,7 +145,7 @@ void StackStepper::setTorqueLimits(const State& state)
       continue;
     limit.assign(state.twist_angle.size(), 0.0);
     double sum = 0.0;
-    for (int i = state.first_node + 1; i + 1 < stack_rod().nodes(); ++i)
+    for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
     {
       const double torque = stack_.layer(k).friction * stack_.profile(k).rod().radius[i] * load(k, outer, i, state);
       limit[i - 1] += 0.5 * torque;
@@ -153,8 +157,24 @@ void StackStepper::setTorqueLimits(const State& state)
   }
 }
 
+bool InterlayerFriction::addTorques(int k, const State& state, std::vector<double>& edge_torque) const
+{
+  bool any = false;
+  for (int m = 0; m < stack_.count(); ++m)
+  {
+    const double share = state.layers[m].friction_share;
+    const double sign = m == k ? -share : nextOuter(m, state) == k ? share : 0.0;
+    if (sign == 0.0 || !canStick(m, state))
+      continue;
+    any = true;
+    for (std::size_t j = 0; j < edge_torque.size(); ++j)
+      edge_torque[j] += sign * torque_limit_[m][j];
+  }
+  return any;
+}
+
 /** Mean angle of a layer in the next outer one, weighted with the friction between them [rad]. */
-double StackStepper::meanTurn(int k, int outer, const State& state) const
+double InterlayerFriction::meanTurn(int k, int outer, const State& state) const
 {
   double sum = 0.0;
   double weight = 0.0;
@@ -166,8 +186,8 @@ double StackStepper::meanTurn(int k, int outer, const State& state) const
   return sum / weight;
 }
 
-/** Mean angle by which the whole friction torque would turn both layers back, were they straight [rad]. */
-double StackStepper::turnCompliance(int k, int outer, double held) const
+/** Mean angle by which the whole friction torque would turn two straight layers back [rad]. */
+double InterlayerFriction::turnCompliance(int k, int outer, double held) const
 {
   const std::vector<double>& limit = torque_limit_[k];
   double beyond = 0.0;
@@ -177,7 +197,7 @@ double StackStepper::turnCompliance(int k, int outer, double held) const
     beyond += limit[i];
     if (beyond <= 0.0)
       continue;
-    const double length = stack_rod().cell_length[i] * stack_rod().shareBeyond(i, held);
+    const double length = model_.rod.cell_length[i] * model_.rod.shareBeyond(i, held);
     for (const int m : {k, outer})
       if (stack_.profile(m).rod().torsional_stiffness[i] > 0.0)
         turned += beyond * beyond * length / stack_.profile(m).rod().torsional_stiffness[i];
@@ -185,24 +205,21 @@ double StackStepper::turnCompliance(int k, int outer, double held) const
   return turned / (beyond + limit[0]);
 }
 
-/** Change of a pair's mean turn per share of its friction torque: as the last change of the share in this solve has
- * shown, at first as of straight layers. Curved layers, and those that the wall holds, give way less. */
-double StackStepper::turnPerShare(int k, double turn, double share, double compliance, bool first) const
+/** Change of a pair's mean angle per share of its friction torque: a secant through the last change of the share in
+ * this solve, at first that of straight layers. Curved layers, and those that the wall holds, yield less. */
+double InterlayerFriction::turnPerShare(int k, double turn, double share, double compliance, bool first) const
 {
-  const double given = share - share_before_[k];
-  const double slope = first || given == 0.0 ? compliance : (turn_before_[k] - turn) / given;
+  const double change = share - share_before_[k];
+  const double slope = first || change == 0.0 ? compliance : (turn_before_[k] - turn) / change;
   return slope > 0.0 ? std::clamp(slope, kLeastResponse * compliance, kMostResponse * compliance) : compliance;
 }
 
-/** Changes the friction torques towards those with which every pair sticks where it did, as far as friction allows.
- *  @param first whether in this solve they have not been changed yet
- *  @return whether the twists must be relaxed again */
-bool StackStepper::turnLayers(State& state, double held, bool first)
+bool InterlayerFriction::updateTorques(State& state, double held, bool first)
 {
   bool changed = false;
   for (int k = 0; k < stack_.count(); ++k)
   {
-    if (!sticks(k, state))
+    if (!canStick(k, state))
       continue;
     LayerState& layer = state.layers[k];
     const int outer = nextOuter(k, state);
@@ -220,21 +237,20 @@ bool StackStepper::turnLayers(State& state, double held, bool first)
   return changed;
 }
 
-/** Where a pair slips, it will stick at the angle that it has come to. */
-void StackStepper::settleTurns(State& state) const
+void InterlayerFriction::settle(State& state) const
 {
   for (int k = 0; k < stack_.count(); ++k)
   {
     LayerState& layer = state.layers[k];
     const int outer = nextOuter(k, state);
-    if (!sticks(k, state))
+    if (!canStick(k, state))
     {
       layer.friction_share = 0.0;
       layer.friction_turn = outer < 0 ? 0.0 : layer.rotation - state.layers[outer].rotation;
     }
     else if (std::abs(layer.friction_share) == 1.0)
     {
-      // Friction that would push the pair back beyond where it stuck is too much of it, no slip.
+      // A torque that would push the pair back beyond the angle at which it stuck is too large; the pair does not slip.
       const double turned = meanTurn(k, outer, state);
       if ((turned - layer.friction_turn) * layer.friction_share >= 0.0)
         layer.friction_turn = turned;

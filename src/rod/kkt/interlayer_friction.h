@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rod/kkt/concentric_stack.h"
+#include "rod/kkt/kkt_model.h"
+#include "rod/kkt/layer_twists.h"
+
+namespace endovascular_sim::rod
+{
+
+/** Coulomb friction between neighbouring layers of a stack, along the wire and about its axis.
+ *
+ *  Inextensible layers on one centreline slide in each other by the same length everywhere, so that along the wire one
+ *  stretch per pair of neighbours sticks or slides. About the axis a pair sticks at a mean angle between both, weighted
+ *  with the friction. */
+class InterlayerFriction
+{
+public:
+  /** @param stack, model must outlive this */
+  InterlayerFriction(const ConcentricStack& stack, const KktModel& model);
+
+  /** Next layer outside of one that is in the vessel too; −1 without. */
+  int nextOuter(int k, const State& state) const;
+
+  /** Advances the stretches of all pairs to the insertions at the end of a step. */
+  void drag(State& state, const StepInput& input) const;
+
+  /** Updates the normal loads between neighbours: the forces that bend a layer, with those inside it, into another
+   *  shape than its own. */
+  void updateLoads(State& state, const LayerTwists& twists);
+
+  /** Force along the wire of a layer's next outer one on it, against its insertion [N]. */
+  double axialForce(int k, int outer, const State& state) const;
+
+  /** Updates the largest friction torques between neighbours. */
+  void updateTorqueLimits(const State& state);
+
+  /** Adds the friction torques on every edge of a layer [N·m].
+   *  @return true when there are any */
+  bool addTorques(int k, const State& state, std::vector<double>& edge_torque) const;
+
+  /** Changes the friction torques towards those with which every pair sticks at its angle, within friction's limit.
+   *  @param held arc length at which the proximal end holds the twist [m]
+   *  @param first true before the first change in this solve
+   *  @return true when the twists must be relaxed again */
+  bool updateTorques(State& state, double held, bool first);
+
+  /** Updates the angles at which the pairs stick, at the end of a step: a pair that slips sticks at its new angle. */
+  void settle(State& state) const;
+
+private:
+  void updateVesselShares(const State& state);
+  void addMoments(int k, const State& state, const LayerTwists& twists);
+  void setLoad(std::vector<double>& load, int end, const State& state) const;
+  double load(int k, int outer, int node, const State& state) const;
+  bool canStick(int k, const State& state) const;
+  double meanTurn(int k, int outer, const State& state) const;
+  double turnCompliance(int k, int outer, double held) const;
+  double turnPerShare(int k, double turn, double share, double compliance, bool first) const;
+
+  const ConcentricStack& stack_;
+  const KktModel& model_;
+  std::vector<double> turn_before_, share_before_;  ///< per pair, before the last change of its friction torque
+  std::vector<std::vector<double>> torque_limit_;   ///< of friction with the next outer layer, per edge [N·m]
+  std::vector<double> vessel_share_;                ///< part of every node's cell that is in the vessel, 0 to 1
+  std::vector<Eigen::Vector3d> binormal_, moment_;
+};
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,366 @@
+#include "rod/kkt/layer_stack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "rod/boundary/boundary_conditions.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr double kTipTolerance = 1e-9;  // m by which a layer may reach further than the reference
+constexpr int kFrictionIterations = 3;  // on the friction torques between layers, in one solve
+constexpr double kOffsetTime = 0.1;     // s in which an offset of a handle's force fades to 1/e
+constexpr double kNoOffset = 1e-9;      // N
+
+}  // namespace
+
+LayerStack::LayerStack(const std::vector<Layer>& layers, KktModel& model)
+  : model_(model),
+    stack_(layers, model.rod.position),
+    twists_(static_cast<int>(layers.size())),
+    friction_(stack_, model),
+    forces_(stack_, model, twists_),
+    initial_twist_(layers.size()),
+    motion_(layers.size()),
+    behind_(layers.size(), 0.0)
+{
+  if (model.boundary.distal_twist_held)
+    throw std::invalid_argument("LayerStack: the twist of the distal end cannot be held");
+}
+
+State LayerStack::initialState(const std::vector<LayerInput>& layers) const
+{
+  if (layers.size() != motion_.size())
+    throw std::invalid_argument("LayerStack: one insertion and rotation for every layer");
+  const auto furthest =
+      std::max_element(layers.begin(), layers.end(),
+                       [](const LayerInput& a, const LayerInput& b) { return a.inserted_length < b.inserted_length; });
+  State state = model_.conditions.initialState(furthest->inserted_length, furthest->rotation);
+  state.reference = static_cast<int>(furthest - layers.begin());
+  for (const LayerInput& input : layers)
+  {
+    state.layers.emplace_back();
+    state.layers.back().inserted_length = input.inserted_length;
+    state.layers.back().rotation = input.rotation;
+    state.layers.back().load.assign(state.position.size(), 0.0);
+    state.layers.back().twist_angle.assign(state.twist_angle.size(), input.rotation);
+  }
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    const int outer = friction_.nextOuter(k, state);
+    if (outer >= 0)
+      state.layers[k].friction_turn = layers[k].rotation - layers[outer].rotation;
+  }
+  return state;
+}
+
+State LayerStack::initialState(double inserted_length, double rotation) const
+{
+  std::vector<LayerInput> layers(motion_.size());
+  for (LayerInput& layer : layers)
+    layer.inserted_length = outsideInsertion(model_.rod, model_.boundary.guide_length);
+  layers.front() = {inserted_length, rotation};
+  return initialState(layers);
+}
+
+bool LayerStack::beginStep(State& state, const StepInput& input, double dt, WallFriction& friction)
+{
+  if (input.layers.size() != state.layers.size() || state.layers.size() != motion_.size())
+    throw std::invalid_argument("LayerStack: one insertion and rotation for every layer");
+  int furthest = state.reference;
+  for (int k = 0; k < stack_.count(); ++k)
+    if (input.layers[k].inserted_length > input.layers[furthest].inserted_length + kTipTolerance)
+      furthest = k;
+  if (furthest == state.reference)
+    return false;
+  changeReference(state, furthest, input, dt, friction);
+  return true;
+}
+
+const StepInput& LayerStack::centrelineInput(const State& state, const StepInput& input)
+{
+  input_ = input;
+  input_.inserted_length = input.layers[state.reference].inserted_length;
+  input_.rotation = input.layers[state.reference].rotation;
+  return input_;
+}
+
+void LayerStack::stop(State& state) const
+{
+  for (LayerState& layer : state.layers)
+    layer.speed = 0.0;
+}
+
+/** Changes the reference before a step in which another layer's tip passes that of the present one. The nodes move
+ * along the wire to that layer's tip, less than the step's motion, and follow its material from there. The layers'
+ * forces depend on the spacing of the nodes, so that they differ a little; the difference fades.
+ *  @param dt of the step [s] */
+void LayerStack::changeReference(State& state, int k, const StepInput& input, double dt, WallFriction& friction)
+{
+  const double faster = state.layers[k].speed - state.layers[state.reference].speed;
+  moveAlong(state, state.layers[k].inserted_length - state.layers[state.reference].inserted_length);
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
+    state.velocity[i] += faster * tangentAt(state, i);
+  state.reference = k;
+  state.inserted_length = state.layers[k].inserted_length;
+  state.rotation = state.layers[k].rotation;
+  state.twist_angle = state.layers[k].twist_angle;
+  for (int m = 0; m < stack_.count(); ++m)
+    motion_[m] = {dt * state.layers[m].speed, 0.0};
+  place(state);
+  updateSlides(state);
+  relaxAtRest(state, input, friction);
+  force_before_.clear();
+  for (const LayerState& layer : state.layers)
+    force_before_.push_back(layer.hand_force);
+  updateHandForces(state, dt);
+  for (std::size_t m = 0; m < force_before_.size(); ++m)
+  {
+    state.layers[m].force_offset += force_before_[m] - state.layers[m].hand_force;
+    state.layers[m].hand_force = force_before_[m];
+  }
+}
+
+/** Moves the nodes along the wire by a short distance [m]. */
+void LayerStack::moveAlong(State& state, double distance) const
+{
+  const int last = model_.rod.nodes() - 1;
+  // Linear extrapolation: the last edge's direction is the mean of the tangents at its two nodes.
+  const Eigen::Vector3d at_tip = 2.0 * tangentAt(state, last) - tangentAt(state, last - 1);
+  Eigen::Vector3d along = tangentAt(state, state.first_node);
+  for (int i = state.first_node; i <= last; ++i)
+  {
+    const Eigen::Vector3d next = i + 1 < last ? tangentAt(state, i + 1) : at_tip;
+    state.position[i] += distance * along;
+    along = next;
+  }
+}
+
+void LayerStack::place(const State& state)
+{
+  for (int k = 0; k < stack_.count(); ++k)
+    behind_[k] = std::max(0.0, state.layers[state.reference].inserted_length - state.layers[k].inserted_length);
+  stack_.place(behind_, model_.rod);
+}
+
+void LayerStack::updateSlides(const State& state)
+{
+  slides_.surface.resize(state.position.size());
+  slides_.mass.resize(state.position.size());
+  sliding_ = false;
+  const LayerMotion reference = motion_[state.reference];
+  for (const LayerMotion& layer : motion_)
+    sliding_ = sliding_ || layer.travel != reference.travel || layer.gained != reference.gained;
+  for (int i = state.first_node; sliding_ && i < model_.rod.nodes(); ++i)
+  {
+    const double surface = motion_[stack_.surfaceLayer(i)].travel - reference.travel;
+    double mass = 0.0;
+    double mass_gained = 0.0;
+    for (int k = 0; k < stack_.count(); ++k)
+    {
+      const double share = stack_.profile(k).rod().mass[i] / model_.rod.mass[i];
+      mass += share * (motion_[k].travel - reference.travel);
+      mass_gained += share * (motion_[k].gained - reference.gained);
+    }
+    const Eigen::Vector3d along = tangentAt(state, i);
+    slides_.surface[i] = surface * along;
+    slides_.mass[i] = {mass * along, mass_gained * along};
+  }
+  // Nodes that the step brings to the introducer.
+  std::fill_n(slides_.surface.begin(), state.first_node, slides_.surface[state.first_node]);
+  std::fill_n(slides_.mass.begin(), state.first_node, slides_.mass[state.first_node]);
+}
+
+bool LayerStack::advance(State& state, const StepInput& input, double dt)
+{
+  bool turned = false;
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    turned = turned || state.layers[k].rotation != input.layers[k].rotation;
+    motion_[k].travel = input.layers[k].inserted_length - state.layers[k].inserted_length;
+    motion_[k].gained = motion_[k].travel - dt * state.layers[k].speed;
+  }
+  place(state);  // at the positions of the last step, which another stepper may have done
+  updateSlides(state);
+  friction_.drag(state, input);
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    LayerState& layer = state.layers[k];
+    initial_twist_[k] = layer.twist_angle;
+    std::fill_n(initial_twist_[k].begin(), state.first_node, layer.rotation);
+    layer.inserted_length = input.layers[k].inserted_length;
+    layer.rotation = input.layers[k].rotation;
+  }
+  place(state);
+  return turned;
+}
+
+/** Sets the torques about the axis of a layer's edges: those of the input on the outermost layer, and friction between
+ *  layers.
+ *  @return false when there are none */
+bool LayerStack::setEdgeTorque(int k, const State& state, const StepInput& input)
+{
+  const bool outside = !input.edge_torque.empty();
+  edge_torque_.assign(state.twist_angle.size(), 0.0);
+  for (std::size_t j = 0; outside && j < edge_torque_.size(); ++j)
+  {
+    const int node = static_cast<int>(j);
+    edge_torque_[j] = 0.5 * (stack_.outerShare(k, node) + stack_.outerShare(k, node + 1)) * input.edge_torque[j];
+  }
+  return friction_.addTorques(k, state, edge_torque_) || outside;
+}
+
+/** Boundary of one layer's twist. The wall holds the layer that it touches.
+ *  @param boundary of the reference */
+TwistBoundary LayerStack::layerBoundary(int k, const TwistBoundary& boundary, const State& state,
+                                        const StepInput& input, const std::vector<TwistFriction>& friction)
+{
+  layer_friction_.clear();
+  for (const TwistFriction& at_node : friction)
+    if (stack_.surfaceLayer(at_node.node) == k)
+      layer_friction_.push_back(at_node);
+  TwistBoundary layer = boundary;
+  layer.friction = &layer_friction_;
+  layer.rotation = state.layers[k].rotation;
+  layer.tip_torque = k == state.reference ? input.tip_torque : 0.0;
+  layer.edge_torque = setEdgeTorque(k, state, input) ? &edge_torque_ : nullptr;
+  return layer;
+}
+
+TwistAction LayerStack::relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                   PhaseTimer& timer)
+{
+  PhaseTimer::Scope scope(timer, Phase::kTwist);
+  const TwistBoundary boundary = model_.conditions.twistBoundary(state, input);
+  friction_.updateTorqueLimits(state);
+  for (int iteration = 0; iteration < kFrictionIterations; ++iteration)
+  {
+    for (int k = 0; k < stack_.count(); ++k)
+      twists_.relax(k, stack_.profile(k).rod(), layerBoundary(k, boundary, state, input, friction), state,
+                    iteration > 0);
+    if (iteration + 1 == kFrictionIterations || !friction_.updateTorques(state, boundary.position, iteration == 0))
+      break;
+  }
+  double torque = 0.0;
+  for (const LayerState& layer : state.layers)
+    torque += layer.hand_torque;
+  std::copy(state.layers[state.reference].twist_angle.begin(), state.layers[state.reference].twist_angle.end(),
+            state.twist_angle.begin());
+  state.hand_torque = torque;
+  state.distal_torque = 0.0;
+  return twists_.combine(stack_, model_.rod, state);
+}
+
+void LayerStack::updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                               PhaseTimer& timer)
+{
+  relaxed_ = state;
+  relaxTwist(relaxed_, input, friction, timer);
+  for (int k = 0; k < stack_.count(); ++k)
+    state.layers[k].hand_torque = relaxed_.layers[k].hand_torque;
+  state.hand_torque = relaxed_.hand_torque;
+}
+
+/** Relaxes the twists of a state that does not move. */
+void LayerStack::relaxAtRest(State& state, const StepInput& input, WallFriction& friction)
+{
+  PhaseTimer unused;
+  for (int k = 0; k < stack_.count(); ++k)
+    initial_twist_[k] = state.layers[k].twist_angle;
+  relaxTwist(state, input, frictionAtRest(*this, model_.rod, state, friction), unused);
+}
+
+void LayerStack::surfaceAngles(const State& state, std::vector<double>& angle) const
+{
+  angle.assign(state.position.size(), 0.0);
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
+    angle[i] = nodeAngle(state.layers[stack_.surfaceLayer(i)].twist_angle, i, state.first_node);
+}
+
+void LayerStack::initialSurfaceAngles(const State& state, std::vector<double>& angle) const
+{
+  angle.assign(state.position.size(), 0.0);
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
+    angle[i] = nodeAngle(initial_twist_[stack_.surfaceLayer(i)], i, state.first_node);
+}
+
+/** Updates the forces on the handles of a state whose twist has been relaxed. That of the reference is the remainder of
+ *  the force on the whole stack. */
+void LayerStack::updateHandForces(State& state, double dt) const
+{
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    LayerState& layer = state.layers[k];
+    layer.hand_force = layer.force_offset;
+    if (k != state.reference)
+      layer.hand_force += forces_.gradient(k, state) + forces_.wallDrag(k, state) +
+                          forces_.motionDrag(k, motion_[k], slides(), state, dt);
+  }
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    const int outer = friction_.nextOuter(k, state);
+    if (outer < 0)
+      continue;
+    const double force = friction_.axialForce(k, outer, state);
+    state.layers[k].hand_force += force;
+    state.layers[outer].hand_force -= force;
+  }
+  double others = 0.0;
+  for (int k = 0; k < stack_.count(); ++k)
+    others += k == state.reference ? 0.0 : state.layers[k].hand_force;
+  state.layers[state.reference].hand_force = state.hand_force - others;
+}
+
+void LayerStack::finish(State& state, double dt)
+{
+  if (stack_.count() == 1)
+  {
+    state.layers[0].hand_force = state.hand_force;
+    return;
+  }
+  for (int k = 0; k < stack_.count(); ++k)
+    state.layers[k].speed = motion_[k].travel / dt;
+  const double left = std::exp(-dt / kOffsetTime);
+  for (LayerState& layer : state.layers)
+    layer.force_offset = std::abs(layer.force_offset) < kNoOffset ? 0.0 : left * layer.force_offset;
+  friction_.updateLoads(state, twists_);
+  friction_.settle(state);
+  updateHandForces(state, dt);
+}
+
+Energy LayerStack::energy(const State& state, const StepInput& input, WallFriction& friction)
+{
+  State relaxed = state;
+  place(state);
+  relaxAtRest(relaxed, input, friction);
+  Energy sum;
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    const Discretisation& layer = stack_.profile(k).rod();
+    if (layer.nodes() < state.first_node + 3)
+      continue;
+    const Energy energy = elasticEnergy(layer, state, twists_.isActive(k) ? &twists_.of(k) : nullptr);
+    sum.bending += energy.bending;
+    sum.twist += energy.twist;
+    sum.stretch += energy.stretch;
+  }
+  return sum;
+}
+
+double LayerStack::handleWork(const State& before, const State& after) const
+{
+  double work = 0.0;
+  for (std::size_t k = 0; k < after.layers.size(); ++k)
+  {
+    const LayerState& layer = after.layers[k];
+    work += std::abs(layer.hand_force * (layer.inserted_length - before.layers[k].inserted_length)) +
+            std::abs(layer.hand_torque * (layer.rotation - before.layers[k].rotation));
+  }
+  return work;
+}
+
+}  // namespace endovascular_sim::rod

@@ -1,0 +1,90 @@
+#include "rod/kkt/single_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+void nodeAngles(const std::vector<double>& twist_angle, int first_node, std::vector<double>& angle)
+{
+  angle.resize(twist_angle.size() + 1);
+  for (int i = first_node; i < static_cast<int>(angle.size()); ++i)
+    angle[i] = nodeAngle(twist_angle, i, first_node);
+}
+
+}  // namespace
+
+State SingleLayer::initialState(const std::vector<LayerInput>& layers) const
+{
+  if (layers.size() != 1)
+    throw std::invalid_argument("SingleLayer: one insertion and rotation");
+  return initialState(layers.front().inserted_length, layers.front().rotation);
+}
+
+State SingleLayer::initialState(double inserted_length, double rotation) const
+{
+  return model_.conditions.initialState(inserted_length, rotation);
+}
+
+bool SingleLayer::advance(State& state, const StepInput& input, double /*dt*/)
+{
+  initial_twist_ = state.twist_angle;
+  std::fill_n(initial_twist_.begin(), state.first_node, state.rotation);  // nodes that this step may bring in
+  return state.rotation != input.rotation;
+}
+
+TwistAction SingleLayer::relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                    PhaseTimer& timer)
+{
+  TwistBoundary boundary = model_.conditions.twistBoundary(state, input);
+  boundary.friction = &friction;
+  if (!QuasiStaticTwist::matters(model_.rod, boundary))
+  {
+    std::fill(state.twist_angle.begin() + state.first_node, state.twist_angle.end(), state.rotation);
+    state.hand_torque = state.distal_torque = 0.0;
+    return {};
+  }
+  PhaseTimer::Scope scope(timer, Phase::kTwist);
+  twist_.solve(model_.rod, boundary, state);
+  return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
+}
+
+/** During the step the twist was relaxed at the new rotation of the handle and the old centreline. While the handle
+ *  turns, that torque is too large by the curved tip's stiffness times the rotation of a step. */
+void SingleLayer::updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                PhaseTimer& timer)
+{
+  saved_twist_ = state.twist_angle;
+  relaxTwist(state, input, friction, timer);
+  state.twist_angle.swap(saved_twist_);
+}
+
+void SingleLayer::surfaceAngles(const State& state, std::vector<double>& angle) const
+{
+  nodeAngles(state.twist_angle, state.first_node, angle);
+}
+
+void SingleLayer::initialSurfaceAngles(const State& state, std::vector<double>& angle) const
+{
+  nodeAngles(initial_twist_, state.first_node, angle);
+}
+
+double SingleLayer::handleWork(const State& before, const State& after) const
+{
+  return std::abs(after.hand_force * (after.inserted_length - before.inserted_length)) +
+         std::abs(after.hand_torque * (after.rotation - before.rotation));
+}
+
+Energy SingleLayer::energy(const State& state, const StepInput& input, WallFriction& friction)
+{
+  State relaxed = state;
+  PhaseTimer unused;
+  const TwistAction action = relaxTwist(relaxed, input, frictionAtRest(*this, model_.rod, state, friction), unused);
+  return elasticEnergy(model_.rod, state, action.active ? &twist_ : nullptr);
+}
+
+}  // namespace endovascular_sim::rod

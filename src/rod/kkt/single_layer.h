@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "rod/kkt/kkt_model.h"
+#include "rod/kkt/layer_model.h"
+#include "rod/twist/twist.h"
+
+namespace endovascular_sim::rod
+{
+
+/** One wire: the nodes follow its material, and the rod's properties are its own. */
+class SingleLayer : public LayerModel
+{
+public:
+  /** @param model must outlive this */
+  explicit SingleLayer(const KktModel& model) : model_(model) {}
+
+  double length(int /*layer*/) const override { return model_.rod.length(); }
+  State initialState(const std::vector<LayerInput>& layers) const override;
+  State initialState(double inserted_length, double rotation) const override;
+  bool beginStep(State& /*state*/, const StepInput& /*input*/, double /*dt*/, WallFriction& /*friction*/) override
+  {
+    return false;
+  }
+  const StepInput& centrelineInput(const State& /*state*/, const StepInput& input) override { return input; }
+  void stop(State& /*state*/) const override {}
+  bool advance(State& state, const StepInput& input, double dt) override;
+  TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                         PhaseTimer& timer) override;
+  void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                     PhaseTimer& timer) override;
+  void surfaceAngles(const State& state, std::vector<double>& angle) const override;
+  void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
+  const LayerSlides* slides() const override { return nullptr; }
+  void finish(State& /*state*/, double /*dt*/) override {}
+  double handleWork(const State& before, const State& after) const override;
+  Energy energy(const State& state, const StepInput& input, WallFriction& friction) override;
+  void resample() override {}
+  void restore(const State& /*state*/) override {}
+
+private:
+  const KktModel& model_;
+  QuasiStaticTwist twist_;
+  std::vector<double> initial_twist_;  ///< twist angles at the beginning of the step [rad]
+  std::vector<double> saved_twist_;
+};
+
+}  // namespace endovascular_sim::rod
