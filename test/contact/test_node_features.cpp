@@ -10,39 +10,39 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kClearly = 1e-9;  // m
+constexpr double kTolerance = 1e-9;  // m: closer cases are not tested
 
-/** Whether a ridge's interior is clearly the closest place around it to a point within a limit. @param offset gets what
- *  leads from there to the point */
-bool isClosestEdge(const Wall& wall, const WallEdge& ridge, const Eigen::Vector3d& point, double limit,
+/** Reference test: whether the interior of a reflex edge is a local minimum of the distance to a point within a cutoff.
+ *  @param offset receives the vector from the edge to the point [m] */
+bool isClosestEdge(const Wall& wall, const WallEdge& edge, const Eigen::Vector3d& point, double cutoff,
                    Eigen::Vector3d& offset)
 {
-  const Eigen::Vector3d& begin = wall.vertices[ridge.vertices[0]];
-  const Eigen::Vector3d along = wall.vertices[ridge.vertices[1]] - begin;
+  const Eigen::Vector3d& begin = wall.vertices[edge.vertices[0]];
+  const Eigen::Vector3d along = wall.vertices[edge.vertices[1]] - begin;
   const double share = (point - begin).dot(along) / along.squaredNorm();
   offset = point - begin - share * along;
-  return ridge.reflex_angle > 0.0 && share > 1e-6 && share < 1.0 - 1e-6 && offset.norm() < limit - kClearly &&
-         offset.dot(ridge.normal) > 0.0 && offset.dot(ridge.into_triangle[0]) < -kClearly &&
-         offset.dot(ridge.into_triangle[1]) < -kClearly;
+  return edge.reflex_angle > 0.0 && share > 1e-6 && share < 1.0 - 1e-6 && offset.norm() < cutoff - kTolerance &&
+         offset.dot(edge.normal) > 0.0 && offset.dot(edge.into_triangle[0]) < -kTolerance &&
+         offset.dot(edge.into_triangle[1]) < -kTolerance;
 }
 
-/** The same of a corner. */
-bool isClosestCorner(const Wall& wall, int vertex, const Eigen::Vector3d& point, double limit, Eigen::Vector3d& offset)
+/** Reference test of a vertex, as isClosestEdge. */
+bool isClosestVertex(const Wall& wall, int vertex, const Eigen::Vector3d& point, double cutoff, Eigen::Vector3d& offset)
 {
   offset = point - wall.vertices[vertex];
-  if (wall.vertex_reflex[vertex] == 0 || offset.norm() > limit - kClearly ||
+  if (wall.vertex_reflex[vertex] == 0 || offset.norm() > cutoff - kTolerance ||
       offset.dot(wall.vertex_normals[vertex]) <= 0.0)
     return false;
   const auto behind = [&](int e)
   {
     const Eigen::Vector3d along = wall.vertices[wall.edges[e].otherEnd(vertex)] - wall.vertices[vertex];
-    return offset.dot(along.normalized()) < -kClearly;
+    return offset.dot(along.normalized()) < -kTolerance;
   };
   return std::all_of(wall.vertex_edges[vertex].begin(), wall.vertex_edges[vertex].end(), behind);
 }
 
-/** Whether a set tells a wire's first node of a wall at least as close that faces it from a place's side. */
-bool tells(const ContactSet& set, const Query& query, const Eigen::Vector3d& offset)
+/** Whether a set contains a feature of the wire's first node with the offset's direction and at most its gap. */
+bool contains(const ContactSet& set, const Query& query, const Eigen::Vector3d& offset)
 {
   const double gap = offset.norm() - query.radius[0];
   const auto is = [&](const Feature& f)
@@ -53,11 +53,11 @@ bool tells(const ContactSet& set, const Query& query, const Eigen::Vector3d& off
   return std::any_of(set.features.begin(), set.features.end(), is);
 }
 
-class RidgesOfNodes : public testing::TestWithParam<double>
+class NodeFeatures : public testing::TestWithParam<double>
 {
 };
 
-TEST_P(RidgesOfNodes, AreAllToldThatALookAtEveryEdgeAndCornerFinds)
+TEST_P(NodeFeatures, IncludeEveryEdgeAndVertexThatBruteForceFinds)
 {
   Detector detector(bumpyTube(GetParam()), WallLaw{});
   const Wall& wall = detector.wall();
@@ -65,14 +65,14 @@ TEST_P(RidgesOfNodes, AreAllToldThatALookAtEveryEdgeAndCornerFinds)
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<std::size_t> any_vertex(0, wall.vertices.size() - 1);
   int edges = 0;
-  int corners = 0;
+  int vertices = 0;
   const auto off = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
   Query query;
   query.margin = 0.5e-3;
   query.first_node = 3;
   query.radius = {0.4e-3, 0.4e-3};
-  // Every other time in front of a corner, which few places are.
-  const auto place = [&](bool at_corner)
+  // Few random points lie in the cone of a vertex: every other trial searches for one.
+  const auto any_point = [&](bool at_vertex)
   {
     Eigen::Vector3d point, offset;
     std::size_t v = 0;
@@ -80,38 +80,38 @@ TEST_P(RidgesOfNodes, AreAllToldThatALookAtEveryEdgeAndCornerFinds)
     {
       v = any_vertex(random);
       point = wall.vertices[v] + 0.4e-3 * (wall.vertex_normals[v] + std::min(0.5, GetParam()) * off());
-      if (!at_corner || isClosestCorner(wall, static_cast<int>(v), point, 1.0, offset))
+      if (!at_vertex || isClosestVertex(wall, static_cast<int>(v), point, 1.0, offset))
         break;
     }
     return point;
   };
   for (int trial = 0; trial < 600; ++trial)
   {
-    const Eigen::Vector3d first = place(trial % 2 == 0);
+    const Eigen::Vector3d first = any_point(trial % 2 == 0);
     query.nodes = {first, first + 1e-3 * off()};
     ContactSet set;
     detector.detect(query, set);
-    const double limit = query.radius[0] + query.marginAt(0);
+    const double cutoff = query.radius[0] + query.marginAt(0);
     Eigen::Vector3d offset;
     for (const WallEdge& edge : wall.edges)
-      if (isClosestEdge(wall, edge, query.nodes[0], limit, offset))
+      if (isClosestEdge(wall, edge, query.nodes[0], cutoff, offset))
       {
         ++edges;
-        EXPECT_TRUE(tells(set, query, offset));
+        EXPECT_TRUE(contains(set, query, offset));
       }
     for (int vertex = 0; vertex < static_cast<int>(wall.vertices.size()); ++vertex)
-      if (isClosestCorner(wall, vertex, query.nodes[0], limit, offset))
+      if (isClosestVertex(wall, vertex, query.nodes[0], cutoff, offset))
       {
-        ++corners;
-        EXPECT_TRUE(tells(set, query, offset));
+        ++vertices;
+        EXPECT_TRUE(contains(set, query, offset));
       }
   }
   EXPECT_GT(edges, 50);
-  EXPECT_GT(corners, 50);
+  EXPECT_GT(vertices, 50);
 }
 
-// The last one folds by more than a right angle here and there.
-INSTANTIATE_TEST_SUITE_P(Bumps, RidgesOfNodes, testing::Values(0.05, 0.1, 0.3, 0.8));
+// With the largest bumps the wall folds by more than a right angle at some edges.
+INSTANTIATE_TEST_SUITE_P(Bumps, NodeFeatures, testing::Values(0.05, 0.1, 0.3, 0.8));
 
 }  // namespace
 }  // namespace endovascular_sim::contact
