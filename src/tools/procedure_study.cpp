@@ -100,11 +100,13 @@ int parse(int argc, char** argv, Options& options)
   return -1;
 }
 
-/** One run. @return what became of it; empty: success */
-std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
+/** One run. @param model wall of the vessel, shared by all runs
+ *  @return what became of it; empty: success */
+std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
+                const std::shared_ptr<const contact::WallModel>& model, const std::string& folder, double& seconds)
 {
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
-  contact::Detector wall(vessel.mesh, scene::wallLaw(*scene.vessel));
+  contact::Detector wall(model, scene::wallLaw(*scene.vessel));
   results::SessionRun session(scene, vessel, entry.position);
   const std::unique_ptr<simulation::LocalDeformableWall> moving_wall =
       simulation::makeLocalDeformableWall(scene, vessel, wall);
@@ -135,6 +137,7 @@ int study(const Options& options)
     scene = procedure::endingWith(std::move(scene), options.through);
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
   std::filesystem::create_directories(options.out);
   std::ofstream table(options.out + "/study.csv");
   table << "seed,success,time,why\n";
@@ -143,7 +146,7 @@ int study(const Options& options)
   {
     const auto seed = static_cast<std::uint64_t>(options.first + k);
     double seconds = 0.0;
-    const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel,
+    const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel, model,
                                 options.out + "/" + std::to_string(seed), seconds);
     succeeded += why.empty();
     table << seed << "," << why.empty() << "," << seconds << ",\"" << why << "\"\n" << std::flush;
