@@ -200,7 +200,8 @@ double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nea
   return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
 }
 
-void Detector::detect(const Query& query, ContactSet& set)
+/** Sets what every answer holds, and follows the wire. */
+void Detector::begin(const Query& query, ContactSet& set)
 {
   set.step = query.step;
   set.substep = query.substep;
@@ -215,14 +216,15 @@ void Detector::detect(const Query& query, ContactSet& set)
     trails_.resize(n + 1);
   }
   followWire(query);
-  if (query.wanted_free_distance > 0.0)
-  {
-    freeDistances(query, set);
-    return;
-  }
+}
+
+void Detector::detect(const Query& query, ContactSet& set)
+{
+  begin(query, set);
+  const std::size_t n = query.nodes.size();
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
-    set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
+    set.free_distance[i] = std::min(query.margin[i], query.margin[i + 1]);
   if (helper_ != nullptr && cutIntoParts(query))
   {
     detectParts(query, set.features);
@@ -512,7 +514,7 @@ bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 double Detector::wallDistance(const Query& query, std::size_t index, double farthest)
 {
   const Eigen::Vector3d& point = query.nodes[index];
-  const double limit = query.radius[index] + query.marginAt(index);
+  const double limit = query.radius[index] + query.margin[index];
   const double nearest = nearestListed(neighbourhood(query, index), point, limit);
   if (nearest <= limit)
     return nearest;
@@ -522,8 +524,9 @@ double Detector::wallDistance(const Query& query, std::size_t index, double fart
   return found.distance;
 }
 
-void Detector::freeDistances(const Query& query, ContactSet& set)
+void Detector::freeDistances(const Query& query, double wanted, ContactSet& set)
 {
+  begin(query, set);
   renewLists(query);
   const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
   if (nearest_.size() < whole)
@@ -536,7 +539,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
   for (std::size_t i = 1; i < query.nodes.size(); ++i)
     room = std::max(
         room, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
-  const double farthest = query.wanted_free_distance + room;
+  const double farthest = wanted + room;
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
@@ -545,7 +548,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();
       const double radius = std::max(query.radius[i - 1], query.radius[i]);
-      const double margin = std::min(query.marginAt(i - 1), query.marginAt(i));
+      const double margin = std::min(query.margin[i - 1], query.margin[i]);
       set.free_distance[i - 1] = std::max(margin, 0.5 * (previous + distance - length) - radius);
     }
     previous = distance;

@@ -59,6 +59,7 @@ public:
   Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
 
   void detect(const Query& query, ContactSet& set) override;
+  void freeDistances(const Query& query, double wanted, ContactSet& set) override;
 
   /** Shares long searches (filled balloons) and movements of the wall with another thread from now on; answers stay the
    * same bits.
@@ -198,7 +199,7 @@ private:
     return std::min(index + 1, query.nodes.size() - 1);
   }
   /** Distance from a node up to which features are wanted [m]. */
-  static double limitAt(const Query& query, std::size_t index) { return query.radius[index] + query.marginAt(index); }
+  static double limitAt(const Query& query, std::size_t index) { return query.radius[index] + query.margin[index]; }
   /** Of a node and the edge behind it. */
   static double listedLimit(const Query& query, std::size_t index)
   {
@@ -246,7 +247,7 @@ private:
   void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const;
   double clearanceRadius(const Query& query, const Feature& feature) const;
   double wallDistance(const Query& query, std::size_t index, double farthest);
-  void freeDistances(const Query& query, ContactSet& set);
+  void begin(const Query& query, ContactSet& set);
 
   Wall wall_;
   Bvh bvh_;

@@ -72,7 +72,7 @@ TEST(HelperThread, TakesTheLastTasksAndIsWaitedFor)
 Query balloon(double place)
 {
   Query query;
-  query.margin = 0.25e-3;
+  query.margin.assign(40, 0.06e-3);
   query.first_node = 5;
   for (int i = 0; i < 40; ++i)
   {

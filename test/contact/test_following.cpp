@@ -25,7 +25,7 @@ geometry::TriangleMesh fineTube()
 Query wireAlongTheWall(int nodes, double spacing = 0.5e-3, double slid = 0.0)
 {
   Query wire;
-  wire.margin = 0.4e-3;
+  wire.margin.assign(static_cast<std::size_t>(nodes), 0.4e-3);
   for (int k = 0; k < nodes; ++k)
   {
     wire.nodes.emplace_back(3.4e-3, slid == 0.0 ? 1e-4 * (k % 3) : 0.0, spacing * k + slid);
@@ -157,7 +157,7 @@ TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)
     if (step % 60 == 0)
       nodes = 18 + static_cast<int>(random() % 4);
     Query wire = wireAlongTheWall(nodes, 1.2e-3, slid);
-    wire.margin = step % 70 < 60 ? 0.4e-3 : 0.5e-3;
+    wire.margin.assign(wire.nodes.size(), step % 70 < 60 ? 0.4e-3 : 0.5e-3);
     for (Eigen::Vector3d& node : wire.nodes)
       node += Eigen::Vector3d(0.5 * aside, aside, 0.0);
     if (step % 90 == 0)

@@ -68,7 +68,7 @@ TEST_P(RidgesOfNodes, AreAllToldThatALookAtEveryEdgeAndCornerFinds)
   int corners = 0;
   const auto off = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.first_node = 3;
   query.radius = {0.4e-3, 0.4e-3};
   // Every other time in front of a corner, which few places are.
@@ -91,7 +91,7 @@ TEST_P(RidgesOfNodes, AreAllToldThatALookAtEveryEdgeAndCornerFinds)
     query.nodes = {first, first + 1e-3 * off()};
     ContactSet set;
     detector.detect(query, set);
-    const double limit = query.radius[0] + query.marginAt(0);
+    const double limit = query.radius[0] + query.margin[0];
     Eigen::Vector3d offset;
     for (const WallEdge& edge : wall.edges)
       if (isClosestEdge(wall, edge, query.nodes[0], limit, offset))

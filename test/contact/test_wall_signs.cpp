@@ -113,7 +113,7 @@ TEST(WallSigns, ANodeBesideAnOpenEndFindsTheWallButNoGhostBeyondTheEnd)
 {
   Detector open(starDuct(3, 2e-3, true), WallLaw{});
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.nodes = {{0.0, 0.0, 1e-3}, {0.0, 0.0, -1e-3}};  // out through the end, in its middle
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
