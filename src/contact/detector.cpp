@@ -18,7 +18,7 @@ constexpr std::size_t kUsualNodes = 512;  // of a wire
 /** Distance from the axis up to which features of a node are needed [m]. */
 double cutoffAt(const Query& query, std::size_t node)
 {
-  return query.radius[node] + query.marginAt(node);
+  return query.radius[node] + query.margin[node];
 }
 
 /** Index of the node at the other end of the edge behind a node; the tip has no such edge. */
@@ -82,9 +82,15 @@ void Detector::reserveLists(std::size_t nodes)
     lists_[k].reserve();
 }
 
-/** Broad phase. */
-void Detector::updateLists(const Query& query)
+/** Sets the common members of a contact set and updates the neighbour lists. */
+void Detector::begin(const Query& query, ContactSet& set)
 {
+  set.step = query.step;
+  set.substep = query.substep;
+  set.pass = query.pass;
+  set.vessel_version = vessel_version_;
+  set.first_edge = query.first_node;
+  set.features.clear();
   reserveLists(query.nodes.size());
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
@@ -99,22 +105,11 @@ void Detector::updateLists(const Query& query)
 
 void Detector::detect(const Query& query, ContactSet& set)
 {
-  set.step = query.step;
-  set.substep = query.substep;
-  set.pass = query.pass;
-  set.vessel_version = vessel_version_;
-  set.first_edge = query.first_node;
-  set.features.clear();
-  updateLists(query);
-  if (query.wanted_free_distance > 0.0)
-  {
-    freeDistances(query, set);
-    return;
-  }
+  begin(query, set);
   const std::size_t n = query.nodes.size();
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
-    set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
+    set.free_distance[i] = std::min(query.margin[i], query.margin[i + 1]);
   for (std::size_t i = 0; i < n; ++i)
     detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -229,8 +224,9 @@ double Detector::wallDistance(const Query& query, std::size_t node, double farth
   return found.distance;
 }
 
-void Detector::freeDistances(const Query& query, ContactSet& set)
+void Detector::freeDistances(const Query& query, double wanted, ContactSet& set)
 {
+  begin(query, set);
   const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
   if (nearest_.size() < whole)
     nearest_.resize(whole, -1);
@@ -242,7 +238,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
   for (std::size_t i = 1; i < query.nodes.size(); ++i)
     reach = std::max(
         reach, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
-  const double farthest = query.wanted_free_distance + reach;
+  const double farthest = wanted + reach;
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
@@ -251,7 +247,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();
       const double radius = std::max(query.radius[i - 1], query.radius[i]);
-      const double margin = std::min(query.marginAt(i - 1), query.marginAt(i));
+      const double margin = std::min(query.margin[i - 1], query.margin[i]);
       set.free_distance[i - 1] = std::max(margin, 0.5 * (previous + distance - length) - radius);
     }
     previous = distance;

@@ -34,6 +34,7 @@ public:
   Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version = 1);
 
   void detect(const Query& query, ContactSet& set) override;
+  void freeDistances(const Query& query, double wanted, ContactSet& set) override;
 
   /** Moves vertices of the wall. Afterwards all results are, bit for bit, those of a detector of the moved mesh. Other
    *  detectors of a shared model keep their wall: the first movement copies a model that is shared. The cost of every
@@ -59,13 +60,12 @@ private:
   /** Lists are indexed from the tip: nodes that enter or leave at the proximal end change no other node's list. */
   NeighbourList& listOf(const Query& query, std::size_t node) { return lists_[query.nodes.size() - 1 - node]; }
   void reserveLists(std::size_t nodes);
-  void updateLists(const Query& query);
+  void begin(const Query& query, ContactSet& set);
   void detectNode(const Query& query, std::size_t node, std::vector<Feature>& features);
   void detectEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
   void addLaw(const Query& query, std::vector<Feature>& features) const;
   double distanceToListed(const NeighbourList& list, const Eigen::Vector3d& point, double cutoff) const;
   double wallDistance(const Query& query, std::size_t node, double farthest);
-  void freeDistances(const Query& query, ContactSet& set);
 
   std::shared_ptr<const WallModel> model_;
   WallLaw law_;

@@ -85,7 +85,7 @@ inline Query randomWire(const Eigen::Vector3d& start, std::mt19937& random, int 
 {
   std::normal_distribution<double> normal(0.0, 1.0);
   Query query;
-  query.margin = 0.5e-3;
+  query.margin.assign(static_cast<std::size_t>(nodes), 0.5e-3);
   query.first_node = 3;
   Eigen::Vector3d direction(normal(random), normal(random), normal(random));
   direction.normalize();

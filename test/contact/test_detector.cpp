@@ -59,7 +59,10 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
     const Eigen::Vector3d start = mesh.vertices[mesh.triangles[t][0]] + 1e-3 * detector.wall().normals[t];
     Query query = randomWire(start, random, 25);
     if (trial % 2 == 1)
+    {
       query.radius.assign(query.nodes.size(), kWide);
+      query.margin.assign(query.nodes.size(), 0.22e-3);
+    }
     ContactSet set;
     detector.detect(query, set);
     for (std::size_t i = 0; i < query.nodes.size(); ++i)
@@ -69,12 +72,12 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
       const double sign = geometry::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
       EXPECT_NEAR(detector.signedDistance(query.nodes[i]), sign * distance, 1e-12);
       const double gap = sign * distance - query.radius[i];
-      if (sign > 0.0 && gap < query.marginAt(i) - 1e-9)
+      if (sign > 0.0 && gap < query.margin[i] - 1e-9)
       {
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
         (query.radius[i] == kWide ? wide_contacts : contacts) += 1;
       }
-      else if (sign > 0.0 && gap > query.marginAt(i) + 1e-9)
+      else if (sign > 0.0 && gap > query.margin[i] + 1e-9)
       {
         EXPECT_EQ(smallestGap(set, query.first_node + static_cast<int>(i)), std::numeric_limits<double>::infinity());
       }
@@ -109,7 +112,7 @@ TEST(Detector, FindsTheNearestGapOfNodesAboveTheVerticesOfABumpyTube)
       const Eigen::Vector3d off(normal(random), normal(random), normal(random));
       const Eigen::Vector3d up = (detector.wall().vertex_normals[v] + bump * off).normalized();
       Query query;
-      query.margin = 0.5e-3;
+      query.margin = {0.5e-3, 0.5e-3};
       query.first_node = 3;
       query.radius.assign(2, 0.4e-3);
       query.nodes = {mesh.vertices[v] + 0.6e-3 * up, mesh.vertices[v] + 2e-3 * up};
@@ -177,7 +180,6 @@ TEST(Detector, UsesTheMarginOfEachNodeWhateverEarlierQueriesWere)
   const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
   Query query;
-  query.margin = 0.3e-3;
   for (int i = 0; i < 30; ++i)
   {
     query.nodes.emplace_back(2.6e-3, 0.0, 0.6e-3 * i);
@@ -188,29 +190,30 @@ TEST(Detector, UsesTheMarginOfEachNodeWhateverEarlierQueriesWere)
   {
     for (Eigen::Vector3d& node : query.nodes)
       node += 1e-4 * (step % 20 < 10 ? 1.0 : -1.0) * Eigen::Vector3d(0.5, 0.7, 0.1);
-    query.fast_margin = 3.0 * query.margin;
-    query.fast_begin = step % 7 < 4 ? 8 : 0;
-    query.fast_end = step % 7 < 4 ? 20 : 0;
+    const bool widened = step % 7 < 4;
+    query.margin.assign(30, 0.3e-3);
+    if (widened)
+      std::fill(query.margin.begin() + 8, query.margin.begin() + 20, 0.9e-3);
     expectSameAsFresh(warm, mesh, query);
     Query wide = query;
-    wide.margin = query.fast_margin;
-    const auto ofFastNodes = [&](const Query& asked)
+    wide.margin.assign(30, 0.9e-3);
+    const auto ofWidenedNodes = [&](const Query& queried)
     {
       ContactSet set;
-      Detector(mesh, WallLaw{}).detect(asked, set);
+      Detector(mesh, WallLaw{}).detect(queried, set);
       std::vector<std::int64_t> ids;
       for (const Feature& feature : set.features)
         if (feature.edge >= 8 && feature.edge < 19)
           ids.push_back(feature.id);
       return ids;
     };
-    const std::vector<std::int64_t> listed = ofFastNodes(query);
-    if (query.fast_end > 0)
+    const std::vector<std::int64_t> listed = ofWidenedNodes(query);
+    if (widened)
     {
-      EXPECT_EQ(listed, ofFastNodes(wide)) << step;
+      EXPECT_EQ(listed, ofWidenedNodes(wide)) << step;
     }
     else
-      more += ofFastNodes(wide).size() - listed.size();
+      more += ofWidenedNodes(wide).size() - listed.size();
   }
   EXPECT_GT(more, 100U);
 }
@@ -252,7 +255,7 @@ TEST(Detector, FindsAContactExactlyAboveAnEdgeOrAVertexBetweenCoplanarTriangles)
   Detector detector(mesh, WallLaw{});
   const Eigen::Vector3d above(0.0, 0.0, 0.03 - 0.6e-3);  // the cap's centre is a vertex
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.nodes = {above - Eigen::Vector3d(0.0, 0.0, 2e-3), above};
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
@@ -285,7 +288,7 @@ protected:
         std::cos(tilt) * along.cross(normal) + std::sin(tilt) * (normal - normal.dot(along) * along);
     const Eigen::Vector3d over = 0.5 * (begin + end) + 0.5e-3 * normal;
     Query query;
-    query.margin = 0.5e-3;
+    query.margin = {0.5e-3, 0.5e-3};
     query.nodes = {over - 0.9e-3 * direction, over + 0.9e-3 * direction};
     query.radius = {0.4e-3, 0.4e-3};
     detector_.detect(query, set_);
@@ -353,25 +356,25 @@ TEST(Detector, GivesFreeDistancesThatNeverReachTheWallAndAreAsLargeAsWanted)
   for (int trial = 0; trial < 20; ++trial)
   {
     Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 6);
-    query.wanted_free_distance = trial % 2 == 0 ? 0.8e-3 : 30e-3;
+    const double wanted = trial % 2 == 0 ? 0.8e-3 : 30e-3;
     ContactSet set;
-    detector.detect(query, set);
+    detector.freeDistances(query, wanted, set);
     double reach = 0.0;
     for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
-      reach = std::max(reach, query.wanted_free_distance + 0.4e-3 + 0.5 * (query.nodes[e + 1] - query.nodes[e]).norm());
+      reach = std::max(reach, wanted + 0.4e-3 + 0.5 * (query.nodes[e + 1] - query.nodes[e]).norm());
     for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
     {
       int unused = -1;
       const double ends = std::min(reach, bruteDistance(detector.wall(), query.nodes[e], unused)) +
                           std::min(reach, bruteDistance(detector.wall(), query.nodes[e + 1], unused));
       const double bound = 0.5 * (ends - (query.nodes[e + 1] - query.nodes[e]).norm()) - 0.4e-3;
-      EXPECT_GE(set.free_distance[e], std::min(query.wanted_free_distance, bound) - 1e-12);
+      EXPECT_GE(set.free_distance[e], std::min(wanted, bound) - 1e-12);
       for (double t : {0.0, 0.25, 0.5, 0.75, 1.0})
       {
         int triangle = -1;
         const Eigen::Vector3d p = (1.0 - t) * query.nodes[e] + t * query.nodes[e + 1];
         const double clearance = bruteDistance(detector.wall(), p, triangle) - 0.4e-3;
-        EXPECT_LE(set.free_distance[e], std::max(query.margin, clearance) + 1e-12);
+        EXPECT_LE(set.free_distance[e], std::max(query.margin[e], clearance) + 1e-12);
       }
     }
   }

@@ -25,7 +25,7 @@ geometry::TriangleMesh fineTube()
 Query wireAlongTheWall(int nodes, double spacing = 0.5e-3, double slid = 0.0)
 {
   Query wire;
-  wire.margin = 0.4e-3;
+  wire.margin.assign(static_cast<std::size_t>(nodes), 0.4e-3);
   for (int k = 0; k < nodes; ++k)
   {
     wire.nodes.emplace_back(3.4e-3, slid == 0.0 ? 1e-4 * (k % 3) : 0.0, spacing * k + slid);
@@ -40,6 +40,7 @@ void insertNode(Query& wire, std::size_t before)
   const Eigen::Vector3d middle = 0.5 * (wire.nodes[before - 1] + wire.nodes[before]);
   wire.nodes.insert(wire.nodes.begin() + at, middle);
   wire.radius.insert(wire.radius.begin() + at, wire.radius[before]);
+  wire.margin.insert(wire.margin.begin() + at, wire.margin[before]);
 }
 
 void removeNode(Query& wire, std::size_t index)
@@ -47,6 +48,7 @@ void removeNode(Query& wire, std::size_t index)
   const auto at = static_cast<std::ptrdiff_t>(index);
   wire.nodes.erase(wire.nodes.begin() + at);
   wire.radius.erase(wire.radius.begin() + at);
+  wire.margin.erase(wire.margin.begin() + at);
 }
 
 TEST(ListReuse, GivesTheBitsOfANewDetectorWhenNodesAreInsertedAndRemoved)
@@ -103,7 +105,7 @@ TEST(ListReuse, GivesTheBitsOfANewDetectorToASlidingWire)
     if (step % 60 == 0)
       nodes = 18 + static_cast<int>(random() % 4);
     Query wire = wireAlongTheWall(nodes, 1.2e-3, slid);
-    wire.margin = step % 70 < 60 ? 0.4e-3 : 0.5e-3;
+    wire.margin.assign(wire.nodes.size(), step % 70 < 60 ? 0.4e-3 : 0.5e-3);
     for (Eigen::Vector3d& node : wire.nodes)
       node += Eigen::Vector3d(0.5 * aside, aside, 0.0);
     if (step % 90 == 0)

@@ -59,7 +59,7 @@ TEST(NearlyFlatEdges, AreContactedByTheMiddleOfAWireEdgeAtAnyTilt)
       const Eigen::Vector3d middle(0.2e-3 * askew(random), 5e-3 + 1e-3 * askew(random), 1.35e-3);
       const Eigen::Vector3d half = 1.27e-3 * Eigen::Vector3d(1.0, askew(random), tilt(random)).normalized();
       Query query;
-      query.margin = 0.25e-3;
+      query.margin = {0.25e-3, 0.25e-3};
       query.nodes = {middle - half, middle + half};
       query.radius = {0.195e-3, 0.195e-3};
       ContactSet set;

@@ -68,7 +68,7 @@ TEST_P(NodeFeatures, IncludeEveryEdgeAndVertexThatBruteForceFinds)
   int vertices = 0;
   const auto off = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.first_node = 3;
   query.radius = {0.4e-3, 0.4e-3};
   // Few random points lie in the cone of a vertex: every other trial searches for one.
@@ -91,7 +91,7 @@ TEST_P(NodeFeatures, IncludeEveryEdgeAndVertexThatBruteForceFinds)
     query.nodes = {first, first + 1e-3 * off()};
     ContactSet set;
     detector.detect(query, set);
-    const double cutoff = query.radius[0] + query.marginAt(0);
+    const double cutoff = query.radius[0] + query.margin[0];
     Eigen::Vector3d offset;
     for (const WallEdge& edge : wall.edges)
       if (isClosestEdge(wall, edge, query.nodes[0], cutoff, offset))

@@ -114,7 +114,7 @@ TEST(SignedDistance, GivesNoContactToANodeBeyondAnOpenEnd)
 {
   Detector open(starDuct(3, 2e-3, true), WallLaw{});
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.nodes = {{0.0, 0.0, 1e-3}, {0.0, 0.0, -1e-3}};  // leaves through the middle of the open end
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;

@@ -67,10 +67,8 @@ TEST(WallMovement, GivesTheBitsOfADetectorOfTheMovedMesh)
       for (std::size_t k = 0; same && k < after.features.size(); ++k)
         same = before.features[k].gap == after.features[k].gap;
       changed += same ? 0 : 1;
-      Query distant = wire;
-      distant.wanted_free_distance = 0.01;
-      moving.detect(distant, after);
-      fresh_detector.detect(distant, fresh);
+      moving.freeDistances(wire, 0.01, after);
+      fresh_detector.freeDistances(wire, 0.01, fresh);
       expectSameSets(after, fresh);
       EXPECT_EQ(moving.signedDistance(wire.nodes[5]), fresh_detector.signedDistance(wire.nodes[5]));
     }
@@ -98,7 +96,7 @@ TEST(WallMovement, GivesTheBitsOfANewDetectorWhenTheWallRecedesInSmallSteps)
   geometry::TriangleMesh mesh = fineTube();
   Detector moving(mesh, WallLaw{});
   Query wire;
-  wire.margin = 0.25e-3;
+  wire.margin.assign(20, 0.25e-3);
   for (int k = 0; k < 20; ++k)
   {
     wire.nodes.emplace_back(3.5e-3, 0.0, 0.001 * k);
@@ -124,7 +122,7 @@ TEST(WallMovement, GivesTheBitsOfANewDetectorWhenFacetsTiltWithinTheSkin)
     const Wall start(mesh);
     Detector moving(mesh, WallLaw{});
     Query wire;
-    wire.margin = 0.25e-3;
+    wire.margin.assign(250, 0.25e-3);
     for (int k = 0; k < 250; ++k)  // a helix
     {
       wire.nodes.emplace_back(Eigen::AngleAxisd(trial + 0.2 * k, Eigen::Vector3d::UnitZ()) *

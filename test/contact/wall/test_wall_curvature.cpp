@@ -67,7 +67,7 @@ Feature nearestFeature(const geometry::TriangleMesh& mesh, const Eigen::Vector3d
 {
   Detector detector(mesh, WallLaw{});
   Query query;
-  query.margin = 1e-3;
+  query.margin = {1e-3, 1e-3};
   query.nodes = {node, node + 1e-3 * direction};
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
