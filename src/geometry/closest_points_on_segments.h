@@ -37,9 +37,9 @@ struct TaperedSegment
 };
 
 /** Closest points of a cone and the segment p2q2: minimum of the distance from the cone's axis minus the cone's radius.
- *  The function is convex and minimised in closed form. At a minimum between
- *  the ends, the line between both points is tilted against the plane normal to the axis, by an angle whose sine is the
- *  slope. */
+ *
+ *  The function is convex and minimised in closed form. At a minimum between the ends, the line between both points is
+ *  tilted against the plane normal to the axis, by an angle whose sine is the slope. */
 SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3d& p2, const Eigen::Vector3d& q2);
 
 }  // namespace endovascular_sim::geometry

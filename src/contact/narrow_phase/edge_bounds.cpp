@@ -10,8 +10,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** The offset at a local minimum lies between the normals of the edge's triangles, or at an end in the vertex's cone.
- */
+/** Slope of the edge's cone: the offset at a minimum lies between the triangles' normals or in an end's vertex cone. */
 double boundOfCone(const Wall& wall, const WallEdge& edge)
 {
   const double slack = std::max(kConeSlack, kConeSlackOfAngle * std::abs(edge.reflex_angle));

@@ -135,9 +135,9 @@ void Wall::updateVertex(int vertex)
 
 /** Bound of the normal cone of a vertex.
  *
- *  A direction d in the cone has d·e ≤ 0 for every edge e at the vertex. One edge lies within half a corner's angle γ
- * of the direction in which d is tilted. If that edge descends with slope s, the tilt is bounded by tan ψ ≤ s/cos(γ/2).
- */
+ *  A direction d in the cone has d·e ≤ 0 for every edge e at the vertex. Let γ be the widest corner angle and s the
+ *  steepest descending slope of an edge. Some edge lies within γ/2 of the direction in which d is tilted, so the tilt ψ
+ *  is bounded by tan ψ ≤ s/cos(γ/2). */
 double Wall::coneAt(int vertex) const
 {
   const Eigen::Vector3d& normal = vertex_normals[vertex];

@@ -48,9 +48,9 @@ public:
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
   std::vector<std::vector<int>> vertex_edges;   ///< ascending
   std::vector<char> vertex_reflex;              ///< 1 where some edge at the vertex is reflex
-  /** Normal cone of each vertex: bound of the angle between its pseudo-normal and the offset of a point that has the
-   *  vertex as a local minimum of the distance and lies in front of some triangle there. π/2 where the wall is too
-   * rough for a bound [rad]. */
+  /** Half angle of each vertex's normal cone around its pseudo-normal [rad]. The cone contains the offset of every
+   * point in front of a triangle there for which the vertex is a local minimum. π/2 where the wall is too rough for a
+   * bound. */
   std::vector<double> vertex_cone;
   /** Curvature tensor K of the underlying smooth wall, per triangle: bᵀKb is the curvature along a tangential unit
    *  vector b, positive where the wall is concave as seen from the lumen [1/m]. */
