@@ -1,254 +1,41 @@
 #include "contact/detector.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <utility>
-
-#include <Eigen/Geometry>
-
-#include "geometry/closest_point_on_triangle.h"
-#include "geometry/closest_points_on_segments.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
 
-constexpr double kReflexAngle = 1e-4;        // rad: edges that bulge less than this meet the wire's nodes only
-constexpr double kOutsideCrossing = 0.4e-3;  // m by which a wire's edge may lie beyond a ridge
-constexpr double kSameNormal = 0.9995;       // cosine above which two features of a node count as one
-constexpr double kConeTolerance = 1e-12;     // m
-constexpr double kConeSlack = 1e-3;          // of the distance: crossings at the border of the normal cone count
-// The same in ridge's angles. A wire that lies along a facet touches it at the facet's border too: if that contact came
-// and went with the wire's direction, wire and solver would rock.
-constexpr double kConeSlackOfAngle = 0.1;
-constexpr double kWidestWire = 0.6e-3;       // m from a wire's axis up to which that holds
-constexpr double kOnRidge = 1e-12;           // m
-constexpr double kSharp = 1.2;               // rad between triangles or of a vertex's cone that is not bounded
-constexpr double kLeastClearance = 0.05e-3;  // m
-constexpr std::size_t kUsualNodes = 512;     // of a wire; longer ones get their lists later
-constexpr std::size_t kUsualList = 16;       // entries
-constexpr double kEnd = 1e-3;                // of a wire's edge: closer to a node the node's own features stand
+constexpr double kSameNormal = 0.9995;    // cosine between normals above which two features of a node are one
+constexpr double kSameDistance = 1e-12;   // m
+constexpr std::size_t kListsAtOnce = 16;  // for which memory is reserved together as the wire enters
+constexpr std::size_t kUsualNodes = 512;  // of a wire
 
-enum FeatureKind
+/** Distance from the axis up to which features of a node are needed [m]. */
+double cutoffAt(const Query& query, std::size_t node)
 {
-  kFace = 0,
-  kEdge = 1,
-  kVertex = 2,
-};
-
-/** How far beside what it stands on a cone reaches, as a share of the height. @param angle to its axis [rad] */
-double slopeOf(double angle)
-{
-  return angle > kSharp ? std::numeric_limits<double>::infinity() : std::tan(angle);
+  return query.radius[node] + query.margin[node];
 }
 
-std::int64_t featureId(int index, FeatureKind kind)
+/** Index of the node at the other end of the edge behind a node; the tip has no such edge. */
+std::size_t nextNode(const Query& query, std::size_t node)
 {
-  return std::int64_t{3} * index + kind;
+  return std::min(node + 1, query.nodes.size() - 1);
 }
 
-}  // namespace
-
-double WallLaw::frictionAt(const Eigen::Vector3d& place) const
+/** Cutoff of a node's list: the larger one of its edge's ends [m]. */
+double listCutoff(const Query& query, std::size_t node)
 {
-  for (auto region = regions.rbegin(); region != regions.rend(); ++region)
-    if ((place - region->centre).squaredNorm() <= region->radius * region->radius)
-      return region->friction;
-  return friction;
+  return std::max(cutoffAt(query, node), cutoffAt(query, nextNode(query, node)));
 }
 
-Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : wall_(mesh), bvh_(wall_), law_(std::move(law)), vessel_version_(vessel_version)
-{
-  prisms_.resize(wall_.triangles.size());
-  for (std::size_t t = 0; t < prisms_.size(); ++t)
-    makePrism(static_cast<int>(t));
-  edge_balls_.reserve(wall_.edges.size());
-  for (const WallEdge& edge : wall_.edges)
-    edge_balls_.push_back(ballOf(edge));
-  std::vector<Bvh::Cone> cones;
-  cones.reserve(prisms_.size());
-  for (std::size_t t = 0; t < prisms_.size(); ++t)
-    cones.push_back(coneOf(static_cast<int>(t)));
-  bvh_.setCones(cones);
-  // The first call shall not wait for memory.
-  near_.resize(kUsualNodes);
-  const auto prepare = [](NeighbourList& near)
-  {
-    const auto reserve = [](auto& list, std::size_t count)
-    {
-      list.resize(count);
-      list.clear();
-    };
-    reserve(near.triangles, kUsualList);
-    reserve(near.edges, kUsualList);
-    reserve(near.prisms, kUsualList / kQuad);
-    reserve(near.ridges, kUsualList / kQuad);
-  };
-  std::for_each(near_.begin(), near_.end(), prepare);
-}
-
-EdgeBounds Detector::ballOf(const WallEdge& edge) const
-{
-  const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
-  const Eigen::Vector3d& end = wall_.vertices[edge.vertices[1]];
-  const Eigen::Vector3d half = 0.5 * (end - begin);
-  return {0.5 * (begin + end), edge.normal, half, half.norm(), leanOf(edge), edge.reflex_angle > kReflexAngle};
-}
-
-/** A local minimum's offset lies between the normals of the edge's triangles, or at an end in the vertex's cone. */
-double Detector::leanOf(const WallEdge& edge) const
-{
-  const double slack = std::max(kConeSlack, kConeSlackOfAngle * std::abs(edge.reflex_angle));
-  double widest = 0.5 * edge.reflex_angle + 1.1 * slack;  // rad
-  for (int vertex : edge.vertices)
-    widest = std::max(widest, wall_.vertex_cone[vertex] + angleBetween(edge.normal, wall_.vertex_normals[vertex]));
-  return slopeOf(std::abs(edge.reflex_angle) > kSharp ? M_PI : widest);
-}
-
-void Detector::makePrism(int triangle)
-{
-  TriangleSlab& prism = prisms_[triangle];
-  setSlopes(triangle, prism);
-  const auto set = [&prism](int lane, const Eigen::Vector3d& normal, double offset)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-      prism.planes[axis][lane] = normal[axis];
-    prism.planes[3][lane] = -offset;
-  };
-  set(0, wall_.normals[triangle], wall_.plane_offsets[triangle]);
-  for (int k = 0; k < 3; ++k)
-  {
-    const int vertex = wall_.triangles[triangle][k];
-    const int e = wall_.triangle_edges[triangle][k];
-    const WallEdge& edge = wall_.edges[e];
-    const int side = edge.triangles[0] == triangle ? 0 : 1;
-    set(k + 1, edge.into_triangle[side], edge.into_triangle[side].dot(wall_.vertices[vertex]));
-    prism.own_edges[k] = side == 0 && edge.reflex_angle > kReflexAngle ? e : -1;
-  }
-}
-
-/** Where a reflex edge is closest, the point lies between both triangles' normals, where a reflex vertex is, in its
- *  cone. The foot lies no farther beyond a line along an edge than beyond the triangle: corners of any angle will do.
- *  Where the lumen is convex, what is closest to a point behind the wall lies behind the triangle too, unless the wall
- *  folds there by more than a right angle. What belongs to another triangle is seen there. */
-void Detector::setSlopes(int triangle, TriangleSlab& prism) const
-{
-  double widest_edge = 0.0;    // rad
-  double widest_corner = 0.0;  // rad
-  for (int k = 0; k < 3; ++k)
-  {
-    const WallEdge& edge = wall_.edges[wall_.triangle_edges[triangle][k]];
-    if (edge.triangles[0] == triangle)
-      widest_edge = std::max(widest_edge, edge.reflex_angle > -kSharp ? edge.reflex_angle : M_PI);
-    const int vertex = wall_.triangles[triangle][k];
-    if (wall_.ownerOf(vertex) != triangle)
-      continue;
-    if (wall_.vertex_reflex[vertex] != 0)
-      widest_corner = std::max(widest_corner, angleBetween(wall_.normals[triangle], wall_.vertex_normals[vertex]) +
-                                                  wall_.vertex_cone[vertex]);
-    else if (foldsAt(vertex, triangle))
-      widest_corner = M_PI;
-  }
-  prism.edge_slope = slopeOf(widest_edge);
-  prism.corner_slope = slopeOf(widest_corner);
-}
-
-/** Whether a triangle at the vertex is turned against another one there by about a right angle, or more. */
-bool Detector::foldsAt(int vertex, int triangle) const
-{
-  const double least = std::cos(kSharp);
-  const auto turned = [this, triangle, least](int other)
-  { return wall_.normals[other].dot(wall_.normals[triangle]) < least; };
-  const std::vector<int>& edges = wall_.vertex_edges[vertex];
-  return std::any_of(edges.begin(), edges.end(),
-                     [&](int e) { return turned(wall_.edges[e].triangles[0]) || turned(wall_.edges[e].triangles[1]); });
-}
-
-Bvh::Cone Detector::coneOf(int triangle) const
-{
-  const TriangleSlab& prism = prisms_[triangle];
-  Bvh::Cone cone{prism.bulge(), -1.0};
-  for (int e : prism.own_edges)
-    if (e >= 0)
-    {
-      const double tilt = angleBetween(wall_.normals[triangle], wall_.edges[e].normal);
-      const double widest = tilt + std::atan(edge_balls_[e].lean);
-      cone.ridge = std::max(cone.ridge, slopeOf(widest));
-    }
-  return cone;
-}
-
-double Detector::signedDistance(const Eigen::Vector3d& point, int near, int* nearest) const
-{
-  const Bvh::Nearest found = bvh_.nearest(point, std::numeric_limits<double>::infinity(), near);
-  if (nearest != nullptr)
-    *nearest = found.triangle;
-  const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
-  const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
-      point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
-  const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
-                                  : closest.edge >= 0
-                                      ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
-                                      : wall_.normals[found.triangle];
-  return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
-}
-
-void Detector::detect(const Query& query, ContactSet& set)
-{
-  set.step = query.step;
-  set.substep = query.substep;
-  set.pass = query.pass;
-  set.vessel_version = vessel_version_;
-  set.first_edge = query.first_node;
-  set.features.clear();
-  const std::size_t n = query.nodes.size();
-  if (near_.size() < n)
-    near_.resize(n);
-  followWire(query);
-  if (query.wanted_free_distance > 0.0)
-  {
-    freeDistances(query, set);
-    return;
-  }
-  set.free_distance.resize(n > 0 ? n - 1 : 0);
-  for (std::size_t i = 0; i < set.free_distance.size(); ++i)
-    set.free_distance[i] = std::min(query.marginAt(i), query.marginAt(i + 1));
-  renewLists(query);
-  for (std::size_t i = 0; i < n; ++i)
-    detectNode(query, i, set.features);
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    detectEdge(query, i, set.features);
-  addLaw(query, set.features);
-}
-
-void Detector::addLaw(const Query& query, std::vector<Feature>& features) const
-{
-  for (Feature& feature : features)
-  {
-    feature.friction = law_.frictionAt(feature.point);
-    feature.clearance_radius = clearanceRadius(query, feature);
-  }
-}
-
-/** The wall's radius of curvature across the wire, less the wire's own; infinite where it is not concave there. */
-double Detector::clearanceRadius(const Query& query, const Feature& feature) const
-{
-  const double infinity = std::numeric_limits<double>::infinity();
-  if (feature.id % 3 != kFace)
-    return infinity;
-  const auto edge = static_cast<std::size_t>(feature.edge - query.first_node);
-  const Eigen::Vector3d across = feature.normal.cross(query.nodes[edge + 1] - query.nodes[edge]);
-  const double curvature = across.dot(wall_.curvature[feature.triangle] * across) / across.squaredNorm();
-  // A wire as wide as the lumen still has room to move in; a wire that points at the wall has no direction across.
-  const double radius = query.radius[edge + (feature.parameter < 1.0 ? 0 : 1)];
-  return curvature > 0.0 ? std::max(kLeastClearance, 1.0 / curvature - radius) : infinity;
-}
-
-void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature) const
+/** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.
+ *  @param first index of the node's first feature */
+void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature)
 {
   for (std::size_t f = first; f < features.size(); ++f)
     if (features[f].id == feature.id || features[f].normal.dot(feature.normal) > kSameNormal)
@@ -260,272 +47,198 @@ void Detector::appendDistinct(std::vector<Feature>& features, std::size_t first,
   features.push_back(feature);
 }
 
-void Detector::detectNode(const Query& query, std::size_t index, std::vector<Feature>& features) const
+}  // namespace
+
+Detector::Detector(std::shared_ptr<const WallModel> model, WallLaw law, std::uint64_t vessel_version)
+  : model_(std::move(model)), law_(std::move(law)), vessel_version_(vessel_version)
 {
-  const NeighbourList& near = neighbourhood(query, index);
-  if (near.triangles.empty())
+  lists_.reserve(kUsualNodes);
+}
+
+Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
+  : Detector(WallModel::create(mesh), std::move(law), vessel_version)
+{
+}
+
+void Detector::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
+                            std::uint64_t vessel_version)
+{
+  vessel_version_ = vessel_version;
+  if (indices.empty())
     return;
-  const Eigen::Vector3d& point = query.nodes[index];
-  const double radius = query.radius[index];
-  const double limit = limitAt(query, index);
+  const NeighbourList::WallMovement& movement = WallModel::writable(model_).moveVertices(indices, positions);
+  for (NeighbourList& list : lists_)
+    list.followWall(movement);
+}
+
+/** Lists of nodes that have just entered get their memory in groups, so that few steps allocate. */
+void Detector::reserveLists(std::size_t nodes)
+{
+  if (nodes <= lists_.size())
+    return;
+  const std::size_t before = lists_.size();
+  lists_.resize((nodes + kListsAtOnce - 1) / kListsAtOnce * kListsAtOnce);
+  for (std::size_t k = before; k < lists_.size(); ++k)
+    lists_[k].reserve();
+}
+
+/** Sets the common members of a contact set and updates the neighbour lists. */
+void Detector::begin(const Query& query, ContactSet& set)
+{
+  set.step = query.step;
+  set.substep = query.substep;
+  set.pass = query.pass;
+  set.vessel_version = vessel_version_;
+  set.first_edge = query.first_node;
+  set.features.clear();
+  reserveLists(query.nodes.size());
+  for (std::size_t i = 0; i < query.nodes.size(); ++i)
+  {
+    const Eigen::Vector3d& a = query.nodes[i];
+    const Eigen::Vector3d& b = query.nodes[nextNode(query, i)];
+    const double cutoff = listCutoff(query, i);
+    NeighbourList& list = listOf(query, i);
+    list.follow(a, b, cutoff);
+    list.update(model_->bvh(), model_->bounds(), a, b, cutoff, scratch_);
+  }
+}
+
+void Detector::detect(const Query& query, ContactSet& set)
+{
+  begin(query, set);
+  const std::size_t n = query.nodes.size();
+  set.free_distance.resize(n > 0 ? n - 1 : 0);
+  for (std::size_t i = 0; i < set.free_distance.size(); ++i)
+    set.free_distance[i] = std::min(query.margin[i], query.margin[i + 1]);
+  for (std::size_t i = 0; i < n; ++i)
+    detectNode(query, i, set.features);
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    detectEdge(query, i, set.features);
+  addLaw(query, set.features);
+}
+
+/** Features of a node: all local minima in front of the wall with distinct normals, and the nearest one behind the wall
+ *  if the node is outside the lumen. */
+void Detector::detectNode(const Query& query, std::size_t node, std::vector<Feature>& features)
+{
+  const NeighbourList& list = listOf(query, node);
+  if (!list.hasTriangles())
+    return;
+  const NarrowPhase narrow_phase = model_->narrowPhase();
+  const Eigen::Vector3d& point = query.nodes[node];
+  const double cutoff = cutoffAt(query, node);
   const std::size_t first = features.size();
-  const bool last = index + 1 == query.nodes.size();
+  const bool last = node + 1 == query.nodes.size();
   Feature outside_feature;
   double outside_distance = std::numeric_limits<double>::infinity();
-  Feature feature;
-  const auto look = [&](int triangle)
+  NarrowPhase::Minimum minimum;
+  const auto test = [&](int triangle)
   {
-    double distance = 0.0;
-    bool outside = false;
-    if (!faceFeature(point, triangle, limit, feature, distance, outside))
+    if (!narrow_phase.faceFeature(point, triangle, cutoff, minimum))
       return;
-    feature.edge = query.first_node + static_cast<int>(index) - (last ? 1 : 0);
+    Feature& feature = minimum.feature;
+    feature.edge = query.first_node + static_cast<int>(node) - (last ? 1 : 0);
     feature.parameter = last ? 1.0 : 0.0;
-    feature.gap -= radius;
-    if (!outside)
+    feature.gap -= query.radius[node];
+    if (!minimum.outside)
       appendDistinct(features, first, feature);
-    else if (distance < outside_distance)
+    else if (minimum.distance < outside_distance)
     {
-      outside_distance = distance;
+      outside_distance = minimum.distance;
       outside_feature = feature;
     }
   };
-  forEachInSight(near.prisms, TrianglePacket::Place(point, near.begin, limit, near.moved), look);
-  if (std::isfinite(outside_distance) && outside_distance <= nearestListed(near, point, limit) + 1e-12 &&
-      signedDistance(point, outside_feature.triangle) < 0.0)
+  list.forEachTriangle(point, cutoff, test);
+  if (std::isfinite(outside_distance) && outside_distance <= distanceToListed(list, point, cutoff) + kSameDistance &&
+      model_->signedDistance(point, outside_feature.triangle) < 0.0)
     features.push_back(outside_feature);
 }
 
-/** @param limit distance up to which features are wanted [m]
- *  @param distance to the triangle, where its closest point is one
- *  @return whether the closest point is a local minimum of the distance to the wall; then @p feature holds it, its gap
- *  measured from the point itself */
-bool Detector::faceFeature(const Eigen::Vector3d& point, int triangle, double limit, Feature& feature, double& distance,
-                           bool& outside) const
+/** Features between the nodes of an edge. */
+void Detector::detectEdge(const Query& query, std::size_t node, std::vector<Feature>& features)
 {
-  const TriangleSlab& prism = prisms_[triangle];
-  const Eigen::Array4d above = prism.heights(point);
-  const double height = above[0];
-  if (height * height > limit * limit)
-    return false;
-  const Eigen::Vector3d normal = prism.normal();
-  feature.triangle = triangle;
-  feature.stiffness = law_.stiffness;
-  if (TriangleSlab::outsideOf(above) < -kOffTriangle)
-  {
-    distance = std::abs(height);
-    outside = height < 0.0;
-    feature.point = point - height * normal;
-    feature.normal = normal;
-    feature.gap = height;
-    feature.id = featureId(triangle, kFace);
-    return true;
-  }
-  const Eigen::Vector3i& corners = wall_.triangles[triangle];
-  geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
-      point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
-  if (closest.edge >= 0)
-    closest.point = placeOnEdge(point, wall_.triangle_edges[triangle][closest.edge]);
-  const Eigen::Vector3d offset = point - closest.point;
-  const double squared = offset.squaredNorm();
-  if (squared > limit * limit)
-    return false;
-  distance = std::sqrt(squared);
-  feature.point = closest.point;
-  // A foot point on the border of a flat neighbourhood is a face's too: neither neighbour would claim it otherwise.
-  const bool foot_inside = closest.edge < 0 && closest.vertex < 0;
-  if (foot_inside || (height >= 0.0 && (offset - height * normal).squaredNorm() < kConeTolerance * kConeTolerance))
-  {
-    outside = height < 0.0;
-    feature.normal = normal;
-    feature.gap = height;
-    feature.id = featureId(triangle, kFace);
-    return true;
-  }
-  Eigen::Vector3d pseudo_normal;
-  if (closest.edge >= 0)
-  {
-    const int e = wall_.triangle_edges[triangle][closest.edge];
-    const WallEdge& edge = wall_.edges[e];
-    pseudo_normal = edge.normal;
-    outside = offset.dot(pseudo_normal) < 0.0;
-    if ((!outside && edge.reflex_angle <= 0.0) || offset.dot(edge.into_triangle[0]) > kConeTolerance ||
-        offset.dot(edge.into_triangle[1]) > kConeTolerance)
-      return false;
-    feature.triangle = edge.triangles[0];
-    feature.id = featureId(e, kEdge);
-  }
-  else
-  {
-    const int vertex = corners[closest.vertex];
-    pseudo_normal = wall_.vertex_normals[vertex];
-    outside = offset.dot(pseudo_normal) < 0.0;
-    if ((!outside && !wall_.vertex_reflex[vertex]) || !vertexIsMinimum(vertex, offset))
-      return false;
-    feature.triangle = wall_.ownerOf(vertex);
-    feature.id = featureId(vertex, kVertex);
-  }
-  const double sign = outside ? -1.0 : 1.0;
-  feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : pseudo_normal;
-  feature.gap = sign * distance;
-  return true;
-}
-
-/** Closest point of a mesh edge: the same from both of its triangles. */
-Eigen::Vector3d Detector::placeOnEdge(const Eigen::Vector3d& point, int wall_edge) const
-{
-  const WallEdge& edge = wall_.edges[wall_edge];
-  const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
-  const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - begin;
-  return begin + geometry::clampedShare((point - begin).dot(along) / along.squaredNorm()) * along;
-}
-
-bool Detector::vertexIsMinimum(int vertex, const Eigen::Vector3d& offset) const
-{
-  for (int e : wall_.vertex_edges[vertex])
-  {
-    const WallEdge& edge = wall_.edges[e];
-    const Eigen::Vector3d along = wall_.vertices[edge.otherEnd(vertex)] - wall_.vertices[vertex];
-    const double beyond = offset.dot(along);
-    if (beyond > 0.0 && beyond > kConeTolerance * along.norm())
-      return false;
-  }
-  return true;
-}
-
-Detector::AxisSegment::AxisSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
-  : begin(from), end(to), along(to - from)
-{
-  const double squared = along.squaredNorm();
-  if (squared <= 0.0)
+  const NeighbourList& list = listOf(query, node);
+  if (!list.hasEdges())
     return;
-  inverse_square = 1.0 / squared;
-}
-
-/** Cheap rejection: whether any point of a reflex mesh edge lies within a limit of a segment. A segment whose ends are
- *  both higher than the limit above the mesh edge is higher all along. */
-bool Detector::mayContact(const AxisSegment& segment, int wall_edge, double limit) const
-{
-  const EdgeBounds& ball = edge_balls_[wall_edge];
-  if (!ball.reflex)
-    return false;
-  const Eigen::Vector3d from_begin = segment.begin - ball.middle;
-  const Eigen::Vector3d from_end = segment.end - ball.middle;
-  if (from_begin.dot(ball.normal) > limit && from_end.dot(ball.normal) > limit)
-    return false;
-  const double t = geometry::clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
-  const double far = limit + ball.half_length;
-  return (from_begin + t * segment.along).squaredNorm() <= far * far;
-}
-
-void Detector::detectEdge(const Query& query, std::size_t index, std::vector<Feature>& features) const
-{
-  const NeighbourList& near = neighbourhood(query, index);
-  if (near.ridges.empty())
-    return;
-  const Eigen::Vector3d& a = query.nodes[index];
-  const Eigen::Vector3d& b = query.nodes[index + 1];
-  const std::size_t begin = features.size();
-  const double limit_begin = limitAt(query, index);
-  const double limit_end = limitAt(query, index + 1);
-  Feature feature;
-  const double taper = query.radius[index + 1] - query.radius[index];
-  std::optional<geometry::TaperedSegment> cone;
-  if (taper != 0.0)
-    cone.emplace(a, b, taper);
-  const double limit = std::max(limit_begin, limit_end);
-  const auto look = [&](int wall_edge)
+  const NarrowPhase narrow_phase = model_->narrowPhase();
+  const double cutoff_begin = cutoffAt(query, node);
+  const double cutoff_end = cutoffAt(query, node + 1);
+  const double cutoff = std::max(cutoff_begin, cutoff_end);
+  const NarrowPhase::WireEdge wire_edge(query.nodes[node], query.nodes[node + 1],
+                                        query.radius[node + 1] - query.radius[node]);
+  const auto begin = static_cast<std::ptrdiff_t>(features.size());
+  NarrowPhase::Minimum minimum;
+  const auto test = [&](int wall_edge)
   {
-    double distance = 0.0;
-    if (!crossing(a, b, cone, wall_edge, limit, feature, distance))
+    if (!narrow_phase.edgeEdgeFeature(wire_edge, wall_edge, cutoff, minimum))
       return;
+    Feature& feature = minimum.feature;
     const double t = feature.parameter;
-    if (feature.gap > (1.0 - t) * limit_begin + t * limit_end)
+    if (minimum.outside && model_->signedDistance(wire_edge.pointAt(t), feature.triangle) > 0.0)
       return;
-    feature.gap -= (1.0 - t) * query.radius[index] + t * query.radius[index + 1];
-    feature.edge = query.first_node + static_cast<int>(index);
+    if (feature.gap > (1.0 - t) * cutoff_begin + t * cutoff_end)
+      return;
+    feature.gap -= (1.0 - t) * query.radius[node] + t * query.radius[node + 1];
+    feature.edge = query.first_node + static_cast<int>(node);
     const auto same = [&feature](const Feature& other) { return other.id == feature.id; };
-    // Mesh edges share their corners; an edge itself comes once.
-    if (feature.id % 3 == kEdge ||
-        std::none_of(features.begin() + static_cast<std::ptrdiff_t>(begin), features.end(), same))
+    // Several mesh edges share a vertex; an edge itself is listed once.
+    if (kindOf(feature) == FeatureKind::kEdge || std::none_of(features.begin() + begin, features.end(), same))
       features.push_back(feature);
   };
-  forEachInSight(near.ridges, EdgePacket::Place(a, b, taper, near.begin, limit, near.moved), look);
+  list.forEachEdge(wire_edge.begin, wire_edge.end, wire_edge.taper, cutoff, test);
 }
 
-/** Closest point of the surface of a wire's edge ab, off its ends, to a reflex edge of the wall, where it is a local
- *  minimum. @param cone the wire's edge where it tapers */
-bool Detector::crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const std::optional<geometry::TaperedSegment>& cone, int wall_edge, double limit,
-                        Feature& feature, double& distance) const
+void Detector::addLaw(const Query& query, std::vector<Feature>& features) const
 {
-  const WallEdge& edge = wall_.edges[wall_edge];
-  const Eigen::Vector3d& end0 = wall_.vertices[edge.vertices[0]];
-  const Eigen::Vector3d& end1 = wall_.vertices[edge.vertices[1]];
-  const geometry::SegmentPair pair =
-      cone ? geometry::closestPointsOfCone(*cone, end0, end1) : geometry::closestPointsOfSegments(a, b, end0, end1);
-  if (pair.first <= kEnd || pair.first >= 1.0 - kEnd)
-    return false;
-  feature.point = end0 + pair.second * (end1 - end0);
-  const Eigen::Vector3d axis = a + pair.first * (b - a);
-  const Eigen::Vector3d offset = axis - feature.point;
-  distance = offset.norm();
-  if (distance > limit)
-    return false;
-  const bool at_vertex = pair.second <= 0.0 || pair.second >= 1.0;
-  const int vertex = edge.vertices[pair.second <= 0.0 ? 0 : 1];
-  const Eigen::Vector3d& inward = at_vertex ? wall_.vertex_normals[vertex] : edge.normal;
-  // The tissue behind a reflex edge is the wedge behind both triangles' planes.
-  const bool inside = at_vertex ? offset.dot(inward) >= 0.0
-                                : offset.dot(wall_.normals[edge.triangles[0]]) >= 0.0 ||
-                                      offset.dot(wall_.normals[edge.triangles[1]]) >= 0.0;
-  const double wide = distance < kWidestWire ? kConeSlackOfAngle * edge.reflex_angle : 0.0;
-  const double slack = std::max(kConeSlack, wide) * distance;
-  if (at_vertex ? !vertexIsMinimum(vertex, offset)
-                : inside && (offset.dot(edge.into_triangle[0]) > slack || offset.dot(edge.into_triangle[1]) > slack))
-    return false;
-  if (!inside && (distance > kOutsideCrossing || signedDistance(axis, edge.triangles[0]) > 0.0))
-    return false;
-  const double sign = inside ? 1.0 : -1.0;
-  feature.normal = distance > kOnRidge ? Eigen::Vector3d((sign / distance) * offset) : inward;
-  feature.gap = sign * distance;
-  feature.parameter = pair.first;
-  feature.triangle = edge.triangles[0];
-  feature.stiffness = law_.stiffness;
-  feature.id = at_vertex ? featureId(vertex, kVertex) : featureId(wall_edge, kEdge);
-  return true;
+  const NarrowPhase narrow_phase = model_->narrowPhase();
+  for (Feature& feature : features)
+  {
+    const auto edge = static_cast<std::size_t>(feature.edge - query.first_node);
+    feature.stiffness = law_.stiffness;
+    feature.friction = law_.frictionAt(feature.point);
+    feature.clearance_radius = narrow_phase.clearanceRadius(feature, query.nodes[edge + 1] - query.nodes[edge],
+                                                            query.radius[edge + (feature.parameter < 1.0 ? 0 : 1)]);
+  }
 }
 
-/** Distance from a node to the wall, or @p farthest where that is less; within radius + margin that to what it may
- * touch, which is listed already [m]. */
-double Detector::wallDistance(const Query& query, std::size_t index, double farthest)
+/** Distance to the listed triangles that may be a contact within the cutoff; larger or infinite without one [m]. */
+double Detector::distanceToListed(const NeighbourList& list, const Eigen::Vector3d& point, double cutoff) const
 {
-  const Eigen::Vector3d& point = query.nodes[index];
-  const double limit = query.radius[index] + query.marginAt(index);
-  const double nearest = nearestListed(neighbourhood(query, index), point, limit);
-  if (nearest <= limit)
-    return nearest;
-  int& near = nearest_[static_cast<std::size_t>(query.first_node) + index];
-  const Bvh::Nearest found = bvh_.nearest(point, farthest, near);
-  near = found.triangle >= 0 ? found.triangle : near;
+  double nearest = std::numeric_limits<double>::infinity();
+  list.forEachTriangle(point, cutoff, [&](int t) { nearest = std::min(nearest, model_->bvh().distanceTo(t, point)); });
+  return nearest;
+}
+
+/** Distance from a node to the wall, at most @p farthest; within the cutoff the distance to its possible contacts,
+ *  which are listed already [m]. */
+double Detector::wallDistance(const Query& query, std::size_t node, double farthest)
+{
+  const Eigen::Vector3d& point = query.nodes[node];
+  const double cutoff = cutoffAt(query, node);
+  const double listed = distanceToListed(listOf(query, node), point, cutoff);
+  if (listed <= cutoff)
+    return listed;
+  int& hint = nearest_[static_cast<std::size_t>(query.first_node) + node];
+  const Bvh::Nearest found = model_->bvh().nearest(point, farthest, hint);
+  hint = found.triangle >= 0 ? found.triangle : hint;
   return found.distance;
 }
 
-void Detector::freeDistances(const Query& query, ContactSet& set)
+void Detector::freeDistances(const Query& query, double wanted, ContactSet& set)
 {
-  renewLists(query);
+  begin(query, set);
   const std::size_t whole = static_cast<std::size_t>(query.first_node) + query.nodes.size();
   if (nearest_.size() < whole)
     nearest_.resize(whole, -1);
   // The distance to the wall is 1-Lipschitz, so both ends bound it along the edge: (d0 + d1 − |e|)/2.
   set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
-  // How far it is looked from a node: an edge whose ends are both at least so far off has what is wanted. Where one end
-  // is closer the other one may count as closer than it is: looking farther costs more than a motion cut short.
-  double room = 0.0;
+  // Search radius: an edge whose ends are both at least this far from the wall has the wanted free distance. Where one
+  // end is closer, the other's distance may be underestimated: a larger search costs more than a shorter motion.
+  double reach = 0.0;
   for (std::size_t i = 1; i < query.nodes.size(); ++i)
-    room = std::max(
-        room, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
-  const double farthest = query.wanted_free_distance + room;
+    reach = std::max(
+        reach, 0.5 * (query.nodes[i] - query.nodes[i - 1]).norm() + std::max(query.radius[i - 1], query.radius[i]));
+  const double farthest = wanted + reach;
   double previous = 0.0;
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
@@ -534,7 +247,7 @@ void Detector::freeDistances(const Query& query, ContactSet& set)
     {
       const double length = (query.nodes[i] - query.nodes[i - 1]).norm();
       const double radius = std::max(query.radius[i - 1], query.radius[i]);
-      const double margin = std::min(query.marginAt(i - 1), query.marginAt(i));
+      const double margin = std::min(query.margin[i - 1], query.margin[i]);
       set.free_distance[i - 1] = std::max(margin, 0.5 * (previous + distance - length) - radius);
     }
     previous = distance;

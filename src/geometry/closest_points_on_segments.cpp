@@ -10,11 +10,10 @@ namespace
 
 constexpr double kParallel = 1e-12;  // squared sine
 
-/** How far beyond the foot of a perpendicular on its axis a cone's surface is closest to the perpendicular's other end.
- *  @param height of the perpendicular [m]
- *  @param squared_sine of the angle between the axis and the line of which the other end is the closest point; 1 for a
- *  point
- *  @param slope of the radius along the axis, flatter than that angle */
+/** Distance along a cone's axis from the foot of a perpendicular to the point closest to the perpendicular's other end.
+ *  @param height length of the perpendicular [m]
+ *  @param squared_sine squared sine of the angle between the axis and the line through the other end; 1 for a point
+ *  @param slope change of the cone's radius per length, less than that sine */
 double shift(double height, double squared_sine, double slope)
 {
   return slope * height / std::sqrt(squared_sine * (squared_sine - slope * slope));
@@ -67,7 +66,7 @@ SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3
   const double cosine = u.dot(v);
   const double squared_sine = 1.0 - cosine * cosine;
   const auto nearestOnSecond = [&](double along) { return clampedShare((from + along * u).dot(v) / length2); };
-  const auto placeFor = [&](const Eigen::Vector3d& point)  // on the axis, for a point
+  const auto closestToPoint = [&](const Eigen::Vector3d& point)  // coordinate on the axis
   {
     const double foot = (point - p1).dot(u);
     const double height = (p1 + foot * u - point).norm();
@@ -81,18 +80,18 @@ SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3
     along = foot + shift((from + foot * u - foot2 * v).norm(), squared_sine, slope);
     const double share = (foot2 + (along - foot) * cosine) / length2;
     if (share < 0.0 || share > 1.0)
-      along = placeFor(share < 0.0 ? p2 : q2);
+      along = closestToPoint(share < 0.0 ? p2 : q2);
   }
   else
   {
-    // Steeper than the lines cross: at an end of one of them.
+    // The cone is steeper than the angle between the lines: the minimum is at an end of one of them.
     double least = std::numeric_limits<double>::infinity();
-    for (const double end : {placeFor(p2), placeFor(q2), slope > 0.0 ? length : 0.0})
+    for (const double end : {closestToPoint(p2), closestToPoint(q2), slope > 0.0 ? length : 0.0})
     {
-      const double place = std::max(0.0, std::min(length, end));
-      const double reached = (from + place * u - nearestOnSecond(place) * (q2 - p2)).norm() - slope * place;
+      const double at = std::max(0.0, std::min(length, end));
+      const double reached = (from + at * u - nearestOnSecond(at) * (q2 - p2)).norm() - slope * at;
       if (reached < least)
-        along = place;
+        along = at;
       least = std::min(least, reached);
     }
   }

@@ -7,21 +7,24 @@
 namespace endovascular_sim::geometry
 {
 
+/** Number clamped to [0,1]. */
 inline double clampedShare(double value)
 {
   return std::max(0.0, std::min(1.0, value));
 }
 
-/** Parameters of the closest points of two segments p1q1 and p2q2, each in [0,1] (Ericson 2005, §5.1.9). */
+/** Parameters of the closest points of two segments, each in [0,1]. */
 struct SegmentPair
 {
   double first = 0.0;
   double second = 0.0;
 };
+
+/** Closest points of the segments p1q1 and p2q2 (Ericson 2005, §5.1.9). */
 SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vector3d& q1, const Eigen::Vector3d& p2,
                                     const Eigen::Vector3d& q2);
 
-/** A segment with a cone round it. */
+/** A segment that is the axis of a cone. */
 struct TaperedSegment
 {
   /** @param taper the radius at q minus that at p [m] */
@@ -30,12 +33,13 @@ struct TaperedSegment
   Eigen::Vector3d begin;
   double length;              ///< [m]
   Eigen::Vector3d direction;  ///< unit
-  double slope;               ///< of the radius along it
+  double slope;               ///< change of the radius per length
 };
 
-/** The same where a cone round the first segment comes closest to the second one: least distance of the axis minus the
- *  cone's radius there. A convex function, minimised in closed form: where the ends allow it, the axis is seen from the
- *  second segment at the angle whose sine is the cone's slope. */
+/** Closest points of a cone and the segment p2q2: minimum of the distance from the cone's axis minus the cone's radius.
+ *
+ *  The function is convex and minimised in closed form. At a minimum between the ends, the line between both points is
+ *  tilted against the plane normal to the axis, by an angle whose sine is the slope. */
 SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3d& p2, const Eigen::Vector3d& q2);
 
 }  // namespace endovascular_sim::geometry

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/detector.h"
+#include "contact/wall/wall_law.h"
 #include "scene/model/scene.h"
 #include "vessel/model/vessel.h"
 

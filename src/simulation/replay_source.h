@@ -24,6 +24,14 @@ public:
       detector_.detect(query, set);
   }
 
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override
+  {
+    if (query.pass >= first_stale_pass_)
+      set.stale = true;
+    else
+      detector_.freeDistances(query, wanted, set);
+  }
+
 private:
   contact::ContactSource& detector_;
   std::uint32_t first_stale_pass_ = contact::kNoStalePass;

@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "rod/boundary/boundary_conditions.h"
+#include "rod/contact/contact_margins.h"
 #include "scene/schema/scene_schema.h"
 #include "simulation/stepper_factory.h"
 
@@ -41,7 +42,7 @@ double staleCover(const scene::Scene& scene)
   double widest = 0.0;
   for (const scene::DrivenInstrument& driven : scene.instruments)
     widest = std::max(widest, instrument::crossingRadius(driven.instrument));
-  const double margin = scene.solver.stepper.contact_margin * contact::marginShare(widest);
+  const double margin = scene.solver.stepper.contact_margin * rod::marginShare(widest);
   const double left = std::max(0.5 * margin, margin - scene.solver.max_travel_per_substep);
   return left / static_cast<double>(scene.instruments.size());
 }
@@ -332,11 +333,11 @@ void Simulation::setState(rod::State state)
 contact::Query Simulation::initialQuery() const
 {
   contact::Query query;
-  query.margin = scene_.solver.stepper.contact_margin;
   query.first_node = state_.first_node;
   query.nodes.assign(state_.position.begin() + state_.first_node, state_.position.end());
   const std::vector<double>& radius = discretisation().radius;
   query.radius.assign(radius.begin() + state_.first_node, radius.end());
+  rod::uniformMargin(scene_.solver.contact_margin).apply(query);
   return query;
 }
 

@@ -55,12 +55,14 @@ void addOptions(tools::CommandLine& line, Options& options)
 }
 
 /** Runs the procedure once and writes its metrics.
+ *  @param model wall of the vessel, shared by all runs
  *  @param seconds simulated time at its end [s]
  *  @return reason of the failure, empty after success */
-std::string run(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder, double& seconds)
+std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
+                const std::shared_ptr<const contact::WallModel>& model, const std::string& folder, double& seconds)
 {
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
-  contact::Detector wall(vessel.mesh, scene::wallLaw(*scene.vessel));
+  contact::Detector wall(model, scene::wallLaw(*scene.vessel));
   results::SessionRun session(scene, vessel, entry.position);
   const std::unique_ptr<simulation::LocalDeformableWall> moving_wall =
       simulation::makeLocalDeformableWall(scene, vessel, wall);
@@ -91,6 +93,7 @@ int study(const Options& options)
     scene = procedure::endingWith(std::move(scene), options.through);
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
   std::filesystem::create_directories(options.out);
   std::ofstream table = tools::openFile(options.out + "/study.csv");
   table << "seed,success,time,why\n";
@@ -99,7 +102,7 @@ int study(const Options& options)
   {
     const auto seed = static_cast<std::uint64_t>(options.first + k);
     double seconds = 0.0;
-    const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel,
+    const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel, model,
                                 options.out + "/" + std::to_string(seed), seconds);
     succeeded += why.empty();
     table << seed << "," << why.empty() << "," << seconds << ",\"" << why << "\"\n" << std::flush;

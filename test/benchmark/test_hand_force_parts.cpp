@@ -39,6 +39,11 @@ public:
       feature.friction = friction_;
   }
 
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override
+  {
+    wall_.freeDistances(query, wanted, set);
+  }
+
 private:
   contact::ContactSource& wall_;
   double friction_;

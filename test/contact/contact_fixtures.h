@@ -17,7 +17,7 @@
 namespace endovascular_sim::contact
 {
 
-/** A bent channel of 4 mm radius, coarsely facetted so that its facets matter. */
+/** A bent channel of 4 mm radius with coarse facets. */
 inline geometry::TriangleMesh bentTube()
 {
   vessel::TubeShape shape;
@@ -28,7 +28,8 @@ inline geometry::TriangleMesh bentTube()
   return vessel::tubeMesh(shape);
 }
 
-/** A wall whose facets' corners are moved in and out by a share of their size. */
+/** A mesh with random displacements of its vertices along their normals.
+ *  @param bump largest displacement as a share of an edge's length */
 inline geometry::TriangleMesh bumpy(geometry::TriangleMesh mesh, double bump)
 {
   const Wall smooth(mesh);
@@ -48,7 +49,7 @@ inline geometry::TriangleMesh bumpyTube(double bump)
   return bumpy(geometry::flatSubdivision(bentTube(), 2), bump);
 }
 
-/** Path of a mesh of ENDOVASCULAR_DATA_DIR, empty when it is not there. */
+/** Path of a mesh in ENDOVASCULAR_DATA_DIR; empty if the variable is not set. */
 inline std::string dataFile(const std::string& name)
 {
   const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
@@ -84,7 +85,7 @@ inline Query randomWire(const Eigen::Vector3d& start, std::mt19937& random, int 
 {
   std::normal_distribution<double> normal(0.0, 1.0);
   Query query;
-  query.margin = 0.5e-3;
+  query.margin.assign(static_cast<std::size_t>(nodes), 0.5e-3);
   query.first_node = 3;
   Eigen::Vector3d direction(normal(random), normal(random), normal(random));
   direction.normalize();
@@ -127,13 +128,14 @@ inline void expectSameSets(const ContactSet& a, const ContactSet& b)
   }
 }
 
-/** Vertices of a ball round a place, and where they go: outwards by up to a share of the ball. */
+/** New positions of some vertices. */
 struct Movement
 {
   std::vector<int> indices;
   std::vector<Eigen::Vector3d> positions;
 };
 
+/** Radial expansion of a ball. @param share displacement near the centre as a share of the distance from it */
 inline Movement pushOut(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius, double share)
 {
   Movement movement;

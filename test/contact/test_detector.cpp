@@ -21,7 +21,7 @@ bool same(const Feature& a, const Feature& b)
          a.gap == b.gap && a.triangle == b.triangle && a.id == b.id;
 }
 
-/** Expects of a detector that has seen other queries what a new one answers. @return number of features */
+/** Expects the features of a new detector from one that has answered other queries. @return number of features */
 std::size_t expectSameAsFresh(Detector& warm, const geometry::TriangleMesh& mesh, const Query& query)
 {
   ContactSet from_warm;
@@ -50,7 +50,7 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
   Detector detector(mesh, WallLaw{});
   std::mt19937 random(21);
   std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.triangles.size() - 1);
-  constexpr double kWide = 1.1e-3;  // m, a body that gets half of the margin
+  constexpr double kWide = 1.1e-3;  // m, radius of a balloon
   int contacts = 0;
   int wide_contacts = 0;
   for (int trial = 0; trial < 2 * wires; ++trial)
@@ -59,7 +59,10 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
     const Eigen::Vector3d start = mesh.vertices[mesh.triangles[t][0]] + 1e-3 * detector.wall().normals[t];
     Query query = randomWire(start, random, 25);
     if (trial % 2 == 1)
+    {
       query.radius.assign(query.nodes.size(), kWide);
+      query.margin.assign(query.nodes.size(), 0.22e-3);
+    }
     ContactSet set;
     detector.detect(query, set);
     for (std::size_t i = 0; i < query.nodes.size(); ++i)
@@ -69,12 +72,12 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
       const double sign = geometry::windingNumber(mesh, query.nodes[i]) > 0.5 ? 1.0 : -1.0;
       EXPECT_NEAR(detector.signedDistance(query.nodes[i]), sign * distance, 1e-12);
       const double gap = sign * distance - query.radius[i];
-      if (sign > 0.0 && gap < query.marginAt(i) - 1e-9)
+      if (sign > 0.0 && gap < query.margin[i] - 1e-9)
       {
         EXPECT_NEAR(smallestGap(set, query.first_node + static_cast<int>(i)), gap, 1e-12);
         (query.radius[i] == kWide ? wide_contacts : contacts) += 1;
       }
-      else if (sign > 0.0 && gap > query.marginAt(i) + 1e-9)
+      else if (sign > 0.0 && gap > query.margin[i] + 1e-9)
       {
         EXPECT_EQ(smallestGap(set, query.first_node + static_cast<int>(i)), std::numeric_limits<double>::infinity());
       }
@@ -88,12 +91,12 @@ void checkAgainstBruteForce(const geometry::TriangleMesh& mesh, int wires)
   EXPECT_GT(wide_contacts, wires / 2);
 }
 
-TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInATube)
+TEST(Detector, FindsTheNearestGapOfEachNodeInATube)
 {
   checkAgainstBruteForce(bentTube(), 40);
 }
 
-TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
+TEST(Detector, FindsTheNearestGapOfNodesAboveTheVerticesOfABumpyTube)
 {
   std::mt19937 random(23);
   std::normal_distribution<double> normal;
@@ -109,7 +112,7 @@ TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
       const Eigen::Vector3d off(normal(random), normal(random), normal(random));
       const Eigen::Vector3d up = (detector.wall().vertex_normals[v] + bump * off).normalized();
       Query query;
-      query.margin = 0.5e-3;
+      query.margin = {0.5e-3, 0.5e-3};
       query.first_node = 3;
       query.radius.assign(2, 0.4e-3);
       query.nodes = {mesh.vertices[v] + 0.6e-3 * up, mesh.vertices[v] + 2e-3 * up};
@@ -126,7 +129,7 @@ TEST(Detector, FindsTheGapOfNodesAboveTheCornersOfABumpyTubeThatBruteForceFinds)
   }
 }
 
-TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInARealAorta)
+TEST(Detector, FindsTheNearestGapOfEachNodeInARealAorta)
 {
   const std::string file = dataFile("aortic_arch_tree.obj");
   if (file.empty())
@@ -134,7 +137,7 @@ TEST(Detector, FindsTheGapOfEveryNodeThatBruteForceFindsInARealAorta)
   checkAgainstBruteForce(realMesh(file), 40);
 }
 
-TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
+TEST(Detector, GivesTheSameBitsWithReusedAndWithNewLists)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
@@ -148,7 +151,7 @@ TEST(Detector, GivesTheSameBitsWithWarmAndWithEmptyCandidates)
   }
 }
 
-TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
+TEST(Detector, GivesTheSameBitsToAWireThatSlidesForwardsAndBack)
 {
   const geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 2);
   Detector warm(mesh, WallLaw{});
@@ -172,12 +175,11 @@ TEST(Detector, GivesTheSameBitsToAWireThatSlidesAlongItselfAndBack)
   EXPECT_GT(found, 100U);
 }
 
-TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhateverItWasAskedBefore)
+TEST(Detector, UsesTheMarginOfEachNodeWhateverEarlierQueriesWere)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
   Query query;
-  query.margin = 0.3e-3;
   for (int i = 0; i < 30; ++i)
   {
     query.nodes.emplace_back(2.6e-3, 0.0, 0.6e-3 * i);
@@ -188,34 +190,35 @@ TEST(Detector, ListsAtFastNodesWhatALargerMarginListsThereAndTheSameBitsWhatever
   {
     for (Eigen::Vector3d& node : query.nodes)
       node += 1e-4 * (step % 20 < 10 ? 1.0 : -1.0) * Eigen::Vector3d(0.5, 0.7, 0.1);
-    query.fast_margin = 3.0 * query.margin;
-    query.fast_begin = step % 7 < 4 ? 8 : 0;
-    query.fast_end = step % 7 < 4 ? 20 : 0;
+    const bool widened = step % 7 < 4;
+    query.margin.assign(30, 0.3e-3);
+    if (widened)
+      std::fill(query.margin.begin() + 8, query.margin.begin() + 20, 0.9e-3);
     expectSameAsFresh(warm, mesh, query);
     Query wide = query;
-    wide.margin = query.fast_margin;
-    const auto ofFastNodes = [&](const Query& asked)
+    wide.margin.assign(30, 0.9e-3);
+    const auto ofWidenedNodes = [&](const Query& queried)
     {
       ContactSet set;
-      Detector(mesh, WallLaw{}).detect(asked, set);
+      Detector(mesh, WallLaw{}).detect(queried, set);
       std::vector<std::int64_t> ids;
       for (const Feature& feature : set.features)
         if (feature.edge >= 8 && feature.edge < 19)
           ids.push_back(feature.id);
       return ids;
     };
-    const std::vector<std::int64_t> listed = ofFastNodes(query);
-    if (query.fast_end > 0)
+    const std::vector<std::int64_t> listed = ofWidenedNodes(query);
+    if (widened)
     {
-      EXPECT_EQ(listed, ofFastNodes(wide)) << step;
+      EXPECT_EQ(listed, ofWidenedNodes(wide)) << step;
     }
     else
-      more += ofFastNodes(wide).size() - listed.size();
+      more += ofWidenedNodes(wide).size() - listed.size();
   }
   EXPECT_GT(more, 100U);
 }
 
-TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
+TEST(Detector, FindsTheSameGapsInASubdividedMesh)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector coarse(mesh, WallLaw{});
@@ -240,9 +243,9 @@ TEST(Detector, SeesNoDifferenceWhenTheSameWallIsCutIntoSmallerTriangles)
   }
 }
 
-TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
+TEST(Detector, FindsAContactExactlyAboveAnEdgeOrAVertexBetweenCoplanarTriangles)
 {
-  // The flat end cap of a straight tube, subdivided: node right above one of its inner vertices and edges.
+  // The flat end cap of a straight tube, subdivided; the node is above one of its inner vertices.
   vessel::TubeShape shape;
   shape.radius = 4e-3;
   shape.facet_length = 5e-3;
@@ -252,7 +255,7 @@ TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
   Detector detector(mesh, WallLaw{});
   const Eigen::Vector3d above(0.0, 0.0, 0.03 - 0.6e-3);  // the cap's centre is a vertex
   Query query;
-  query.margin = 0.5e-3;
+  query.margin = {0.5e-3, 0.5e-3};
   query.nodes = {above - Eigen::Vector3d(0.0, 0.0, 2e-3), above};
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
@@ -260,32 +263,32 @@ TEST(Detector, ListsANodeExactlyAboveAnEdgeOrACornerBetweenCoplanarTriangles)
   EXPECT_NEAR(smallestGap(set, 1), 0.2e-3, 1e-9);
 }
 
-/** A coarse bend, whose inner side bulges into the lumen, and a wire's edge above the middle of a ridge there. */
-class WireAcrossARidge : public testing::Test
+/** A coarse bend, whose inner side has reflex edges, and a wire's edge above the middle of one of them. */
+class EdgeEdgeContact : public testing::Test
 {
 protected:
-  WireAcrossARidge()
+  EdgeEdgeContact()
   {
     for (std::size_t e = 0; e < detector_.wall().edges.size(); ++e)
       if (detector_.wall().edges[e].reflex_angle > 0.1)
-        ridge_ = static_cast<int>(e);
+        reflex_edge_ = static_cast<int>(e);
   }
 
-  const WallEdge& ridge() const { return detector_.wall().edges[ridge_]; }
+  const WallEdge& reflexEdge() const { return detector_.wall().edges[reflex_edge_]; }
 
-  /** @param tilt of the wire's edge about the ridge [rad]; half the ridge's angle: along a facet
-   *  @return the crossing's gap; infinite where none is listed [m] */
-  double gapOfCrossing(double tilt)
+  /** @param tilt rotation of the wire's edge about the reflex edge; half the reflex angle lies along a facet [rad]
+   *  @return gap of the edge-edge contact; infinite without one [m] */
+  double contactGap(double tilt)
   {
-    const Eigen::Vector3d& begin = detector_.wall().vertices[ridge().vertices[0]];
-    const Eigen::Vector3d& end = detector_.wall().vertices[ridge().vertices[1]];
+    const Eigen::Vector3d& begin = detector_.wall().vertices[reflexEdge().vertices[0]];
+    const Eigen::Vector3d& end = detector_.wall().vertices[reflexEdge().vertices[1]];
     const Eigen::Vector3d along = (end - begin).normalized();
-    const Eigen::Vector3d normal = ridge().normal.normalized();
+    const Eigen::Vector3d normal = reflexEdge().normal.normalized();
     const Eigen::Vector3d direction =
         std::cos(tilt) * along.cross(normal) + std::sin(tilt) * (normal - normal.dot(along) * along);
     const Eigen::Vector3d over = 0.5 * (begin + end) + 0.5e-3 * normal;
     Query query;
-    query.margin = 0.5e-3;
+    query.margin = {0.5e-3, 0.5e-3};
     query.nodes = {over - 0.9e-3 * direction, over + 0.9e-3 * direction};
     query.radius = {0.4e-3, 0.4e-3};
     detector_.detect(query, set_);
@@ -297,30 +300,31 @@ protected:
 
   Detector detector_{bentTube(), WallLaw{}};
   ContactSet set_;
-  int ridge_ = 0;
+  int reflex_edge_ = 0;
 };
 
-TEST_F(WireAcrossARidge, IsFoundBetweenItsNodes)
+TEST_F(EdgeEdgeContact, LiesBetweenTheNodes)
 {
-  EXPECT_NEAR(gapOfCrossing(0.0), 0.1e-3, 1e-9);
-  const auto crossing = std::find_if(set_.features.begin(), set_.features.end(),
-                                     [](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; });
-  EXPECT_NEAR(crossing->parameter, 0.5, 1e-6);
+  EXPECT_NEAR(contactGap(0.0), 0.1e-3, 1e-9);
+  const auto contact = std::find_if(set_.features.begin(), set_.features.end(),
+                                    [](const Feature& f) { return f.parameter > 0.0 && f.parameter < 1.0; });
+  EXPECT_NEAR(contact->parameter, 0.5, 1e-6);
 }
 
-TEST_F(WireAcrossARidge, IsStillFoundThereWhenItLiesAlongAFacet)
+TEST_F(EdgeEdgeContact, IsFoundWhenTheWireLiesAlongAFacet)
 {
-  const double along_facet = 0.5 * ridge().reflex_angle;
+  const double along_facet = 0.5 * reflexEdge().reflex_angle;
   for (const double beyond : {-0.05, 0.0, 0.05})
   {
-    const double tilt = along_facet + beyond * ridge().reflex_angle;
-    EXPECT_NEAR(gapOfCrossing(tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
-    EXPECT_NEAR(gapOfCrossing(-tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
+    const double tilt = along_facet + beyond * reflexEdge().reflex_angle;
+    EXPECT_NEAR(contactGap(tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
+    EXPECT_NEAR(contactGap(-tilt), 0.5e-3 * std::cos(tilt) - 0.4e-3, 1e-9) << beyond;
   }
-  EXPECT_FALSE(std::isfinite(gapOfCrossing(along_facet + 0.3 * ridge().reflex_angle))) << "a node is nearest";
+  EXPECT_FALSE(std::isfinite(contactGap(along_facet + 0.3 * reflexEdge().reflex_angle)))
+      << "the nearest point is a node";
 }
 
-TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
+TEST(Detector, GivesEachContactTheFrictionOfItsRegion)
 {
   WallLaw law;
   law.friction = 0.1;
@@ -344,7 +348,7 @@ TEST(Detector, GivesEveryContactTheFrictionOfItsPlaceOnTheWall)
   EXPECT_GT(outside, 10);
 }
 
-TEST(Detector, FreeDistancesNeverReachTheWallAndAreAsLongAsWanted)
+TEST(Detector, GivesFreeDistancesThatNeverReachTheWallAndAreAsLargeAsWanted)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector detector(mesh, WallLaw{});
@@ -352,26 +356,25 @@ TEST(Detector, FreeDistancesNeverReachTheWallAndAreAsLongAsWanted)
   for (int trial = 0; trial < 20; ++trial)
   {
     Query query = randomWire(Eigen::Vector3d(0.0, 0.0, 0.02), random, 6);
-    query.wanted_free_distance = trial % 2 == 0 ? 0.8e-3 : 30e-3;
+    const double wanted = trial % 2 == 0 ? 0.8e-3 : 30e-3;
     ContactSet set;
-    detector.detect(query, set);
-    double looked = 0.0;
+    detector.freeDistances(query, wanted, set);
+    double reach = 0.0;
     for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
-      looked =
-          std::max(looked, query.wanted_free_distance + 0.4e-3 + 0.5 * (query.nodes[e + 1] - query.nodes[e]).norm());
+      reach = std::max(reach, wanted + 0.4e-3 + 0.5 * (query.nodes[e + 1] - query.nodes[e]).norm());
     for (std::size_t e = 0; e + 1 < query.nodes.size(); ++e)
     {
       int unused = -1;
-      const double ends = std::min(looked, bruteDistance(detector.wall(), query.nodes[e], unused)) +
-                          std::min(looked, bruteDistance(detector.wall(), query.nodes[e + 1], unused));
+      const double ends = std::min(reach, bruteDistance(detector.wall(), query.nodes[e], unused)) +
+                          std::min(reach, bruteDistance(detector.wall(), query.nodes[e + 1], unused));
       const double bound = 0.5 * (ends - (query.nodes[e + 1] - query.nodes[e]).norm()) - 0.4e-3;
-      EXPECT_GE(set.free_distance[e], std::min(query.wanted_free_distance, bound) - 1e-12);
+      EXPECT_GE(set.free_distance[e], std::min(wanted, bound) - 1e-12);
       for (double t : {0.0, 0.25, 0.5, 0.75, 1.0})
       {
         int triangle = -1;
         const Eigen::Vector3d p = (1.0 - t) * query.nodes[e] + t * query.nodes[e + 1];
         const double clearance = bruteDistance(detector.wall(), p, triangle) - 0.4e-3;
-        EXPECT_LE(set.free_distance[e], std::max(query.margin, clearance) + 1e-12);
+        EXPECT_LE(set.free_distance[e], std::max(query.margin[e], clearance) + 1e-12);
       }
     }
   }

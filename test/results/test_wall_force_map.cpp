@@ -270,7 +270,7 @@ public:
     set.pass = query.pass;
     set.stale = false;
     set.first_edge = query.first_node;
-    set.free_distance.assign(query.nodes.size() - 1, query.margin);
+    set.free_distance.assign(query.nodes.size() - 1, query.margin.front());
     const std::size_t edge = query.nodes.size() - 3;
     contact::Feature feature;
     feature.edge = query.first_node + static_cast<int>(edge);
@@ -283,6 +283,8 @@ public:
     feature.id = 21;
     set.features = {feature};
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 
 private:
   double parameter_;

@@ -27,7 +27,7 @@ public:
       const double gap = across.norm() - radius_ - query.radius[i];
       if (i + 1 < n)
         set.free_distance.push_back(std::max(0.0, 0.5 * gap));
-      if (gap > query.margin)
+      if (gap > query.margin[i])
         continue;
       contact::Feature feature;
       feature.edge = query.first_node + std::min(i, n - 2);
@@ -41,6 +41,8 @@ public:
     }
     set.stale = false;
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 
 private:
   double radius_;

@@ -22,13 +22,12 @@ public:
 
   void detect(const contact::Query& query, contact::ContactSet& set) override
   {
-    if (query.wanted_free_distance <= 0.0)
-    {
-      wide_margin = query.wide_margin;
-      margins.clear();
-      for (std::size_t i = 0; i < query.nodes.size(); ++i)
-        margins.push_back(query.marginAt(i));
-    }
+    margins = query.margin;
+    freeDistances(query, 0.0, set);
+  }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override
+  {
     set.features.clear();
     set.first_edge = query.first_node;
     set.free_distance.clear();
@@ -39,7 +38,7 @@ public:
       if (i + 1 < n)
         set.free_distance.push_back(
             std::max(0.0, std::min(gap, normal_.dot(query.nodes[i + 1]) - query.radius[i + 1])));
-      if (gap > query.marginAt(static_cast<std::size_t>(i)))
+      if (gap > query.margin[static_cast<std::size_t>(i)])
         continue;
       contact::Feature feature;
       feature.edge = query.first_node + std::min(i, n - 2);
@@ -55,10 +54,9 @@ public:
     set.stale = stale;
   }
 
-  double stiffness = std::numeric_limits<double>::infinity();    ///< [N/m²]
-  double wide_margin = std::numeric_limits<double>::infinity();  ///< that features were last asked for with [m]
-  std::vector<double> margins;                                   ///< of the nodes, then [m]
-  bool stale = false;                                            ///< what is said of the answers
+  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m²]
+  std::vector<double> margins;                                 ///< margins of the last query for features [m]
+  bool stale = false;                                          ///< mark of every answer
 
 private:
   double friction_;

@@ -34,6 +34,8 @@ public:
     }
   }
 
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
+
 private:
   void add(const contact::Query& query, int edge, double t, contact::ContactSet& set) const
   {
@@ -48,7 +50,7 @@ private:
     feature.point = on_edge - (feature.gap + query.radius[e]) * feature.normal;
     feature.stiffness = stiffness_;
     feature.id = 3 * edge + (t > 0.0 && t < 1.0 ? 1 : 0);
-    if (feature.gap < query.margin)
+    if (feature.gap < query.margin[e])
       set.features.push_back(feature);
   }
 

@@ -26,7 +26,7 @@ public:
     {
       const Eigen::Vector3d across(0.0, query.nodes[i].y(), query.nodes[i].z());
       const double gap = radius_ - across.norm() - query.radius[i];
-      if (gap > query.margin || across.isZero(0.0))
+      if (gap > query.margin[i] || across.isZero(0.0))
         continue;
       contact::Feature feature;
       feature.edge = query.first_node + std::min(i, n - 2);
@@ -40,6 +40,8 @@ public:
     }
     set.stale = false;
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 
   double friction;
 

@@ -164,6 +164,11 @@ public:
     }
   }
 
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override
+  {
+    detector_.freeDistances(query, wanted, set);
+  }
+
 private:
   contact::Detector& detector_;
   double stiffness_;

@@ -31,6 +31,11 @@ void SmoothWall::detect(const contact::Query& query, contact::ContactSet& set)
     }
 }
 
+void SmoothWall::freeDistances(const contact::Query& query, double, contact::ContactSet& set)
+{
+  detect(query, set);
+}
+
 bool FlatChannel::meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
 {
   if (face > 1)

@@ -13,6 +13,7 @@ class SmoothWall : public contact::ContactSource
 {
 public:
   void detect(const contact::Query& query, contact::ContactSet& set) override;
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override;
 
 protected:
   /** Normal, gap and closest point for a node's axis.

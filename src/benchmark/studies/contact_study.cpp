@@ -81,7 +81,7 @@ StudyMesh biggestMesh(const StudyOptions& options)
 contact::Query queryAlong(const std::vector<Eigen::Vector3d>& curve, double curve_spacing, double shift)
 {
   contact::Query query;
-  query.margin = kMargin;
+  query.margin.assign(kNodes, kMargin);
   query.radius.assign(kNodes, kRadius);
   for (int i = 0; i < kNodes; ++i)
   {

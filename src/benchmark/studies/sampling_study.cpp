@@ -90,11 +90,13 @@ struct Setting
   {
     vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
     entry = scene::resolveEntry(scene.entry, vessel, scene.file);
+    wall = contact::WallModel::create(vessel.mesh);
     steps = static_cast<std::size_t>(std::llround(study.duration / scene.solver.time_step));
   }
 
   scene::Scene scene;
   vessel::Vessel vessel;
+  std::shared_ptr<const contact::WallModel> wall;  ///< shared by all runs
   scene::EntryPose entry;
   std::size_t steps = 0;
 };
@@ -120,7 +122,7 @@ Shape shapeOf(const simulation::Simulation& simulation)
 
 Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string& name)
 {
-  contact::Detector wall(setting.vessel.mesh, scene::wallLaw(*scene.vessel));
+  contact::Detector wall(setting.wall, scene::wallLaw(*scene.vessel));
   simulation::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
   Run run;
   run.result.sampling = name;
@@ -249,7 +251,7 @@ void compareForces(const Run& reference, Run& run, double time_step)
 /** Force of a step before which the sampling would have changed, had it not been kept from then on. */
 double forceWithoutResampling(const Setting& setting, const scene::Scene& scene, std::size_t step)
 {
-  contact::Detector wall(setting.vessel.mesh, scene::wallLaw(*scene.vessel));
+  contact::Detector wall(setting.wall, scene::wallLaw(*scene.vessel));
   simulation::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
   for (std::size_t k = 0; k <= step; ++k)
   {

@@ -6,6 +6,7 @@
 
 #include "benchmark/harness/bench_run.h"
 #include "benchmark/reference/static_cases.h"
+#include "benchmark/studies/shared_wall.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "visualization/tube_mesh.h"
 
@@ -197,6 +198,7 @@ std::vector<Section> speedStudy(const StudyOptions& options, const Progress& pro
   std::vector<Section> sections;
   sections.push_back(paperTable(options, progress));
   sections.push_back(growth(options, progress, allocations));
+  sections.push_back(sharedWallCost(progress));
   return sections;
 }
 

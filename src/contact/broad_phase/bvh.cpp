@@ -16,10 +16,10 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr float kLaneRounding = 1.00001F;  // so that no bound's rounding hides a triangle
-constexpr float kNone = 1e18F;             // m: where the boxes of empty places end
+constexpr float kLaneRounding = 1.00001F;  // exceeds the rounding error of squared bounds
+constexpr float kNone = 1e18F;             // m: coordinates of the boxes of empty lanes
 
-/** By one or two steps of single precision, at most. */
+/** Single-precision number below x, by at most two units in the last place. */
 float roundedDown(double x)
 {
   const auto nearest = static_cast<float>(x);
@@ -74,15 +74,14 @@ Bvh::Bvh(const Wall& wall) : wall_(&wall)
   binary.model.addSubModel(wall.vertices, triangles);
   if (binary.model.endModel() != fcl::BVH_OK)
     throw InputError("vessel mesh", "", "no bounding volume hierarchy can be built over it: it needs triangles");
-  place_of_.resize(wall.triangles.size());
+  slot_of_.resize(wall.triangles.size());
   copy(binary, 0, {});
   marked_.assign(nodes_.size(), 0);
   openAllCones();
 }
 
-/** Copies what is below a node of the binary tree, opening the largest boxes until there are four.
- *  @return the copy's index */
-int Bvh::copy(const Binary& binary, int root, Place above)
+/** Copies the subtree of a binary node, opening the largest boxes until there are four. @return index of the copy */
+int Bvh::copy(const Binary& binary, int root, Slot above)
 {
   std::vector<int> members{root};
   while (members.size() < kWidth)
@@ -108,22 +107,22 @@ int Bvh::copy(const Binary& binary, int root, Place above)
   for (int lane = 0; lane < static_cast<int>(members.size()); ++lane)
   {
     const auto& member = binary.model.getBV(members[lane]);
-    const Place place{index, lane};
-    setBox(place, Box(member.bv.min_, member.bv.max_));
+    const Slot slot{index, lane};
+    setBox(slot, Box(member.bv.min_, member.bv.max_));
     if (member.isLeaf())
-      place_of_[member.primitiveId()] = place;
-    const int child = member.isLeaf() ? ~member.primitiveId() : copy(binary, members[lane], place);
+      slot_of_[member.primitiveId()] = slot;
+    const int child = member.isLeaf() ? ~member.primitiveId() : copy(binary, members[lane], slot);
     nodes_[index].child[lane] = child;
   }
   return index;
 }
 
-void Bvh::setBox(Place place, const Box& box)
+void Bvh::setBox(Slot slot, const Box& box)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    nodes_[place.node].low[axis][place.lane] = box.low[axis];
-    nodes_[place.node].high[axis][place.lane] = box.high[axis];
+    nodes_[slot.node].low[axis][slot.lane] = box.low[axis];
+    nodes_[slot.node].high[axis][slot.lane] = box.high[axis];
   }
 }
 
@@ -133,7 +132,7 @@ void Bvh::fitTriangle(int triangle)
   const Eigen::Vector3d& a = wall_->vertices[corners[0]];
   const Eigen::Vector3d& b = wall_->vertices[corners[1]];
   const Eigen::Vector3d& c = wall_->vertices[corners[2]];
-  setBox(place_of_[triangle], Box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)));
+  setBox(slot_of_[triangle], Box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)));
 }
 
 void Bvh::refit(const std::vector<int>& triangles)
@@ -142,7 +141,7 @@ void Bvh::refit(const std::vector<int>& triangles)
   for (int t : triangles)
   {
     fitTriangle(t);
-    for (int n = place_of_[t].node; n >= 0 && !marked_[n]; n = above_[n].node)
+    for (int n = slot_of_[t].node; n >= 0 && !marked_[n]; n = above_[n].node)
     {
       marked_[n] = 1;
       ancestors_.push_back(n);
@@ -171,7 +170,7 @@ double Bvh::distanceTo(int triangle, const Eigen::Vector3d& point) const
   return (closest.point - point).norm();
 }
 
-Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int near) const
+Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int hint) const
 {
   struct Entry
   {
@@ -184,7 +183,7 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
   Nearest best{-1, max_distance};
   const auto squaredBound = [](double distance) { return kLaneRounding * roundedUp(distance * distance); };
   float limit = squaredBound(max_distance);
-  // Equal distances go to the lowest triangle, so that the answer does not depend on the order of the walk.
+  // The lowest index wins at equal distances, so the result does not depend on the order of traversal.
   const auto offer = [&](int t)
   {
     const double distance = distanceTo(t, point);
@@ -192,8 +191,8 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
       best = {t, distance};
     limit = squaredBound(best.distance);
   };
-  if (near >= 0)
-    offer(near);
+  if (hint >= 0)
+    offer(hint);
   const Box box(point, point);
   while (top > 0)
   {
@@ -211,7 +210,7 @@ Bvh::Nearest Bvh::nearest(const Eigen::Vector3d& point, double max_distance, int
     for (int lane = 0; lane < kWidth; ++lane)
       if (bounds[lane] <= limit && bounds[lane] < kNone)
       {
-        // The nearest one ends on top.
+        // Sorted, the nearest box on top of the stack.
         int at = top++;
         for (; at > begin && stack[at - 1].bound < bounds[lane]; --at)
           stack[at] = stack[at - 1];

@@ -14,79 +14,94 @@ namespace endovascular_sim::contact
 
 /** Bounding volume hierarchy of axis-aligned boxes over the wall's triangles.
  *
- *  FCL builds a binary tree; it is copied into nodes of four boxes each, which are looked at together (Wald et al.
- * 2008). The walk is ours: FCL's own sphere query copies and refits the whole model on every call and reports no depth
- * for it (docs/CONTACT.md). Boxes are of single precision, rounded outwards, so that nothing is missed. Cones round the
- * normals of what is in a box tell from where it can be closest at all (spatialised normal cones: Johnson & Cohen
- * 2001). */
+ *  FCL builds a binary tree. It is copied into nodes of four boxes each, which are tested together (Wald et al. 2008).
+ *  FCL's own sphere query copies and refits the whole model on every call and reports no penetration depth, so the
+ *  traversal is part of this class. Boxes are of single precision, rounded outwards: no triangle is missed. Cones of
+ *  the triangles' normals cull boxes that contain no local minimum of the distance (spatialised normal cones: Johnson
+ *  & Cohen 2001). */
 class Bvh
 {
 public:
   /** @param wall must outlive the tree */
   explicit Bvh(const Wall& wall);
 
-  /** How far off a triangle's normal a point in front of it can lie, seen from the place that is the closest one of the
-   * wall around it: tangents, infinite for anywhere. */
+  /** A copy that refers to a copy of the other tree's wall. @param wall must outlive the tree */
+  Bvh(const Bvh& other, const Wall& wall) : Bvh(other) { wall_ = &wall; }
+
+  Bvh& operator=(const Bvh&) = delete;
+
+  /** Normal cone of a triangle: bounds of the offset's tangent to the triangle's normal, for points in front of the
+   *  triangle that have a local minimum of the distance there. Infinite: unbounded. */
   struct Cone
   {
-    double facet = std::numeric_limits<double>::infinity();  ///< from the triangle, its border included
-    double ridge = std::numeric_limits<double>::infinity();  ///< from one of its ridges; negative: it has none
+    double facet = std::numeric_limits<double>::infinity();  ///< minimum on the triangle or its border
+    /** Minimum between an edge of the wire and a reflex edge that the triangle owns; negative: it owns none. */
+    double reflex_edge = std::numeric_limits<double>::infinity();
   };
-  /** Without them, and after openCones, anything may be closest from anywhere. @param cones per triangle */
+  /** Sets the cones. Before the call all cones are open: nothing is culled by them. @param cones per triangle */
   void setCones(const std::vector<Cone>& cones);
+  /** Opens the cones of some triangles and of the boxes that contain them. */
   void openCones(const std::vector<int>& triangles);
 
-  /** Places along a segment from which it is looked for what is closest. */
-  struct View
+  /** A segment of query points. */
+  struct QuerySegment
   {
     Eigen::Vector3d begin;
-    Eigen::Vector3d along;  ///< to the end [m]
-    double farthest = 0.0;  ///< from the places, how far what is wanted may lie [m]
-    double room = 0.0;      ///< by which the places may still move, contained in the former [m]
+    Eigen::Vector3d along;  ///< vector to the segment's end [m]
+    double cutoff = 0.0;    ///< largest distance of interest from the points, skin included [m]
+    double skin = 0.0;      ///< largest displacement of the points [m]
   };
-  /** Appends every triangle that may be closest to a place of @p facets, and every one with a ridge that may be to a
-   * place of @p ridges; in any order, none twice, some that cannot are among them. */
-  void collect(const View& facets, const View& ridges, std::vector<int>& triangles, std::vector<int>& ridged) const;
+  /** Appends every triangle that may be the closest feature to a point of a segment. Unordered, without duplicates; may
+   *  contain false positives.
+   *  @param facets segment for the triangles themselves
+   *  @param reflex_edges segment for their reflex edges
+   *  @param triangles receives triangles near @p facets
+   *  @param owners receives triangles that own a reflex edge near @p reflex_edges */
+  void collect(const QuerySegment& facets, const QuerySegment& reflex_edges, std::vector<int>& triangles,
+               std::vector<int>& owners) const;
 
   /** The triangle nearest to a point. */
   struct Nearest
   {
-    int triangle = -1;      ///< −1 when none is closer than the given distance
+    int triangle = -1;      ///< −1 if none is closer than the given distance
     double distance = 0.0;  ///< [m]
   };
-  /** @param near a triangle that is expected to be near, to start from, or −1; the answer does not depend on it */
-  Nearest nearest(const Eigen::Vector3d& point, double max_distance, int near = -1) const;
+  /** Nearest triangle to a point; the lowest index at equal distances.
+   *  @param hint triangle to start with, or −1; the result does not depend on it */
+  Nearest nearest(const Eigen::Vector3d& point, double max_distance, int hint = -1) const;
 
-  /** Fits the boxes to triangles that have moved; the tree keeps its shape. Answers stay exact, but where triangles
-   * move far against each other they come more slowly. */
+  /** Fits the boxes to moved triangles; the topology of the tree remains. Results stay exact. Queries become slower
+   *  where triangles move far relative to each other. */
   void refit(const std::vector<int>& triangles);
 
   double distanceTo(int triangle, const Eigen::Vector3d& point) const;  ///< [m]
 
 private:
+  Bvh(const Bvh&) = default;
+
   static constexpr int kWidth = 4;
-  static constexpr int kMaxDepth = 384;  ///< of places that wait to be looked at
+  static constexpr int kMaxDepth = 384;  ///< capacity of the traversal stack
   using Lanes = Eigen::Array<float, kWidth, 1>;
 
-  /** Four boxes [m] with what is in them: a node's index, or ~triangle; the boxes of empty places are inside out. */
+  /** Four boxes [m] with their children: a node's index, or ~triangle. Boxes of empty lanes are inverted. */
   struct alignas(64) Node  // starts on a cache line
   {
     std::array<Lanes, 3> low, high;
     std::array<int, kWidth> child;
   };
 
-  /** Cones round the normals of what is in a node's boxes. */
+  /** Normal cones of a node's four boxes. */
   struct alignas(64) Cones
   {
     std::array<Lanes, 3> axis;  ///< unit
-    /** Of the cylinders about the axes round what is in the boxes, from the boxes' middles, as made [m]: boxes that
-     * move have open cones. */
+    /** Cylinders around the axes that contain the boxes' triangles, relative to the boxes' centres at construction [m].
+     *  Boxes that move have open cones. */
     Lanes radius, bottom, top;
-    Lanes facet, ridge;  ///< as of a Cone, about the axis; kOpen: anywhere
+    Lanes facet, reflex_edge;  ///< as in Cone, relative to the axis; kOpen: unbounded
   };
 
-  /** A place in a node. */
-  struct Place
+  /** A lane of a node. */
+  struct Slot
   {
     int node = -1;
     int lane = 0;
@@ -97,37 +112,37 @@ private:
   {
     std::array<float, 3> low, high;
     Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
-    explicit Box(const Node& node);  ///< round all of a node's boxes
+    explicit Box(const Node& node);  ///< union of a node's boxes
   };
 
-  /** A view in lanes' precision. */
-  struct Sight;
+  /** A QuerySegment in single precision with its tests. */
+  struct SegmentTest;
 
-  /** What of the binary tree the copy needs. */
+  /** FCL's binary tree. */
   struct Binary;
 
-  int copy(const Binary& binary, int root, Place above);
-  void setBox(Place place, const Box& box);
+  int copy(const Binary& binary, int root, Slot above);
+  void setBox(Slot slot, const Box& box);
   void fitTriangle(int triangle);
   void openAllCones();
-  void setCone(Place place, const Eigen::Vector3d& axis, const Cone& cone);
+  void setCone(Slot slot, const Eigen::Vector3d& axis, const Cone& cone);
   void widenCone(int node);
-  void enclose(int triangle, Place place);
-  bool hasRidge(int node, int lane) const { return ((ridged_[node] >> lane) & 1) != 0; }
-  /** How far four boxes are from another one along an axis; negative where they overlap [m]. */
+  void enclose(int triangle, Slot slot);
+  bool ownsReflexEdge(int node, int lane) const { return ((reflex_lanes_[node] >> lane) & 1) != 0; }
+  /** Distances of four boxes from another box along an axis; negative where they overlap [m]. */
   static Lanes gaps(const Node& node, const Box& box, int axis)
   {
     return (node.low[axis] - box.high[axis]).max(box.low[axis] - node.high[axis]);
   }
   static Lanes squaredGaps(const Node& node, const Box& box);
 
-  std::vector<Node> nodes_;           ///< children stand behind their parents
-  std::vector<Cones> cones_;          ///< of each node
-  std::vector<char> pointed_;         ///< per node: whether its cones are worth a look
-  std::vector<std::uint8_t> ridged_;  ///< per node, a bit per box: whether something in it has a ridge
-  std::vector<Place> place_of_;       ///< of each triangle
-  std::vector<Place> above_;          ///< of each node; the root has none
-  std::vector<char> marked_;          ///< per node
+  std::vector<Node> nodes_;                 ///< parents precede their children
+  std::vector<Cones> cones_;                ///< per node
+  std::vector<char> has_cones_;             ///< per node: whether testing its cones pays
+  std::vector<std::uint8_t> reflex_lanes_;  ///< per node, a bit per box: whether it contains a reflex edge's owner
+  std::vector<Slot> slot_of_;               ///< per triangle
+  std::vector<Slot> above_;                 ///< per node: slot in its parent; none for the root
+  std::vector<char> marked_;                ///< per node
   std::vector<int> ancestors_;
   const Wall* wall_;
 };

@@ -7,33 +7,31 @@
 namespace endovascular_sim::contact
 {
 
-void EdgePacket::set(int lane, int wall_edge, const EdgeBounds& ball, const Eigen::Vector3d& origin, float clear)
+void EdgeLanes::set(int lane, const EdgeBounds& bounds, const Eigen::Vector3d& origin)
 {
   const Eigen::Vector3d along =
-      ball.half_length > 0.0 ? Eigen::Vector3d(ball.half / ball.half_length) : Eigen::Vector3d::Zero();
-  middles_.set(lane, ball.middle - origin);
-  normals_.set(lane, ball.normal);
+      bounds.half_length > 0.0 ? Eigen::Vector3d(bounds.half / bounds.half_length) : Eigen::Vector3d::Zero();
+  middles_.set(lane, bounds.middle - origin);
+  normals_.set(lane, bounds.normal);
   along_.set(lane, along);
-  across_.set(lane, ball.normal.cross(along));
-  half_[lane] = static_cast<float>(ball.half_length);
-  lean_[lane] = std::isinf(ball.lean) ? kQuadOpen : static_cast<float>(ball.lean);
-  clear_[lane] = ball.reflex ? clear : kNever;
-  edges_[lane] = wall_edge;
+  across_.set(lane, bounds.normal.cross(along));
+  half_[lane] = static_cast<float>(bounds.half_length);
+  cone_slope_[lane] = std::isinf(bounds.cone_slope) ? kPacketOpen : static_cast<float>(bounds.cone_slope);
 }
 
-EdgePacket::Place::Place(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper,
-                         const Eigen::Vector3d& origin, double limit_, double moved_)
+EdgeLanes::Probe::Probe(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double taper, const Eigen::Vector3d& origin,
+                        double cutoff_, double displacement_)
   : begin((a - origin).cast<float>()), end((b - origin).cast<float>())
 {
   const Eigen::Vector3d edge = b - a;
   const double whole = edge.norm();
   direction = whole > 0.0 ? Eigen::Vector3f((edge / whole).cast<float>()) : Eigen::Vector3f::Zero();
   length = static_cast<float>(whole);
-  // Distance less radius is least where the distance grows along the axis as the radius does: beside the foot by the
-  // distance times the taper's slope.
-  beyond = (whole > 0.0 ? static_cast<float>(std::abs(taper) / whole * limit_) : 0.0F) + kQuadSlack;
-  limit = static_cast<float>(limit_) + kQuadSlack;
-  moved = static_cast<float>(moved_) + kQuadSlack;
+  // Distance minus radius is least where both grow equally along the axis: at most taper slope × distance from the
+  // foot.
+  beyond = (whole > 0.0 ? static_cast<float>(std::abs(taper) / whole * cutoff_) : 0.0F) + kPacketSlack;
+  cutoff = static_cast<float>(cutoff_) + kPacketSlack;
+  displacement = static_cast<float>(displacement_) + kPacketSlack;
 }
 
 }  // namespace endovascular_sim::contact

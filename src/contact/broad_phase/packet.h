@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -8,28 +9,28 @@
 namespace endovascular_sim::contact
 {
 
-// What of the wall is near, looked at four at a time in single precision, as seen from an origin close by. Such a look
-// only leaves out what cannot matter: it is generous by kQuadSlack, which is more than rounding adds for places up to
-// 0.1 m from the origin and a wall of up to 1 m.
+// Packets of four nearby features of the wall, tested together in single precision relative to a nearby origin. The
+// tests cull conservatively: their tolerance kPacketSlack exceeds the rounding error for points up to 0.1 m from the
+// origin and walls of up to 1 m.
 
-constexpr int kQuad = 4;
-using Packet4f = Eigen::Array<float, kQuad, 1>;
+constexpr int kPacketSize = 4;
+using Packet4f = Eigen::Array<float, kPacketSize, 1>;
 
-constexpr float kQuadSlack = 1e-6F;                               ///< m
-constexpr float kQuadOpen = 1e30F;                                ///< a slope that is not bounded
-constexpr float kNever = std::numeric_limits<float>::infinity();  ///< of clearances [m]
+constexpr float kPacketSlack = 1e-6F;                                    ///< m
+constexpr float kPacketOpen = 1e30F;                                     ///< slope of an unbounded cone
+constexpr float kNeverReached = std::numeric_limits<float>::infinity();  ///< clearance of an empty lane [m]
 
 /** A vector per lane. */
-struct QuadVectors
+struct PacketVectors
 {
   Packet4f x = Packet4f::Zero();
   Packet4f y = Packet4f::Zero();
   Packet4f z = Packet4f::Zero();
 
   EIGEN_STRONG_INLINE Packet4f dot(const Eigen::Vector3f& v) const { return x * v.x() + y * v.y() + z * v.z(); }
-  EIGEN_STRONG_INLINE Packet4f dot(const QuadVectors& v) const { return x * v.x + y * v.y + z * v.z; }
-  /** From these places to another one. */
-  EIGEN_STRONG_INLINE QuadVectors to(const Eigen::Vector3f& v) const { return {v.x() - x, v.y() - y, v.z() - z}; }
+  EIGEN_STRONG_INLINE Packet4f dot(const PacketVectors& v) const { return x * v.x + y * v.y + z * v.z; }
+  /** Differences between another point and these points. */
+  EIGEN_STRONG_INLINE PacketVectors to(const Eigen::Vector3f& v) const { return {v.x() - x, v.y() - y, v.z() - z}; }
 
   void set(int lane, const Eigen::Vector3d& v)
   {
@@ -39,17 +40,49 @@ struct QuadVectors
   }
 };
 
-/** Visits the index of whatever is not hidden from a place, in their order. */
-template <class Quad, class Visit>
-EIGEN_STRONG_INLINE void forEachInSight(const std::vector<Quad>& quads, const typename Quad::Place& place,
-                                        Visit&& visit)
+/** Four features of the wall with their indices and clearances.
+ *  @tparam Lanes geometry of the features: types Shape (of one feature) and Probe (the query, with a displacement), a
+ *  function set(lane, shape, origin), and culled(probe), positive where a feature can be no contact */
+template <class Lanes>
+class Packet
 {
-  for (const Quad& quad : quads)
+public:
+  using Probe = typename Lanes::Probe;
+
+  /** @param origin reference point of the packet [m]
+   *  @param clearance displacement of wire and wall below which the feature is culled [m] */
+  void set(int lane, int index, const typename Lanes::Shape& shape, const Eigen::Vector3d& origin, float clearance)
   {
-    const Packet4f hidden = quad.hidden(place);
-    for (int lane = 0; lane < kQuad; ++lane)
-      if (hidden[lane] <= 0.0F)
-        visit(quad.index(lane));
+    lanes_.set(lane, shape, origin);
+    clearance_[lane] = clearance;
+    indices_[lane] = index;
+  }
+
+  int index(int lane) const { return indices_[lane]; }
+
+  /** Positive in the lanes that are culled. */
+  EIGEN_STRONG_INLINE Packet4f culled(const Probe& probe) const
+  {
+    return (clearance_ - probe.displacement).max(lanes_.culled(probe));
+  }
+
+private:
+  Lanes lanes_;
+  Packet4f clearance_ = Packet4f::Constant(kNeverReached);
+  std::array<int, kPacketSize> indices_{};
+};
+
+/** Visits the indices of the features that are not culled, in the order of the packets. */
+template <class Lanes, class Visit>
+EIGEN_STRONG_INLINE void forEachCandidate(const std::vector<Packet<Lanes>>& packets, const typename Lanes::Probe& probe,
+                                          Visit&& visit)
+{
+  for (const Packet<Lanes>& packet : packets)
+  {
+    const Packet4f culled = packet.culled(probe);
+    for (int lane = 0; lane < kPacketSize; ++lane)
+      if (culled[lane] <= 0.0F)
+        visit(packet.index(lane));
   }
 }
 

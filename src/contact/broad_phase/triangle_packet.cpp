@@ -5,26 +5,25 @@
 namespace endovascular_sim::contact
 {
 
-void TrianglePacket::set(int lane, int triangle, const TriangleSlab& prism, const Eigen::Vector3d& origin, float clear)
+void TriangleLanes::set(int lane, const TriangleSlab& slab, const Eigen::Vector3d& origin)
 {
-  const Eigen::Array4d heights = prism.heights(origin);
+  const Eigen::Array4d heights = slab.heights(origin);
   for (int plane = 0; plane < 4; ++plane)
   {
-    planes_[plane].normal.set(lane, {prism.planes[0][plane], prism.planes[1][plane], prism.planes[2][plane]});
+    planes_[plane].normal.set(lane, {slab.planes[0][plane], slab.planes[1][plane], slab.planes[2][plane]});
     planes_[plane].offset[lane] = static_cast<float>(heights[plane]);
   }
-  const auto slope = [](double tangent) { return std::isinf(tangent) ? kQuadOpen : static_cast<float>(tangent); };
-  edge_slope_[lane] = slope(prism.edge_slope);
-  corner_slope_[lane] = slope(prism.corner_slope);
-  clear_[lane] = clear;
-  triangles_[lane] = triangle;
+  const auto slope = [](double tangent) { return std::isinf(tangent) ? kPacketOpen : static_cast<float>(tangent); };
+  edge_slope_[lane] = slope(slab.edge_slope);
+  corner_slope_[lane] = slope(slab.corner_slope);
 }
 
-TrianglePacket::Place::Place(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, double limit_, double moved_)
+TriangleLanes::Probe::Probe(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, double cutoff_,
+                            double displacement_)
   : from_origin((point - origin).cast<float>()),
-    limit(static_cast<float>(limit_) + kQuadSlack),
-    squared_limit((1.0F + 1e-5F) * limit * limit),
-    moved(static_cast<float>(moved_) + kQuadSlack)
+    cutoff(static_cast<float>(cutoff_) + kPacketSlack),
+    squared_cutoff((1.0F + 1e-5F) * cutoff * cutoff),
+    displacement(static_cast<float>(displacement_) + kPacketSlack)
 {
 }
 

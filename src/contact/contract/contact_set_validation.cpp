@@ -8,12 +8,12 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kUnit = 1e-6;       // of a normal's squared length from 1
-constexpr double kSamePlace = 1e-6;  // m between the gap and what point and normal say
+constexpr double kUnit = 1e-6;     // tolerance of a normal's squared length
+constexpr double kSameGap = 1e-6;  // m: tolerance between the gap and the one computed from point and normal
 
-bool makesSense(const Query& query, const Feature& feature)
+bool isValidFeature(const Query& query, const Feature& feature)
 {
-  // Comparisons are written so that what is not a number fails them.
+  // Comparisons are written so that NaN fails them.
   const int edges = static_cast<int>(query.nodes.size()) - 1;
   if (feature.edge < query.first_node || feature.edge >= query.first_node + edges)
     return false;
@@ -24,8 +24,8 @@ bool makesSense(const Query& query, const Feature& feature)
   const auto node = static_cast<std::size_t>(feature.edge - query.first_node);
   const Eigen::Vector3d axis = (1.0 - t) * query.nodes[node] + t * query.nodes[node + 1];
   const double radius = (1.0 - t) * query.radius[node] + t * query.radius[node + 1];
-  // No point that is not finite passes it.
-  return std::abs(feature.normal.dot(axis - feature.point) - radius - feature.gap) < kSamePlace;
+  // Points that are not finite fail this comparison.
+  return std::abs(feature.normal.dot(axis - feature.point) - radius - feature.gap) < kSameGap;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ bool isValidAnswer(const Query& query, const ContactSet& set)
          std::all_of(set.free_distance.begin(), set.free_distance.end(),
                      [](double distance) { return distance >= 0.0; }) &&
          std::all_of(set.features.begin(), set.features.end(),
-                     [&query](const Feature& feature) { return makesSense(query, feature); });
+                     [&query](const Feature& feature) { return isValidFeature(query, feature); });
 }
 
 }  // namespace endovascular_sim::contact

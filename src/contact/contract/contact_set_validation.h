@@ -5,9 +5,9 @@
 namespace endovascular_sim::contact
 {
 
-/** Whether a set answers a query and makes sense: the same step, sub-step, pass and edges, every number what it may be,
- *  and every gap the distance between the wire's surface and the plane of its point and normal. A set that came over a
- *  wire counts only then. */
+/** Validation of a contact set received from another process. @return whether the set belongs to the query (step,
+ *  sub-step, pass, edges), all numbers are in range, and each gap is the distance between the wire's surface and the
+ *  plane through its point. */
 bool isValidAnswer(const Query& query, const ContactSet& set);
 
 }  // namespace endovascular_sim::contact

@@ -2,18 +2,22 @@
 
 #include <Eigen/Core>
 
+#include "contact/wall/wall.h"
+
 namespace endovascular_sim::contact
 {
 
-/** A mesh edge and its smallest ball. */
+/** Bounds of a mesh edge: its smallest enclosing ball and its normal cone. */
 struct EdgeBounds
 {
   Eigen::Vector3d middle;
-  Eigen::Vector3d normal;  ///< towards the lumen, ⟂ direction, unit
-  Eigen::Vector3d half;    ///< from the middle to the edge's end
+  Eigen::Vector3d normal;  ///< unit, towards the lumen, perpendicular to the edge
+  Eigen::Vector3d half;    ///< vector from the middle to the edge's second end
   double half_length;      ///< [m]
-  double lean;             ///< no local minimum's offset is tilted more off the normal, as a tangent; infinite: any
-  bool reflex;             ///< whether the wire's edges can meet it
+  double cone_slope;       ///< bound of the offset's tangent to the normal at a local minimum; infinite: unbounded
+  bool reflex;             ///< whether edges of the wire are tested against it
 };
+
+EdgeBounds makeEdgeBounds(const Wall& wall, const WallEdge& edge);
 
 }  // namespace endovascular_sim::contact

@@ -5,23 +5,27 @@
 
 #include <Eigen/Core>
 
+#include "contact/wall/wall.h"
+
 namespace endovascular_sim::contact
 {
 
-constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge: more is no rounding
+constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge of a triangle: larger values are not rounding
 
-/** A triangle as its plane and the three planes across it along its edges: unit normals and negative offsets. */
-struct alignas(64) TriangleSlab  // what every search reads fills two cache lines
+/** Bounds of a triangle: its plane, the planes through its edges perpendicular to it, and its normal cones. */
+struct alignas(64) TriangleSlab  // the data of every query fill two cache lines
 {
-  std::array<Eigen::Array4d, 4> planes;  ///< x, y, z, 1; by lanes the triangle's own towards the lumen, edges' inward
-  /** A closest point on an edge that belongs to the triangle can be a local minimum in front of it only while the foot
-   * lies no farther from the edge's line than so much of the height; infinite: not bounded. */
+  /** Coefficients of x, y, z and 1 of four signed heights. Lane 0: the triangle's plane, positive towards the lumen.
+   *  Lanes 1 to 3: the planes through the edges, positive inside. */
+  std::array<Eigen::Array4d, 4> planes;
+  /** Bound for a local minimum at an edge that the triangle owns, in front of the triangle: the foot's distance from
+   *  the edge's line is at most edge_slope · height. Infinite: unbounded. */
   double edge_slope = 0.0;
-  double corner_slope = 0.0;                 ///< the same of a closest point at a corner that does, and of that
-  std::array<int, 3> own_edges{-1, -1, -1};  ///< the reflex ones of those that belong to it; each mesh edge does to one
-  bool has_moved = false;                    ///< it, its edges or what is around them, ever
+  double corner_slope = 0.0;                 ///< the same bound for a local minimum at a corner that the triangle owns
+  std::array<int, 3> own_edges{-1, -1, -1};  ///< reflex edges that the triangle owns; a mesh edge has one owner
+  bool has_moved = false;                    ///< whether the triangle, its edges or a neighbour have ever moved
 
-  /** No foot of such a point lies farther beyond the border than so much of the height. */
+  /** Bound for any of these local minima: the foot lies at most bulge() · height beyond the triangle's border. */
   double bulge() const { return std::max(edge_slope, corner_slope); }
 
   Eigen::Vector3d normal() const { return {planes[0][0], planes[1][0], planes[2][0]}; }
@@ -32,9 +36,15 @@ struct alignas(64) TriangleSlab  // what every search reads fills two cache line
     return planes[0] * point.x() + planes[1] * point.y() + planes[2] * point.z() + planes[3];
   }
 
-  /** How far a point's foot in the triangle's plane lies beyond the farthest of the lines along its edges, negative
-   * inside [m]. @param above the point's heights over the planes [m] */
-  static double outsideOf(const Eigen::Array4d& above) { return -std::min({above[1], above[2], above[3]}); }
+  /** Distance of a point's foot beyond the farthest of the lines along the edges; negative inside the triangle [m].
+   *  @param heights heights of the point over the planes [m] */
+  static double distanceBeyond(const Eigen::Array4d& heights)
+  {
+    return -std::min({heights[1], heights[2], heights[3]});
+  }
 };
+
+/** Fills everything but has_moved. */
+void setTriangleSlab(const Wall& wall, int triangle, TriangleSlab& slab);
 
 }  // namespace endovascular_sim::contact

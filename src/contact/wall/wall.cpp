@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double kFlat = 1e-3;         // rad: below it an edge counts as flat
-constexpr double kSmooth = 0.5;        // slope up to which what surrounds a vertex counts as one sheet
+constexpr double kSmooth = 0.5;        // slope up to which the triangles around a vertex form one smooth sheet
 constexpr double kWidestCorner = 2.4;  // rad
 
 int oppositeCorner(const Eigen::Vector3i& triangle, const WallEdge& edge)
@@ -43,12 +43,12 @@ Wall::Wall(const geometry::TriangleMesh& mesh)
   angles_.resize(triangles.size());
   areas_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    finishTriangle(static_cast<int>(t));
+    updateTriangle(static_cast<int>(t));
   edge_bends_.resize(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    finishEdge(edges[e]);
-    finishBend(static_cast<int>(e));
+    updateEdge(edges[e]);
+    updateEdgeBend(static_cast<int>(e));
   }
   vertex_normals.resize(vertices.size());
   vertex_reflex.resize(vertices.size());
@@ -57,19 +57,19 @@ Wall::Wall(const geometry::TriangleMesh& mesh)
   const int count = static_cast<int>(vertices.size());
   for (int v = 0; v < count; ++v)
   {
-    finishVertex(v);
+    updateVertex(v);
     bends_[0][v] = bendAt(v);
   }
   for (int round = 1; round <= kCurvatureRounds; ++round)
     for (int v = 0; v < count; ++v)
-      bends_[round][v] = widened(v, round);
+      bends_[round][v] = averagedBend(v, round);
   curvature.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    finishCurvature(static_cast<int>(t));
+    updateCurvature(static_cast<int>(t));
   edge_marked_.assign(edges.size(), 0);
 }
 
-/** What does not depend on where the vertices are. */
+/** Sets the adjacency. */
 void Wall::connect()
 {
   triangle_edges.resize(triangles.size());
@@ -105,7 +105,7 @@ void Wall::connect()
   }
 }
 
-void Wall::finishTriangle(int triangle)
+void Wall::updateTriangle(int triangle)
 {
   const Eigen::Vector3i& corners = triangles[triangle];
   const Eigen::Vector3d& origin = vertices[corners[0]];
@@ -113,14 +113,14 @@ void Wall::finishTriangle(int triangle)
   normals[triangle] = -cross.normalized();
   plane_offsets[triangle] = normals[triangle].dot(origin);
   areas_[triangle] = 0.5 * cross.norm();
-  std::array<Eigen::Vector3d, 3> along;  // from each corner to the next, unit
+  std::array<Eigen::Vector3d, 3> along;  // unit, from each corner to the next
   for (int k = 0; k < 3; ++k)
     along[k] = (vertices[corners[(k + 1) % 3]] - vertices[corners[k]]).normalized();
   for (int k = 0; k < 3; ++k)
     angles_[triangle][k] = angleBetween(-along[k], along[(k + 2) % 3]);
 }
 
-void Wall::finishVertex(int vertex)
+void Wall::updateVertex(int vertex)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int t : vertex_triangles_[vertex])
@@ -133,12 +133,15 @@ void Wall::finishVertex(int vertex)
   vertex_cone[vertex] = coneAt(vertex);
 }
 
-/** Such a direction d has d·e ≤ 0 for every edge e at the vertex, also for the one that runs next to how d is tilted:
- *  at half a corner's angle γ from that, or less. Of slope s downwards, it lets d tilt by tan ψ ≤ s/cos(γ/2). */
+/** Bound of the normal cone of a vertex.
+ *
+ *  A direction d in the cone has d·e ≤ 0 for every edge e at the vertex. Let γ be the widest corner angle and s the
+ *  steepest descending slope of an edge. Some edge lies within γ/2 of the direction in which d is tilted, so the tilt ψ
+ *  is bounded by tan ψ ≤ s/cos(γ/2). */
 double Wall::coneAt(int vertex) const
 {
   const Eigen::Vector3d& normal = vertex_normals[vertex];
-  double steepest = 0.0;  // downwards
+  double steepest = 0.0;  // descending slope
   for (int e : vertex_edges[vertex])
   {
     const Eigen::Vector3d along = vertices[edges[e].otherEnd(vertex)] - vertices[vertex];
@@ -148,7 +151,7 @@ double Wall::coneAt(int vertex) const
       return M_PI_2;
     steepest = std::max(steepest, -rise / run);
   }
-  double widest = 0.0;  // corner as seen along the normal
+  double widest = 0.0;  // corner angle projected along the normal [rad]
   double around = 0.0;
   for (int t : vertex_triangles_[vertex])
   {
@@ -170,10 +173,10 @@ double Wall::coneAt(int vertex) const
   return std::atan(steepest / std::cos(0.5 * widest));
 }
 
-/** Cohen-Steiner & Morvan 2003: an edge of length l whose triangles meet at an angle β bends the wall by β l across
- *  itself. Every vertex gets half of its edges' and a third of its triangles' areas, spread over its neighbours, so
- * that one facet's shape counts little. */
-void Wall::finishBend(int edge)
+/** Integral of the curvature of an edge (Cohen-Steiner & Morvan 2003): β l in the direction across the edge, for an
+ *  edge of length l between triangles that meet at an angle β. A vertex gets half of its edges' integrals and a third
+ *  of its triangles' areas. Averaging over neighbours reduces the influence of single facets. */
+void Wall::updateEdgeBend(int edge)
 {
   const WallEdge& e = edges[edge];
   const Eigen::Vector3d along = vertices[e.vertices[1]] - vertices[e.vertices[0]];
@@ -193,7 +196,7 @@ Wall::Bend Wall::bendAt(int vertex) const
   return sum;
 }
 
-Wall::Bend Wall::widened(int vertex, int round) const
+Wall::Bend Wall::averagedBend(int vertex, int round) const
 {
   const std::vector<Bend>& before = bends_[round - 1];
   Bend sum = before[vertex];
@@ -206,7 +209,7 @@ Wall::Bend Wall::widened(int vertex, int round) const
   return sum;
 }
 
-void Wall::finishCurvature(int triangle)
+void Wall::updateCurvature(int triangle)
 {
   const Eigen::Vector3i& c = triangles[triangle];
   const std::vector<Bend>& bends = bends_[kCurvatureRounds];
@@ -214,8 +217,8 @@ void Wall::finishCurvature(int triangle)
                         (bends[c[0]].area + bends[c[1]].area + bends[c[2]].area);
 }
 
-/** Adds the neighbours of some vertices; all of them are marked. */
-void Wall::widenToNeighbours(std::vector<int>& around)
+/** Appends the neighbours of some marked vertices and marks them. */
+void Wall::appendNeighbours(std::vector<int>& around)
 {
   const std::size_t count = around.size();
   for (std::size_t k = 0; k < count; ++k)
@@ -228,8 +231,8 @@ void Wall::widenToNeighbours(std::vector<int>& around)
         }
 }
 
-/** Moves the vertices and notes the triangles, edges and vertices of what has moved; all are marked. */
-void Wall::markMoved(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
+/** Moves the vertices. Collects and marks the triangles with a moved vertex, their edges and their vertices. */
+void Wall::moveAndMark(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
 {
   changes_.triangles.clear();
   moved_edges_.clear();
@@ -256,8 +259,8 @@ void Wall::markMoved(const std::vector<int>& indices, const std::vector<Eigen::V
     }
 }
 
-/** Notes the triangles that share a vertex with what has moved, and their edges; no triangle or edge is marked then. */
-void Wall::widenChanges()
+/** Collects the triangles that share a vertex with a moved one, and their edges. Unmarks all triangles and edges. */
+void Wall::collectNeighbours()
 {
   changes_.around = changes_.triangles;
   for (int v : ring_)
@@ -281,25 +284,25 @@ void Wall::widenChanges()
 
 const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions)
 {
-  markMoved(indices, positions);
+  moveAndMark(indices, positions);
   for (int t : changes_.triangles)
-    finishTriangle(t);
+    updateTriangle(t);
   for (int e : moved_edges_)
   {
-    finishEdge(edges[e]);
-    finishBend(e);
+    updateEdge(edges[e]);
+    updateEdgeBend(e);
   }
   for (int v : ring_)
   {
-    finishVertex(v);
+    updateVertex(v);
     bends_[0][v] = bendAt(v);
   }
-  widenChanges();
+  collectNeighbours();
   for (int round = 1; round <= kCurvatureRounds; ++round)
   {
-    widenToNeighbours(ring_);
+    appendNeighbours(ring_);
     for (int v : ring_)
-      bends_[round][v] = widened(v, round);
+      bends_[round][v] = averagedBend(v, round);
   }
   curved_.clear();
   for (int v : ring_)
@@ -315,11 +318,11 @@ const Wall::Changes& Wall::moveVertices(const std::vector<int>& indices, const s
   for (int t : curved_)
     triangle_marked_[t] = 0;
   for (int t : curved_)
-    finishCurvature(t);
+    updateCurvature(t);
   return changes_;
 }
 
-void Wall::finishEdge(WallEdge& edge)
+void Wall::updateEdge(WallEdge& edge)
 {
   const Eigen::Vector3d& origin = vertices[edge.vertices[0]];
   const Eigen::Vector3d along = (vertices[edge.vertices[1]] - origin).normalized();

@@ -31,7 +31,7 @@ inline double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return std::acos(std::max(-1.0, std::min(1.0, a.dot(b))));
 }
 
-/** The vessel's wall with what closest-feature tests need: normals towards the lumen, edges, adjacency.
+/** Vessel wall with the data of closest-feature tests: normals towards the lumen, edges, adjacency, curvature.
  *  Angle-weighted pseudo-normals (Bærentzen & Aanæs 2005) give the sign of the distance at edges and vertices. */
 class Wall
 {
@@ -48,36 +48,36 @@ public:
   std::vector<Eigen::Vector3d> vertex_normals;  ///< angle-weighted, towards the lumen, unit
   std::vector<std::vector<int>> vertex_edges;   ///< ascending
   std::vector<char> vertex_reflex;              ///< 1 where some edge at the vertex is reflex
-  /** Bound of the angle between a vertex's pseudo-normal and the directions, in front of some triangle there, in which
-   * points have the vertex as their closest place around it; π/2 where the wall is too rough to say [rad]. */
+  /** Half angle of each vertex's normal cone around its pseudo-normal [rad]. The cone contains the offset of every
+   * point in front of a triangle there for which the vertex is a local minimum. π/2 where the wall is too rough for a
+   * bound. */
   std::vector<double> vertex_cone;
-  /** Per triangle the curvature tensor of the smooth wall that the mesh stands for: bᵀKb is the curvature along a
-   *  tangential unit vector b, positive where the wall is concave as seen from the lumen [1/m]. */
+  /** Curvature tensor K of the underlying smooth wall, per triangle: bᵀKb is the curvature along a tangential unit
+   *  vector b, positive where the wall is concave as seen from the lumen [1/m]. */
   std::vector<Eigen::Matrix3d> curvature;
 
-  /** The triangle that a vertex belongs to: the first one that it is a corner of. An edge belongs to its first
-   * triangle. */
+  /** Owner of a vertex: its first triangle. The owner of an edge is its first triangle, too. */
   int ownerOf(int vertex) const { return vertex_triangles_[vertex].front(); }
 
-  /** What a movement of vertices has changed. */
+  /** Features changed by a movement of vertices. */
   struct Changes
   {
-    std::vector<int> triangles;  ///< with a vertex that moved
-    std::vector<int> around;     ///< triangles that share a vertex with one of them, themselves too; in any order
-    std::vector<int> edges;      ///< of the triangles around; in any order
+    std::vector<int> triangles;  ///< triangles with a moved vertex
+    std::vector<int> around;     ///< these and all that share a vertex with one of them; unordered
+    std::vector<int> edges;      ///< edges of the triangles around; unordered
   };
 
-  /** Moves vertices; everything is afterwards, bit for bit, as if the wall had been made from the moved mesh. Time
-   *  grows with the number of vertices moved only.
-   *  @param indices distinct
-   *  @param positions [m], as many
+  /** Moves vertices. The wall is afterwards, bit for bit, that of the moved mesh. The cost depends on the number of
+   *  moved vertices only.
+   *  @param indices distinct vertices
+   *  @param positions new positions, one per index [m]
    *  @return valid until the next call */
   const Changes& moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
 
 private:
-  static constexpr int kCurvatureRounds = 2;  ///< of neighbours over which curvature is averaged
+  static constexpr int kCurvatureRounds = 2;  ///< rounds of averaging of the curvature over neighbours
 
-  /** Integral of the curvature over the wall round a vertex, and that wall's area. */
+  /** Integral of the curvature over the wall around a vertex, and the area of that part. */
   struct Bend
   {
     Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();  ///< [m]
@@ -85,33 +85,34 @@ private:
   };
 
   void connect();
-  void finishTriangle(int triangle);
-  void finishEdge(WallEdge& edge);
-  void finishVertex(int vertex);
+  void updateTriangle(int triangle);
+  void updateEdge(WallEdge& edge);
+  void updateVertex(int vertex);
   double coneAt(int vertex) const;
-  void finishBend(int edge);
+  void updateEdgeBend(int edge);
   Bend bendAt(int vertex) const;
-  Bend widened(int vertex, int round) const;
-  void finishCurvature(int triangle);
-  void widenToNeighbours(std::vector<int>& around);
-  void markMoved(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
-  void widenChanges();
+  Bend averagedBend(int vertex, int round) const;
+  void updateCurvature(int triangle);
+  void appendNeighbours(std::vector<int>& around);
+  void moveAndMark(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions);
+  void collectNeighbours();
 
-  /** An edge's share of bend is weight · across acrossᵀ. */
+  /** Contribution of an edge to the integral of curvature: weight · across acrossᵀ. */
   struct EdgeBend
   {
     Eigen::Vector3d across;  ///< unit
     double weight;           ///< [m]
   };
 
-  std::vector<std::array<double, 3>> angles_;  ///< of every triangle's corners [rad]
-  std::vector<double> areas_;                  ///< of the triangles [m²]
+  std::vector<std::array<double, 3>> angles_;  ///< corner angles of each triangle [rad]
+  std::vector<double> areas_;                  ///< area of each triangle [m²]
   std::vector<EdgeBend> edge_bends_;
   std::vector<std::vector<int>> vertex_triangles_;             ///< ascending
-  std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per vertex, by rounds of averaging
+  std::array<std::vector<Bend>, kCurvatureRounds + 1> bends_;  ///< per round of averaging and vertex
   Changes changes_;
-  std::vector<int> moved_edges_;  ///< of the triangles with a vertex that moved
-  std::vector<int> ring_, curved_;
+  std::vector<int> moved_edges_;  ///< edges of the triangles with a moved vertex
+  std::vector<int> ring_;         ///< vertices around the moved ones
+  std::vector<int> curved_;       ///< triangles whose curvature has changed
   std::vector<char> vertex_marked_, triangle_marked_, edge_marked_;
 };
 

@@ -91,7 +91,7 @@ private:
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     asked_.reset();
-    if (detector_ && message->radius.size() == message->nodes.size())
+    if (detector_ && message->radius.size() == message->nodes.size() && message->margin.size() == message->nodes.size())
       answer(message);
   }
 
@@ -133,7 +133,10 @@ private:
       return;
     }
     fromMessage(*message, query_);
-    detector_->detect(query_, answer_.set);
+    if (message->wanted_free_distance > 0.0)
+      detector_->freeDistances(query_, message->wanted_free_distance, answer_.set);
+    else
+      detector_->detect(query_, answer_.set);
     answer_.header.stamp = ros::Time::now();
     answer_.header.frame_id = names::kPatientFrame;
     publisher_.publish(answer_);

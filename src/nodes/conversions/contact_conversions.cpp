@@ -31,20 +31,16 @@ Eigen::Vector3d fromMessage(const geometry_msgs::Vector3& v)
   return {v.x, v.y, v.z};
 }
 
-void toMessage(const contact::Query& query, RodState& message)
+void toMessage(const contact::Query& query, double wanted_free_distance, RodState& message)
 {
   message.step = query.step;
   message.substep = static_cast<std::uint16_t>(query.substep);
   message.pass = static_cast<std::uint16_t>(query.pass);
-  message.wanted_free_distance = query.wanted_free_distance;
-  message.margin = query.margin;
-  message.wide_margin = query.wide_margin;
-  message.fast_margin = query.fast_margin;
-  message.fast_begin = static_cast<std::uint32_t>(query.fast_begin);
-  message.fast_end = static_cast<std::uint32_t>(query.fast_end);
+  message.wanted_free_distance = wanted_free_distance;
   message.vessel_version = query.vessel_version;
   message.first_node = static_cast<std::uint32_t>(query.first_node);
   message.radius = query.radius;
+  message.margin = query.margin;
   message.nodes.resize(query.nodes.size());
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
     message.nodes[i] = toPoint(query.nodes[i]);
@@ -55,15 +51,10 @@ void fromMessage(const RodState& message, contact::Query& query)
   query.step = message.step;
   query.substep = message.substep;
   query.pass = message.pass;
-  query.wanted_free_distance = message.wanted_free_distance;
-  query.margin = message.margin;
-  query.wide_margin = message.wide_margin;
-  query.fast_margin = message.fast_margin;
-  query.fast_begin = static_cast<int>(message.fast_begin);
-  query.fast_end = static_cast<int>(message.fast_end);
   query.vessel_version = message.vessel_version;
   query.first_node = static_cast<int>(message.first_node);
   query.radius = message.radius;
+  query.margin = message.margin;
   query.nodes.resize(message.nodes.size());
   for (std::size_t i = 0; i < message.nodes.size(); ++i)
     query.nodes[i] = fromMessage(message.nodes[i]);

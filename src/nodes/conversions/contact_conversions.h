@@ -14,9 +14,11 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v);
 Eigen::Vector3d fromMessage(const geometry_msgs::Point& p);
 Eigen::Vector3d fromMessage(const geometry_msgs::Vector3& v);
 
-/** What the rod asks of the contact node, every number bit for bit; headers are left to the caller. Its answers are
- *  sent and read as they are (contact_message.h). */
-void toMessage(const contact::Query& query, RodState& message);
+/** Converts a query to its message, bit for bit; the header is left to the caller. Answers are serialized as they are
+ *  (contact_set_serializer.h).
+ *  @param wanted_free_distance of a query for free distances [m]; 0: a query for features */
+void toMessage(const contact::Query& query, double wanted_free_distance, RodState& message);
+/** Inverse of toMessage; message.wanted_free_distance is left to the caller. */
 void fromMessage(const RodState& message, contact::Query& query);
 
 }  // namespace endovascular_sim::nodes

@@ -69,11 +69,12 @@ void RemoteContactSource::receive(const boost::shared_ptr<StampedContactSet>& me
   answered_.notify_one();
 }
 
-void RemoteContactSource::ask(const contact::Query& query)
+/** @param wanted_free_distance 0 in a query for features [m] */
+void RemoteContactSource::ask(const contact::Query& query, double wanted_free_distance)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    toMessage(query, query_);
+    toMessage(query, wanted_free_distance, query_);
     asked_ = query;
     has_answer_ = false;
   }
@@ -88,7 +89,17 @@ bool RemoteContactSource::waitForAnswer(double seconds)
 
 void RemoteContactSource::detect(const contact::Query& query, contact::ContactSet& set)
 {
-  ask(query);
+  request(query, 0.0, set);
+}
+
+void RemoteContactSource::freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set)
+{
+  request(query, wanted, set);
+}
+
+void RemoteContactSource::request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set)
+{
+  ask(query, wanted_free_distance);
   if (waitForAnswer(patience_.next()))
   {
     patience_.answered();
@@ -124,7 +135,7 @@ bool RemoteContactSource::waitForNode(const contact::Query& query)
   while (ros::ok())
   {
     if (publisher_.getNumSubscribers() > 0)
-      ask(query);
+      ask(query, 0.0);
     if (waitForAnswer(0.2))
       return true;
   }

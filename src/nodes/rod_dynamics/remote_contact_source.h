@@ -28,6 +28,7 @@ public:
   RemoteContactSource(ros::NodeHandle node, double patience);
 
   void detect(const contact::Query& query, contact::ContactSet& set) override;
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override;
 
   /** Forgets what was heard so far: from now on probe() tells of new answers. */
   void startListening() { heard_ = false; }
@@ -48,7 +49,8 @@ private:
   boost::shared_ptr<StampedContactSet> emptyMessage();
   void receive(const boost::shared_ptr<StampedContactSet>& message);
   bool waitForAnswer(double seconds);
-  void ask(const contact::Query& query);
+  void ask(const contact::Query& query, double wanted_free_distance);
+  void request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set);
   void publish();
 
   ros::NodeHandle node_;

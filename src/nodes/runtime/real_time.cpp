@@ -29,13 +29,6 @@ int lastCpu(cpu_set_t& allowed)
   return last;
 }
 
-/** What stayOnLastCpu() left. */
-cpu_set_t& spareCpus()
-{
-  static cpu_set_t spare{};
-  return spare;
-}
-
 /** Keeps this thread and its children on the last processor; returns its number, or −1 when that was refused. */
 int stayOnLastCpu()
 {
@@ -47,8 +40,6 @@ int stayOnLastCpu()
     CPU_SET(last, &chosen);
   if (last < 0 || sched_setaffinity(0, sizeof chosen, &chosen) != 0)
     return -1;
-  CPU_CLR(last, &allowed);
-  spareCpus() = allowed;
   return last;
 }
 
@@ -95,16 +86,6 @@ void keepOffLockStepCpu()
     return;
   CPU_CLR(last, &allowed);
   sched_setaffinity(0, sizeof allowed, &allowed);
-}
-
-bool hasSpareProcessor()
-{
-  return CPU_COUNT(&spareCpus()) > 0;
-}
-
-void moveToSpareProcessor()
-{
-  sched_setaffinity(0, sizeof spareCpus(), &spareCpus());
 }
 
 void spinUntilShutdown()

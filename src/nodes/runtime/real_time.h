@@ -33,13 +33,6 @@ bool makeThreadRealTime(int priority);
  */
 void keepOffLockStepCpu();
 
-/** Whether the rod and the contact node have a processor of their own and there are others. */
-bool hasSpareProcessor();
-
-/** The calling thread, which was started by one that was granted real-time scheduling, runs on the other processors.
- */
-void moveToSpareProcessor();
-
 /** ros::spin() for a process with real-time scheduling. The original turns round without rest while ROS shuts down,
  * which keeps from ending, on one processor, the threads that are waited for. To be ended by a signal or by
  * ros::requestShutdown(). */

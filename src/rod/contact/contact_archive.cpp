@@ -16,7 +16,7 @@ void ContactSolver::Carried::archive(Archive& archive)
   archive(id, place, force);
 }
 
-void ContactSolver::FastNodes::archive(Archive& archive)
+void NodeRange::archive(Archive& archive)
 {
   archive(begin, end);
 }
@@ -25,8 +25,8 @@ void ContactSolver::archive(Archive& archive)
 {
   archive(contacts_, previous_contacts_, springs_, previous_springs_, carried_, radii_);
   archive(valid_, moved_on_, step_is_stale_, stale_motion_budget_, margins_, reaches_, any_wide_, fast_, fast_before_,
-          wide_motion_, step_, substep_, vessel_version_, query_.first_node, query_.wide_margin, query_.fast_margin,
-          query_.fast_begin, query_.fast_end, mouth_, mouth_edge_);
+          wide_motion_, step_, substep_, vessel_version_, query_.first_node, margin_rule_.widest_margin,
+          margin_rule_.snap_margin, margin_rule_.snap, mouth_, mouth_edge_);
 }
 
 }  // namespace endovascular_sim::rod

@@ -472,15 +472,14 @@ void ContactSolver::releaseRetained()
 void ContactSolver::ask(const State& state, contact::ContactSet& answer, StepReport& report)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kCollision);
-  query_.wanted_free_distance = 0.0;
   const BoundaryConditions held(rod_, boundary_);
   held.describe(state, query_);
   widen();
   mouth_ = held.describeMouth(state, query_);
   mouth_edge_ = mouth_ > 0.0 ? query_.first_node : -1;
-  query_.wide_margin = wantedWideMargin();
+  margin_rule_.widest_margin = wantedWideMargin();
   widenQueryForSnaps();
-  send(answer, report);
+  send(0.0, answer, report);
   if (answer.stale)
     return;
   // The first point stood inside of its edge.
@@ -491,16 +490,19 @@ void ContactSolver::ask(const State& state, contact::ContactSet& answer, StepRep
   keepReaches();
 }
 
-void ContactSolver::send(contact::ContactSet& answer, StepReport& report)
+/** @param wanted_free_distance 0 in a query for features [m] */
+void ContactSolver::send(double wanted_free_distance, contact::ContactSet& answer, StepReport& report)
 {
   query_.step = step_;
   query_.substep = substep_;
   query_.pass = *pass_;
-  query_.margin = settings_.contact_margin;
+  margin_rule_.apply(query_);
   query_.vessel_version = vessel_version_;
   // Once an answer has failed to come, the rest of the step makes do without: a replay then needs one number only.
   answer.stale = step_is_stale_;
-  if (!step_is_stale_)
+  if (!step_is_stale_ && wanted_free_distance > 0.0)
+    source_->freeDistances(query_, wanted_free_distance, answer);
+  else if (!step_is_stale_)
     source_->detect(query_, answer);
   if (answer.stale && !step_is_stale_)
     report.first_stale_pass = *pass_;

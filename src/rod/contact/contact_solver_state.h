@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "rod/contact/contact_margins.h"
 #include "rod/stepping/stepper.h"
 
 namespace endovascular_sim
@@ -46,7 +47,7 @@ public:
 
   /** @param rod, boundary, settings must outlive this */
   ContactSolver(const Discretisation& rod, const Boundary& boundary, const StepperSettings& settings)
-    : rod_(rod), boundary_(boundary), settings_(settings)
+    : rod_(rod), boundary_(boundary), settings_(settings), margin_rule_(uniformMargin(settings.contact_margin))
   {
   }
   ContactSolver(const ContactSolver&) = delete;  // it refers to its owner's members
@@ -61,6 +62,9 @@ public:
 
   /** How far a node may move before the features within reach of it are not all among the present contacts [m]. */
   double marginOf(int node) const;
+
+  /** Margins of the last query for features. */
+  const MarginRule& marginRule() const { return margin_rule_; }
 
   bool present() const { return source_ != nullptr; }
   const contact::ContactSet& set() const { return contacts_; }
@@ -145,17 +149,6 @@ private:
     void archive(Archive& archive);
   };
 
-  /** Nodes that a snap moves, by their indices from begin to before end. */
-  struct FastNodes
-  {
-    int begin = 0;
-    int end = 0;
-
-    bool empty() const { return begin >= end; }
-    void add(const FastNodes& other);
-    void archive(Archive& archive);
-  };
-
   Spring springOf(int index) const;
   void addStiffLayer();
   void removeStiffLayer();
@@ -196,7 +189,7 @@ private:
   double offsetAt(const State& state, const contact::Feature& feature) const;
   void ask(const State& state, contact::ContactSet& answer, StepReport& report);
   void askFreeDistances(const State& state, const Motion& motion, double factor, StepReport& report);
-  void send(contact::ContactSet& answer, StepReport& report);
+  void send(double wanted_free_distance, contact::ContactSet& answer, StepReport& report);
   void widen();
 
   const Discretisation& rod_;
@@ -220,13 +213,14 @@ private:
   std::vector<double> reaches_;  ///< how far the nodes may move, by their margins and what they are clear of [m]
   std::vector<double> clearances_;                                ///< for those [m]
   bool any_wide_ = false;                                         ///< of the bodies
-  FastNodes fast_;                                                ///< in this step so far
-  FastNodes fast_before_;                                         ///< in the last one
+  NodeRange fast_;                                                ///< in this step so far
+  NodeRange fast_before_;                                         ///< in the last one
   double wide_motion_ = std::numeric_limits<double>::infinity();  ///< of the wide body that moved most of late [m]
   double stale_motion_budget_ = 0.0;  ///< share of every node's margin that the last fresh contact set still covers
   contact::Query query_;
-  double mouth_ = 0.0;   ///< share of an edge at which the introducer's mouth stands, where the last set begins
-  int mouth_edge_ = -1;  ///< that edge, or −1
+  MarginRule margin_rule_;  ///< of the last query for features
+  double mouth_ = 0.0;      ///< share of an edge at which the introducer's mouth stands, where the last set begins
+  int mouth_edge_ = -1;     ///< that edge, or −1
   contact::ContactSource* source_ = nullptr;
   PhaseTimer* timer_ = nullptr;
   std::uint32_t* pass_ = nullptr;

@@ -33,11 +33,8 @@ void ContactSolver::resample(const Discretisation& to)
       of_nodes->clear();
     else if (!of_nodes->empty())
       moveNodes(added, *of_nodes);
-  FastNodes asked{query_.fast_begin, query_.fast_end};
-  for (FastNodes* fast : {&fast_, &fast_before_, &asked})
-    *fast = same && !fast->empty() ? FastNodes{std::max(0, fast->begin + added), fast->end + added} : FastNodes{};
-  query_.fast_begin = asked.begin;
-  query_.fast_end = asked.end;
+  for (NodeRange* fast : {&fast_, &fast_before_, &margin_rule_.snap})
+    *fast = same && !fast->empty() ? NodeRange{std::max(0, fast->begin + added), fast->end + added} : NodeRange{};
   mouth_edge_ = same && mouth_edge_ >= 0 ? mouth_edge_ + added : -1;
   carry();
 }

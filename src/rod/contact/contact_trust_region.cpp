@@ -26,7 +26,7 @@ constexpr double kShareOfClearance = 0.9;      // that a fast node may move
 /** Of a node that is not fast [m]. */
 double ContactSolver::usualMargin(int node) const
 {
-  return settings_.contact_margin * contact::marginShare(radiusOf(node));
+  return settings_.contact_margin * marginShare(radiusOf(node));
 }
 
 /** By which a node's surface may come closer to a wall that was not listed [m]. */
@@ -49,7 +49,7 @@ double ContactSolver::marginOf(int node) const
   return i < reaches_.size() ? reaches_[i] : leastAround(node, &ContactSolver::usualMargin);
 }
 
-void ContactSolver::FastNodes::add(const FastNodes& other)
+void NodeRange::add(const NodeRange& other)
 {
   if (other.empty())
     return;
@@ -70,11 +70,9 @@ void ContactSolver::noteFastNodes(const Motion& motion, int first)
  *  that fewer solves have to be cut short. */
 void ContactSolver::widenQueryForSnaps()
 {
-  FastNodes fast = fast_before_;
-  fast.add(fast_);
-  query_.fast_begin = fast.begin;
-  query_.fast_end = fast.end;
-  query_.fast_margin = fast.empty() ? 0.0 : kFastMargin * settings_.contact_margin;
+  margin_rule_.snap = fast_before_;
+  margin_rule_.snap.add(fast_);
+  margin_rule_.snap_margin = margin_rule_.snap.empty() ? 0.0 : kFastMargin * settings_.contact_margin;
 }
 
 /** How far the axis of every node's edges is at least from the wall: the distance from an edge's surface to the wall is
@@ -101,7 +99,7 @@ void ContactSolver::findClearances()
  *  the axis could reach any wall at all. */
 void ContactSolver::keepReaches()
 {
-  const bool far = query_.fast_margin > 0.0;
+  const bool far = margin_rule_.snap_margin > 0.0;
   if (far)
     findClearances();
   reaches_.resize(static_cast<std::size_t>(rod_.nodes()));
@@ -112,7 +110,7 @@ void ContactSolver::keepReaches()
     if (far)
       reaches_[i] = std::min(reaches_[i],
                              std::max(leastAround(i, &ContactSolver::usualMargin), kShareOfClearance * clearances_[i]));
-    any_wide_ = any_wide_ || contact::isWide(radiusOf(i));
+    any_wide_ = any_wide_ || isWide(radiusOf(i));
   }
 }
 
@@ -123,7 +121,7 @@ void ContactSolver::keepMargins()
   for (int i = 0; i < query_.first_node; ++i)
     margins_.push_back(usualMargin(i));
   for (std::size_t i = 0; i < query_.nodes.size(); ++i)
-    margins_.push_back(query_.marginAt(i));
+    margins_.push_back(query_.margin[i]);
 }
 
 /** What grows comes closer to walls that were not listed. */
@@ -133,9 +131,9 @@ void ContactSolver::spendMargins(const std::vector<double>& radii)
   {
     const double growth = std::max(0.0, growthTo(radii[i], static_cast<int>(i)));
     margins_[i] = std::max(kLeastOfMargin * margins_[i], margins_[i] - growth);
-    if (contact::isWide(radii[i]))
+    if (isWide(radii[i]))
       wide_motion_ = std::max(wide_motion_, growth);
-    any_wide_ = any_wide_ || contact::isWide(radii[i]);
+    any_wide_ = any_wide_ || isWide(radii[i]);
   }
   for (std::size_t i = 0; i < reaches_.size(); ++i)
     reaches_[i] = std::min(reaches_[i], leastAround(static_cast<int>(i), &ContactSolver::listedMargin));
@@ -144,7 +142,7 @@ void ContactSolver::spendMargins(const std::vector<double>& radii)
 /** The node or a neighbour. */
 bool ContactSolver::isWideAt(int node) const
 {
-  return contact::isWide(
+  return isWide(
       std::max({radiusOf(std::max(0, node - 1)), radiusOf(node), radiusOf(std::min(node + 1, rod_.nodes() - 1))}));
 }
 
@@ -163,7 +161,7 @@ double ContactSolver::wantedWideMargin() const
 {
   bool filled = false;
   for (std::size_t i = 0; i < radii_.size() && !filled; ++i)
-    filled = contact::isWide(radii_[i]) && radii_[i] > rod_.radius[i];
+    filled = isWide(radii_[i]) && radii_[i] > rod_.radius[i];
   return filled ? kWideMargin + kWideMotions * wide_motion_ : std::numeric_limits<double>::infinity();
 }
 
@@ -238,7 +236,7 @@ double ContactSolver::freeDistanceTruncation(const State& state, const Motion& m
     // Less than the margin there says nothing: what is within is listed, if it was asked with the same one.
     const auto q = static_cast<std::size_t>(j - query_.first_node);
     const double told = known ? free_distances_.free_distance[e] : 0.0;
-    const double free = told > std::min(query_.marginAt(q), query_.marginAt(q + 1)) ? told : 0.0;
+    const double free = told > std::min(query_.margin[q], query_.margin[q + 1]) ? told : 0.0;
     const double first = motion[j].norm();
     const double second = motion[j + 1].norm();
     if (factor * first <= marginOf(j) && factor * second <= marginOf(j + 1))
@@ -280,8 +278,7 @@ void ContactSolver::askFreeDistances(const State& state, const Motion& motion, d
   query_.first_node += skipped;
   query_.nodes.erase(query_.nodes.begin(), query_.nodes.begin() + skipped);
   query_.radius.erase(query_.radius.begin(), query_.radius.begin() + skipped);
-  query_.wanted_free_distance = farthest;
-  send(free_distances_, report);
+  send(farthest, free_distances_, report);
 }
 
 }  // namespace endovascular_sim::rod

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rod/boundary/reaction_forces.h"
+#include "rod/contact/contact_margins.h"
 #include "rod/model/bending.h"
 #include "rod/model/node_curvature.h"
 #include "rod/model/stretching.h"
@@ -86,8 +87,8 @@ void PaperStepper::detect(const State& state, StepReport& report)
   query_.step = step_;
   query_.substep = substep_;
   query_.pass = *pass_;
-  query_.margin = settings_.contact_margin;
   conditions().describe(state, query_);
+  uniformMargin(settings_.contact_margin).apply(query_);
   // After a missing answer the rest of the step uses the stale set: a replay then needs one number only.
   contacts_.stale = step_is_stale_;
   if (!step_is_stale_)

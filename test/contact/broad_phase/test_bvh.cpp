@@ -35,7 +35,7 @@ protected:
   std::mt19937 random_{5};
 };
 
-TEST_F(BvhOfATube, FindsTheNearestTriangleThatBruteForceFinds)
+TEST_F(BvhOfATube, FindsTheNearestTriangle)
 {
   for (int trial = 0; trial < 500; ++trial)
   {
@@ -47,7 +47,7 @@ TEST_F(BvhOfATube, FindsTheNearestTriangleThatBruteForceFinds)
   }
 }
 
-TEST_F(BvhOfATube, CollectsTheTrianglesWhoseBoxesMeetThatOfAViewWhileItKnowsNoCones)
+TEST_F(BvhOfATube, CollectsTheTrianglesWhoseBoxesOverlapTheSegmentsBoxWhileConesAreOpen)
 {
   std::uniform_real_distribution<double> size(1e-4, 0.01);
   std::size_t met = 0;
@@ -55,32 +55,32 @@ TEST_F(BvhOfATube, CollectsTheTrianglesWhoseBoxesMeetThatOfAViewWhileItKnowsNoCo
   {
     const Eigen::Vector3d along(size(random_), size(random_), size(random_));
     const Eigen::Vector3d begin = wall_.vertices[trial * 7 % wall_.vertices.size()] + along.reverse();
-    const double farthest = size(random_);
-    const Eigen::Vector3d around = Eigen::Vector3d::Constant(farthest);
+    const double cutoff = size(random_);
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(cutoff);
     const Eigen::AlignedBox3d box(begin - around, begin + along + around);
-    std::vector<int> found, ridged;
-    bvh_.collect({begin, along, farthest, 0.0}, {begin, along, farthest, 0.0}, found, ridged);
-    EXPECT_EQ(found, ridged);
+    std::vector<int> found, owners;
+    bvh_.collect({begin, along, cutoff, 0.0}, {begin, along, cutoff, 0.0}, found, owners);
+    EXPECT_EQ(found, owners);
     std::sort(found.begin(), found.end());
     EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
     for (std::size_t t = 0; t < wall_.triangles.size(); ++t)
     {
       const bool is_found = std::binary_search(found.begin(), found.end(), static_cast<int>(t));
       const Eigen::AlignedBox3d triangle = boxOf(wall_, static_cast<int>(t));
-      EXPECT_TRUE(is_found || !triangle.intersects(box)) << "none is missed";
-      EXPECT_TRUE(!is_found || triangle.exteriorDistance(box) < 1e-7) << "none is far off";
+      EXPECT_TRUE(is_found || !triangle.intersects(box)) << "missed";
+      EXPECT_TRUE(!is_found || triangle.exteriorDistance(box) < 1e-7) << "too far";
       met += is_found;
     }
   }
   EXPECT_GT(met, 1000U);
 }
 
-TEST_F(BvhOfATube, SaysThatNothingIsNearWhenNothingIs)
+TEST_F(BvhOfATube, FindsNoTriangleBeyondTheGivenDistance)
 {
   EXPECT_EQ(bvh_.nearest({1.0, 1.0, 1.0}, 0.1).triangle, -1);
 }
 
-/** With facets of 0.3 mm, finer than a wire is thick. */
+/** A tube with facets of 0.3 mm, smaller than a wire's radius. */
 geometry::TriangleMesh fineTube()
 {
   vessel::TubeShape shape;
@@ -91,21 +91,21 @@ geometry::TriangleMesh fineTube()
   return vessel::tubeMesh(shape);
 }
 
-class ConesInTheTree : public testing::Test
+class NormalCones : public testing::Test
 {
 protected:
-  static constexpr double kLimit = 0.6e-3;  // m
+  static constexpr double kCutoff = 0.6e-3;  // m
 
-  ConesInTheTree() : cones_(wall_.triangles.size())
+  NormalCones() : cones_(wall_.triangles.size())
   {
     const std::array<double, 4> facet{0.0, 0.02, 0.7, std::numeric_limits<double>::infinity()};
-    const std::array<double, 4> ridge{-1.0, 0.05, -1.0, 0.5};
+    const std::array<double, 4> reflex_edge{-1.0, 0.05, -1.0, 0.5};
     for (Bvh::Cone& cone : cones_)
-      cone = {facet[die(2)], ridge[die(3)]};
+      cone = {facet[die(2)], reflex_edge[die(3)]};
     bvh_.setCones(cones_);
   }
 
-  /** 0 nearly always, else up to 3: one open cone opens all those above it. */
+  /** Nearly always 0, otherwise up to 3. Open cones are rare because each opens all its ancestors. */
   std::size_t die(int odds) { return std::uniform_int_distribution<int>(0, 20)(random_) > odds ? 0U : pick(4U); }
   std::size_t pick(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
   double share() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
@@ -118,35 +118,36 @@ protected:
     return v;
   }
 
-  /** A view of the wall from about a wire's radius above it. */
-  Bvh::View view()
+  /** A random segment at about a wire's radius from the wall. */
+  Bvh::QuerySegment segment()
   {
     const std::size_t t = pick(wall_.triangles.size());
     const Eigen::Vector3d normal = wall_.normals[t];
     const Eigen::Vector3d along = normal.cross(inUnitBall()) * 1e-3 * share();
-    const double room = 0.15e-3 * share();
-    return {wall_.vertices[wall_.triangles[t][0]] + (0.1e-3 + 0.5e-3 * share()) * normal, along, kLimit + room, room};
+    const double skin = 0.15e-3 * share();
+    return {wall_.vertices[wall_.triangles[t][0]] + (0.1e-3 + 0.5e-3 * share()) * normal, along, kCutoff + skin, skin};
   }
 
-  /** What may be closest to a place of a view, by looking at every triangle. @param tangent of the triangle's cone */
+  /** Expects every triangle that brute force finds closest to a random point of a segment.
+   *  @param tangent function that selects the slope of a cone */
   template <typename Tangent>
-  void expectAllOf(const Bvh::View& from, std::vector<int> found, const Tangent& tangent)
+  void expectAllOf(const Bvh::QuerySegment& from, std::vector<int> found, const Tangent& tangent)
   {
     std::sort(found.begin(), found.end());
-    const Eigen::Vector3d place = from.begin + share() * from.along + from.room * inUnitBall();
+    const Eigen::Vector3d point = from.begin + share() * from.along + from.skin * inUnitBall();
     for (int t = 0; t < static_cast<int>(wall_.triangles.size()); ++t)
     {
       const double widest = tangent(cones_[t]);
-      if (widest < 0.0 || boxOf(wall_, t).exteriorDistance(place) > kLimit)
+      if (widest < 0.0 || boxOf(wall_, t).exteriorDistance(point) > kCutoff)
         continue;
       const Eigen::Vector3i& c = wall_.triangles[t];
       const Eigen::Vector3d offset =
-          place -
-          geometry::closestPointOnTriangle(place, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]])
+          point -
+          geometry::closestPointOnTriangle(point, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]])
               .point;
       const double height = offset.dot(wall_.normals[t]);
       const double beside = (offset - height * wall_.normals[t]).norm();
-      if (offset.norm() > kLimit || (height > 0.0 && beside > widest * height))
+      if (offset.norm() > kCutoff || (height > 0.0 && beside > widest * height))
         continue;
       ++closest_;
       EXPECT_TRUE(std::binary_search(found.begin(), found.end(), t)) << "triangle " << t;
@@ -160,23 +161,23 @@ protected:
   std::size_t closest_ = 0;
 };
 
-TEST_F(ConesInTheTree, HideNothingThatCanBeClosestToAPlaceThatMovesWithinItsRoom)
+TEST_F(NormalCones, CullNoTriangleClosestToAPointDisplacedWithinTheSkin)
 {
   std::size_t collected = 0;
   std::size_t in_reach = 0;
   for (int trial = 0; trial < 1000; ++trial)
   {
-    const Bvh::View facets = view();
-    Bvh::View ridges = facets;
-    ridges.along *= 2.0;
-    std::vector<int> triangles, ridged;
-    bvh_.collect(facets, ridges, triangles, ridged);
-    for (int place = 0; place < 3; ++place)
+    const Bvh::QuerySegment facets = segment();
+    Bvh::QuerySegment edges = facets;
+    edges.along *= 2.0;
+    std::vector<int> triangles, owners;
+    bvh_.collect(facets, edges, triangles, owners);
+    for (int point = 0; point < 3; ++point)
     {
       expectAllOf(facets, triangles, [](const Bvh::Cone& cone) { return cone.facet; });
-      expectAllOf(ridges, ridged, [](const Bvh::Cone& cone) { return cone.ridge; });
+      expectAllOf(edges, owners, [](const Bvh::Cone& cone) { return cone.reflex_edge; });
     }
-    const Eigen::Vector3d around = Eigen::Vector3d::Constant(facets.farthest);
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(facets.cutoff);
     const Eigen::Vector3d end = facets.begin + facets.along;
     const Eigen::AlignedBox3d box(facets.begin.cwiseMin(end) - around, facets.begin.cwiseMax(end) + around);
     collected += triangles.size();
@@ -184,10 +185,10 @@ TEST_F(ConesInTheTree, HideNothingThatCanBeClosestToAPlaceThatMovesWithinItsRoom
       in_reach += boxOf(wall_, t).intersects(box);
   }
   EXPECT_GT(closest_, 1000U);
-  EXPECT_LT(collected, in_reach * 2 / 3) << "and that they hide much of the rest, or this tests nothing";
+  EXPECT_LT(collected, in_reach * 2 / 3) << "the cones must cull many of the others";
 }
 
-TEST_F(ConesInTheTree, HideNothingThatHasBeenOpened)
+TEST_F(NormalCones, CullNothingOnceOpened)
 {
   std::vector<int> opened;
   for (int t = 0; t < static_cast<int>(wall_.triangles.size()); t += 5)
@@ -198,11 +199,11 @@ TEST_F(ConesInTheTree, HideNothingThatHasBeenOpened)
   bvh_.openCones(opened);
   for (int trial = 0; trial < 200; ++trial)
   {
-    const Bvh::View from = view();
-    std::vector<int> triangles, ridged;
-    bvh_.collect(from, from, triangles, ridged);
+    const Bvh::QuerySegment from = segment();
+    std::vector<int> triangles, owners;
+    bvh_.collect(from, from, triangles, owners);
     expectAllOf(from, triangles, [](const Bvh::Cone& cone) { return cone.facet; });
-    expectAllOf(from, ridged, [](const Bvh::Cone& cone) { return cone.ridge; });
+    expectAllOf(from, owners, [](const Bvh::Cone& cone) { return cone.reflex_edge; });
   }
   EXPECT_GT(closest_, 1000U);
 }

@@ -11,7 +11,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** Three nodes along x, 1 mm apart, beginning at node 5; the wall is the plane z = −0.5 mm. */
+/** Three nodes along x, 1 mm apart, starting at node 5; the wall is the plane z = −0.5 mm. */
 Query query()
 {
   Query query;
@@ -24,7 +24,7 @@ Query query()
   return query;
 }
 
-ContactSet answer()
+ContactSet validSet()
 {
   ContactSet set;
   set.step = 7;
@@ -43,12 +43,12 @@ ContactSet answer()
   return set;
 }
 
-TEST(ContactAnswer, TakesWhatAnswersTheQuery)
+TEST(ContactSetValidation, AcceptsASetOfTheQuery)
 {
-  EXPECT_TRUE(isValidAnswer(query(), answer()));
+  EXPECT_TRUE(isValidAnswer(query(), validSet()));
 }
 
-TEST(ContactAnswer, RefusesEveryWayInWhichASetCanBeGarbled)
+TEST(ContactSetValidation, RejectsEveryKindOfCorruption)
 {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
@@ -67,14 +67,14 @@ TEST(ContactAnswer, RefusesEveryWayInWhichASetCanBeGarbled)
       {"the most negative edge", [](ContactSet& set) { set.features[0].edge = std::numeric_limits<int>::min(); }},
       {"an edge before the first", [](ContactSet& set) { set.features[0].edge = 4; }},
       {"an edge behind the last", [](ContactSet& set) { set.features[0].edge = 7; }},
-      {"a place off the edge", [](ContactSet& set) { set.features[0].parameter = 1.5; }},
-      {"a place that is not a number", [=](ContactSet& set) { set.features[0].parameter = nan; }},
+      {"a parameter beyond the edge", [](ContactSet& set) { set.features[0].parameter = 1.5; }},
+      {"a parameter that is not a number", [=](ContactSet& set) { set.features[0].parameter = nan; }},
       {"a point that is not a number", [=](ContactSet& set) { set.features[0].point.y() = nan; }},
       {"a normal that is not a number", [=](ContactSet& set) { set.features[0].normal.y() = nan; }},
       {"a normal of another length", [](ContactSet& set) { set.features[0].normal *= 1.01; }},
       {"a gap that is not a number", [=](ContactSet& set) { set.features[0].gap = nan; }},
       {"an infinite gap", [=](ContactSet& set) { set.features[0].gap = -infinity; }},
-      {"a gap that is not the point's", [](ContactSet& set) { set.features[0].gap = -0.3e-3; }},
+      {"a gap that contradicts the point", [](ContactSet& set) { set.features[0].gap = -0.3e-3; }},
       {"another wire's radius", [](ContactSet& set) { set.features[0].gap += 0.1e-3; }},
       {"a negative friction", [](ContactSet& set) { set.features[0].friction = -0.1; }},
       {"an infinite friction", [=](ContactSet& set) { set.features[0].friction = infinity; }},
@@ -82,15 +82,15 @@ TEST(ContactAnswer, RefusesEveryWayInWhichASetCanBeGarbled)
       {"a stiffness that is not a number", [=](ContactSet& set) { set.features[0].stiffness = nan; }},
       {"a clearance that is not a number", [=](ContactSet& set) { set.features[0].clearance_radius = nan; }},
   };
-  for (const auto& [name, garble] : faults)
+  for (const auto& [name, corrupt] : faults)
   {
-    ContactSet set = answer();
-    garble(set);
+    ContactSet set = validSet();
+    corrupt(set);
     EXPECT_FALSE(isValidAnswer(query(), set)) << name;
   }
 }
 
-TEST(ContactAnswer, TakesAnEmptySetForAWireOfNoEdges)
+TEST(ContactSetValidation, AcceptsAnEmptySetForAWireWithoutEdges)
 {
   Query nothing;
   EXPECT_TRUE(isValidAnswer(nothing, ContactSet()));

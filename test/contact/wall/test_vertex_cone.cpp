@@ -10,8 +10,8 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** Whether a vertex is the closest place around it to a point in a direction from it. */
-bool isClosest(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
+/** Whether a vertex is a local minimum of the distance to a point in some direction from it. */
+bool isMinimum(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
 {
   for (int e : wall.vertex_edges[vertex])
   {
@@ -22,7 +22,7 @@ bool isClosest(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
   return true;
 }
 
-/** Whether a direction leads in front of a triangle at a vertex. */
+/** Whether a direction points to the lumen side of a triangle at a vertex. */
 bool isInFront(const Wall& wall, int vertex, const Eigen::Vector3d& direction)
 {
   for (int e : wall.vertex_edges[vertex])
@@ -36,12 +36,12 @@ class VertexCone : public testing::TestWithParam<double>
 {
 };
 
-TEST_P(VertexCone, HoldsEveryDirectionInWhichTheVertexIsTheClosestPlace)
+TEST_P(VertexCone, ContainsEveryDirectionInWhichTheVertexIsAMinimum)
 {
   const Wall wall(bumpyTube(GetParam()));
   std::mt19937 random(5);
   std::normal_distribution<double> any;
-  int closest = 0;
+  int minima = 0;
   int bounded = 0;
   double fullest = 0.0;
   for (int v = 0; v < static_cast<int>(wall.vertices.size()); ++v)
@@ -51,18 +51,18 @@ TEST_P(VertexCone, HoldsEveryDirectionInWhichTheVertexIsTheClosestPlace)
     {
       const Eigen::Vector3d off(any(random), any(random), any(random));
       const Eigen::Vector3d direction = (wall.vertex_normals[v] + 2.0 * GetParam() * off).normalized();
-      if (wall.vertex_cone[v] >= M_PI_2 || !isClosest(wall, v, direction) || !isInFront(wall, v, direction))
+      if (wall.vertex_cone[v] >= M_PI_2 || !isMinimum(wall, v, direction) || !isInFront(wall, v, direction))
         continue;
-      ++closest;
+      ++minima;
       const double angle = angleBetween(direction, wall.vertex_normals[v]);
       EXPECT_LE(angle, wall.vertex_cone[v] + 1e-9);
       if (wall.vertex_cone[v] > 0.01)
         fullest = std::max(fullest, angle / wall.vertex_cone[v]);
     }
   }
-  EXPECT_GT(closest, 100);
+  EXPECT_GT(minima, 100);
   EXPECT_GT(bounded, 100);
-  EXPECT_GT(fullest, 0.5);  // the bound is of use
+  EXPECT_GT(fullest, 0.5);  // the bound is tight enough to be useful
 }
 
 INSTANTIATE_TEST_SUITE_P(Bumps, VertexCone, testing::Values(0.02, 0.1, 0.3));

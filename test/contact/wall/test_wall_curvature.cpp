@@ -34,15 +34,15 @@ std::pair<double, double> errorsInTheBend(int facets_around)
   for (std::size_t t = 0; t < wall.triangles.size(); ++t)
   {
     const Eigen::Vector3i& corners = wall.triangles[t];
-    const Eigen::Vector3d place =
+    const Eigen::Vector3d centroid =
         (wall.vertices[corners[0]] + wall.vertices[corners[1]] + wall.vertices[corners[2]]) / 3.0 - centre;
-    const double turned = std::atan2(place.z(), -place.x());
-    if (turned < 0.4 || turned > 1.1)
+    const double angle = std::atan2(centroid.z(), -centroid.x());
+    if (angle < 0.4 || angle > 1.1)
       continue;
-    const Eigen::Vector3d along(std::sin(turned), 0.0, std::cos(turned));
+    const Eigen::Vector3d along(std::sin(angle), 0.0, std::cos(angle));
     const Eigen::Vector3d around = wall.normals[t].cross(along);
-    // Distance from the torus's axis minus that of the channel's axis, in radii: −1 on the inside of the bend.
-    const double side = (std::hypot(place.x(), place.z()) - kBend) / kRadius;
+    // Radial offset from the channel's axis in radii of the channel: −1 on the inside of the bend.
+    const double side = (std::hypot(centroid.x(), centroid.z()) - kBend) / kRadius;
     const double expected_along = side / (kBend + side * kRadius);
     errors.first = std::max(errors.first, std::abs(kRadius * around.dot(wall.curvature[t] * around) - 1.0));
     errors.second = std::max(errors.second, kRadius * std::abs(along.dot(wall.curvature[t] * along) - expected_along));
@@ -50,7 +50,7 @@ std::pair<double, double> errorsInTheBend(int facets_around)
   return errors;
 }
 
-TEST(WallCurvature, IsThatOfATorusAndConvergesAsFacetsGetFiner)
+TEST(WallCurvature, ConvergesToThatOfATorus)
 {
   const auto [coarse_around, coarse_along] = errorsInTheBend(24);
   const auto [fine_around, fine_along] = errorsInTheBend(48);
@@ -67,7 +67,7 @@ Feature nearestFeature(const geometry::TriangleMesh& mesh, const Eigen::Vector3d
 {
   Detector detector(mesh, WallLaw{});
   Query query;
-  query.margin = 1e-3;
+  query.margin = {1e-3, 1e-3};
   query.nodes = {node, node + 1e-3 * direction};
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
@@ -80,12 +80,12 @@ Feature nearestFeature(const geometry::TriangleMesh& mesh, const Eigen::Vector3d
   return nearest;
 }
 
-TEST(WallCurvature, GivesAWireTheRoomBetweenItAndTheWallAcrossIt)
+TEST(WallCurvature, GivesTheClearanceRadiusAcrossTheWire)
 {
   const geometry::TriangleMesh mesh = bend(48);
   const Eigen::Vector3d node(0.1e-3, kRadius - 1e-3, 0.015);
   EXPECT_NEAR(nearestFeature(mesh, node, Eigen::Vector3d::UnitZ()).clearance_radius, kRadius - 0.4e-3, 0.05 * kRadius);
-  // Across a wire that lies around the channel the wall is straight: hardly any curvature, of either sign.
+  // Across a wire in the circumferential direction the wall is straight.
   EXPECT_GT(nearestFeature(mesh, node, Eigen::Vector3d::UnitX()).clearance_radius, 100.0 * kRadius);
 }
 

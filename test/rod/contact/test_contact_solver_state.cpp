@@ -189,6 +189,8 @@ public:
       set.features.push_back(feature);
     }
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 };
 
 /** The springs of a node in a groove, as its stiffness over the wall's. */
@@ -263,6 +265,8 @@ public:
     }
     set.stale = false;
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 };
 
 /** Passes that the active set takes on a stiff random quadratic problem, until it is that of the solution. */

@@ -62,9 +62,12 @@ protected:
     return marginOf(widest);
   }
 
+  /** Margin of a slow node. */
   double marginOf(double radius) const
   {
-    return contact::listingMargin(settings_.contact_margin, floor_.wide_margin, radius);
+    MarginRule rule = contacts_.marginRule();
+    rule.snap = {};
+    return rule.at(0, radius);
   }
 
   double expected(const ContactSolver::Motion& motion) const
@@ -188,7 +191,7 @@ TEST_F(TruncationOverAFloor, LeavesAFilledBalloonAsMuchAsItMaySoonMove)
     motion[5] = Vector3d(distance, 0.0, 0.0);
     contacts_.truncation(state_, motion, 1.0, report_);
     place(20e-3, 20e-3);
-    return floor_.wide_margin;
+    return contacts_.marginRule().widest_margin;
   };
   EXPECT_TRUE(std::isinf(moveBalloon(1e-5)));  // nothing wide yet
   radii_[5] = 1.5e-3;
@@ -262,6 +265,8 @@ public:
     feature.id = 4;
     set.features.assign(1, feature);
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 
   static constexpr int kEdge = 8;
   double gap = 0.0;  ///< [m]

@@ -32,7 +32,7 @@ public:
     {
       contact::Feature feature;
       feature.gap = query.nodes[i].z() - query.radius[i];
-      if (feature.gap > query.margin)
+      if (feature.gap > query.margin[i])
         continue;
       feature.edge = query.first_node + std::min(i, n - 2);
       feature.parameter = i == n - 1 ? 1.0 : 0.0;
@@ -42,6 +42,8 @@ public:
       set.features.push_back(feature);
     }
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 };
 
 /** A free wire that couples at its ends bend upwards, standing on the floor. */

@@ -37,10 +37,12 @@ public:
       feature.normal = Eigen::Vector3d::UnitZ();
       feature.point = Eigen::Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
       feature.gap = query.nodes[i].z() - query.radius[i];
-      if (feature.gap < query.margin)
+      if (feature.gap < query.margin[i])
         set.features.push_back(feature);
     }
   }
+
+  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 };
 
 Boundary freeBoundary()

@@ -42,6 +42,22 @@ public:
   {
     contact::ContactSet answer;
     detector_.detect(query, answer);
+    deliver(query, answer, set);
+  }
+
+  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override
+  {
+    contact::ContactSet answer;
+    detector_.freeDistances(query, wanted, answer);
+    deliver(query, answer, set);
+  }
+
+  static constexpr int kFaults = 12;
+  const std::array<int, kFaults>& dropped() const { return dropped_; }
+
+private:
+  void deliver(const contact::Query& query, contact::ContactSet answer, contact::ContactSet& set)
+  {
     if (query.step != step_ && silent_steps_ > 0)
       --silent_steps_;
     step_ = query.step;
@@ -64,10 +80,6 @@ public:
     set.stale = true;
   }
 
-  static constexpr int kFaults = 12;
-  const std::array<int, kFaults>& dropped() const { return dropped_; }
-
-private:
   contact::ContactSet spoil(const contact::Query& query, contact::ContactSet answer)
   {
     contact::Feature bad;

@@ -21,11 +21,11 @@ geometry::TriangleMesh fineTube()
   return geometry::flatSubdivision(bentTube(), 2);
 }
 
-/** A wire along the tube's wall. @param slid from where it begins [m] */
+/** A wire along the tube's wall. @param slid displacement along the tube; zero gives a zigzag [m] */
 Query wireAlongTheWall(int nodes, double spacing = 0.5e-3, double slid = 0.0)
 {
   Query wire;
-  wire.margin = 0.4e-3;
+  wire.margin.assign(static_cast<std::size_t>(nodes), 0.4e-3);
   for (int k = 0; k < nodes; ++k)
   {
     wire.nodes.emplace_back(3.4e-3, slid == 0.0 ? 1e-4 * (k % 3) : 0.0, spacing * k + slid);
@@ -40,6 +40,7 @@ void insertNode(Query& wire, std::size_t before)
   const Eigen::Vector3d middle = 0.5 * (wire.nodes[before - 1] + wire.nodes[before]);
   wire.nodes.insert(wire.nodes.begin() + at, middle);
   wire.radius.insert(wire.radius.begin() + at, wire.radius[before]);
+  wire.margin.insert(wire.margin.begin() + at, wire.margin[before]);
 }
 
 void removeNode(Query& wire, std::size_t index)
@@ -47,9 +48,10 @@ void removeNode(Query& wire, std::size_t index)
   const auto at = static_cast<std::ptrdiff_t>(index);
   wire.nodes.erase(wire.nodes.begin() + at);
   wire.radius.erase(wire.radius.begin() + at);
+  wire.margin.erase(wire.margin.begin() + at);
 }
 
-TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
+TEST(ListReuse, GivesTheBitsOfANewDetectorWhenNodesAreInsertedAndRemoved)
 {
   geometry::TriangleMesh mesh = fineTube();
   Detector warm(mesh, WallLaw{});
@@ -62,29 +64,29 @@ TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
   {
     for (Eigen::Vector3d& node : wire.nodes)
       node += 2e-5 * Eigen::Vector3d(normal(random), normal(random), normal(random));
-    const auto place = [&] { return 1 + random() % (wire.nodes.size() - 1); };
+    const auto any_node = [&] { return 1 + random() % (wire.nodes.size() - 1); };
     for (std::uint64_t k = random() % 3; k > 0; --k)
-      insertNode(wire, place());
+      insertNode(wire, any_node());
     while (wire.nodes.size() > 58 + random() % 8)
-      removeNode(wire, place());
+      removeNode(wire, any_node());
     if (step % 10 == 0)
     {
-      const Movement movement = pushOut(mesh, wire.nodes[place()], 4e-3, 0.02);
+      const Movement movement = pushOut(mesh, wire.nodes[any_node()], 4e-3, 0.02);
       apply(movement, mesh);
       version = step;
       warm.moveVertices(movement.indices, movement.positions, version);
     }
-    ContactSet followed, fresh;
-    warm.detect(wire, followed);
-    Detector anew(mesh, WallLaw{}, version);
-    anew.detect(wire, fresh);
-    expectSameSets(followed, fresh);
-    features += followed.features.size();
+    ContactSet reused, fresh;
+    warm.detect(wire, reused);
+    Detector fresh_detector(mesh, WallLaw{}, version);
+    fresh_detector.detect(wire, fresh);
+    expectSameSets(reused, fresh);
+    features += reused.features.size();
   }
   EXPECT_GT(features, 1000U);
 }
 
-TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)
+TEST(ListReuse, GivesTheBitsOfANewDetectorToASlidingWire)
 {
   geometry::TriangleMesh mesh = fineTube();
   Detector warm(mesh, WallLaw{});
@@ -97,13 +99,13 @@ TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)
   int nodes = 18;
   for (int step = 2; step < 400; ++step)
   {
-    // To and fro, past the places that were left, and now and then all at once to another side or another length.
+    // Slides back and forth, with occasional jumps to another side or another number of nodes.
     slid = 6e-3 + 5e-3 * std::sin(0.05 * step) + 2e-5 * share(random);
     aside += step % 50 == 0 ? 2e-4 * share(random) : 4e-6 * share(random);
     if (step % 60 == 0)
       nodes = 18 + static_cast<int>(random() % 4);
     Query wire = wireAlongTheWall(nodes, 1.2e-3, slid);
-    wire.margin = step % 70 < 60 ? 0.4e-3 : 0.5e-3;
+    wire.margin.assign(wire.nodes.size(), step % 70 < 60 ? 0.4e-3 : 0.5e-3);
     for (Eigen::Vector3d& node : wire.nodes)
       node += Eigen::Vector3d(0.5 * aside, aside, 0.0);
     if (step % 90 == 0)
@@ -113,12 +115,12 @@ TEST(WireThatSlides, GetsTheAnswersOfADetectorThatIsMadeAnew)
       version = static_cast<std::uint64_t>(step);
       warm.moveVertices(movement.indices, movement.positions, version);
     }
-    ContactSet followed, fresh;
-    warm.detect(wire, followed);
-    Detector anew(mesh, WallLaw{}, version);
-    anew.detect(wire, fresh);
-    expectSameSets(followed, fresh);
-    features += followed.features.size();
+    ContactSet reused, fresh;
+    warm.detect(wire, reused);
+    Detector fresh_detector(mesh, WallLaw{}, version);
+    fresh_detector.detect(wire, fresh);
+    expectSameSets(reused, fresh);
+    features += reused.features.size();
   }
   EXPECT_GT(features, 1000U);
 }

@@ -11,9 +11,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** A duct along y whose floor rises to a roof that is nearly flat: two ridges 2 mm apart, and between them a third one
- *  of a fraction of a degree. */
-geometry::TriangleMesh roofedDuct(double rise)
+/** A duct along y with three reflex edges in its floor: two of them 2 mm apart, and between them a third one with a
+ *  reflex angle of a fraction of a degree. @param rise height of the third edge above the other two [m] */
+geometry::TriangleMesh ductWithFlatEdge(double rise)
 {
   const std::vector<Eigen::Vector2d> section = {{-6e-3, 0.0}, {-1e-3, 1.3e-3}, {0.0, 1.3e-3 + rise}, {1e-3, 1.3e-3},
                                                 {6e-3, 0.0},  {6e-3, 6e-3},    {0.0, 6e-3},          {-6e-3, 6e-3}};
@@ -45,21 +45,21 @@ geometry::TriangleMesh roofedDuct(double rise)
   return mesh;
 }
 
-TEST(FlatRoof, IsMetByTheMiddleOfAnEdgeAtAnyTilt)
+TEST(NearlyFlatEdges, AreContactedByTheMiddleOfAWireEdgeAtAnyTilt)
 {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> tilt(-0.01, 0.01);
   std::uniform_real_distribution<double> askew(-0.5, 0.5);
   for (double rise : {0.0, 0.3e-6, 3.6e-6, 15e-6})
   {
-    const geometry::TriangleMesh mesh = roofedDuct(rise);
+    const geometry::TriangleMesh mesh = ductWithFlatEdge(rise);
     Detector detector(mesh, WallLaw{});
     for (int trial = 0; trial < 60; ++trial)
     {
       const Eigen::Vector3d middle(0.2e-3 * askew(random), 5e-3 + 1e-3 * askew(random), 1.35e-3);
       const Eigen::Vector3d half = 1.27e-3 * Eigen::Vector3d(1.0, askew(random), tilt(random)).normalized();
       Query query;
-      query.margin = 0.25e-3;
+      query.margin = {0.25e-3, 0.25e-3};
       query.nodes = {middle - half, middle + half};
       query.radius = {0.195e-3, 0.195e-3};
       ContactSet set;

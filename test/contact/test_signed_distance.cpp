@@ -11,8 +11,9 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** A straight duct whose cross-section is a star with random radii: ridges bulge into the lumen, sharp ones too.
- *  @param layer height of its quads [m]; @param open without its flat ends */
+/** A straight duct with a star-shaped cross-section of random radii: it has sharp reflex edges.
+ *  @param layer height of its quads [m]
+ *  @param open whether the flat ends are omitted */
 geometry::TriangleMesh starDuct(unsigned seed, double layer, bool open)
 {
   constexpr int kCorners = 10;
@@ -52,7 +53,7 @@ geometry::TriangleMesh starDuct(unsigned seed, double layer, bool open)
   return mesh;
 }
 
-void expectSignsOfTheWindingNumber(const geometry::TriangleMesh& mesh, unsigned seed, const std::string& what)
+void expectSignOfTheWindingNumber(const geometry::TriangleMesh& mesh, unsigned seed, const std::string& name)
 {
   const Detector detector(mesh, WallLaw{});
   std::mt19937 random(seed);
@@ -66,25 +67,25 @@ void expectSignsOfTheWindingNumber(const geometry::TriangleMesh& mesh, unsigned 
     int triangle = -1;
     const double distance = bruteDistance(detector.wall(), p, triangle);
     EXPECT_NEAR(detector.signedDistance(p), winding > 0.5 ? distance : -distance, 1e-12)
-        << what << ", " << p.transpose();
+        << name << ", " << p.transpose();
     inside += winding > 0.5;
   }
-  EXPECT_GT(inside, 10) << what;
+  EXPECT_GT(inside, 10) << name;
 }
 
-TEST(WallSigns, AreThoseOfTheWindingNumberAtSharpRidges)
+TEST(SignedDistance, HasTheSignOfTheWindingNumberAtSharpReflexEdges)
 {
   for (unsigned seed = 1; seed <= 12; ++seed)
-    expectSignsOfTheWindingNumber(starDuct(seed, 2e-3, false), 100 + seed, "duct " + std::to_string(seed));
+    expectSignOfTheWindingNumber(starDuct(seed, 2e-3, false), 100 + seed, "duct " + std::to_string(seed));
 }
 
-TEST(WallSigns, AreThoseOfTheWindingNumberOnSlivers)
+TEST(SignedDistance, HasTheSignOfTheWindingNumberOnSlivers)
 {
   for (unsigned seed = 1; seed <= 4; ++seed)  // triangles of 4 mm by 0.02 mm
-    expectSignsOfTheWindingNumber(starDuct(seed, 2e-5, false), 200 + seed, "slivers " + std::to_string(seed));
+    expectSignOfTheWindingNumber(starDuct(seed, 2e-5, false), 200 + seed, "slivers " + std::to_string(seed));
 }
 
-TEST(WallSigns, OfAnOpenDuctAreThoseOfTheClosedOneBesideItsWall)
+TEST(SignedDistance, OfAnOpenDuctEqualsThatOfTheClosedDuctNearItsWall)
 {
   int compared = 0;
   for (unsigned seed = 1; seed <= 12; ++seed)
@@ -97,7 +98,7 @@ TEST(WallSigns, OfAnOpenDuctAreThoseOfTheClosedOneBesideItsWall)
     for (int trial = 0; trial < 300; ++trial)
     {
       const Eigen::Vector3d p(across(random), across(random), along(random));
-      // Nearer to the wall than to the open ends: what stands there makes no difference.
+      // Nearer to the wall than to the ends, so the presence of the end caps does not matter.
       const double to_end = std::min(p.z(), 20e-3 - p.z());
       const double signed_distance = open.signedDistance(p);
       if (std::abs(signed_distance) >= to_end)
@@ -109,12 +110,12 @@ TEST(WallSigns, OfAnOpenDuctAreThoseOfTheClosedOneBesideItsWall)
   EXPECT_GT(compared, 1000);
 }
 
-TEST(WallSigns, ANodeBesideAnOpenEndFindsTheWallButNoGhostBeyondTheEnd)
+TEST(SignedDistance, GivesNoContactToANodeBeyondAnOpenEnd)
 {
   Detector open(starDuct(3, 2e-3, true), WallLaw{});
   Query query;
-  query.margin = 0.5e-3;
-  query.nodes = {{0.0, 0.0, 1e-3}, {0.0, 0.0, -1e-3}};  // out through the end, in its middle
+  query.margin = {0.5e-3, 0.5e-3};
+  query.nodes = {{0.0, 0.0, 1e-3}, {0.0, 0.0, -1e-3}};  // leaves through the middle of the open end
   query.radius = {0.4e-3, 0.4e-3};
   ContactSet set;
   open.detect(query, set);

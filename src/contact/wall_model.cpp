@@ -1,0 +1,97 @@
+#include "contact/wall_model.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "contact/narrow_phase/normal_cone.h"
+#include "geometry/closest_point_on_triangle.h"
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+Bvh::Cone coneOf(const Wall& wall, const WallBounds& bounds, int triangle)
+{
+  const TriangleSlab& slab = bounds.triangle(triangle);
+  Bvh::Cone cone{slab.bulge(), -1.0};
+  for (int e : slab.own_edges)
+    if (e >= 0)
+    {
+      const double tilt = angleBetween(wall.normals[triangle], wall.edges[e].normal);
+      const double widest = tilt + std::atan(bounds.edge(e).cone_slope);
+      cone.reflex_edge = std::max(cone.reflex_edge, coneSlope(widest));
+    }
+  return cone;
+}
+
+}  // namespace
+
+std::shared_ptr<const WallModel> WallModel::create(const geometry::TriangleMesh& mesh)
+{
+  return std::shared_ptr<const WallModel>(new WallModel(mesh));
+}
+
+WallModel& WallModel::writable(std::shared_ptr<const WallModel>& model)
+{
+  if (model.use_count() != 1)
+    model.reset(new WallModel(*model));
+  // Reads by an owner in another thread that has just released the model happen before the caller's writes.
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return const_cast<WallModel&>(*model);  // models are never created as constant objects
+}
+
+WallModel::WallModel(const geometry::TriangleMesh& mesh) : wall_(mesh), bounds_(wall_), bvh_(wall_)
+{
+  std::vector<Bvh::Cone> cones;
+  cones.reserve(wall_.triangles.size());
+  for (std::size_t t = 0; t < wall_.triangles.size(); ++t)
+    cones.push_back(coneOf(wall_, bounds_, static_cast<int>(t)));
+  bvh_.setCones(cones);
+}
+
+WallModel::WallModel(const WallModel& other) : wall_(other.wall_), bounds_(other.bounds_), bvh_(other.bvh_, wall_) {}
+
+double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* nearest) const
+{
+  const Bvh::Nearest found = bvh_.nearest(point, std::numeric_limits<double>::infinity(), hint);
+  if (nearest != nullptr)
+    *nearest = found.triangle;
+  const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
+  const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
+      point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
+                                  : closest.edge >= 0
+                                      ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
+                                      : wall_.normals[found.triangle];
+  return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
+}
+
+const NeighbourList::WallMovement& WallModel::moveVertices(const std::vector<int>& indices,
+                                                           const std::vector<Eigen::Vector3d>& positions)
+{
+  movement_.bounds.setEmpty();
+  movement_.largest_displacement = 0.0;
+  for (std::size_t k = 0; k < indices.size(); ++k)
+  {
+    movement_.bounds.extend(wall_.vertices[indices[k]]);
+    movement_.largest_displacement =
+        std::max(movement_.largest_displacement, (positions[k] - wall_.vertices[indices[k]]).norm());
+  }
+  const Wall::Changes& changes = wall_.moveVertices(indices, positions);
+  bounds_.refit(wall_, changes, refit_);
+  for (int t : changes.around)
+    for (int corner = 0; corner < 3; ++corner)
+      movement_.bounds.extend(wall_.vertices[wall_.triangles[t][corner]]);
+  bvh_.refit(changes.triangles);
+  bvh_.openCones(refit_.first_moved);
+  movement_.first = !refit_.first_moved.empty();
+  movement_.new_reflex = refit_.new_reflex;
+  return movement_;
+}
+
+}  // namespace endovascular_sim::contact
