@@ -44,13 +44,11 @@ struct TimedEvent
 
 /** The balloons of a scene at work: between the rod, which carries them, and the wall, which they press.
  *
- *  After every kPressEvery-th step the balloon with the highest pressure presses the wall; contact searches the wall
+ *  After every kBalloonLoadPeriod-th step the balloon with the highest pressure presses the wall; contact searches the wall
  *  that comes of it from the next such step on, so that whoever moves the wall has that long to do so. */
 class BalloonTreatments
 {
 public:
-  static constexpr std::uint64_t kPressEvery = 8;  ///< steps
-
   /** @param wall null: no wall moves; must outlive this */
   BalloonTreatments(const scene::Scene& scene, intervention::DeformableWall* wall);
 

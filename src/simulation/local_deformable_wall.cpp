@@ -12,39 +12,32 @@ LocalDeformableWall::LocalDeformableWall(const vessel::Vessel& vessel, contact::
 {
 }
 
-std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& pressing)
+std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& load)
 {
-  waiting_.push_back({++version_, opening_.press(pressing, kMostMovedVertices)});
-  return version_;
+  return history_.append(opening_.press(load, kMostDisplacedVertices));
 }
 
 void LocalDeformableWall::show(std::uint64_t version)
 {
-  shown_ = version;
-  for (; !waiting_.empty() && waiting_.front().version <= version; waiting_.pop_front())
-    detector_.moveVertices(waiting_.front().moved.indices, waiting_.front().moved.positions, waiting_.front().version);
-}
-
-void LocalDeformableWall::Change::archive(Archive& archive)
-{
-  archive(version, moved.indices, moved.positions);
+  history_.advanceTo(version, [this](std::uint64_t passed, const intervention::WallDisplacement& displacement)
+                     { detector_.moveVertices(displacement.indices, displacement.positions, passed); });
 }
 
 void LocalDeformableWall::archive(Archive& archive)
 {
-  // The detector lags behind the opening: its vertices are compared with those of the beginning.
-  intervention::WallDisplacement moved;
-  const std::vector<Eigen::Vector3d>& shown = detector_.wall().vertices;
-  const std::vector<Eigen::Vector3d>& first = opening_.firstVertices();
-  for (std::size_t v = 0; v < first.size() && !archive.reading(); ++v)
-    if (shown[v] != first[v])
+  // The detector lags behind the opening: its displacement is the difference from the initial vertices.
+  intervention::WallDisplacement detected;
+  const std::vector<Eigen::Vector3d>& vertices = detector_.wall().vertices;
+  const std::vector<Eigen::Vector3d>& initial = opening_.firstVertices();
+  for (std::size_t v = 0; v < initial.size() && !archive.reading(); ++v)
+    if (vertices[v] != initial[v])
     {
-      moved.indices.push_back(static_cast<int>(v));
-      moved.positions.push_back(shown[v]);
+      detected.indices.push_back(static_cast<int>(v));
+      detected.positions.push_back(vertices[v]);
     }
-  archive(opening_, version_, shown_, waiting_, moved.indices, moved.positions);
+  archive(opening_, history_, detected);
   if (archive.reading())
-    detector_.moveVertices(moved.indices, moved.positions, shown_);
+    detector_.moveVertices(detected.indices, detected.positions, history_.base());
 }
 
 bool hasBalloon(const scene::Scene& scene)

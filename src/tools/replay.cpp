@@ -1,21 +1,14 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include "common/error.h"
 #include "contact/detector.h"
-#include "endovascular_sim/DriveApplied.h"
-#include "endovascular_sim/SessionInfo.h"
-#include "endovascular_sim/VesselCentreline.h"
-#include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
+#include "nodes/session/session_bag.h"
 #include "results/step_costs_csv.h"
 #include "scene/scene_file.h"
 #include "simulation/local_deformable_wall.h"
@@ -42,58 +35,13 @@ again: roslaunch endovascular_sim replay.launch bag:=SESSION.bag
 exit code: 0 every step is equal, 1 a step differs or is missing, or the bag cannot be used, 2 wrong use
 )";
 
-/** What a recording holds for a replay. */
-struct Recording
-{
-  SessionInfoConstPtr info;
-  VesselMeshConstPtr mesh;
-  VesselCentrelineConstPtr centreline;
-  std::map<std::uint64_t, DriveAppliedConstPtr> steps;
-};
-
-/** Topics are recorded with their full names; scenes may run in any namespace. */
-bool isTopic(const std::string& topic, const std::string& name)
-{
-  return topic.size() > name.size() &&
-         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
-}
-
-Recording read(const std::string& file)
-{
-  Recording recording;
-  rosbag::Bag bag;
-  bag.open(file, rosbag::bagmode::Read);
-  for (const rosbag::MessageInstance& message : rosbag::View(bag))
-  {
-    if (isTopic(message.getTopic(), nodes::names::kDriveApplied))
-    {
-      const auto applied = message.instantiate<DriveApplied>();
-      if (!applied)
-        throw InputError(file, nodes::names::kDriveApplied,
-                         "is that of another version of this software; replay it with the one that recorded it");
-      recording.steps[applied->step] = applied;
-    }
-    else if (isTopic(message.getTopic(), nodes::names::kSessionInfo))
-      recording.info = message.instantiate<SessionInfo>();
-    else if (isTopic(message.getTopic(), nodes::names::kVesselMesh) && !recording.mesh)
-      recording.mesh = message.instantiate<VesselMesh>();
-    else if (isTopic(message.getTopic(), nodes::names::kVesselCentreline))
-      recording.centreline = message.instantiate<VesselCentreline>();
-  }
-  if (!recording.info)
-    throw InputError(file, nodes::names::kSessionInfo, "missing; only bags of the session node can be replayed");
-  if (recording.steps.empty())
-    throw InputError(file, nodes::names::kDriveApplied, "holds no step");
-  return recording;
-}
-
 int replay(const std::string& file, bool keep_going, const std::string& costs_file)
 {
   std::optional<results::StepCostsFile> costs;
   if (!costs_file.empty())
     costs.emplace(costs_file);
-  const Recording recording = read(file);
-  const scene::Scene scene = scene::parseRecordedScene(recording.info->scene_yaml, file);
+  const nodes::SessionBag recording = nodes::readSessionBag(file);
+  const scene::Scene scene = scene::parseRecordedScene(recording.info.scene_yaml, file);
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<simulation::ReplayContactSource> contacts;
   std::unique_ptr<simulation::LocalDeformableWall> wall;
@@ -107,7 +55,7 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
     vessel.mesh = nodes::fromMessage(*recording.mesh);
     vessel.centreline = nodes::fromMessage(*recording.centreline);
     if (vessel.mesh.hash() != recording.mesh->content_hash)
-      throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
+      throw InputError(file, nodes::names::kVesselMesh, "does not match its content hash: the bag is damaged");
     entry = scene::resolveEntry(scene.entry, vessel, file);
     centreline = vessel.centreline;
     detector = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
@@ -149,7 +97,7 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
   }
   std::fprintf(stderr, "\r");
   if (costs && !costs->flush())
-    throw InputError(costs_file, "", "the disk refused it; free some space");
+    throw InputError(costs_file, "", "cannot be written: is the disk full?");
   std::printf("%lu steps, %lu different, trajectory %s\n", static_cast<unsigned long>(simulation.steps()),
               static_cast<unsigned long>(different), Hash64::toHex(simulation.trajectoryHash()).c_str());
   return different == 0 ? 0 : 1;

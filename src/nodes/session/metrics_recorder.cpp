@@ -14,7 +14,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kOutside = 19e-3;  // m before the introducer
+constexpr double kOutside = 19e-3;  ///< distance in front of the introducer at which an instrument is outside [m]
 
 Eigen::Vector3d toVector(const geometry_msgs::Point& point)
 {
@@ -26,7 +26,7 @@ double magnitude(const geometry_msgs::Vector3& v)
   return Eigen::Vector3d(v.x, v.y, v.z).norm();
 }
 
-/** The point of the wire at a length behind its end; the first node beyond. [m] */
+/** Point of the wire at an arc length behind its tip [m]; the first node beyond the wire. */
 Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
 {
   for (std::size_t k = rod.nodes.size() - 1; k > 0; --k)
@@ -45,8 +45,8 @@ Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
 procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
                                        const procedure::BranchPlaces& places, const std::vector<double>& pressures)
 {
-  procedure::Observation seen;
-  seen.time = rod.time;
+  procedure::Observation observation;
+  observation.time = rod.time;
   const double furthest = *std::max_element(rod.insertion.begin(), rod.insertion.end());
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
@@ -61,16 +61,16 @@ procedure::Observation observationFrom(const RodStateVisual& rod, const scene::S
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (middle > 0.0)
       view.balloon = pointBehindTip(rod, furthest - middle);
-    seen.instruments.push_back(view);
+    observation.instruments.push_back(view);
   }
-  procedure::markCovered(seen);
-  return seen;
+  procedure::markCovered(observation);
+  return observation;
 }
 
 void MetricsRecorder::add(const VesselMesh& mesh)
 {
   if (metrics_)
-    return;  // the vessel of the beginning tells where the branches are
+    return;  // the initial vessel defines the branches
   vessel_.mesh = fromMessage(mesh);
   vessel_.source = mesh.source;
   wall_ = vessel_.mesh;
