@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/error.h"
 #include "contact/detector.h"
@@ -35,19 +36,42 @@ again: roslaunch endovascular_sim replay.launch bag:=SESSION.bag
 exit code: 0 every step is equal, 1 a step differs or is missing, or the bag cannot be used, 2 wrong use
 )";
 
-int replay(const std::string& file, bool keep_going, const std::string& costs_file)
+/** Simulation of a recorded session, with the vessel of the recording. */
+class RecordedSimulation
 {
-  std::optional<results::StepCostsFile> costs;
-  if (!costs_file.empty())
-    costs.emplace(costs_file);
-  const nodes::SessionBag recording = nodes::readSessionBag(file);
-  const scene::Scene scene = scene::parseRecordedScene(recording.info.scene_yaml, file);
-  std::unique_ptr<contact::Detector> detector;
-  std::unique_ptr<simulation::ReplayContactSource> contacts;
-  std::unique_ptr<simulation::LocalDeformableWall> wall;
-  scene::EntryPose entry;
-  vessel::CentrelineTree centreline;
-  if (scene.vessel)
+public:
+  RecordedSimulation(const nodes::SessionBag& recording, const std::string& file)
+    : scene_(scene::parseRecordedScene(recording.info.scene_yaml, file))
+  {
+    vessel::Vessel vessel;
+    if (scene_.vessel)
+      vessel = recordedVessel(recording, file);
+    const scene::EntryPose entry =
+        scene_.vessel ? scene::resolveEntry(scene_.entry, vessel, file) : scene::resolveEntry(scene_.entry, file);
+    if (scene_.vessel)
+    {
+      detector_ = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene_.vessel));
+      wall_ = simulation::makeLocalDeformableWall(scene_, vessel, *detector_);
+      contacts_ = std::make_unique<simulation::ReplayContactSource>(*detector_);
+    }
+    simulation_.emplace(scene_, entry, contacts_.get(), &vessel.centreline, wall_.get());
+  }
+
+  const simulation::Simulation& simulation() const { return *simulation_; }
+
+  /** Simulates the next step with its recorded input. */
+  void step(const DriveApplied& applied)
+  {
+    if (contacts_)
+      contacts_->setFirstStalePass(applied.first_stale_pass);
+    commands_.clear();
+    for (std::size_t k = 0; k < applied.insertion.size(); ++k)
+      commands_.push_back({applied.insertion[k], applied.rotation.at(k), applied.pressure.at(k)});
+    simulation_->stepAll(commands_);
+  }
+
+private:
+  static vessel::Vessel recordedVessel(const nodes::SessionBag& recording, const std::string& file)
   {
     if (!recording.mesh || !recording.centreline)
       throw InputError(file, nodes::names::kVesselMesh, "missing, but the scene has a vessel");
@@ -56,16 +80,25 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
     vessel.centreline = nodes::fromMessage(*recording.centreline);
     if (vessel.mesh.hash() != recording.mesh->content_hash)
       throw InputError(file, nodes::names::kVesselMesh, "does not match its content hash: the bag is damaged");
-    entry = scene::resolveEntry(scene.entry, vessel, file);
-    centreline = vessel.centreline;
-    detector = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
-    wall = simulation::makeLocalDeformableWall(scene, vessel, *detector);
-    contacts = std::make_unique<simulation::ReplayContactSource>(*detector);
+    return vessel;
   }
-  else
-    entry = scene::resolveEntry(scene.entry, file);
-  simulation::Simulation simulation(scene, entry, contacts.get(), &centreline, wall.get());
-  std::vector<simulation::HandCommand> commands;
+
+  scene::Scene scene_;
+  std::unique_ptr<contact::Detector> detector_;                ///< null without a vessel
+  std::unique_ptr<simulation::ReplayContactSource> contacts_;  ///< null without a vessel
+  std::unique_ptr<simulation::LocalDeformableWall> wall_;      ///< null without a balloon
+  std::optional<simulation::Simulation> simulation_;
+  std::vector<simulation::HandCommand> commands_;
+};
+
+int replay(const std::string& file, bool keep_going, const std::string& costs_file)
+{
+  std::optional<results::StepCostsFile> costs;
+  if (!costs_file.empty())
+    costs.emplace(costs_file);
+  const nodes::SessionBag recording = nodes::readSessionBag(file);
+  RecordedSimulation session(recording, file);
+  const simulation::Simulation& simulation = session.simulation();
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
   for (const auto& [step, applied] : recording.steps)
@@ -75,13 +108,8 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
       std::cerr << "replay: step " << simulation.steps() << " is missing in " << file << "\n";
       return 1;
     }
-    if (contacts)
-      contacts->setFirstStalePass(applied->first_stale_pass);
-    commands.clear();
-    for (std::size_t k = 0; k < applied->insertion.size(); ++k)
-      commands.push_back({applied->insertion[k], applied->rotation.at(k), applied->pressure.at(k)});
     const Clock::time_point before = Clock::now();
-    simulation.stepAll(commands);
+    session.step(*applied);
     if (costs)
       costs->add(simulation, std::chrono::duration<double>(Clock::now() - before).count());
     if (simulation.stateHash() != applied->state_hash)
@@ -97,7 +125,7 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
   }
   std::fprintf(stderr, "\r");
   if (costs && !costs->flush())
-    throw InputError(costs_file, "", "cannot be written: is the disk full?");
+    throw InputError(costs_file, "", "the disk refused it; free some space");
   std::printf("%lu steps, %lu different, trajectory %s\n", static_cast<unsigned long>(simulation.steps()),
               static_cast<unsigned long>(different), Hash64::toHex(simulation.trajectoryHash()).c_str());
   return different == 0 ? 0 : 1;

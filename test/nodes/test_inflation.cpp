@@ -1,13 +1,8 @@
-#include <signal.h>
-
 #include <map>
 #include <memory>
 #include <mutex>
 
-#include <XmlRpcClient.h>
 #include <gtest/gtest.h>
-#include <ros/master.h>
-#include <ros/network.h>
 #include <ros/ros.h>
 
 #include "endovascular_sim/DriveApplied.h"
@@ -20,6 +15,7 @@
 #include "simulation/local_deformable_wall.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim
 {
@@ -76,32 +72,6 @@ private:
   std::string operating_;
   ros::Subscriber applied_, moved_, mesh_, state_;
 };
-
-template <typename Condition>
-bool waitUntil(double seconds, Condition condition)
-{
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::WallTime::now() < end && !condition())
-    ros::WallDuration(0.01).sleep();
-  return condition();
-}
-
-/** Kills a node, as a crash would. */
-bool killNode(const std::string& name)
-{
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = name;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, response, payload, false) ||
-      !ros::network::splitURI(payload, host, port))
-    return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
-}
 
 class Inflation : public testing::Test
 {

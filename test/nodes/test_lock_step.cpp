@@ -1,15 +1,10 @@
-#include <signal.h>
-
 #include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include <XmlRpcClient.h>
 #include <gtest/gtest.h>
-#include <ros/master.h>
-#include <ros/network.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
@@ -22,6 +17,7 @@
 #include "results/wall_force_map.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim
 {
@@ -118,37 +114,6 @@ private:
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber applied_, force_map_, hand_, state_;
 };
-
-template <typename Condition>
-bool waitUntil(double seconds, Condition condition)
-{
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::WallTime::now() < end)
-  {
-    if (condition())
-      return true;
-    ros::WallDuration(0.005).sleep();
-  }
-  return condition();
-}
-
-/** Kills a node, as a crash would. */
-bool killNode(const std::string& name)
-{
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = name;
-  if (!ros::master::execute("lookupNode", request, response, payload, false))
-    return false;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(payload, host, port))
-    return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
-}
 
 class LockStep : public testing::Test
 {
