@@ -27,7 +27,7 @@ template <typename Displacement>
 class WallHistory
 {
 public:
-  /** A displacement and the version of the wall that it leads to. */
+  /** Displacement and the version of the wall that it leads to. */
   struct Version
   {
     std::uint64_t version = 0;

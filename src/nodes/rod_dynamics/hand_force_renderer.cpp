@@ -7,8 +7,8 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kLeastForcePeak = 5e-3;   ///< of the force limiters [N]
-constexpr double kLeastTorquePeak = 5e-5;  ///< of the torque limiters [N·m]
+constexpr double kLeastForcePeak = 5e-3;   ///< initial peak of the force limiters [N]
+constexpr double kLeastTorquePeak = 5e-5;  ///< initial peak of the torque limiters [N·m]
 
 }  // namespace
 

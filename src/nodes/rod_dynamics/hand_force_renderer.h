@@ -39,7 +39,7 @@ public:
 
 private:
   std::vector<RenderedHand> hands_;
-  std::vector<simulation::ForceFaultLimiter> force_limiters_, torque_limiters_;  ///< per instrument
+  std::vector<simulation::ForceFaultLimiter> force_limiters_, torque_limiters_;  ///< one per instrument
   double share_ = 1.0;  ///< rendered share of the forces; fades while steps are rejected [1]
 };
 

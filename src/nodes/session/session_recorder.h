@@ -33,7 +33,7 @@ struct RecorderSettings
 {
   std::string folder;             ///< folder of all results
   bool stop_at_duration = false;  ///< end at the duration of the scene
-  double patience = 60.0;         ///< with stop_at_duration: longest time without a step, then the node fails [s]
+  double patience = 60.0;         ///< longest time without a step, with stop_at_duration [s]
   double start_patience = 600.0;  ///< the same before the first step, while the vessel is generated [s]
   int picture_interval = 15;      ///< interval of the fluoroscopy frames that are saved as PNG [frames]; 0: none
 };

@@ -15,7 +15,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr int kQueue = 100;               ///< of loads and displacements: none may be lost
+constexpr int kQueue = 100;               ///< queue length of loads and displacements: none may be lost
 constexpr int kPriority = 50;             ///< below the contact node's, which requests the wall
 constexpr double kRepublishPeriod = 0.5;  ///< between two meshes of a wall that moves [s]
 

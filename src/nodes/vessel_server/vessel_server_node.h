@@ -52,7 +52,7 @@ private:
   ros::Publisher mesh_publisher_, centreline_publisher_, marker_publisher_;
   std::unique_ptr<WallDeformationServer> wall_;  ///< null without a balloon
   WallDisplacement displacement_;
-  bool requested_real_time_ = false;  ///< by the thread of receiveLoad()
+  bool requested_real_time_ = false;  ///< used by the thread of receiveLoad() only
   std::atomic<bool> out_of_step_{false};
   ros::Publisher displacement_publisher_;
   DirectCallbackQueue queue_;
