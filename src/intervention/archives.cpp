@@ -16,6 +16,11 @@ void archive(Archive& archive, BalloonLoad& pressing)
   archive(pressing.balloon, pressing.pressure, pressing.sleeve);
 }
 
+void archive(Archive& archive, WallDisplacement& displacement)
+{
+  archive(displacement.indices, displacement.positions);
+}
+
 static void archive(Archive& archive, TreatmentEvents& events)
 {
   archive(events.above_rated, events.burst, events.stent_placed, events.over_expanded, events.stent_lost);

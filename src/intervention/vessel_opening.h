@@ -57,6 +57,8 @@ struct WallDisplacement
   std::vector<Eigen::Vector3d> positions;  ///< [m]
 };
 
+void archive(Archive& archive, WallDisplacement& displacement);
+
 /** The wall yields to balloons and stents (docs/INTERVENTION.md).
  *
  *  A vertex that a body of radius r reaches moves straight away from the body's axis: from its distance r₀ to

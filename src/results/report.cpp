@@ -192,6 +192,8 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
                      {"dt", identity_.time_step},
                      {"duration", identity_.duration}};
   report["software_version"] = identity_.software_version;
+  report["commit"] = identity_.commit;
+  report["physics"] = identity_.physics;
   report["error"] = error.empty() ? Json(nullptr) : Json(error);
   report["steps"] = steps_;
   report["steps_missing_from_recording"] = missed_steps_;

@@ -44,6 +44,8 @@ struct SessionIdentity
   double time_step = 0.0;  ///< time step [s]
   double duration = 0.0;   ///< duration of the scene [s]
   std::string software_version;
+  std::string commit;  ///< commit of the sources
+  int physics = 0;     ///< number of the physics, see common/version.h
 };
 
 /** Outcome of the recording. */

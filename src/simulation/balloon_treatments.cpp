@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/archive.h"
+#include "simulation/wall_history.h"
 
 namespace endovascular_sim::simulation
 {
@@ -130,7 +131,7 @@ std::uint64_t BalloonTreatments::beginStep(std::uint64_t step)
 {
   if (wall_ == nullptr)
     return 0;
-  if (step % kPressEvery == 0 && shown_ != due_)
+  if (step % kBalloonLoadPeriod == 0 && shown_ != due_)
     wall_->show(shown_ = due_);
   return shown_;
 }
@@ -253,7 +254,7 @@ void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& c
       strongest = &treated.treatment;
     collectEvents(treated, step);
   }
-  if (wall_ == nullptr || strongest == nullptr || (step + 1) % kPressEvery != 0)
+  if (wall_ == nullptr || strongest == nullptr || (step + 1) % kBalloonLoadPeriod != 0)
     return;
   due_ = promised_;
   next_.balloon = strongest->pressing().balloon;

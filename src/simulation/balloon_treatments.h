@@ -44,13 +44,11 @@ struct TimedEvent
 
 /** Balloons and stents of a scene: the coupling of the rod, which carries them, with the wall, which they deform.
  *
- *  After every kPressEvery-th step the balloon with the highest pressure loads the wall. Contact detection uses the
+ *  After every kBalloonLoadPeriod-th step the balloon with the highest pressure loads the wall. Contact detection uses the
  *  resulting wall from the next such step on: a lag that leaves time to compute the wall displacement elsewhere. */
 class BalloonTreatments
 {
 public:
-  static constexpr std::uint64_t kPressEvery = 8;  ///< steps
-
   /** @param wall null: a rigid wall; must outlive this */
   BalloonTreatments(const scene::Scene& scene, intervention::DeformableWall* wall);
 

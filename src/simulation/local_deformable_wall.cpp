@@ -12,51 +12,44 @@ LocalDeformableWall::LocalDeformableWall(const vessel::Vessel& vessel, contact::
 {
 }
 
-std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& pressing)
+std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& load)
 {
-  waiting_.push_back({++version_, opening_.press(pressing, kMostMovedVertices)});
-  return version_;
+  return history_.append(opening_.press(load, kMostDisplacedVertices));
 }
 
 void LocalDeformableWall::show(std::uint64_t version)
 {
-  shown_ = version;
-  for (; !waiting_.empty() && waiting_.front().version <= version; waiting_.pop_front())
-    detector_.moveVertices(waiting_.front().moved.indices, waiting_.front().moved.positions, waiting_.front().version);
+  history_.advanceTo(version, [this](std::uint64_t passed, const intervention::WallDisplacement& displacement)
+                     { detector_.moveVertices(displacement.indices, displacement.positions, passed); });
 }
 
-void LocalDeformableWall::Change::archive(Archive& archive)
+/** Displacement of the detector's wall from the initial vertices; the detector lags behind the opening. */
+intervention::WallDisplacement LocalDeformableWall::detectedDisplacement() const
 {
-  archive(version, moved.indices, moved.positions);
-}
-
-/** Vertices that the detector shows at other positions than at the start; the detector lags behind the opening. */
-intervention::WallDisplacement LocalDeformableWall::shownDisplacement() const
-{
-  intervention::WallDisplacement moved;
-  const std::vector<Eigen::Vector3d>& shown = detector_.wall().vertices;
-  const std::vector<Eigen::Vector3d>& first = opening_.firstVertices();
-  for (std::size_t v = 0; v < first.size(); ++v)
-    if (shown[v] != first[v])
+  intervention::WallDisplacement detected;
+  const std::vector<Eigen::Vector3d>& vertices = detector_.wall().vertices;
+  const std::vector<Eigen::Vector3d>& initial = opening_.firstVertices();
+  for (std::size_t v = 0; v < initial.size(); ++v)
+    if (vertices[v] != initial[v])
     {
-      moved.indices.push_back(static_cast<int>(v));
-      moved.positions.push_back(shown[v]);
+      detected.indices.push_back(static_cast<int>(v));
+      detected.positions.push_back(vertices[v]);
     }
-  return moved;
+  return detected;
 }
 
 void LocalDeformableWall::archive(Archive& archive)
 {
-  intervention::WallDisplacement moved = shownDisplacement();
+  intervention::WallDisplacement detected = detectedDisplacement();
   if (archive.reading())
   {
-    for (std::size_t k = 0; k < moved.indices.size(); ++k)
-      moved.positions[k] = opening_.firstVertices()[static_cast<std::size_t>(moved.indices[k])];
-    detector_.moveVertices(moved.indices, moved.positions, shown_);
+    for (std::size_t k = 0; k < detected.indices.size(); ++k)
+      detected.positions[k] = opening_.firstVertices()[static_cast<std::size_t>(detected.indices[k])];
+    detector_.moveVertices(detected.indices, detected.positions, history_.base());
   }
-  archive(opening_, version_, shown_, waiting_, moved.indices, moved.positions);
+  archive(opening_, history_, detected);
   if (archive.reading())
-    detector_.moveVertices(moved.indices, moved.positions, shown_);
+    detector_.moveVertices(detected.indices, detected.positions, history_.base());
 }
 
 bool hasBalloon(const scene::Scene& scene)

@@ -337,7 +337,7 @@ contact::Query Simulation::initialQuery() const
   query.nodes.assign(state_.position.begin() + state_.first_node, state_.position.end());
   const std::vector<double>& radius = discretisation().radius;
   query.radius.assign(radius.begin() + state_.first_node, radius.end());
-  rod::uniformMargin(scene_.solver.contact_margin).apply(query);
+  rod::uniformMargin(scene_.solver.stepper.contact_margin).apply(query);
   return query;
 }
 

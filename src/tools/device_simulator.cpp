@@ -334,7 +334,7 @@ int run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-  endovascular_sim::nodes::keepOffLockStepCpu();
+  endovascular_sim::nodes::avoidLockStepProcessor();
   Arguments arguments;
   CommandLine line(
       "device_simulator", "Emulates a haptic device on a pseudo-terminal: rosserial bytes at the speed of a real line.",

@@ -1,21 +1,14 @@
 #include <chrono>
 #include <cstdio>
-#include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <vector>
 
 #include "common/error.h"
 #include "contact/detector.h"
-#include "endovascular_sim/DriveApplied.h"
-#include "endovascular_sim/SessionInfo.h"
-#include "endovascular_sim/VesselCentreline.h"
-#include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
+#include "nodes/session/session_bag.h"
 #include "results/step_costs_csv.h"
 #include "scene/scene_file.h"
 #include "simulation/local_deformable_wall.h"
@@ -30,64 +23,42 @@ namespace
 using namespace endovascular_sim;  // NOLINT: a program's main file
 using Clock = std::chrono::steady_clock;
 
-/** Messages of a bag that a replay requires. */
-struct Recording
+/** Simulation of a recorded session, with the vessel of the recording. */
+class RecordedSimulation
 {
-  SessionInfoConstPtr info;
-  VesselMeshConstPtr mesh;
-  VesselCentrelineConstPtr centreline;
-  std::map<std::uint64_t, DriveAppliedConstPtr> steps;
-};
-
-/** Topics are recorded with their full names; scenes may run in any namespace. */
-bool isTopic(const std::string& topic, const std::string& name)
-{
-  return topic.size() > name.size() &&
-         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
-}
-
-Recording read(const std::string& file)
-{
-  Recording recording;
-  rosbag::Bag bag;
-  bag.open(file, rosbag::bagmode::Read);
-  for (const rosbag::MessageInstance& message : rosbag::View(bag))
+public:
+  RecordedSimulation(const nodes::SessionBag& recording, const std::string& file)
+    : scene_(scene::parseRecordedScene(recording.info.scene_yaml, file))
   {
-    if (isTopic(message.getTopic(), nodes::names::kDriveApplied))
+    vessel::Vessel vessel;
+    if (scene_.vessel)
+      vessel = recordedVessel(recording, file);
+    const scene::EntryPose entry =
+        scene_.vessel ? scene::resolveEntry(scene_.entry, vessel, file) : scene::resolveEntry(scene_.entry, file);
+    if (scene_.vessel)
     {
-      const auto applied = message.instantiate<DriveApplied>();
-      if (!applied)
-        throw InputError(file, nodes::names::kDriveApplied,
-                         "is that of another version of this software; replay it with the one that recorded it");
-      recording.steps[applied->step] = applied;
+      detector_ = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene_.vessel));
+      wall_ = simulation::makeLocalDeformableWall(scene_, vessel, *detector_);
+      contacts_ = std::make_unique<simulation::ReplayContactSource>(*detector_);
     }
-    else if (isTopic(message.getTopic(), nodes::names::kSessionInfo))
-      recording.info = message.instantiate<SessionInfo>();
-    else if (isTopic(message.getTopic(), nodes::names::kVesselMesh) && !recording.mesh)
-      recording.mesh = message.instantiate<VesselMesh>();
-    else if (isTopic(message.getTopic(), nodes::names::kVesselCentreline))
-      recording.centreline = message.instantiate<VesselCentreline>();
+    simulation_.emplace(scene_, entry, contacts_.get(), &vessel.centreline, wall_.get());
   }
-  if (!recording.info)
-    throw InputError(file, nodes::names::kSessionInfo, "missing; only bags of the session node can be replayed");
-  if (recording.steps.empty())
-    throw InputError(file, nodes::names::kDriveApplied, "holds no step");
-  return recording;
-}
 
-int replay(const std::string& file, bool keep_going, const std::string& costs_file)
-{
-  std::optional<results::StepCostsFile> costs;
-  if (!costs_file.empty())
-    costs.emplace(costs_file);
-  const Recording recording = read(file);
-  const scene::Scene scene = scene::parseRecordedScene(recording.info->scene_yaml, file);
-  std::unique_ptr<contact::Detector> detector;
-  std::unique_ptr<simulation::ReplayContactSource> contacts;
-  std::unique_ptr<simulation::LocalDeformableWall> wall;
-  scene::EntryPose entry;
-  vessel::CentrelineTree centreline;
-  if (scene.vessel)
+  const simulation::Simulation& simulation() const { return *simulation_; }
+
+  /** Simulates the next step with its recorded input. */
+  void step(const DriveApplied& applied)
+  {
+    if (contacts_)
+      contacts_->setFirstStalePass(applied.first_stale_pass);
+    commands_.clear();
+    for (std::size_t k = 0; k < applied.insertion.size(); ++k)
+      commands_.push_back({applied.insertion[k], applied.rotation.at(k), applied.pressure.at(k)});
+    simulation_->stepAll(commands_);
+  }
+
+private:
+  static vessel::Vessel recordedVessel(const nodes::SessionBag& recording, const std::string& file)
   {
     if (!recording.mesh || !recording.centreline)
       throw InputError(file, nodes::names::kVesselMesh, "missing, but the scene has a vessel");
@@ -95,17 +66,26 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
     vessel.mesh = nodes::fromMessage(*recording.mesh);
     vessel.centreline = nodes::fromMessage(*recording.centreline);
     if (vessel.mesh.hash() != recording.mesh->content_hash)
-      throw InputError(file, nodes::names::kVesselMesh, "does not match its own hash: the bag is damaged");
-    entry = scene::resolveEntry(scene.entry, vessel, file);
-    centreline = vessel.centreline;
-    detector = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
-    wall = simulation::makeLocalDeformableWall(scene, vessel, *detector);
-    contacts = std::make_unique<simulation::ReplayContactSource>(*detector);
+      throw InputError(file, nodes::names::kVesselMesh, "does not match its content hash: the bag is damaged");
+    return vessel;
   }
-  else
-    entry = scene::resolveEntry(scene.entry, file);
-  simulation::Simulation simulation(scene, entry, contacts.get(), &centreline, wall.get());
-  std::vector<simulation::HandCommand> commands;
+
+  scene::Scene scene_;
+  std::unique_ptr<contact::Detector> detector_;                ///< null without a vessel
+  std::unique_ptr<simulation::ReplayContactSource> contacts_;  ///< null without a vessel
+  std::unique_ptr<simulation::LocalDeformableWall> wall_;      ///< null without a balloon
+  std::optional<simulation::Simulation> simulation_;
+  std::vector<simulation::HandCommand> commands_;
+};
+
+int replay(const std::string& file, bool keep_going, const std::string& costs_file)
+{
+  std::optional<results::StepCostsFile> costs;
+  if (!costs_file.empty())
+    costs.emplace(costs_file);
+  const nodes::SessionBag recording = nodes::readSessionBag(file);
+  RecordedSimulation session(recording, file);
+  const simulation::Simulation& simulation = session.simulation();
   std::uint64_t different = 0;
   std::uint64_t last = recording.steps.rbegin()->first;
   for (const auto& [step, applied] : recording.steps)
@@ -115,13 +95,8 @@ int replay(const std::string& file, bool keep_going, const std::string& costs_fi
       std::cerr << "replay: step " << simulation.steps() << " is missing in " << file << "\n";
       return 1;
     }
-    if (contacts)
-      contacts->setFirstStalePass(applied->first_stale_pass);
-    commands.clear();
-    for (std::size_t k = 0; k < applied->insertion.size(); ++k)
-      commands.push_back({applied->insertion[k], applied->rotation.at(k), applied->pressure.at(k)});
     const Clock::time_point before = Clock::now();
-    simulation.stepAll(commands);
+    session.step(*applied);
     if (costs)
       costs->add(simulation, std::chrono::duration<double>(Clock::now() - before).count());
     if (simulation.stateHash() != applied->state_hash)

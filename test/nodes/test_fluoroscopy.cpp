@@ -28,7 +28,7 @@ namespace
 
 const Eigen::Vector3d kTip(0.011, 0.004, 0.05);
 
-/** A box as a vessel, 30 mm wide and 100 mm long, centred at (0, 0, 0.05). */
+/** Vessel in the shape of a box, 30 mm wide and 100 mm long, centred at (0, 0, 0.05). */
 VesselMesh boxVessel()
 {
   VesselMesh message;
@@ -52,7 +52,7 @@ VesselMesh boxVessel()
   return message;
 }
 
-/** A straight wire along z that ends at kTip, thick enough to stand out. */
+/** Straight thick wire along z that ends at kTip. */
 RodStateVisual rod()
 {
   RodStateVisual state;
@@ -91,13 +91,13 @@ protected:
       rod_(node_.advertise<RodStateVisual>(names::kRodStateVisual, 1, true)),
       c_arm_(node_.advertise<CArm>(names::kCArmCommand, 1)),
       diagnostics_(node_.subscribe<diagnostic_msgs::DiagnosticArray>(names::kDiagnostics, 10,
-                                                                     &FluoroscopyGraph::takeDiagnostics, this))
+                                                                     &FluoroscopyGraph::receiveDiagnostics, this))
   {
     mesh_.publish(boxVessel());
     rod_.publish(rod());
   }
 
-  void listen()
+  void subscribe()
   {
     const auto keep = [](auto& map) { return [&map](const auto& message) { map[message->header.stamp] = message; }; };
     image_ = node_.subscribe<sensor_msgs::Image>(names::kFluoroscopyImage, 10, keep(images));
@@ -105,14 +105,14 @@ protected:
     info_ = node_.subscribe<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 10, keep(infos));
   }
 
-  void forgetFrames()
+  void clearFrames()
   {
     images.clear();
     raws.clear();
     infos.clear();
   }
 
-  /** A frame of which all three parts have arrived. */
+  /** Stamp of a frame whose images and camera info have arrived. */
   std::optional<ros::Time> completeFrame()
   {
     std::optional<ros::Time> found;
@@ -127,7 +127,7 @@ protected:
     return found;
   }
 
-  /** Pixel (column, row) of a point of the patient frame by tf and camera_info alone. */
+  /** Pixel (column, row) of a point in the patient frame, from tf and camera_info. */
   Eigen::Vector2d pixelOf(const Eigen::Vector3d& point, const sensor_msgs::CameraInfo& info)
   {
     const auto t = buffer_.lookupTransform(info.header.frame_id, names::kPatientFrame, ros::Time(0)).transform;
@@ -143,8 +143,8 @@ protected:
                          static_cast<std::size_t>(std::lround(pixel.x())));
   }
 
-  /** Expects wire 10 mm below the tip, and none 10 mm above it or 3 mm beside it. */
-  void expectWireWhereItIs(const ros::Time& stamp)
+  /** Expects the wire 10 mm below the tip, and no wire 10 mm above or 3 mm beside it. */
+  void expectWireAtItsProjection(const ros::Time& stamp)
   {
     const sensor_msgs::CameraInfo& info = *infos.at(stamp);
     const sensor_msgs::Image& image = *images.at(stamp);
@@ -168,32 +168,32 @@ protected:
   ros::Subscriber diagnostics_, image_, raw_, info_;
 
 private:
-  void takeDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message)
+  void receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message)
   {
-    for (const auto& one : message->status)
-      if (one.hardware_id == "simulated C-arm")
+    for (const auto& candidate : message->status)
+      if (candidate.hardware_id == "simulated C-arm")
       {
         status.clear();
-        for (const auto& value : one.values)
+        for (const auto& value : candidate.values)
           status[value.key] = value.value;
-        status_message = one.message;
+        status_message = candidate.message;
         ++status_count;
       }
   }
 };
 
-TEST_F(FluoroscopyGraph, RendersNothingWhileNobodyListensAndSaysHowItIsScheduled)
+TEST_F(FluoroscopyGraph, RendersNothingWithoutASubscriberAndReportsItsScheduling)
 {
-  ASSERT_TRUE(waitFor([&] { return status_message == "idle: nobody listens"; })) << status_message;
+  ASSERT_TRUE(waitFor([&] { return status_message == "idle: no subscriber"; })) << status_message;
   const int count = status_count;
   ASSERT_TRUE(waitFor([&] { return status_count > count + 1; }));
   EXPECT_EQ(status.at("frames rendered"), "0");
   EXPECT_NE(status.at("scheduling").find("SCHED_IDLE"), std::string::npos);
 }
 
-TEST_F(FluoroscopyGraph, PublishesImagesAndCameraInfoWithTheSameStampAndStopsWhenNobodyListens)
+TEST_F(FluoroscopyGraph, PublishesImagesAndCameraInfoWithOneStampWhileTheyHaveSubscribers)
 {
-  listen();
+  subscribe();
   const auto stamp = completeFrame();
   ASSERT_TRUE(stamp);
   EXPECT_EQ(images.at(*stamp)->encoding, "mono8");
@@ -208,22 +208,22 @@ TEST_F(FluoroscopyGraph, PublishesImagesAndCameraInfoWithTheSameStampAndStopsWhe
   image_.shutdown();
   raw_.shutdown();
   info_.shutdown();
-  EXPECT_TRUE(waitFor([&] { return status_message == "idle: nobody listens"; }));
+  EXPECT_TRUE(waitFor([&] { return status_message == "idle: no subscriber"; }));
 }
 
-TEST_F(FluoroscopyGraph, DrawsTheWireWhereTfAndCameraInfoSayInAp)
+TEST_F(FluoroscopyGraph, DrawsTheWireAtItsProjectionByTfAndCameraInfo)
 {
-  listen();
+  subscribe();
   const auto stamp = completeFrame();
   ASSERT_TRUE(stamp);
-  // The wire is left of the vessel's middle, the patient's left is on the image's right.
+  // The wire is left of the vessel's axis; the patient's left is on the right of the image.
   EXPECT_GT(pixelOf(kTip, *infos.at(*stamp)).x(), infos.at(*stamp)->K[2] + 5.0);
-  expectWireWhereItIs(*stamp);
+  expectWireAtItsProjection(*stamp);
 }
 
-TEST_F(FluoroscopyGraph, FollowsTheCommandsOfTheCArmAndRefusesImpossibleOnes)
+TEST_F(FluoroscopyGraph, FollowsCommandsOfTheCArmAndRejectsInvalidOnes)
 {
-  listen();
+  subscribe();
   ASSERT_TRUE(completeFrame());
   fluoroscopy::CArmPose pose;
   pose.primary_angle = 0.7;
@@ -232,28 +232,28 @@ TEST_F(FluoroscopyGraph, FollowsTheCommandsOfTheCArmAndRefusesImpossibleOnes)
   ASSERT_TRUE(waitFor([&] { return c_arm_.getNumSubscribers() > 0; }));
   c_arm_.publish(toMessage(pose));
   const Eigen::Vector3d source = fluoroscopy::XRayGeometry(pose).source();
-  const auto sourceIsThere = [&]
+  const auto isSourceInPlace = [&]
   {
     const auto t = buffer_.lookupTransform(names::kPatientFrame, names::kXRaySourceFrame, ros::Time(0)).transform;
     return (Eigen::Vector3d(t.translation.x, t.translation.y, t.translation.z) - source).norm() < 1e-9;
   };
-  ASSERT_TRUE(waitFor(sourceIsThere));
-  forgetFrames();
+  ASSERT_TRUE(waitFor(isSourceInPlace));
+  clearFrames();
   ASSERT_TRUE(completeFrame());
-  forgetFrames();  // the frame under way at the move may be of the old pose
+  clearFrames();  // a frame rendered during the motion may show the old pose
   const auto stamp = completeFrame();
   ASSERT_TRUE(stamp);
-  expectWireWhereItIs(*stamp);
+  expectWireAtItsProjection(*stamp);
 
   pose.source_to_patient = 2.0;
   c_arm_.publish(toMessage(pose));
   EXPECT_TRUE(waitFor([&] { return status_message.find("distance_source_to_detector") != std::string::npos; }));
-  EXPECT_TRUE(sourceIsThere());
+  EXPECT_TRUE(isSourceInPlace());
 }
 
-TEST_F(FluoroscopyGraph, SurvivesMessagesThatDoNotFitTogether)
+TEST_F(FluoroscopyGraph, RejectsInconsistentMessagesAndContinues)
 {
-  listen();
+  subscribe();
   VesselMesh mesh = boxVessel();
   mesh.mesh.triangles[3].vertex_indices[1] = 8;
   mesh_.publish(mesh);
@@ -262,11 +262,11 @@ TEST_F(FluoroscopyGraph, SurvivesMessagesThatDoNotFitTogether)
   state.insertion.clear();
   rod_.publish(state);
   EXPECT_TRUE(waitFor([&] { return status_message.find("insertion") != std::string::npos; }));
-  forgetFrames();
+  clearFrames();
   EXPECT_TRUE(completeFrame());
 }
 
-TEST(ImageConversions, BringACArmPoseThereAndBack)
+TEST(ImageConversions, RestoreACArmPose)
 {
   fluoroscopy::CArmPose pose;
   pose.primary_angle = -0.4;
@@ -286,6 +286,6 @@ int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "test_fluoroscopy");
-  const ros::NodeHandle keep_alive;  // the last handle to go would end the node between two tests
+  const ros::NodeHandle keep_alive;  // destroying the last handle would shut the node down between two tests
   return RUN_ALL_TESTS();
 }

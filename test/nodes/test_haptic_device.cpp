@@ -14,10 +14,10 @@
 namespace
 {
 
-constexpr double kForce = 0.5;     // [N]
-constexpr double kTorque = 0.005;  // [N·m]
+constexpr double kForce = 0.5;     ///< [N]
+constexpr double kTorque = 0.005;  ///< [N·m]
 
-/** Plays the simulation at 1 kHz: takes the motion as it is, pushes back with a constant force. */
+/** Substitute of the simulation at 1 kHz: accepts every motion and publishes a constant force. */
 class Graph
 {
 public:
@@ -25,12 +25,12 @@ public:
   {
     const auto no_delay = ros::TransportHints().tcpNoDelay();
     force_ = node_.advertise<sensor_msgs::JointState>("instruments/guidewire/measured_js", 10);
-    servo_ = node_.subscribe("instruments/guidewire/servo_jp", 1000, &Graph::takeMotion, this, no_delay);
-    measured_ = node_.subscribe("haptic/hand/measured_js", 1000, &Graph::takeMeasured, this, no_delay);
-    state_ = node_.subscribe("haptic/hand/operating_state", 10, &Graph::takeState, this, no_delay);
-    diagnostics_ = node_.subscribe("/diagnostics", 10, &Graph::takeDiagnostics, this, no_delay);
+    servo_ = node_.subscribe("instruments/guidewire/servo_jp", 1000, &Graph::receiveMotion, this, no_delay);
+    measured_ = node_.subscribe("haptic/hand/measured_js", 1000, &Graph::receiveMeasured, this, no_delay);
+    state_ = node_.subscribe("haptic/hand/operating_state", 10, &Graph::receiveState, this, no_delay);
+    diagnostics_ = node_.subscribe("/diagnostics", 10, &Graph::receiveDiagnostics, this, no_delay);
     spinner_.start();
-    thread_ = std::thread(&Graph::pushBack, this);
+    thread_ = std::thread(&Graph::publishForces, this);
   }
 
   ~Graph()
@@ -40,10 +40,10 @@ public:
     spinner_.stop();
   }
 
-  void talk(bool on)
+  void setPublishing(bool on)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    talks_ = on;
+    publishes_ = on;
     silent_since_ = ros::Time::now();
   }
 
@@ -68,19 +68,19 @@ public:
   double insertion = 0.0;
   double largest_jump = 0.0;
   sensor_msgs::JointState measured;
-  std::size_t late_forces = 0;  ///< non-zero more than 100 ms after the simulation fell silent
+  std::size_t late_forces = 0;  ///< non-zero forces later than 100 ms after the last force of the simulation
   std::string state;
   std::string reason;
   std::string reconnects;
 
 private:
-  void pushBack()
+  void publishForces()
   {
     while (running_ && ros::ok())
     {
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (talks_ && motions > 0)
+        if (publishes_ && motions > 0)
         {
           sensor_msgs::JointState message;
           message.header.stamp = ros::Time::now();
@@ -94,7 +94,7 @@ private:
     }
   }
 
-  void takeMotion(const sensor_msgs::JointState& message)
+  void receiveMotion(const sensor_msgs::JointState& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ASSERT_EQ(message.name, (std::vector<std::string>{"insertion", "rotation"}));
@@ -106,22 +106,22 @@ private:
     ++motions;
   }
 
-  void takeMeasured(const sensor_msgs::JointState& message)
+  void receiveMeasured(const sensor_msgs::JointState& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     measured = message;
-    if (!talks_ && message.effort.at(0) != 0.0 && message.header.stamp > silent_since_ + ros::Duration(0.1))
+    if (!publishes_ && message.effort.at(0) != 0.0 && message.header.stamp > silent_since_ + ros::Duration(0.1))
       ++late_forces;
   }
 
-  void takeState(const endovascular_sim::OperatingState& message)
+  void receiveState(const endovascular_sim::OperatingState& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state = message.state;
     reason = message.reason;
   }
 
-  void takeDiagnostics(const diagnostic_msgs::DiagnosticArray& message)
+  void receiveDiagnostics(const diagnostic_msgs::DiagnosticArray& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& status : message.status)
@@ -132,7 +132,7 @@ private:
 
   ros::NodeHandle node_;
   std::mutex mutex_;
-  bool talks_ = true;
+  bool publishes_ = true;
   ros::Time silent_since_;
   std::vector<double> command_;
   ros::Publisher force_;
@@ -145,7 +145,7 @@ private:
   std::thread thread_;
 };
 
-TEST(HapticDeviceNode, CarriesMotionAndForceLetsGoOnSilenceAndComesBackAfterAnUnplug)
+TEST(HapticDeviceNode, ExchangesMotionAndForceFadesOnSilenceAndRecoversFromAnUnplug)
 {
   Graph graph;
   ASSERT_TRUE(graph.waitFor(30.0, [&] { return graph.motions > 500 && graph.state == "ENABLED"; }))
@@ -154,22 +154,22 @@ TEST(HapticDeviceNode, CarriesMotionAndForceLetsGoOnSilenceAndComesBackAfterAnUn
   EXPECT_EQ(graph.measured.effort.at(1), kTorque);
   ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.insertion > 0.01; })) << "the hand moves";
 
-  graph.talk(false);
+  graph.setPublishing(false);
   ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.state == "PAUSED" && graph.measured.effort.at(0) == 0.0; }));
   const std::size_t motions = graph.motions;
-  ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.motions > motions + 300; })) << "motion goes on";
-  EXPECT_EQ(graph.late_forces, 0U) << "no force is left 100 ms after the simulation fell silent";
-  graph.talk(true);
+  ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.motions > motions + 300; })) << "motion continues";
+  EXPECT_EQ(graph.late_forces, 0U) << "the force is zero 100 ms after the last force of the simulation";
+  graph.setPublishing(true);
   ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.measured.effort.at(0) == kForce; }));
 
-  ASSERT_TRUE(graph.waitFor(20.0, [&] { return graph.state == "DISABLED"; })) << "the plug is pulled";
+  ASSERT_TRUE(graph.waitFor(20.0, [&] { return graph.state == "DISABLED"; })) << "the device is unplugged";
   ASSERT_TRUE(graph.waitFor(1.0, [&] { return graph.measured.header.stamp.isZero(); })) << "marked as invalid";
   EXPECT_EQ(graph.measured.effort.at(0), 0.0);
   const double held = graph.insertion;
   ASSERT_TRUE(graph.waitFor(10.0, [&] { return graph.state == "ENABLED"; })) << graph.reason;
-  ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.insertion > held + 0.005; })) << "the motion goes on";
+  ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.insertion > held + 0.005; })) << "motion continues";
   ASSERT_TRUE(graph.waitFor(5.0, [&] { return graph.measured.effort.at(0) == kForce; }));
-  EXPECT_LT(graph.largest_jump, 5e-3) << "and has never jumped";
+  EXPECT_LT(graph.largest_jump, 5e-3) << "without a jump";
   EXPECT_TRUE(graph.waitFor(5.0, [&] { return graph.reconnects == "1"; })) << graph.reconnects;
 }
 

@@ -1,13 +1,8 @@
-#include <signal.h>
-
 #include <map>
 #include <memory>
 #include <mutex>
 
-#include <XmlRpcClient.h>
 #include <gtest/gtest.h>
-#include <ros/master.h>
-#include <ros/network.h>
 #include <ros/ros.h>
 
 #include "endovascular_sim/DriveApplied.h"
@@ -20,13 +15,14 @@
 #include "simulation/local_deformable_wall.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim
 {
 namespace
 {
 
-/** What the graph says of its steps and of its wall. */
+/** Listener to the steps and the wall of the graph. */
 class Listener
 {
 public:
@@ -77,32 +73,6 @@ private:
   ros::Subscriber applied_, moved_, mesh_, state_;
 };
 
-template <typename Condition>
-bool eventually(double seconds, Condition condition)
-{
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::WallTime::now() < end && !condition())
-    ros::WallDuration(0.01).sleep();
-  return condition();
-}
-
-/** Ends a node the hard way, as a crash would. */
-bool killNode(const std::string& name)
-{
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = name;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, response, payload, false) ||
-      !ros::network::splitURI(payload, host, port))
-    return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
-}
-
 class Inflation : public testing::Test
 {
 protected:
@@ -110,16 +80,16 @@ protected:
   {
     scene_ = nodes::sceneFromParameters(ros::NodeHandle());
     listener_ = std::make_unique<Listener>(scene_.instruments.front().instrument.name);
-    ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 100; })) << "the graph does not step";
+    ASSERT_TRUE(waitUntil(60.0, [this] { return listener_->steps().size() > 100; })) << "the graph does not step";
   }
 
   scene::Scene scene_;
   std::unique_ptr<Listener> listener_;
 };
 
-TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
+TEST_F(Inflation, A_GraphEqualsTheOfflineSimulationWhileABalloonMovesTheWall)
 {
-  ASSERT_TRUE(eventually(120.0, [this] { return listener_->steps().rbegin()->first > 2500; }));
+  ASSERT_TRUE(waitUntil(120.0, [this] { return listener_->steps().rbegin()->first > 2500; }));
   EXPECT_GT(listener_->movedVertices(), 500U);
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
   const vessel::Vessel vessel =
@@ -129,7 +99,7 @@ TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
   simulation::ReplayContactSource source(detector);
   simulation::Simulation simulation(scene_, scene::resolveEntry(scene_.entry, vessel, scene_.file), &source,
                                     &vessel.centreline, &wall);
-  // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
+  // The listener may join late: earlier steps are simulated from the script of the scene, which also drives the graph.
   std::uint64_t compared = 0;
   while (simulation.steps() <= steps.rbegin()->first)
   {
@@ -149,18 +119,18 @@ TEST_F(Inflation, A_GraphAndOfflineLoopGiveTheSameBitsWhileABalloonMovesTheWall)
   }
   EXPECT_GT(compared, 2000U);
   EXPECT_GT(wall.version(), 100U);
-  // Pictures follow: the wall is published anew while it moves.
-  ASSERT_TRUE(eventually(10.0, [this] { return listener_->newestMesh().version > 100; }));
+  // The mesh for display follows the wall.
+  ASSERT_TRUE(waitUntil(10.0, [this] { return listener_->newestMesh().version > 100; }));
   EXPECT_NE(listener_->newestMesh().content_hash, vessel.mesh.hash());
   EXPECT_EQ(listener_->newestMesh().content_hash, nodes::fromMessage(listener_->newestMesh()).hash());
 }
 
-TEST_F(Inflation, B_DeathOfTheVesselServerPausesAndDoesNotHang)
+TEST_F(Inflation, B_LossOfTheVesselServerPausesTheSimulation)
 {
-  ASSERT_TRUE(eventually(20.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  ASSERT_TRUE(waitUntil(20.0, [this] { return listener_->operatingState() == "ENABLED"; }));
   ASSERT_TRUE(killNode("/vessel_server"));
-  // The balloon is still emptying: the rod asks for a wall that nobody makes.
-  EXPECT_TRUE(eventually(10.0, [this] { return listener_->operatingState() == "PAUSED"; }));
+  // The balloon is still deflating: the rod requests a version that no node publishes.
+  EXPECT_TRUE(waitUntil(10.0, [this] { return listener_->operatingState() == "PAUSED"; }));
 }
 
 }  // namespace

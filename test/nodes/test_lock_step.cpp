@@ -1,15 +1,10 @@
-#include <signal.h>
-
 #include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include <XmlRpcClient.h>
 #include <gtest/gtest.h>
-#include <ros/master.h>
-#include <ros/network.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
@@ -22,13 +17,14 @@
 #include "results/wall_force_map.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim
 {
 namespace
 {
 
-/** Everything that the rod says, kept from the first message on. */
+/** Listener to all topics of the rod. */
 class Listener
 {
 public:
@@ -86,14 +82,14 @@ public:
     return newest_map_;
   }
 
-  /** From the last step before a pause to the first force of zero [s]. */
+  /** Time from the last step before a pause to the first zero force [s]. */
   double timeToZeroForce() const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     return zero_force_stamp_ - last_step_stamp_;
   }
 
-  /** Largest change of the force from one message to the next since the last call [N]. */
+  /** Largest change of the force between two messages since the last call [N]. */
   double largestChange()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -112,43 +108,12 @@ private:
   ContactForceMapConstPtr newest_map_;
   std::string operating_;
   std::atomic<double> force_{0.0};
-  double zero_force_stamp_ = 0.0;  ///< of the first zero force after the last one that was not [s]
-  double largest_change_ = 0.0;    ///< [N]
-  double last_step_stamp_ = 0.0;   ///< [s]
-  // Last, so that they end first: their callbacks run in another thread and use all of the above.
+  double zero_force_stamp_ = 0.0;  ///< stamp of the first zero force after the last non-zero one [s]
+  double largest_change_ = 0.0;    ///< largest change of the force [N]
+  double last_step_stamp_ = 0.0;   ///< stamp of the newest step [s]
+  // Last, so that they end before the members that their callbacks use.
   ros::Subscriber applied_, force_map_, hand_, state_;
 };
-
-template <typename Condition>
-bool eventually(double seconds, Condition condition)
-{
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::WallTime::now() < end)
-  {
-    if (condition())
-      return true;
-    ros::WallDuration(0.005).sleep();
-  }
-  return condition();
-}
-
-/** Ends a node the hard way, as a crash would. */
-bool killNode(const std::string& name)
-{
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = name;
-  if (!ros::master::execute("lookupNode", request, response, payload, false))
-    return false;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(payload, host, port))
-    return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer) && kill(static_cast<int>(answer[2]), SIGKILL) == 0;
-}
 
 class LockStep : public testing::Test
 {
@@ -157,24 +122,24 @@ protected:
   {
     scene_ = nodes::sceneFromParameters(ros::NodeHandle());
     listener_ = std::make_unique<Listener>(scene_.instruments.front().instrument.name);
-    ASSERT_TRUE(eventually(60.0, [this] { return listener_->steps().size() > 500; })) << "the graph does not step";
+    ASSERT_TRUE(waitUntil(60.0, [this] { return listener_->steps().size() > 500; })) << "the graph does not step";
   }
 
   scene::Scene scene_;
   std::unique_ptr<Listener> listener_;
 };
 
-// Runs first: the recording of inputs must begin with step 0, before anything was disturbed.
-TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
+// Must run first: the inputs are compared from step 0 on, without a disturbance.
+TEST_F(LockStep, A_GraphEqualsTheOfflineSimulationAtEveryStep)
 {
-  ASSERT_TRUE(eventually(30.0, [this] { return listener_->steps().size() > 2500; }));
+  ASSERT_TRUE(waitUntil(30.0, [this] { return listener_->steps().size() > 2500; }));
   ContactForceMapConstPtr map;
-  ASSERT_TRUE(eventually(30.0,
-                         [this, &map]
-                         {
-                           map = listener_->newestMap();
-                           return map && map->whole.integral > 0.0 && listener_->steps().count(map->step) > 0;
-                         }));
+  ASSERT_TRUE(waitUntil(30.0,
+                        [this, &map]
+                        {
+                          map = listener_->newestMap();
+                          return map && map->whole.integral > 0.0 && listener_->steps().count(map->step) > 0;
+                        }));
   const std::map<std::uint64_t, DriveApplied> steps = listener_->steps();
   const vessel::Vessel vessel =
       scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::CentrelineUse::kRequired);
@@ -182,7 +147,7 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
   simulation::ReplayContactSource source(detector);
   simulation::Simulation simulation(scene_, scene::resolveEntry(scene_.entry, vessel, scene_.file), &source,
                                     &vessel.centreline);
-  // The listener may join late: steps before its first are run from the scene's own script, which drives the graph too.
+  // The listener may join late: earlier steps are simulated from the script of the scene, which also drives the graph.
   std::uint64_t compared = 0;
   results::WallForceMap wall_forces(scene_.record.wall_force_threshold, vessel);
   bool maps_compared = false;
@@ -217,23 +182,23 @@ TEST_F(LockStep, A_GraphAndOfflineLoopGiveTheSameBitsAtEveryStep)
   EXPECT_TRUE(maps_compared);
 }
 
-TEST_F(LockStep, B_DeathOfTheContactNodePausesTakesTheForceAwayAndEndsWhenItReturns)
+TEST_F(LockStep, B_LossOfTheContactNodePausesWithoutForceUntilItsRestart)
 {
-  ASSERT_TRUE(eventually(10.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  ASSERT_TRUE(waitUntil(10.0, [this] { return listener_->operatingState() == "ENABLED"; }));
   const std::uint64_t before = listener_->steps().rbegin()->first;
   ASSERT_NE(listener_->force(), 0.0);
   const double peak = std::abs(listener_->force());
   ASSERT_TRUE(killNode("/contact"));
-  ASSERT_TRUE(eventually(1.0, [this] { return listener_->operatingState() == "PAUSED"; }));
-  ASSERT_TRUE(eventually(1.0, [this] { return listener_->force() == 0.0; }));
-  // The ramp takes 30 ms; the rest is room for a busy machine.
+  ASSERT_TRUE(waitUntil(1.0, [this] { return listener_->operatingState() == "PAUSED"; }));
+  ASSERT_TRUE(waitUntil(1.0, [this] { return listener_->force() == 0.0; }));
+  // The ramp takes 30 ms; the rest is a margin for a busy machine.
   EXPECT_GT(listener_->timeToZeroForce(), 0.0);
   EXPECT_LT(listener_->timeToZeroForce(), 0.1);
   listener_->largestChange();
-  EXPECT_TRUE(eventually(30.0, [this] { return listener_->operatingState() == "ENABLED"; }));
-  EXPECT_TRUE(eventually(30.0, [&] { return listener_->steps().rbegin()->first > before + 500; }));
+  EXPECT_TRUE(waitUntil(30.0, [this] { return listener_->operatingState() == "ENABLED"; }));
+  EXPECT_TRUE(waitUntil(30.0, [&] { return listener_->steps().rbegin()->first > before + 500; }));
   EXPECT_TRUE(std::isfinite(listener_->force()));
-  // It comes back from zero by 1 % of the peak in a step; messages may be lost on a busy machine.
+  // The force returns from zero by 1 % of the peak per step; messages may be lost on a busy machine.
   EXPECT_LT(listener_->largestChange(), 0.5 * peak + 5e-3);
 }
 

@@ -20,16 +20,16 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-const ros::Duration kPatience(20.0);
+const ros::Duration kTimeout(20.0);
 
 template <typename Message>
 boost::shared_ptr<const Message> latched(const std::string& topic)
 {
   ros::NodeHandle node;
-  return ros::topic::waitForMessage<Message>(topic, node, kPatience);
+  return ros::topic::waitForMessage<Message>(topic, node, kTimeout);
 }
 
-/** The same vessel, made without a graph. */
+/** The same vessel, built without the graph. */
 vessel::Vessel expectedVessel()
 {
   const scene::Scene scene = sceneFromParameters(ros::NodeHandle());
@@ -69,11 +69,11 @@ TEST(VesselServer, LatchesMeshAndCentrelineWithVersionAndHash)
   EXPECT_TRUE(vessel::checkMesh(fromMessage(*mesh)).clean());
 }
 
-TEST(VesselServer, AnswersLateJoinersWithTheSame)
+TEST(VesselServer, ReturnsTheSameVesselFromItsService)
 {
   const auto mesh = latched<VesselMesh>(names::kVesselMesh);
   ASSERT_TRUE(mesh);
-  ASSERT_TRUE(ros::service::waitForService(names::kGetVessel, kPatience));
+  ASSERT_TRUE(ros::service::waitForService(names::kGetVessel, kTimeout));
   GetVessel service;
   ASSERT_TRUE(ros::service::call(names::kGetVessel, service));
   EXPECT_EQ(service.response.mesh.content_hash, mesh->content_hash);
@@ -81,7 +81,7 @@ TEST(VesselServer, AnswersLateJoinersWithTheSame)
   EXPECT_EQ(service.response.centreline.branches.size(), 1U);
 }
 
-TEST(VesselServer, ShowsTheWallTranslucentInRviz)
+TEST(VesselServer, PublishesATranslucentMarkerOfTheWall)
 {
   const auto marker = latched<visualization_msgs::Marker>(names::kVesselMarker);
   const auto mesh = latched<VesselMesh>(names::kVesselMesh);
@@ -92,7 +92,7 @@ TEST(VesselServer, ShowsTheWallTranslucentInRviz)
   EXPECT_LT(marker->color.a, 1.0F);
 }
 
-TEST(VesselServer, PutsTheIntroducerAtTheEntry)
+TEST(VesselServer, PublishesTheFrameOfTheIntroducerAtTheEntry)
 {
   const scene::Scene scene = sceneFromParameters(ros::NodeHandle());
   const scene::EntryPose entry = scene::resolveEntry(scene.entry, expectedVessel(), scene.file);
@@ -109,7 +109,7 @@ TEST(VesselServer, PutsTheIntroducerAtTheEntry)
   EXPECT_EQ(transform.transform.translation.x, entry.position.x());
 }
 
-TEST(VesselServer, ReportsItselfOncePerSecond)
+TEST(VesselServer, PublishesDiagnostics)
 {
   for (int k = 0; k < 20; ++k)
   {
@@ -125,7 +125,7 @@ TEST(VesselServer, ReportsItselfOncePerSecond)
   FAIL() << "no diagnostics of the vessel server";
 }
 
-TEST(VesselServer, LeavesWithCodeOneWhenTheMeshIsRefused)
+TEST(VesselServer, ExitsWithCodeOneWhenTheMeshIsInvalid)
 {
   const int status = std::system("rosrun endovascular_sim vessel_server __ns:=refused __name:=refused_server");
   ASSERT_TRUE(WIFEXITED(status));

@@ -9,16 +9,16 @@
 namespace endovascular_sim::nodes
 {
 
-/** A region as messages tell it: 65535 for none. */
+/** Region in its message representation: 65535 for none. */
 std::uint16_t regionToMessage(int region);
 int regionFromMessage(std::uint16_t region);
 
-/** What the wall has borne as a message, totals bit for bit, triangles in single precision; the header, the step and
- *  the mesh's hash are left to the caller. */
+/** Converts the forces on the wall: totals bit for bit, triangles in single precision. The caller sets the header, the
+ *  step and the content hash. */
 void toMessage(const results::WallForceSummary& summary, const std::vector<results::WallForce>& touched,
                ContactForceMap& message);
 results::WallForceSummary summaryFromMessage(const ContactForceMap& message);
-/** @return the triangles that every list of the message speaks of */
+/** @return the triangles that all lists of the message contain */
 std::vector<results::WallForce> touchedFromMessage(const ContactForceMap& message);
 
 }  // namespace endovascular_sim::nodes

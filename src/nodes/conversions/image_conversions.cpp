@@ -54,7 +54,7 @@ sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluor
   info.distortion_model = "plumb_bob";
   info.D.assign(5, 0.0);
   const Eigen::Matrix3d k = geometry.cameraMatrix();
-  std::size_t i = 0, j = 0;  // in K and R, in P; row by row
+  std::size_t i = 0, j = 0;  // row-major indices into K and R, and into P
   for (int row = 0; row < 3; ++row, ++j)
     for (int column = 0; column < 3; ++column, ++i, ++j)
     {
@@ -124,7 +124,8 @@ geometry::TriangleMesh toMesh(const VesselMesh& message)
     for (const std::uint32_t index : triangle.vertex_indices)
       if (index >= mesh.vertices.size())
         throw InputError(names::kVesselMesh, "triangle " + std::to_string(mesh.triangles.size()),
-                         "names vertex " + std::to_string(index) + " of " + std::to_string(mesh.vertices.size()));
+                         "vertex " + std::to_string(index) + " does not exist: the mesh has " +
+                             std::to_string(mesh.vertices.size()));
     mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
                                 static_cast<int>(triangle.vertex_indices[1]),
                                 static_cast<int>(triangle.vertex_indices[2]));

@@ -34,18 +34,18 @@ sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluor
 /** From `x_ray_source_optical` to `patient`. */
 geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry);
 
-/** C-arm pose of a command, with the image's size that no command changes. */
+/** C-arm pose of a command. @param pixels size of the image, which no command changes */
 fluoroscopy::CArmPose toPose(const CArm& message, int pixels);
 
-/** The command that a pose answers; header left empty. */
+/** Command that moves the C-arm to a pose, without a header. */
 CArm toMessage(const fluoroscopy::CArmPose& pose);
 
-/** Triangles of a vessel message [m].
- *  @throws InputError when an index has no vertex or a coordinate is not finite */
+/** Mesh of a vessel message [m].
+ *  @throws InputError when a vertex index is invalid or a coordinate is not finite */
 geometry::TriangleMesh toMesh(const VesselMesh& message);
 
-/** What X-rays see of all instruments. The message ends at the tip of the one that reaches furthest.
- *  @throws InputError when there is not one insertion per instrument */
+/** X-ray wires of all instruments. The nodes of the message end at the tip of the instrument that reaches farthest.
+ *  @throws InputError when the message has not one insertion per instrument */
 std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
                                                const std::vector<fluoroscopy::XRayInstrument>& instruments);
 

@@ -7,9 +7,9 @@
 namespace endovascular_sim::nodes
 {
 
-/** What one hand commands and is told, as CRTK's joints.
- *  @param insertion, rotation, pressure in use [m], [rad], [Pa]
- *  @param force, torque on the hand [N], [N·m] */
+/** Converts the command and the rendered force of one instrument to the joints of CRTK.
+ *  @param insertion, rotation, pressure command in use [m], [rad], [Pa]
+ *  @param force, torque rendered to the hand [N], [N·m] */
 inline void toMessage(bool has_balloon, double insertion, double rotation, double pressure, double force, double torque,
                       sensor_msgs::JointState& message)
 {

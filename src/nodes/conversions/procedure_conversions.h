@@ -6,7 +6,7 @@
 namespace endovascular_sim::nodes
 {
 
-/** Record of one procedure step; the remaining fields of the message are not used. */
+/** Converts a message to the record of a procedure step, omitting the other fields. */
 procedure::StepRecord fromMessage(const ProcedureStep& message);
 
 }  // namespace endovascular_sim::nodes

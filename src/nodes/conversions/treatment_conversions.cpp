@@ -57,7 +57,7 @@ void toMessage(const simulation::Simulation& simulation, TreatmentVisual& messag
 intervention::RoundBody fromMessage(const TreatmentBody& body)
 {
   if (body.axis.size() != body.radius.size() || body.axis.size() < 2)
-    throw InputError(names::kTreatmentVisual, "axis, radius", "must be as long as each other, two points at least");
+    throw InputError(names::kTreatmentVisual, "axis, radius", "must have the same length, at least two points");
   intervention::RoundBody result;
   for (const geometry_msgs::Point& point : body.axis)
     result.axis.push_back(fromMessage(point));

@@ -10,14 +10,14 @@
 namespace endovascular_sim::nodes
 {
 
-/** Fills all but the header. */
+/** Converts balloons, stents and events; the caller sets the header, the step and the time. */
 void toMessage(const simulation::Simulation& simulation, TreatmentVisual& message);
 
-/** @throws InputError when axis and radius do not fit together */
+/** @throws InputError when axis and radius differ in length */
 intervention::RoundBody fromMessage(const TreatmentBody& body);
 
-/** What X-rays see of balloons and stents.
- *  @param filling, metal linear attenuation less that of what they displace [1/m]
+/** X-ray wires of balloons and stents.
+ *  @param filling, metal linear attenuation minus that of the displaced material [1/m]
  *  @throws InputError as fromMessage() */
 std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message, double filling, double metal);
 

@@ -27,7 +27,7 @@ geometry::TriangleMesh fromMessage(const VesselMesh& message)
   {
     for (std::uint32_t index : triangle.vertex_indices)
       if (index >= mesh.vertices.size())
-        throw InputError(names::kVesselMesh, message.source, "a triangle names a vertex that is not there");
+        throw InputError(names::kVesselMesh, message.source, "a triangle has a vertex that does not exist");
     mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
                                 static_cast<int>(triangle.vertex_indices[1]),
                                 static_cast<int>(triangle.vertex_indices[2]));
@@ -72,7 +72,7 @@ std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& mes
   for (const VesselLesion& from : message.lesions)
   {
     if (from.branch >= message.branches.size())
-      throw InputError(names::kVesselCentreline, "lesions", "one is on a branch that is not there");
+      throw InputError(names::kVesselCentreline, "lesions", "a lesion is on a branch that does not exist");
     vessel::PlacedLesion lesion;
     lesion.branch = static_cast<int>(from.branch);
     lesion.begin = from.begin;
@@ -113,10 +113,11 @@ void toMessage(const intervention::RoundBody& body, std::vector<geometry_msgs::P
   radius = body.radii;
 }
 
-intervention::RoundBody bodyOf(const std::vector<geometry_msgs::Point>& axis, const std::vector<double>& radius)
+intervention::RoundBody bodyFromMessage(const std::vector<geometry_msgs::Point>& axis,
+                                        const std::vector<double>& radius)
 {
   if (axis.size() != radius.size() || axis.size() == 1)
-    throw InputError(names::kBalloonLoad, "axis, radius", "must be as long as each other, and not of one point");
+    throw InputError(names::kBalloonLoad, "axis, radius", "must have the same length, other than one point");
   intervention::RoundBody body;
   for (const geometry_msgs::Point& point : axis)
     body.axis.push_back(fromMessage(point));
@@ -126,48 +127,48 @@ intervention::RoundBody bodyOf(const std::vector<geometry_msgs::Point>& axis, co
 
 }  // namespace
 
-void toMessage(const intervention::BalloonLoad& pressing, BalloonLoad& message)
+void toMessage(const intervention::BalloonLoad& load, BalloonLoad& message)
 {
-  message.pressure = pressing.pressure;
-  toMessage(pressing.balloon, message.axis, message.radius);
-  toMessage(pressing.sleeve.value_or(intervention::RoundBody()), message.stent_axis, message.stent_radius);
+  message.pressure = load.pressure;
+  toMessage(load.balloon, message.axis, message.radius);
+  toMessage(load.sleeve.value_or(intervention::RoundBody()), message.stent_axis, message.stent_radius);
 }
 
-intervention::BalloonLoad pressingFromMessage(const BalloonLoad& message)
+intervention::BalloonLoad loadFromMessage(const BalloonLoad& message)
 {
-  intervention::BalloonLoad pressing;
-  pressing.pressure = message.pressure;
-  pressing.balloon = bodyOf(message.axis, message.radius);
+  intervention::BalloonLoad load;
+  load.pressure = message.pressure;
+  load.balloon = bodyFromMessage(message.axis, message.radius);
   if (!message.stent_axis.empty())
-    pressing.sleeve = bodyOf(message.stent_axis, message.stent_radius);
-  return pressing;
+    load.sleeve = bodyFromMessage(message.stent_axis, message.stent_radius);
+  return load;
 }
 
-void toMessage(const intervention::WallDisplacement& moved, WallDisplacement& message)
+void toMessage(const intervention::WallDisplacement& displacement, WallDisplacement& message)
 {
-  message.index.assign(moved.indices.begin(), moved.indices.end());
+  message.index.assign(displacement.indices.begin(), displacement.indices.end());
   message.position.clear();
-  for (const Eigen::Vector3d& position : moved.positions)
+  for (const Eigen::Vector3d& position : displacement.positions)
     message.position.push_back(toPoint(position));
 }
 
 intervention::WallDisplacement fromMessage(const WallDisplacement& message, std::size_t vertices)
 {
   if (message.index.size() != message.position.size())
-    throw InputError(names::kWallDisplacement, "index, position", "must be as long as each other");
+    throw InputError(names::kWallDisplacement, "index, position", "must have the same length");
   for (const std::uint32_t index : message.index)
     if (index >= vertices)
       throw InputError(names::kWallDisplacement, "index",
                        "vertex " + std::to_string(index) + " does not exist: the mesh has " + std::to_string(vertices));
-  intervention::WallDisplacement moved;
-  moved.indices.assign(message.index.begin(), message.index.end());
+  intervention::WallDisplacement displacement;
+  displacement.indices.assign(message.index.begin(), message.index.end());
   for (const geometry_msgs::Point& position : message.position)
   {
-    moved.positions.push_back(fromMessage(position));
-    if (!moved.positions.back().allFinite())
-      throw InputError(names::kWallDisplacement, "position", "must hold numbers only");
+    displacement.positions.push_back(fromMessage(position));
+    if (!displacement.positions.back().allFinite())
+      throw InputError(names::kWallDisplacement, "position", "must be finite");
   }
-  return moved;
+  return displacement;
 }
 
 }  // namespace endovascular_sim::nodes

@@ -11,20 +11,20 @@
 namespace endovascular_sim::nodes
 {
 
-/** Vessels as messages, every number bit for bit; headers, versions, hashes and sources are left to the caller. */
+/** Conversions of vessels, bit for bit. The caller sets headers, versions, hashes and sources. */
 void toMessage(const geometry::TriangleMesh& mesh, VesselMesh& message);
 geometry::TriangleMesh fromMessage(const VesselMesh& message);
 void toMessage(const vessel::CentrelineTree& tree, VesselCentreline& message);
 void toMessage(const std::vector<vessel::PlacedLesion>& lesions, VesselCentreline& message);
-/** @throws InputError when a lesion is on a branch that is not there */
+/** @throws InputError when a lesion is on a branch that does not exist */
 std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& message);
 vessel::CentrelineTree fromMessage(const VesselCentreline& message);
-void toMessage(const intervention::BalloonLoad& pressing, BalloonLoad& message);
-/** @throws InputError when axes and radii do not fit together */
-intervention::BalloonLoad pressingFromMessage(const BalloonLoad& message);
-void toMessage(const intervention::WallDisplacement& moved, WallDisplacement& message);
-/** @param vertices of the mesh
- *  @throws InputError for a vertex that does not exist, a place that is no number, or lists of different lengths */
+void toMessage(const intervention::BalloonLoad& load, BalloonLoad& message);
+/** @throws InputError when an axis and its radii differ in length */
+intervention::BalloonLoad loadFromMessage(const BalloonLoad& message);
+void toMessage(const intervention::WallDisplacement& displacement, WallDisplacement& message);
+/** @param vertices number of vertices of the mesh
+ *  @throws InputError when a vertex does not exist, a position is not finite, or the lists differ in length */
 intervention::WallDisplacement fromMessage(const WallDisplacement& message, std::size_t vertices);
 
 }  // namespace endovascular_sim::nodes

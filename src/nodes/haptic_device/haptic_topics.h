@@ -13,14 +13,14 @@
 namespace endovascular_sim::nodes
 {
 
-/** A message type of ROS as the rosserial core knows it. */
+/** ROS message type in the representation of the rosserial host. */
 template <typename Message>
 haptics::TopicType topicType(haptics::PayloadFormat format)
 {
   return {format, ros::message_traits::datatype<Message>(), ros::message_traits::md5sum<Message>()};
 }
 
-/** Everything that a haptic device may send or take. */
+/** All message types that a haptic device may publish or subscribe to. */
 inline std::vector<haptics::TopicType> hapticTopicTypes()
 {
   using haptics::PayloadFormat;

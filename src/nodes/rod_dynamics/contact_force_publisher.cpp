@@ -13,10 +13,10 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kForcesRate = 60.0;  // Hz
-constexpr double kMapRate = 2.0;      // Hz
+constexpr double kForcesRate = 60.0;  ///< rate of contact/forces [Hz]
+constexpr double kMapRate = 2.0;      ///< rate of contact/force_map [Hz]
 
-std::uint64_t stepsBetween(double rate, double time_step)
+std::uint64_t periodInSteps(double rate, double time_step)
 {
   return static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (rate * time_step))));
 }
@@ -26,8 +26,8 @@ std::uint64_t stepsBetween(double rate, double time_step)
 ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene::Scene& scene,
                                              const vessel::Vessel& vessel, std::uint64_t content_hash)
   : time_step_(scene.solver.time_step),
-    forces_every_(stepsBetween(kForcesRate, time_step_)),
-    map_every_(stepsBetween(kMapRate, time_step_)),
+    forces_period_(periodInSteps(kForcesRate, time_step_)),
+    map_period_(periodInSteps(kMapRate, time_step_)),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / time_step_))),
     map_(scene.record.wall_force_threshold, vessel),
     forces_publisher_(node.advertise<ContactForces>(names::kContactForces, 2)),
@@ -41,11 +41,11 @@ void ContactForcePublisher::publishStep(const simulation::Simulation& simulation
 {
   simulation::wallContacts(simulation, contacts_);
   map_.add(contacts_, simulation.time(), time_step_);
-  if (simulation.steps() % forces_every_ == 0 && forces_publisher_.getNumSubscribers() > 0)
+  if (simulation.steps() % forces_period_ == 0 && forces_publisher_.getNumSubscribers() > 0)
     publishForces(simulation);
-  // The scene's last step is told at once: a session that ends with it would miss the next one.
+  // Always published at the scene's last step: a session that ends there would miss the next map.
   if (simulation.steps() == last_step_ ||
-      (simulation.steps() % map_every_ == 0 && map_publisher_.getNumSubscribers() > 0))
+      (simulation.steps() % map_period_ == 0 && map_publisher_.getNumSubscribers() > 0))
     publishMap(simulation);
 }
 

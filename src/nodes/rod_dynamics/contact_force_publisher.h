@@ -13,25 +13,25 @@
 namespace endovascular_sim::nodes
 {
 
-/** Tells the graph what the wall bears: the contacts of now, and the map of all steps so far. */
+/** Publisher of the forces on the wall: the contacts of a step, and the map of all steps so far. */
 class ContactForcePublisher
 {
 public:
-  /** @param content_hash of the vessel's mesh */
+  /** @param content_hash content hash of the vessel's mesh */
   ContactForcePublisher(ros::NodeHandle& node, const scene::Scene& scene, const vessel::Vessel& vessel,
                         std::uint64_t content_hash);
 
-  /** After every step of the simulation: counts it, and now and then publishes. */
+  /** Adds a step to the map, and publishes at the rates of the topics. Call it after every step. */
   void publishStep(const simulation::Simulation& simulation);
 
-  /** Publishes the map as it is; also when nobody listens, since it stays latched. */
+  /** Publishes the current map, also without a subscriber: the topic is latched. */
   void publishMap(const simulation::Simulation& simulation);
 
 private:
   void publishForces(const simulation::Simulation& simulation);
 
-  double time_step_;  ///< [s]
-  std::uint64_t forces_every_, map_every_, last_step_;
+  double time_step_;                                      ///< duration of a step [s]
+  std::uint64_t forces_period_, map_period_, last_step_;  ///< [steps]
   results::WallForceMap map_;
   std::vector<simulation::WallContact> contacts_;
   ros::Publisher forces_publisher_, map_publisher_;

@@ -11,23 +11,23 @@
 namespace endovascular_sim::nodes
 {
 
-/** The scene's scripted operator at the rod node's hands; tells the graph how he gets on. */
+/** Scripted operator of a scene as a source of commands; publishes its progress. */
 class ProcedureDriver
 {
 public:
-  /** @param scene with a procedure. Parameters as of procedure::Operator */
+  /** Parameters as of procedure::Operator. @param scene scene with a procedure */
   ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scene, const vessel::CentrelineTree& tree,
                   const Eigen::Vector3d& entry);
 
-  /** Commands for the coming step, one per instrument. */
+  /** Commands of the coming step, one per instrument. */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
 
 private:
-  void tell(const simulation::Simulation& simulation);
+  void publishProgress(const simulation::Simulation& simulation);
 
   procedure::Operator operator_;
   ros::Publisher publisher_;
-  ProcedureStep told_;
+  ProcedureStep published_;  ///< last published progress
 };
 
 }  // namespace endovascular_sim::nodes

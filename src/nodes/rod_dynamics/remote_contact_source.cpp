@@ -18,7 +18,7 @@ constexpr int kQueue = 4;
 
 }  // namespace
 
-RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double patience) : node_(node), patience_(patience)
+RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double timeout) : node_(node), timeout_(timeout)
 {
   node_.setCallbackQueue(&queue_);
   publisher_ = node_.advertise<RodState>(names::kRodState, kQueue);
@@ -38,7 +38,7 @@ void RemoteContactSource::publish()
   publisher_.publish(query_);
 }
 
-/** One whose memory has held a set already: that of a thousand features costs time to get anew. */
+/** Message for the next set; reuses the memory of the last one, since a thousand features are slow to allocate. */
 boost::shared_ptr<StampedContactSet> RemoteContactSource::emptyMessage()
 {
   if (!message_ || !message_.unique())
@@ -46,8 +46,7 @@ boost::shared_ptr<StampedContactSet> RemoteContactSource::emptyMessage()
   return message_;
 }
 
-/** An answer counts only when it is the first to the asked state and makes sense; anything else is dropped and counted.
- */
+/** Accepts the first valid response to the last query; counts and discards any other set. */
 void RemoteContactSource::receive(const boost::shared_ptr<StampedContactSet>& message)
 {
   {
@@ -57,12 +56,12 @@ void RemoteContactSource::receive(const boost::shared_ptr<StampedContactSet>& me
       std::swap(answer_, message->set);
       has_answer_ = contact::isValidAnswer(asked_, answer_);
       heard_ = heard_ || has_answer_;
-      odd_sets_ += !has_answer_;
+      rejected_sets_ += !has_answer_;
       if (!has_answer_)
-        patience_.heardLate();
+        timeout_.receivedLate();
     }
     else
-      ++odd_sets_;
+      ++rejected_sets_;
     if (!has_answer_)
       return;
   }
@@ -100,17 +99,17 @@ void RemoteContactSource::freeDistances(const contact::Query& query, double want
 void RemoteContactSource::request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set)
 {
   ask(query, wanted_free_distance);
-  if (waitForAnswer(patience_.next()))
+  if (waitForAnswer(timeout_.next()))
   {
-    patience_.answered();
+    timeout_.received();
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::swap(set, answer_);  // what it gets for it may be overwritten: the next answer is to another query
+    std::swap(set, answer_);  // the old set becomes the buffer of the next response
     set.stale = false;
     return;
   }
-  if (!patience_.silent())
+  if (!timeout_.silent())
     silent_since_ = Clock::now();
-  patience_.missed();
+  timeout_.missed();
   ++stale_sets_;
   set.stale = true;
 }
@@ -119,7 +118,7 @@ bool RemoteContactSource::probe()
 {
   if (heard_.exchange(false))
   {
-    patience_.answered();
+    timeout_.received();
     return true;
   }
   {

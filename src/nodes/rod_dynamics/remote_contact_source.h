@@ -17,33 +17,33 @@
 namespace endovascular_sim::nodes
 {
 
-/** The contact node behind its topics, as the solver's source of contact sets.
+/** Contact node behind its topics, as the solver's source of contact sets.
  *
- *  Lock-step: a query is published and its answer, the set with the same step, sub-step and pass, is waited for in the
- *  calling thread. An answer that does not come within the patience leaves the set stale (degraded mode). */
+ *  Lock-step: a query is published, and the calling thread waits for the response, the set with the same step, sub-step
+ *  and pass. Without a response within the timeout the set stays stale (degraded mode). */
 class RemoteContactSource : public contact::ContactSource
 {
 public:
-  /** @param patience how long one answer is waited for [s] */
-  RemoteContactSource(ros::NodeHandle node, double patience);
+  /** @param timeout longest wait for one response [s] */
+  RemoteContactSource(ros::NodeHandle node, double timeout);
 
   void detect(const contact::Query& query, contact::ContactSet& set) override;
   void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override;
 
-  /** Forgets what was heard so far: from now on probe() tells of new answers. */
+  /** Starts the observation of probe(): earlier responses do not count. */
   void startListening() { heard_ = false; }
 
-  /** Asks the last query again without waiting.
-   *  @return whether the node has answered it since the last call */
+  /** Publishes the last query again, without waiting.
+   *  @return true when a response has arrived since the last call */
   bool probe();
 
-  /** Waits until the contact node answers for the first time, or ROS ends. @return false when ROS ended */
+  /** Waits for the first response of the contact node. @return false when ROS shut down */
   bool waitForNode(const contact::Query& query);
 
-  bool silent() const { return patience_.silent(); }  ///< the last query was not answered
+  bool silent() const { return timeout_.silent(); }  ///< true without a response to the last query
   std::chrono::steady_clock::time_point silentSince() const { return silent_since_; }
-  std::uint64_t staleSets() const { return stale_sets_; }  ///< queries that went unanswered so far
-  std::uint64_t oddSets() const { return odd_sets_; }      ///< answers that fit no question: late, duplicate or wrong
+  std::uint64_t staleSets() const { return stale_sets_; }        ///< number of queries without a response
+  std::uint64_t rejectedSets() const { return rejected_sets_; }  ///< number of late, duplicate and invalid sets
 
 private:
   boost::shared_ptr<StampedContactSet> emptyMessage();
@@ -56,19 +56,19 @@ private:
   ros::NodeHandle node_;
   DirectCallbackQueue queue_;
   ros::Publisher publisher_;
-  ResponseTimeout patience_;
+  ResponseTimeout timeout_;
   mutable std::mutex mutex_;
   std::condition_variable answered_;
-  RodState query_;                                ///< as it is published
-  contact::Query asked_;                          ///< guarded: the receiving thread compares answers with it
+  RodState query_;                                ///< as published
+  contact::Query asked_;                          ///< guarded: the receiving thread validates responses against it
   contact::ContactSet answer_;                    ///< guarded
   bool has_answer_ = false;                       ///< guarded
-  boost::shared_ptr<StampedContactSet> message_;  ///< of the receiving thread
+  boost::shared_ptr<StampedContactSet> message_;  ///< buffer of the receiving thread
   std::atomic<bool> heard_{false};
   std::chrono::steady_clock::time_point silent_since_;
   std::uint64_t stale_sets_ = 0;
-  std::atomic<std::uint64_t> odd_sets_{0};
-  ros::Subscriber subscriber_;  ///< last, so that it ends before what its callback uses
+  std::atomic<std::uint64_t> rejected_sets_{0};
+  ros::Subscriber subscriber_;  ///< last, so that it ends before the members that its callback uses
 };
 
 }  // namespace endovascular_sim::nodes

@@ -10,7 +10,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr int kQueue = 100;  // pressings may not be lost while vessel_server is busy
+constexpr int kQueue = 100;  ///< loads must not be lost while vessel_server is busy
 
 }  // namespace
 
@@ -32,9 +32,9 @@ bool RemoteDeformableWall::waitForServer() const
   return ros::ok();
 }
 
-std::uint64_t RemoteDeformableWall::press(std::uint64_t step, const intervention::BalloonLoad& pressing)
+std::uint64_t RemoteDeformableWall::press(std::uint64_t step, const intervention::BalloonLoad& load)
 {
-  toMessage(pressing, message_);
+  toMessage(load, message_);
   message_.header.stamp = ros::Time::now();
   message_.step = step;
   message_.version = ++version_;
@@ -44,7 +44,7 @@ std::uint64_t RemoteDeformableWall::press(std::uint64_t step, const intervention
 
 void RemoteDeformableWall::archive(Archive& /*archive*/)
 {
-  throw std::logic_error("RemoteWall: the wall is vessel_server's; states are saved by simulate");
+  throw std::logic_error("RemoteDeformableWall: the wall belongs to vessel_server; only simulate saves states");
 }
 
 }  // namespace endovascular_sim::nodes

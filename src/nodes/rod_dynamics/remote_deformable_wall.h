@@ -13,19 +13,22 @@
 namespace endovascular_sim::nodes
 {
 
-/** The wall in vessel_server, behind its topics. It answers to the contact node, which finds nothing before it has the
- *  version that it is asked for: a vessel_server that is late or away looks to the rod like a contact node that is. */
+/** Deformable wall of vessel_server, behind its topics.
+ *
+ *  vessel_server publishes displacements to the contact node. The contact node defers its response until it has the
+ *  version that a rod state requests. A missing vessel_server therefore appears to the rod as a missing contact node.
+ */
 class RemoteDeformableWall : public intervention::DeformableWall
 {
 public:
-  /** @param version of the vessel at the beginning */
+  /** @param version initial version of the vessel */
   RemoteDeformableWall(ros::NodeHandle node, std::uint64_t version);
 
-  /** Waits until vessel_server listens: what is told before is lost. @return false when ROS ended */
+  /** Waits for the subscription of vessel_server; earlier loads would be lost. @return false when ROS shut down */
   bool waitForServer() const;
 
-  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& pressing) override;
-  void show(std::uint64_t /*version*/) override {}  // every rod/state says it
+  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& load) override;
+  void show(std::uint64_t /*version*/) override {}  // every rod/state requests its version
   std::uint64_t version() const override { return version_; }
   bool atRisk() const override { return at_risk_; }
   void archive(Archive& archive) override;
@@ -36,7 +39,7 @@ private:
   DirectCallbackQueue queue_;
   ros::Publisher publisher_;
   BalloonLoad message_;
-  ros::Subscriber subscriber_;  ///< last, so that it ends before what its callback uses
+  ros::Subscriber subscriber_;  ///< last, so that it ends before the members that its callback uses
 };
 
 }  // namespace endovascular_sim::nodes

@@ -5,28 +5,30 @@
 namespace endovascular_sim::nodes
 {
 
-/** How long a loop waits for an answer. One that has nothing from the other side after a failure waits a fraction only
- *  and keeps its pace; where answers come late, to questions of before, the other side is at work and is waited for in
- *  full: with a fraction it would stay a question behind for ever. heardLate() may be called from another thread. */
+/** Timeout of a loop that queries a peer.
+ *
+ *  After a missed response the loop waits for a fraction of the timeout only, and so maintains its rate. If a late
+ *  response to an earlier query arrives, the peer is alive, and the full timeout applies: with the fraction it would
+ *  remain one query behind. receivedLate() is thread-safe. */
 class ResponseTimeout
 {
 public:
-  /** @param patience for one answer [s] */
-  explicit ResponseTimeout(double patience) : patience_(patience) {}
+  /** @param timeout longest wait for one response [s] */
+  explicit ResponseTimeout(double timeout) : timeout_(timeout) {}
 
-  /** For the question that is asked now [s]. */
-  double next() { return silent_ && !late_.exchange(false) ? kSilent * patience_ : patience_; }
+  /** Timeout of the query that is sent next [s]. */
+  double next() { return silent_ && !late_.exchange(false) ? kSilentShare * timeout_ : timeout_; }
 
-  void answered() { silent_ = false; }
+  void received() { silent_ = false; }
   void missed() { silent_ = true; }
-  void heardLate() { late_ = true; }
+  void receivedLate() { late_ = true; }
 
-  bool silent() const { return silent_; }  ///< the last question was not answered
+  bool silent() const { return silent_; }  ///< true when the last response was missed
 
 private:
-  static constexpr double kSilent = 0.1;  // of the patience
+  static constexpr double kSilentShare = 0.1;  ///< share of the timeout after a missed response [1]
 
-  double patience_;
+  double timeout_;
   bool silent_ = false;
   std::atomic<bool> late_{false};
 };

@@ -1,29 +1,245 @@
-#include <ros/ros.h>
+#include "nodes/rod_dynamics/rod_dynamics_node.h"
 
-#include "common/error.h"
-#include "nodes/rod_dynamics/rod_loop.h"
-#include "nodes/runtime/real_time.h"
-#include "nodes/runtime/scene_parameters.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <thread>
+#include <utility>
 
-int main(int argc, char** argv)
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/topic.h>
+
+#include "endovascular_sim/GetVessel.h"
+#include "endovascular_sim/VesselCentreline.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
+#include "simulation/local_deformable_wall.h"
+
+namespace endovascular_sim::nodes
 {
-  using namespace endovascular_sim;  // NOLINT: a program's main file
-  constexpr int kPriority = 70;
-  const nodes::RealTimeGrant grant = nodes::askForRealTime(kPriority);
-  ros::init(argc, argv, "rod_dynamics");
-  ros::NodeHandle node;
-  if (grant.granted)
-    ROS_INFO("rod_dynamics: %s", grant.message.c_str());
-  else
-    ROS_WARN("rod_dynamics: %s", grant.message.c_str());
-  try
+namespace
+{
+
+constexpr double kContactTimeout = 3e-3;    ///< longest wait for one contact set [s]
+constexpr double kPauseAfter = 15e-3;       ///< silence of the contact node that causes a pause [s]
+constexpr double kRecorderTimeout = 10.0;   ///< longest wait for a recorder [s]
+constexpr double kRest = 1e-3;              ///< duration of one sleep that avoids real-time throttling [s]
+constexpr double kIdlePeriod = 10e-3;       ///< interval of zero forces while paused [s]
+constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+
+double seconds(std::chrono::steady_clock::duration time)
+{
+  return std::chrono::duration<double>(time).count();
+}
+
+/** Newest version of the wall, which may have moved since the latched message. */
+std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
+{
+  GetVessel vessel;
+  if (!ros::service::call(node.resolveName(names::kGetVessel), vessel))
+    return mesh.version;
+  return vessel.response.mesh.version + vessel.response.moved.size();
+}
+
+/** Thread with ordinary scheduling that publishes diagnostics periodically, and a last time when it ends. */
+class DiagnosticsThread
+{
+public:
+  explicit DiagnosticsThread(std::function<void(diagnostic_updater::DiagnosticStatusWrapper&)> diagnose)
+    : thread_([this, diagnose = std::move(diagnose)] { loop(diagnose); })
   {
-    nodes::RodLoop loop(node, nodes::sceneFromParameters(node), grant);
-    return loop.run() ? 0 : 1;
   }
-  catch (const std::exception& error)
+  ~DiagnosticsThread()
   {
-    ROS_FATAL("rod_dynamics: %s", error.what());
-    return 1;
+    stop_ = true;
+    thread_.join();
+  }
+  DiagnosticsThread(const DiagnosticsThread&) = delete;
+  DiagnosticsThread& operator=(const DiagnosticsThread&) = delete;
+
+private:
+  void loop(const std::function<void(diagnostic_updater::DiagnosticStatusWrapper&)>& diagnose) const
+  {
+    leaveRealTime();
+    diagnostic_updater::Updater updater;
+    updater.setHardwareID("none");
+    updater.add("simulation", diagnose);
+    while (!stop_ && ros::ok())
+    {
+      updater.force_update();
+      ros::WallDuration(kDiagnosticsPeriod).sleep();
+    }
+    updater.force_update();
+  }
+
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace
+
+RodDynamicsNode::RodDynamicsNode(ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene,
+                                 SchedulingGrant grant)
+  : node_(node),
+    parameters_(parameters),
+    scene_(std::move(scene)),
+    grant_(std::move(grant)),
+    pause_after_(parameters_.param("pause_after", kPauseAfter)),
+    seconds_(parameters_.param("seconds", 0.0)),
+    publisher_(node_, scene_),
+    throttle_guard_(grant_.granted ? requiredIdleShare() : 0.0, kRest),
+    drives_(node_, scene_),
+    renderer_(scene_.instruments.size())
+{
+  if (scene_.vessel)
+    contacts_ = std::make_unique<RemoteContactSource>(node_, parameters_.param("contact_patience", kContactTimeout));
+}
+
+bool RodDynamicsNode::waitForVessel(scene::EntryPose& entry, vessel::Vessel& vessel)
+{
+  ROS_INFO("waiting for the vessel");
+  const auto mesh = ros::topic::waitForMessage<VesselMesh>(names::kVesselMesh, node_);
+  const auto centreline =
+      mesh ? ros::topic::waitForMessage<VesselCentreline>(names::kVesselCentreline, node_) : nullptr;
+  if (!centreline)
+    return false;
+  vessel.mesh = fromMessage(*mesh);
+  vessel.centreline = fromMessage(*centreline);
+  vessel.source = mesh->source;
+  entry = scene::resolveStart(scene_, vessel);
+  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel, mesh->content_hash);
+  if (simulation::hasBalloon(scene_))
+    wall_ = std::make_unique<RemoteDeformableWall>(node_, newestVersion(*mesh, node_));
+  return true;
+}
+
+bool RodDynamicsNode::makeSimulation()
+{
+  scene::EntryPose entry;
+  vessel::Vessel vessel;
+  if (!scene_.vessel)
+    entry = scene::resolveEntry(scene_.entry, scene_.file);
+  else if (!waitForVessel(entry, vessel))
+    return false;
+  simulation_ =
+      std::make_unique<simulation::Simulation>(scene_, entry, contacts_.get(), &vessel.centreline, wall_.get());
+  if (scene_.procedure)
+    procedure_ = std::make_unique<ProcedureDriver>(node_, scene_, vessel.centreline, entry.position);
+  if (!contacts_)
+    return true;
+  ROS_INFO("waiting for the contact node");
+  return contacts_->waitForNode(simulation_->initialQuery()) && (!wall_ || wall_->waitForServer());
+}
+
+bool RodDynamicsNode::run()
+{
+  publisher_.publishOperatingState("DISABLED", "waiting for the vessel and the contact node");
+  if (!makeSimulation())
+    return false;
+  {
+    const DiagnosticsThread diagnostics([this](diagnostic_updater::DiagnosticStatusWrapper& status)
+                                        { statistics_.diagnose(grant_, status); });
+    const auto last_step = seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step))
+                                          : ~std::uint64_t{0};
+    publisher_.publishOperatingState("ENABLED", "");
+    waitForRecorder();
+    ROS_INFO("running");
+    runSteps(last_step);
+    publisher_.publishOperatingState("DISABLED", "the session has ended");
+    publisher_.publishHands(renderer_.hands(), 0.0);
+    if (forces_)
+      forces_->publishMap(*simulation_);
+  }
+  return true;
+}
+
+/** Waits for the subscriber of drive/applied, if the parameter `wait_for_recorder` announces one: a recording must
+ * begin with the first step. */
+void RodDynamicsNode::waitForRecorder() const
+{
+  if (!parameters_.param("wait_for_recorder", false))
+    return;
+  const Clock::time_point end = Clock::now() + StepScheduler::period(kRecorderTimeout);
+  while (ros::ok() && !publisher_.isRecorded())
+  {
+    if (Clock::now() > end)
+    {
+      ROS_WARN("no recorder within %.0f s: the recording will miss the first steps", kRecorderTimeout);
+      return;
+    }
+    ros::WallDuration(0.01).sleep();
   }
 }
+
+void RodDynamicsNode::runSteps(std::uint64_t last_step)
+{
+  StepScheduler scheduler(scene_.solver.time_step);
+  scheduler.start(Clock::now());
+  while (ros::ok() && simulation_->steps() < last_step)
+  {
+    const Clock::time_point awake = Clock::now();
+    sleepUntil(scheduler.next());
+    if (isContactLost())
+    {
+      pause();
+      scheduler.start(Clock::now());
+      continue;
+    }
+    const Clock::time_point begin = Clock::now();
+    scheduler.begin(begin);
+    step();
+    const Clock::time_point end = Clock::now();
+    statistics_.addStep(*simulation_, {begin, end, scheduler.slotEnd()}, renderer_.isFaded());
+    if (contacts_)
+      statistics_.setContactSets(contacts_->staleSets(), contacts_->rejectedSets());
+    const double rest = throttle_guard_.after(seconds(begin - awake), seconds(end - begin));
+    if (rest > 0.0)
+      sleepUntil(end + StepScheduler::period(rest));
+    if (scheduler.end(Clock::now()))
+      statistics_.addDiscardedBacklog();
+  }
+}
+
+void RodDynamicsNode::step()
+{
+  const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
+  const std::vector<simulation::HandCommand>& commands =
+      drives_.next(end, procedure_ ? &procedure_->next(*simulation_) : nullptr);
+  simulation_->stepAll(commands);
+  publisher_.publishStep(*simulation_, renderer_.render(*simulation_, commands, scene_.solver.time_step));
+  if (forces_)
+    forces_->publishStep(*simulation_);
+}
+
+bool RodDynamicsNode::isContactLost() const
+{
+  return contacts_ && contacts_->silent() && seconds(Clock::now() - contacts_->silentSince()) > pause_after_;
+}
+
+/** Waits for a response of the contact node, while the rendered forces ramp to zero. */
+void RodDynamicsNode::pause()
+{
+  statistics_.addPause();
+  statistics_.setPaused(true);
+  publisher_.publishOperatingState("PAUSED", "no response of the contact node or of the vessel server behind it");
+  ROS_WARN("paused at step %lu: no response of the contact node; continues with its next response",
+           static_cast<unsigned long>(simulation_->steps()));
+  contacts_->startListening();
+  const Clock::time_point begin = Clock::now();
+  while (ros::ok() && !contacts_->probe())
+  {
+    const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
+    publisher_.publishHands(renderer_.hands(), share);
+    sleepUntil(Clock::now() + StepScheduler::period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
+  }
+  statistics_.setPaused(false);
+  renderer_.reset();
+  if (!ros::ok())
+    return;
+  publisher_.publishOperatingState("ENABLED", "");
+  ROS_WARN("the contact node responds; continuing after %.3f s", seconds(Clock::now() - begin));
+}
+
+}  // namespace endovascular_sim::nodes

@@ -18,14 +18,14 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kVisualRate = 60.0;  // Hz
-constexpr int kStepQueue = 1000;      // a second of steps: the recorder must not lose one
-constexpr int kHandQueue = 1;         // the device wants the newest force only
+constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
+constexpr int kStepQueue = 1000;      ///< one second of steps: the recorder must not lose any
+constexpr int kHandQueue = 1;         ///< the device uses the newest force only
 
 }  // namespace
 
 RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
-  : visual_every_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
+  : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
 {
   for (const scene::DrivenInstrument& driven : scene.instruments)
   {
@@ -46,7 +46,7 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
   visual_message_.header.frame_id = names::kPatientFrame;
 }
 
-void RodPublisher::publishHands(const std::vector<Hand>& hands, double share)
+void RodPublisher::publishHands(const std::vector<RenderedHand>& hands, double share)
 {
   hand_message_.header.stamp = ros::Time::now();
   for (std::size_t k = 0; k < hand_.size(); ++k)
@@ -60,7 +60,7 @@ void RodPublisher::publishHands(const std::vector<Hand>& hands, double share)
   }
 }
 
-void RodPublisher::publishStep(const simulation::Simulation& simulation, const std::vector<Hand>& hands)
+void RodPublisher::publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands)
 {
   publishHands(hands, 1.0);
   applied_message_.header.stamp = hand_message_.header.stamp;
@@ -76,7 +76,7 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
   applied_.publish(applied_message_);
-  if (simulation.steps() % visual_every_ != 0)
+  if (simulation.steps() % visual_period_ != 0)
     return;
   publishVisual(simulation);
   if (treatment_)
@@ -133,17 +133,17 @@ void RodPublisher::publishTip(const simulation::Simulation& simulation)
 {
   const std::vector<Eigen::Vector3d>& x = simulation.state().position;
   const std::size_t n = x.size();
-  const Eigen::Quaterniond turn =
+  const Eigen::Quaterniond rotation =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (x[n - 1] - x[n - 2]).normalized());
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = hand_message_.header.stamp;
   transform.header.frame_id = names::kPatientFrame;
   transform.child_frame_id = names::kTipFrame;
   transform.transform.translation = toVector(x[n - 1]);
-  transform.transform.rotation.x = turn.x();
-  transform.transform.rotation.y = turn.y();
-  transform.transform.rotation.z = turn.z();
-  transform.transform.rotation.w = turn.w();
+  transform.transform.rotation.x = rotation.x();
+  transform.transform.rotation.y = rotation.y();
+  transform.transform.rotation.z = rotation.z();
+  transform.transform.rotation.w = rotation.w();
   transforms_.sendTransform(transform);
 }
 

@@ -1,45 +1,40 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
-#include "sensor_msgs/JointState.h"
+#include "nodes/rod_dynamics/hand_force_renderer.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** Tells the graph what the rod did: every step the hand's force and the input used, 60 times a second the rest. */
+/** Publisher of the rod's state: hand forces and used input at every step, data for display at about 60 Hz. */
 class RodPublisher
 {
 public:
   RodPublisher(ros::NodeHandle& node, const scene::Scene& scene);
 
-  /** What the hand on one instrument is told. */
-  struct Hand
-  {
-    simulation::HandCommand command;  ///< that the last step used
-    double force = 0.0;               ///< [N]
-    double torque = 0.0;              ///< [N·m]
-  };
-
-  /** After a step: what the hands are told, its hash; now and then the pictures' data.
+  /** Publishes a step: rendered forces, used input and state hash; at its rate also the data for display.
    *  @param hands one per instrument */
-  void publishStep(const simulation::Simulation& simulation, const std::vector<Hand>& hands);
+  void publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands);
 
-  /** Whether somebody listens to every step. */
+  /** Reports whether drive/applied has a subscriber. */
   bool isRecorded() const { return applied_.getNumSubscribers() > 0; }
 
-  /** What the hands are told alone, each time @p share of it (ramping down while the simulation is paused). */
-  void publishHands(const std::vector<Hand>& hands, double share);
+  /** Publishes the rendered forces only, scaled by a share; used while the simulation is paused. */
+  void publishHands(const std::vector<RenderedHand>& hands, double share);
 
-  /** CRTK's state of every instrument, latched; published when it changes.
-   *  @param reason empty when enabled */
+  /** Publishes the CRTK operating state of every instrument, latched, if it has changed.
+   *  @param reason reason of the state; empty when enabled */
   void publishOperatingState(const std::string& state, const std::string& reason);
 
 private:
@@ -47,9 +42,9 @@ private:
   void publishTreatment(const simulation::Simulation& simulation);
   void publishTip(const simulation::Simulation& simulation);
 
-  std::uint64_t visual_every_;
-  std::vector<ros::Publisher> hand_, operating_;  ///< per instrument
-  std::vector<bool> has_balloon_;                 ///< per instrument
+  std::uint64_t visual_period_;                   ///< interval of the data for display [steps]
+  std::vector<ros::Publisher> hand_, operating_;  ///< one per instrument
+  std::vector<bool> has_balloon_;                 ///< one per instrument
   ros::Publisher applied_, visual_, treatment_;
   tf2_ros::TransformBroadcaster transforms_;
   sensor_msgs::JointState hand_message_;

@@ -5,19 +5,21 @@
 namespace endovascular_sim::nodes
 {
 
-/** Keeps a loop that has no time left from taking all of its processor. Linux stops real-time scheduling there for 50
- * ms whenever it has left no rest for 950 (`kernel.sched_rt_runtime_us`): a pause that the hand would feel. Resting a
- * little now and then costs the same time and is not felt. */
+/** Scheduler of short sleeps that keep an overloaded real-time loop below the limit of Linux's real-time throttling.
+ *
+ *  By default Linux stops the real-time threads of a processor for 50 ms when they have run for 950 ms without a pause
+ *  (`kernel.sched_rt_runtime_us`), which the user's hand would feel. Short sleeps cost the same time and are not felt.
+ */
 class RtThrottleGuard
 {
 public:
-  /** @param share of the time that is to be left, 0 for none
-   *  @param rest least time for which it pays to sleep [s] */
+  /** @param share share of the time that must be idle, 0 for none [1]
+   *  @param rest duration of one sleep [s] */
   RtThrottleGuard(double share, double rest) : share_(share), rest_(rest) {}
 
-  /** After a turn of the loop.
-   *  @param slept, busy what it waited for its time and what it worked then [s]
-   *  @return how long to sleep now, mostly 0 [s] */
+  /** Accounts for one iteration of the loop.
+   *  @param slept, busy durations of its sleep and its work [s]
+   *  @return duration of the sleep that is due now, usually 0 [s] */
   double after(double slept, double busy)
   {
     due_ = std::max(0.0, due_ + share_ * (slept + busy) - slept);
@@ -30,7 +32,7 @@ public:
 private:
   double share_;
   double rest_;
-  double due_ = 0.0;  ///< rest that was not taken yet [s]
+  double due_ = 0.0;  ///< missing idle time [s]
 };
 
 }  // namespace endovascular_sim::nodes

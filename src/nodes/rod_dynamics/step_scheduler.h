@@ -6,32 +6,35 @@
 namespace endovascular_sim::nodes
 {
 
-/** When the steps of a loop begin that keeps up with the clock. One that is late catches up, but never so fast that a
- *  hand would feel it; what it is further behind than it may catch up is let go. */
+/** Start times of the steps of a loop that follows the clock.
+ *
+ *  A late loop catches up at most kCatchUp times as fast as real time, which the user's hand does not feel. A backlog
+ *  beyond kMostBehind is discarded. */
 class StepScheduler
 {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /** @param step simulated time of a step [s] */
-  explicit StepScheduler(double step) : slot_(period(step)), least_(period(step / kCatchUp)) {}
+  /** @param step simulated duration of a step [s] */
+  explicit StepScheduler(double step) : slot_(period(step)), shortest_(period(step / kCatchUp)) {}
 
-  /** The next step belongs now, whatever was before. */
+  /** Starts the slots at the given time and discards any backlog. */
   void start(Clock::time_point now)
   {
     slot_begin_ = now;
-    begun_ = now - slot_;
+    started_ = now - slot_;
   }
 
-  /** When the next step may begin. */
-  Clock::time_point next() const { return std::max(slot_begin_, begun_ + least_); }
+  /** Earliest start of the next step. */
+  Clock::time_point next() const { return std::max(slot_begin_, started_ + shortest_); }
 
-  void begin(Clock::time_point now) { begun_ = now; }
+  /** Records the start of a step. */
+  void begin(Clock::time_point now) { started_ = now; }
 
-  /** When the step that was begun should have ended. */
+  /** Deadline of the current step. */
   Clock::time_point slotEnd() const { return slot_begin_ + slot_; }
 
-  /** After a step. @return whether time was let go */
+  /** Records the end of a step. @return true when a backlog was discarded */
   bool end(Clock::time_point now)
   {
     slot_begin_ += slot_;
@@ -47,11 +50,11 @@ public:
   }
 
 private:
-  static constexpr double kCatchUp = 1.25;    // times real time
-  static constexpr double kMostBehind = 0.5;  // s
+  static constexpr double kCatchUp = 1.25;    ///< largest speed relative to real time [1]
+  static constexpr double kMostBehind = 0.5;  ///< largest backlog [s]
 
-  Clock::duration slot_, least_;
-  Clock::time_point slot_begin_, begun_;
+  Clock::duration slot_, shortest_;         ///< duration of a slot, shortest interval between two starts
+  Clock::time_point slot_begin_, started_;  ///< start of the slot, of the step in it
 };
 
 }  // namespace endovascular_sim::nodes

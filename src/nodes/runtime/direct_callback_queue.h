@@ -5,11 +5,11 @@
 namespace endovascular_sim::nodes
 {
 
-/** Runs a subscriber's callback at once, in the thread that read the message from the socket.
+/** Callback queue that runs a subscriber's callback at once, in the thread that read the message from the socket.
  *
- *  ROS otherwise hands every message to a second thread; on the path from the rod to the contact node and back each
- * such hand-over costs as much as the detection itself. All subscribers on this queue are called from one thread.
- * Callbacks must be short, and must not subscribe or unsubscribe. */
+ *  The default queue passes every message to a second thread. On the path between the rod and the contact node this
+ *  costs as much as the detection itself. All subscribers on one such queue are called from one thread. Callbacks must
+ * be short, and must not subscribe or unsubscribe. */
 class DirectCallbackQueue : public ros::CallbackQueueInterface
 {
 public:

@@ -17,8 +17,8 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** The last processor that this thread may use, and all that it may use. */
-int lastCpu(cpu_set_t& allowed)
+/** Number of the last processor that this thread may use, −1 on failure. @param[out] allowed all of them */
+int lastProcessor(cpu_set_t& allowed)
 {
   CPU_ZERO(&allowed);
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0)
@@ -29,11 +29,11 @@ int lastCpu(cpu_set_t& allowed)
   return last;
 }
 
-/** Keeps this thread and its children on the last processor; returns its number, or −1 when that was refused. */
-int stayOnLastCpu()
+/** Moves this thread and its children to the last processor. @return its number, −1 when refused */
+int moveToLastProcessor()
 {
   cpu_set_t allowed;
-  const int last = lastCpu(allowed);
+  const int last = lastProcessor(allowed);
   cpu_set_t chosen;
   CPU_ZERO(&chosen);
   if (last >= 0)
@@ -43,27 +43,47 @@ int stayOnLastCpu()
   return last;
 }
 
+SchedulingGrant refusal(const std::string& consequence, const std::string& remedy)
+{
+  return {false, std::string("refused (") + std::strerror(errno) + "): " + consequence + "; " + remedy};
+}
+
+constexpr auto kRealTimeRemedy =
+    "allow it with a line 'ACCOUNT - rtprio 80' in "
+    "/etc/security/limits.d/90-endovascular-sim.conf and log in again, or run as root";
+
 }  // namespace
 
-RealTimeGrant askForRealTime(int priority)
+SchedulingGrant requestLockStepScheduling(int priority)
 {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  if (sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
-    return {false,
-            std::string("real-time scheduling was refused (") + std::strerror(errno) +
-                "): steps will be late when the machine is busy. Allow it with a line 'ACCOUNT " +
-                "- rtprio 80' in /etc/security/limits.d/90-endovascular-sim.conf and log in again, or run as root"};
+  if (!makeThreadRealTime(priority))
+    return refusal("steps are late when the machine is busy", kRealTimeRemedy);
   std::string message =
-      "SCHED_FIFO, priority " + std::to_string(priority) + ", processor " + std::to_string(stayOnLastCpu());
+      "SCHED_FIFO, priority " + std::to_string(priority) + ", processor " + std::to_string(moveToLastProcessor());
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
   return {true, message};
 }
 
-double shareToLeave()
+SchedulingGrant requestRealTimeScheduling(int priority)
 {
-  constexpr double kMargin = 0.02;  // what shares the processor works while the loop rests
+  if (!makeThreadRealTime(priority))
+    return refusal("forces are late when the machine is busy", kRealTimeRemedy);
+  return {true, "SCHED_FIFO, priority " + std::to_string(priority)};
+}
+
+SchedulingGrant requestIdleScheduling()
+{
+  const sched_param parameters{};
+  if (sched_setscheduler(0, SCHED_IDLE, &parameters) != 0)
+    return refusal("SCHED_IDLE is not in force and this node may delay the simulation",
+                   "start it with `chrt --idle 0` or `nice -n 19`");
+  return {true, "SCHED_IDLE"};
+}
+
+double requiredIdleShare()
+{
+  constexpr double kMargin = 0.02;  // work of other threads on the processor while the loop sleeps
   double runtime = -1.0;
   double period = 0.0;
   std::ifstream("/proc/sys/kernel/sched_rt_runtime_us") >> runtime;
@@ -75,13 +95,14 @@ bool makeThreadRealTime(int priority)
 {
   sched_param parameters{};
   parameters.sched_priority = priority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+  errno = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  return errno == 0;
 }
 
-void keepOffLockStepCpu()
+void avoidLockStepProcessor()
 {
   cpu_set_t allowed;
-  const int last = lastCpu(allowed);
+  const int last = lastProcessor(allowed);
   if (last < 0 || CPU_COUNT(&allowed) < 2)
     return;
   CPU_CLR(last, &allowed);
@@ -90,9 +111,9 @@ void keepOffLockStepCpu()
 
 void spinUntilShutdown()
 {
-  const ros::WallDuration patience(0.1);
+  const ros::WallDuration timeout(0.1);
   while (ros::ok() && !ros::isShuttingDown())
-    ros::getGlobalCallbackQueue()->callAvailable(patience);
+    ros::getGlobalCallbackQueue()->callAvailable(timeout);
 }
 
 void leaveRealTime()

@@ -6,42 +6,49 @@
 namespace endovascular_sim::nodes
 {
 
-/** What the operating system said to a wish for real-time scheduling. */
-struct RealTimeGrant
+/** Scheduling that the operating system granted to a process. */
+struct SchedulingGrant
 {
-  bool granted = false;
-  std::string message;  ///< for people: what is in force, or why not and what to do
+  bool granted = true;
+  std::string message = "default";  ///< scheduling in force; when refused, the reason and the remedy
 };
 
-/** Asks for SCHED_FIFO and locked memory for this thread and all that it starts later; call it before ros::init.
+/** Requests SCHED_FIFO and locked memory for the calling thread and all threads that it starts later; call it before
+ *  ros::init.
  *
- *  Where that is granted, all of them stay on the last of the allowed processors. The rod and the contact node work in
- *  turns, never at once; on one processor each turn is a switch between threads, on two it is an interrupt from one to
- * the other, which costs several times as much, most of all in a virtual machine.
+ *  When granted, all of them stay on the last allowed processor. The rod and the contact node run in turns, never at
+ * the same time. On one processor a turn is a switch between threads. On two it is an inter-processor interrupt, which
+ *  costs several times as much, above all in a virtual machine.
  *  @param priority 1 to 99 */
-RealTimeGrant askForRealTime(int priority);
+SchedulingGrant requestLockStepScheduling(int priority);
 
-/** What real-time scheduling must leave of a processor's time, or Linux stops it there for a while: from
- *  `kernel.sched_rt_runtime_us`; 0 where there is no such limit. */
-double shareToLeave();
+/** Requests SCHED_FIFO for the calling thread and the threads that it starts later, on any processor. */
+SchedulingGrant requestRealTimeScheduling(int priority);
 
-/** SCHED_FIFO for the calling thread and those that it starts later, wherever they run. @return whether it was granted
- */
+/** Requests SCHED_IDLE for the calling thread and the threads that it starts later: they yield to all others. */
+SchedulingGrant requestIdleScheduling();
+
+/** Share of a processor's time that real-time threads must leave idle, from `kernel.sched_rt_runtime_us`; 0 without
+ *  such a limit. Linux stops real-time threads for a while when they exceed it. */
+double requiredIdleShare();
+
+/** Sets SCHED_FIFO for the calling thread and the threads that it starts later. @return false when it was refused */
 bool makeThreadRealTime(int priority);
 
-/** Leaves that processor to the rod and the contact node, where this process has another one. Call it before ros::init.
- */
-void keepOffLockStepCpu();
-
-/** ros::spin() for a process with real-time scheduling. The original turns round without rest while ROS shuts down,
- * which keeps from ending, on one processor, the threads that are waited for. To be ended by a signal or by
- * ros::requestShutdown(). */
-void spinUntilShutdown();
-
-/** Back to ordinary scheduling for the calling thread (diagnostics, files). */
+/** Restores ordinary scheduling for the calling thread, for example for diagnostics and files. */
 void leaveRealTime();
 
-/** Sleeps until a point of the steady clock; returns at once when it has passed. */
+/** Excludes the processor of the rod and the contact node, if this process may use another one. Call it before
+ *  ros::init. */
+void avoidLockStepProcessor();
+
+/** Equivalent of ros::spin() for a process with real-time scheduling.
+ *
+ *  While ROS shuts down, ros::spin() polls without sleeping. On one processor this starves the threads that the
+ * shutdown waits for. Ended by a signal or by ros::requestShutdown(). */
+void spinUntilShutdown();
+
+/** Sleeps until a time of the steady clock; returns at once when it has passed. */
 void sleepUntil(std::chrono::steady_clock::time_point time);
 
 }  // namespace endovascular_sim::nodes

@@ -1,14 +1,15 @@
 #pragma once
 
-/** Names of topics, services, frames and parameters: the whole interface in one place (docs/ROS_INTERFACE.md). */
+/** Names of all topics, services, frames and shared parameters (docs/ROS_INTERFACE.md). */
 namespace endovascular_sim::nodes::names
 {
 
-// Parameters that every node reads from the graph's namespace.
-constexpr auto kSceneParameter = "scene";          ///< path of the scene file
-constexpr auto kOverridesParameter = "overrides";  ///< "key.path=value" texts, separated by blanks
+// Parameters in the namespace of the graph, read by every node.
+constexpr auto kSceneParameter = "scene";  ///< path of the scene file
+constexpr auto kOverridesParameter =
+    "overrides";  ///< changed values of the scene: "key.path=value", separated by spaces
 
-// Frames (REP-103). The patient frame is DICOM's: x to the patient's left, y posterior, z to the head.
+// Frames (REP-103). The patient frame has DICOM's axes: x to the patient's left, y posterior, z to the head.
 constexpr auto kPatientFrame = "patient";
 constexpr auto kIntroducerFrame = "introducer";
 constexpr auto kTipFrame = "wire_tip";
@@ -53,6 +54,6 @@ constexpr auto kServoJp = "/servo_jp";
 constexpr auto kOperatingState = "/operating_state";
 constexpr auto kInsertionJoint = "insertion";
 constexpr auto kRotationJoint = "rotation";
-constexpr auto kPressureJoint = "pressure";  ///< of instruments with a balloon
+constexpr auto kPressureJoint = "pressure";  ///< only instruments with a balloon have it
 
 }  // namespace endovascular_sim::nodes::names

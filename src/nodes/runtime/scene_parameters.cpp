@@ -1,11 +1,11 @@
 #include "nodes/runtime/scene_parameters.h"
-#include "scene/scene_file.h"
 
 #include <iterator>
 #include <sstream>
 
 #include "common/error.h"
 #include "nodes/runtime/ros_names.h"
+#include "scene/scene_file.h"
 
 namespace endovascular_sim::nodes
 {

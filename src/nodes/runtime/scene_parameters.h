@@ -7,8 +7,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Reads the scene named by the parameters `scene` and `overrides` in the node handle's namespace.
- *  @throws InputError when the parameter is missing or the scene is refused */
+/** Scene of the parameters `scene` and `overrides` in the node handle's namespace.
+ *  @throws InputError when the parameter is missing or the scene is invalid */
 scene::Scene sceneFromParameters(const ros::NodeHandle& node);
 
 }  // namespace endovascular_sim::nodes

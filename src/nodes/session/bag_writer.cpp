@@ -15,21 +15,21 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** Messages that may wait for the disk: 20 s of every topic that the session records. */
+/** Capacity of the queue [messages]: 20 s of all recorded topics. */
 constexpr std::size_t kQueueCapacity = 40000;
-/** How many wait before the thread is woken, and how long they wait at most: not a wake-up per message. */
+/** Number of queued messages that wakes the thread, and the longest wait: batches avoid a wake-up per message. */
 constexpr std::size_t kBatch = 256;
 constexpr std::chrono::milliseconds kLongestWait{100};
-/** Room that must be left on the disk, enough for the bag's index and the report [bytes]. */
+/** Least free space on the disk, sufficient for the index of the bag and the report [B]. */
 constexpr std::uintmax_t kReserve = 64U << 20U;
-/** How much is written between two looks at the room that is left [bytes]. */
+/** Written size between two checks of the free space [B]. */
 constexpr std::uint64_t kCheckInterval = 8U << 20U;
 
 }  // namespace
 
 BagWriter::BagWriter(const std::string& file) : file_(file)
 {
-  checkRoom();
+  checkSpace();
   if (!error_.empty())
     throw InputError(file_, "recording", error_);
   try
@@ -39,7 +39,7 @@ BagWriter::BagWriter(const std::string& file) : file_(file)
   catch (const rosbag::BagException& exception)
   {
     throw InputError(file_, "recording",
-                     std::string(exception.what()) + "; choose a folder that exists, can be written and has room");
+                     std::string(exception.what()) + "; choose an existing, writable folder with free space");
   }
   thread_ = std::thread([this] { loop(); });
 }
@@ -87,12 +87,12 @@ void BagWriter::loop()
       batch.push_back(std::move(queue_.front()));
       queue_.pop_front();
     }
-    const bool last = ending_ && queue_.empty();
+    const bool is_last = ending_ && queue_.empty();
     lock.unlock();
     for (const Item& item : batch)
       process(item);
-    batch.clear();  // while nobody waits for it
-    if (last)
+    batch.clear();  // destroys the messages outside of the lock
+    if (is_last)
       return;
     lock.lock();
   }
@@ -124,19 +124,19 @@ void BagWriter::process(const Item& item)
   if (bag_open_ && bag_.getSize() >= bytes_at_check_ + kCheckInterval)
   {
     bytes_at_check_ = bag_.getSize();
-    checkRoom();
+    checkSpace();
     if (!error().empty())
       closeBag();
   }
 }
 
-void BagWriter::checkRoom()
+void BagWriter::checkSpace()
 {
   std::error_code ignored;
   const auto folder = std::filesystem::absolute(file_).parent_path();
   const std::filesystem::space_info space = std::filesystem::space(folder, ignored);
   if (!ignored && space.available < kReserve)
-    fail("less than 64 MB are left on the disk of " + folder.string() + "; make room or record elsewhere");
+    fail("less than 64 MB are free on the disk of " + folder.string() + "; free some space or record elsewhere");
 }
 
 void BagWriter::fail(const std::string& reason)
@@ -147,7 +147,7 @@ void BagWriter::fail(const std::string& reason)
       return;
     error_ = reason;
   }
-  ROS_ERROR("the recording %s has ended early: %s", file_.c_str(), reason.c_str());
+  ROS_ERROR("the recording %s ended early: %s", file_.c_str(), reason.c_str());
 }
 
 void BagWriter::closeBag()
@@ -162,7 +162,7 @@ void BagWriter::closeBag()
   catch (const std::exception& exception)
   {
     fail(std::string("the bag's index could not be written (") + exception.what() +
-         "); rosbag reindex recovers what is there");
+         "); rosbag reindex recovers its messages");
   }
 }
 

@@ -15,41 +15,41 @@
 namespace endovascular_sim::nodes
 {
 
-/** Writes a bag, and other files of a session, on a thread of its own, so that a slow disk does not hold up messages.
+/** Writer of a bag and other files of a session, in its own thread: a slow disk does not delay messages.
  *
- *  The queue is bounded: what does not fit is dropped and counted. When the disk runs full the bag is closed while
- *  there is still room for its index; from then on everything is dropped and error() says why. */
+ *  The queue is bounded; messages that do not fit are dropped and counted. Before the disk is full the bag is closed,
+ *  while there is space for its index. From then on all messages are dropped, and error() holds the reason. */
 class BagWriter
 {
 public:
   /** @param file path of the bag
-   *  @throws InputError when it cannot be made */
+   *  @throws InputError when it cannot be created */
   explicit BagWriter(const std::string& file);
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /** Queues a received message; a latched topic stays marked as such. Does not block. */
+  /** Queues a received message; the bag retains whether its topic is latched. Does not block. */
   template <typename Message>
   void write(const std::string& topic, const ros::MessageEvent<Message const>& event)
   {
     push([topic, event](rosbag::Bag& bag) { bag.write(topic, event); });
   }
 
-  /** Queues a message of this process. Does not block. @param time that it is recorded with */
+  /** Queues a message of this process. Does not block. @param time time of the message in the bag */
   template <typename Message>
   void write(const std::string& topic, ros::Time time, const boost::shared_ptr<Message>& message)
   {
     push([topic, time, message](rosbag::Bag& bag) { bag.write(topic, time, *message); });
   }
 
-  /** Queues a message of this process as one of a latched topic. Does not block. */
+  /** Queues a message of this process on a latched topic. Does not block. */
   template <typename Message>
   void writeLatched(const std::string& topic, const Message& message)
   {
     const auto copy = boost::make_shared<Message>(message);
     const auto header = boost::make_shared<ros::M_string>();
-    // A header of one's own replaces the whole of what rosbag writes about the topic.
+    // A given header replaces the complete header that rosbag would write for the topic.
     (*header)["latching"] = "1";
     (*header)["type"] = ros::message_traits::datatype<Message>();
     (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
@@ -58,17 +58,17 @@ public:
     push([topic, copy, header, now](rosbag::Bag& bag) { bag.write(topic, now, *copy, header); });
   }
 
-  /** Queues other work for the thread, for example a picture to write; it is not counted as a message. */
+  /** Queues other work of the thread, for example an image to write; it does not count as a message. */
   void run(std::function<void()> work);
 
-  /** Writes what is queued, ends the thread and closes the bag. Further messages are dropped. */
+  /** Writes all queued messages, ends the thread and closes the bag. Later messages are dropped. */
   void close();
 
   const std::string& file() const { return file_; }
-  std::uint64_t bytes() const;
-  std::uint64_t messages() const;
-  std::uint64_t dropped() const;
-  std::string error() const;
+  std::uint64_t bytes() const;     ///< size of the bag [B]
+  std::uint64_t messages() const;  ///< number of messages written
+  std::uint64_t dropped() const;   ///< number of messages dropped
+  std::string error() const;       ///< reason of an early end; empty without one
 
 private:
   using Work = std::function<void(rosbag::Bag&)>;
@@ -82,14 +82,14 @@ private:
   void enqueue(Item item);
   void loop();
   void process(const Item& item);
-  void checkRoom();
+  void checkSpace();
   void fail(const std::string& reason);
   void closeBag();
 
   std::string file_;
   rosbag::Bag bag_;
-  bool bag_open_ = true;              // writer thread, then close()
-  std::uint64_t bytes_at_check_ = 0;  // writer thread
+  bool bag_open_ = true;              ///< used by the thread, then by close()
+  std::uint64_t bytes_at_check_ = 0;  ///< used by the thread
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

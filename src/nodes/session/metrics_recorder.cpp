@@ -14,7 +14,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kOutside = 19e-3;  // m before the introducer
+constexpr double kOutside = 19e-3;  ///< distance in front of the introducer at which an instrument is outside [m]
 
 Eigen::Vector3d toVector(const geometry_msgs::Point& point)
 {
@@ -26,7 +26,7 @@ double magnitude(const geometry_msgs::Vector3& v)
   return Eigen::Vector3d(v.x, v.y, v.z).norm();
 }
 
-/** The point of the wire at a length behind its end; the first node beyond. [m] */
+/** Point of the wire at an arc length behind its tip [m]; the first node beyond the wire. */
 Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
 {
   for (std::size_t k = rod.nodes.size() - 1; k > 0; --k)
@@ -70,7 +70,7 @@ procedure::Observation observationFrom(const RodStateVisual& rod, const scene::S
 void MetricsRecorder::add(const VesselMesh& mesh)
 {
   if (metrics_)
-    return;  // the vessel of the beginning tells where the branches are
+    return;  // the initial vessel defines the branches
   vessel_.mesh = fromMessage(mesh);
   vessel_.source = mesh.source;
   wall_ = vessel_.mesh;

@@ -18,8 +18,7 @@
 namespace endovascular_sim::nodes
 {
 
-/** Feeds the metrics of a session from the graph's messages, live or of a recording. What comes before the vessel is
- *  not counted. */
+/** Metrics of a session from the messages of the graph, live or recorded. Messages before the vessel are ignored. */
 class MetricsRecorder
 {
 public:
@@ -32,29 +31,29 @@ public:
   void add(const ProcedureStep& step);
   void add(const WallDisplacement& moved);
   void add(const TreatmentVisual& treatment);
-  /** Pressure commanded at the inflators, per instrument [Pa]. */
+  /** Sets the commanded pressure at the inflator of every instrument [Pa]. */
   void setPressures(const std::vector<double>& pressures) { pressures_ = pressures; }
 
-  /** Measures the lesions, then writes metrics.json, metrics.html and instruments.csv; nothing where no vessel came.
-   *  @throws InputError when the disk refuses them */
+  /** Evaluates the lesions and writes metrics.json, metrics.html and instruments.csv; without a vessel it does nothing.
+   *  @throws InputError when a file cannot be written */
   void write(const std::string& folder, const results::WallForceSummary* forces);
 
 private:
   void begin();
 
   scene::Scene scene_;
-  vessel::Vessel vessel_;                             ///< as it was at the beginning
-  geometry::TriangleMesh wall_;                       ///< as it is now
-  std::vector<intervention::RoundBody> stents_;       ///< opened ones
+  vessel::Vessel vessel_;                             ///< initial vessel
+  geometry::TriangleMesh wall_;                       ///< current wall
+  std::vector<intervention::RoundBody> stents_;       ///< opened stents
   std::unique_ptr<results::SessionMetrics> metrics_;  ///< null before the vessel
   std::vector<procedure::StepRecord> steps_;
   std::string failure_;
   std::vector<double> pressures_;
-  std::vector<std::pair<Eigen::Vector3d, double>> contacts_;  ///< newest: place [m] and normal force [N]
+  std::vector<std::pair<Eigen::Vector3d, double>> contacts_;  ///< newest contacts: position [m] and normal force [N]
 };
 
-/** The observation that a message holds.
- *  @param pressures per instrument; may be empty */
+/** Observation in a message.
+ *  @param pressures pressure at the inflator of every instrument [Pa]; may be empty */
 procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
                                        const procedure::BranchLocator& locator, const std::vector<double>& pressures);
 

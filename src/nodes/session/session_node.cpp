@@ -1,27 +1,23 @@
+#include "nodes/session/session_node.h"
+
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <iomanip>
 #include <sstream>
+#include <string>
 
-#include <ros/ros.h>
-
-#include "common/error.h"
-#include "nodes/runtime/real_time.h"
-#include "nodes/runtime/scene_parameters.h"
-#include "nodes/session/session_recorder.h"
-
+namespace endovascular_sim::nodes
+{
 namespace
 {
 
-/** Between two looks at what has come: not a wake-up per message. */
-constexpr double kTurn = 5e-3;  // s
+/** Interval of message processing; batches avoid a wake-up per message. */
+constexpr double kPeriod = 5e-3;  // s
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-using endovascular_sim::nodes::RecorderSettings;
-
-/** Folder below ROS_HOME for a session that was given none. */
+/** Default folder of the results, below ROS_HOME. */
 std::string defaultFolder(const std::string& scene_name)
 {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -48,29 +44,23 @@ RecorderSettings settingsFrom(const ros::NodeHandle& parameters, const std::stri
 
 }  // namespace
 
-int main(int argc, char** argv)
+SessionNode::SessionNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const scene::Scene& scene)
+  : recorder_(node, scene, settingsFrom(parameters, scene.name))
 {
-  endovascular_sim::nodes::keepOffLockStepCpu();
-  ros::init(argc, argv, "session");
-  ros::NodeHandle node;
-  // What has come by then is still recorded; ROS's own handler drops it, and knows SIGINT only.
+}
+
+bool SessionNode::run()
+{
+  // Messages that have already arrived are still recorded. The handler of ROS drops them, and handles SIGINT only.
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { stop_signal = 1; });
-  try
+  while (ros::ok() && stop_signal == 0)
   {
-    const auto scene = endovascular_sim::nodes::sceneFromParameters(node);
-    endovascular_sim::nodes::SessionRecorder recorder(node, scene, settingsFrom(ros::NodeHandle("~"), scene.name));
-    while (ros::ok() && stop_signal == 0)
-    {
-      ros::spinOnce();
-      ros::WallDuration(kTurn).sleep();
-    }
     ros::spinOnce();
-    return recorder.finish() ? 0 : 1;
+    ros::WallDuration(kPeriod).sleep();
   }
-  catch (const std::exception& error)
-  {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+  ros::spinOnce();
+  return recorder_.finish();
 }
+
+}  // namespace endovascular_sim::nodes

@@ -13,9 +13,9 @@
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "common/version.h"
 #include "common/error.h"
 #include "common/hash.h"
+#include "common/version.h"
 #include "contact/contract/contact_set.h"
 #include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -33,9 +33,9 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kJointRate = 100.0;   ///< of measured_js in the bag [Hz]
-constexpr double kContactRate = 30.0;  ///< of contact/forces in the bag [Hz]
-/** Queues of what comes at the step rate: 10 s of it. */
+constexpr double kJointRate = 100.0;   ///< rate of measured_js in the bag [Hz]
+constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [Hz]
+/** Queue length of topics at the step rate: 10 s of messages. */
 constexpr std::uint32_t kStepQueue = 10000;
 constexpr std::uint32_t kQueue = 100;
 
@@ -49,6 +49,8 @@ results::SessionIdentity identityOf(const scene::Scene& scene)
   identity.time_step = scene.solver.time_step;
   identity.duration = scene.duration;
   identity.software_version = version();
+  identity.commit = commit();
+  identity.physics = kPhysicsNumber;
   return identity;
 }
 
@@ -61,23 +63,25 @@ SessionInfo infoOf(const scene::Scene& scene)
   info.seed = scene.seed;
   info.time_step = scene.solver.time_step;
   info.software_version = version();
+  info.commit = commit();
+  info.physics_number = kPhysicsNumber;
   return info;
 }
 
-/** Makes the folder for a session, which must not hold one already. */
-std::string madeFolder(const std::string& folder)
+/** Creates the folder of a session, which must not contain an earlier one. @return the folder */
+std::string createFolder(const std::string& folder)
 {
   std::error_code error;
   std::filesystem::create_directories(folder + "/fluoroscopy", error);
   if (error)
-    throw InputError(folder, "results", "the folder cannot be made (" + error.message() + "); choose another one");
+    throw InputError(folder, "results", "the folder cannot be created (" + error.message() + "); choose another one");
   for (const char* name : {"/session.bag", "/report.json"})
     if (std::filesystem::exists(folder + name))
-      throw InputError(folder, "results", "the folder already holds a session; choose another one");
+      throw InputError(folder, "results", "the folder already contains a session; choose another one");
   return folder;
 }
 
-/** "rod_dynamics" of "rod_dynamics: loop" and of "/rod_dynamics: loop". */
+/** Name of the node in the name of a diagnostic status: "rod_dynamics" in "/rod_dynamics: simulation". */
 std::string nodeOf(const std::string& status_name)
 {
   const std::string node = status_name.substr(0, status_name.find(':'));
@@ -91,22 +95,13 @@ double magnitude(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& 
 
 }  // namespace
 
-bool Throttle::passes(double time)
-{
-  const double slot = std::floor(time * rate_ + 1e-6);
-  if (slot == last_slot_)
-    return false;
-  last_slot_ = slot;
-  return true;
-}
-
 SessionRecorder::SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings)
   : node_(std::move(node)),
     scene_(std::move(scene)),
     settings_(std::move(settings)),
     info_(infoOf(scene_)),
     report_(identityOf(scene_)),
-    trajectory_(madeFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
+    trajectory_(createFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
     metrics_(scene_),
     bag_(settings_.folder + "/session.bag"),
     pose_(scene_.record.pose_rate),
@@ -170,7 +165,7 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
                     }
                     catch (const InputError& error)
                     {
-                      ROS_WARN_THROTTLE(10.0, "session: left out of the metrics: %s", error.what());
+                      ROS_WARN_THROTTLE(10.0, "omitted from the metrics: %s", error.what());
                     }
                   });
 }
@@ -229,11 +224,12 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   last_step_ = ros::SteadyTime::now();
   metrics_.setPressures(drive.pressure);
   bag_.write(node_.resolveName(names::kDriveApplied), event);
-  recordHands(drive, event.getReceiptTime());
+  recordJointStates(drive, event.getReceiptTime());
 }
 
-/** measured_js of all instruments, made of drive/applied: nobody has to send thousands of messages a second for it. */
-void SessionRecorder::recordHands(const DriveApplied& drive, ros::Time time)
+/** Records measured_js of all instruments, derived from drive/applied: rod_dynamics then need not publish it at the
+ * step rate. */
+void SessionRecorder::recordJointStates(const DriveApplied& drive, ros::Time time)
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
                                       drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
@@ -276,7 +272,7 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
     report_.addTip(row.tip, row.insertion, row.nodes);
     if (!trajectory_.add(row) && error_.empty())
     {
-      error_ = path("trajectory.csv") + " cannot be written any more: is the disk full?";
+      error_ = path("trajectory.csv") + " cannot be written: is the disk full?";
       ROS_ERROR("%s", error_.c_str());
     }
   }
@@ -310,7 +306,7 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   if (info_published_)
-    return;  // the wall has moved: vessel/moved says where
+    return;  // later meshes are in vessel/moved already
   vessel_ = event.getConstMessage();
   metrics_.add(*vessel_);
   info_.mesh_hash = vessel_->content_hash;
@@ -354,17 +350,17 @@ void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::Dia
 
 bool SessionRecorder::durationIsOver() const
 {
-  // Half a step of tolerance: time is steps times their length.
+  // Tolerance of half a step: the time is a multiple of the time step.
   return settings_.stop_at_duration && report_.simulatedTime() > scene_.duration - 0.5 * scene_.solver.time_step;
 }
 
-void SessionRecorder::tellProgress()
+void SessionRecorder::logProgress()
 {
   const double now = report_.simulatedTime();
-  if (now < told_ + 1.0)
+  if (now < logged_time_ + 1.0)
     return;
-  told_ = std::floor(now);
-  ROS_INFO("[session] %.0f of %.0f s simulated, %.1f mm inside, force at the hand %.3f N", now, scene_.duration,
+  logged_time_ = std::floor(now);
+  ROS_INFO("%.0f of %.0f s simulated, insertion %.1f mm, hand force %.3f N", now, scene_.duration,
            1e3 * report_.insertedLength(), report_.handForce().final());
 }
 
@@ -373,7 +369,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
   diagnostics_.update();
   if (finished_)
     return;
-  tellProgress();
+  logProgress();
   if (!settings_.stop_at_duration)
     return;
   const double silence = (ros::SteadyTime::now() - last_step_).toSec();
@@ -382,7 +378,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
     endWith("");
   else if (silence > patience)
     endWith("no step of the simulation for " + std::to_string(static_cast<int>(silence)) +
-            " s: see the diagnostics of rod_dynamics and contact for the reason");
+            " s; the diagnostics of rod_dynamics and contact hold the reason");
 }
 
 bool SessionRecorder::onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
@@ -397,7 +393,7 @@ void SessionRecorder::endWith(const std::string& error)
   if (!error.empty())
   {
     error_ = error;
-    ROS_ERROR("[session] %s", error.c_str());
+    ROS_ERROR("%s", error.c_str());
   }
   finish();
   ros::requestShutdown();
@@ -411,7 +407,7 @@ void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrappe
   else if (!error_.empty())
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, error_);
   else if (bag_.dropped() > 0)
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "the disk is too slow: messages were dropped");
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "messages were dropped: the disk is too slow");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, finished_ ? "finished" : "recording");
   status.add("steps recorded", report_.steps());
@@ -456,7 +452,7 @@ bool SessionRecorder::writeMetrics()
   }
   catch (const InputError& error)
   {
-    ROS_ERROR("[session] %s", error.what());
+    ROS_ERROR("%s", error.what());
     return false;
   }
   return true;
@@ -482,13 +478,12 @@ bool SessionRecorder::finish()
   const bool metrics_written = writeMetrics();
   const bool map_written = writeWallForces();
   if (!map_written)
-    ROS_ERROR("[session] %s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
+    ROS_ERROR("%s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
   if (!file)
-    ROS_ERROR("[session] %s cannot be written: is the disk full?", path("report.json").c_str());
+    ROS_ERROR("%s cannot be written: is the disk full?", path("report.json").c_str());
   complete_ = static_cast<bool>(file) && rows_written && map_written && metrics_written && outcome.error.empty() &&
               error_.empty();
-  ROS_INFO("[session] recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()),
-           settings_.folder.c_str());
+  ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()), settings_.folder.c_str());
   return complete_;
 }
 

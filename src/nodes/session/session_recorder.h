@@ -20,6 +20,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/session/bag_writer.h"
 #include "nodes/session/metrics_recorder.h"
+#include "nodes/session/throttle.h"
 #include "results/report.h"
 #include "results/trajectory_csv.h"
 #include "scene/model/scene.h"
@@ -27,38 +28,25 @@
 namespace endovascular_sim::nodes
 {
 
-/** Lets one message through per slot of time. */
-class Throttle
-{
-public:
-  explicit Throttle(double rate) : rate_(rate) {}
-  /** @param time [s]; going back in time begins anew */
-  bool passes(double time);
-
-private:
-  double rate_;
-  double last_slot_ = -1.0;
-};
-
-/** How a session is recorded; read from the session node's private parameters. */
+/** Settings of a recording, from the private parameters of the session node. */
 struct RecorderSettings
 {
-  std::string folder;             ///< where everything is written
-  bool stop_at_duration = false;  ///< end the node when the scene's duration is over
-  double patience = 60.0;         ///< with stop_at_duration: give up after this time without a step [s]
-  double start_patience = 600.0;  ///< the same before the first step, while vessels are generated [s]
-  int picture_interval = 15;      ///< every n-th fluoroscopy frame is kept as PNG; 0: none
+  std::string folder;             ///< folder of all results
+  bool stop_at_duration = false;  ///< end at the duration of the scene
+  double patience = 60.0;         ///< longest time without a step, with stop_at_duration [s]
+  double start_patience = 600.0;  ///< the same before the first step, while the vessel is generated [s]
+  int picture_interval = 15;      ///< interval of the fluoroscopy frames that are saved as PNG [frames]; 0: none
 };
 
-/** Subscribes to everything that a scene produces, records it, and writes the report at the end. */
+/** Recorder of a session: subscribes to the topics of a scene, records them, and writes the report at the end. */
 class SessionRecorder
 {
 public:
-  /** @throws InputError when the folder or a file in it cannot be made */
+  /** @throws InputError when the folder or a file in it cannot be created */
   SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings);
   ~SessionRecorder();
 
-  /** Closes the bag and writes report.json; nothing when that has been done. @return true when all is complete */
+  /** Closes the bag and writes the report; further calls have no effect. @return true when everything was written */
   bool finish();
 
 private:
@@ -71,16 +59,16 @@ private:
   template <typename Message>
   void listen(const std::string& topic, std::uint32_t queue,
               std::function<void(const ros::MessageEvent<Message const>&)> callback);
-  /** Records a topic as it comes. */
+  /** Subscribes to a topic and records all of its messages. */
   template <typename Message>
   void record(const std::string& topic, std::uint32_t queue);
-  /** The same, and shows it to the metrics. */
+  /** As record(); also adds the messages to the metrics. */
   template <typename Message>
   void measure(const std::string& topic, std::uint32_t queue);
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
-  void recordHands(const DriveApplied& drive, ros::Time time);
+  void recordJointStates(const DriveApplied& drive, ros::Time time);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
@@ -89,14 +77,14 @@ private:
   void onTimer(const ros::SteadyTimerEvent&);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  /** metrics.json, metrics.html and instruments.csv. @return false when the disk refused them */
+  /** Writes metrics.json, metrics.html and instruments.csv. @return false on failure */
   bool writeMetrics();
-  /** wall_forces.csv and vessel_points.csv. @return false when the disk refused them */
+  /** Writes wall_forces.csv and vessel_points.csv. @return false on failure */
   bool writeWallForces() const;
   void savePicture(const sensor_msgs::ImageConstPtr& image);
-  /** True when the scene's last step is in, and the session is to end with it. */
+  /** Reports whether the last step of the scene is recorded and the session ends with it. */
   bool durationIsOver() const;
-  void tellProgress();
+  void logProgress();
   void fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void endWith(const std::string& error);
   std::string path(const std::string& name) const { return settings_.folder + "/" + name; }
@@ -112,20 +100,21 @@ private:
   Throttle pose_;
   Throttle joints_;
   Throttle contacts_;
-  ContactForceMapConstPtr force_map_;  ///< the newest
+  ContactForceMapConstPtr force_map_;  ///< newest map
   VesselMeshConstPtr vessel_;
   std::uint64_t frames_ = 0;
   bool info_published_ = false;
   bool finished_ = false;
   bool complete_ = false;
-  std::string error_;
-  ros::SteadyTime last_step_;
-  double told_ = 0.0;
-  std::vector<ros::Subscriber> subscribers_;
+  std::string error_;          ///< reason of an early end; empty without one
+  ros::SteadyTime last_step_;  ///< arrival of the last step
+  double logged_time_ = 0.0;   ///< simulated time of the last progress message [s]
   ros::Publisher info_publisher_;
+  diagnostic_updater::Updater diagnostics_;
+  // Last, so that they end before the members that their callbacks use.
+  std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer stop_;
   ros::SteadyTimer timer_;
-  diagnostic_updater::Updater diagnostics_;
 };
 
 }  // namespace endovascular_sim::nodes

@@ -4,50 +4,47 @@
 
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
-#include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
 {
-namespace
+
+bool WallDeformationServer::press(const BalloonLoad& load, WallDisplacement& displacement)
 {
-
-constexpr std::size_t kRecent = 2;  // versions that contact may lag behind, see simulation::BalloonTreatments
-
-}  // namespace
-
-bool WallDeformationServer::press(const BalloonLoad& pressing, WallDisplacement& answer)
-{
-  if (pressing.version != version_ + 1)  // which no other thread changes
+  if (load.version != history_.newest() + 1)  // no other thread changes it
     return false;
-  toMessage(opening_.press(pressingFromMessage(pressing), simulation::kMostMovedVertices), answer);
-  answer.step = pressing.step;
-  answer.version = pressing.version;
-  answer.at_risk = opening_.atRisk();
+  toMessage(opening_.press(loadFromMessage(load), simulation::kMostDisplacedVertices), displacement);
+  displacement.step = load.step;
+  displacement.version = load.version;
+  displacement.at_risk = opening_.atRisk();
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
-  version_ = pressing.version;
-  recent_.push_back(answer);
-  for (; recent_.size() > kRecent; recent_.pop_front())
-    for (std::size_t k = 0; k < recent_.front().index.size(); ++k)
-      base_.vertices[recent_.front().index[k]] = fromMessage(recent_.front().position[k]);
+  const std::uint64_t newest = history_.append(displacement);
+  if (newest > history_.base() + simulation::kWallLag)
+    history_.advanceTo(newest - simulation::kWallLag,
+                       [this](std::uint64_t /*version*/, const WallDisplacement& passed)
+                       {
+                         for (std::size_t k = 0; k < passed.index.size(); ++k)
+                           base_.vertices[passed.index[k]] = fromMessage(passed.position[k]);
+                       });
   return true;
 }
 
 WallDeformationServer::Snapshot WallDeformationServer::snapshot() const
 {
   Snapshot now;
-  now.mesh.triangles = base_.triangles;  // which never change
+  now.mesh.triangles = base_.triangles;  // constant, hence without the lock
   now.mesh.vertices.reserve(base_.vertices.size());
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
-  now.version = version_ - recent_.size();
+  now.version = history_.base();
   now.mesh.vertices = base_.vertices;
-  now.moved.assign(recent_.begin(), recent_.end());
+  for (const auto& version : history_.pending())
+    now.displacements.push_back(version.displacement);
   return now;
 }
 
 std::uint64_t WallDeformationServer::version() const
 {
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
-  return version_;
+  return history_.newest();
 }
 
 }  // namespace endovascular_sim::nodes

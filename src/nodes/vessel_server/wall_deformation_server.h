@@ -1,47 +1,49 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <vector>
 
 #include "endovascular_sim/BalloonLoad.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "intervention/vessel_opening.h"
-#include "nodes/runtime/priority_mutex.h"
+#include "nodes/runtime/priority_inheritance_mutex.h"
+#include "simulation/wall_history.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** The vessel's side of a treatment: what vessel_server answers to a BalloonLoad. For several threads. */
+/** Deformable wall of vessel_server: responds to a BalloonLoad with a WallDisplacement. Thread-safe as noted. */
 class WallDeformationServer
 {
 public:
-  /** @param vessel version 1 of it */
+  /** @param vessel the vessel in version 1 */
   explicit WallDeformationServer(const vessel::Vessel& vessel)
     : opening_(vessel, intervention::OpeningLaw{}), base_(vessel.mesh)
   {
   }
 
-  /** From one thread only.
-   *  @return false when the message is not the next one: a rod that knows another wall than this one */
-  bool press(const BalloonLoad& pressing, WallDisplacement& answer);
+  /** Applies the next load; call it from one thread only.
+   *  @param[out] displacement all fields but the header
+   *  @return false when the load does not follow the newest version: the sender has another wall than this one */
+  bool press(const BalloonLoad& load, WallDisplacement& displacement);
 
-  /** A mesh and what has moved since, in order. Contact may still be found with a wall two versions back. */
+  /** Wall with its recent displacements. Contact detection lags behind the newest version by at most
+   *  simulation::kWallLag versions, and can follow from the mesh. */
   struct Snapshot
   {
-    std::uint64_t version = 1;
-    geometry::TriangleMesh mesh;
-    std::vector<WallDisplacement> moved;
+    std::uint64_t version = 1;                    ///< version of the mesh
+    geometry::TriangleMesh mesh;                  ///< wall before the displacements
+    std::vector<WallDisplacement> displacements;  ///< one per later version, in order
   };
-  Snapshot snapshot() const;
+  Snapshot snapshot() const;  ///< thread-safe
 
-  std::uint64_t version() const;  ///< newest
+  std::uint64_t version() const;  ///< newest version; thread-safe
 
 private:
-  intervention::VesselOpening opening_;     ///< the pressing thread's
-  mutable PriorityInheritanceMutex mutex_;  ///< of what follows
-  std::uint64_t version_ = 1;
-  geometry::TriangleMesh base_;          ///< the wall before recent_
-  std::deque<WallDisplacement> recent_;  ///< the last versions
+  intervention::VesselOpening opening_;     ///< used by the thread of press() only
+  mutable PriorityInheritanceMutex mutex_;  ///< guards the following members
+  simulation::WallHistory<WallDisplacement> history_;
+  geometry::TriangleMesh base_;  ///< mesh in the history's base version
 };
 
 }  // namespace endovascular_sim::nodes

@@ -1,24 +1,14 @@
+#include "nodes/visualization/visualization_node.h"
+
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <ros/ros.h>
-#include <visualization_msgs/Marker.h>
 
 #include "common/error.h"
-#include "endovascular_sim/ContactForceMap.h"
-#include "endovascular_sim/RodStateVisual.h"
-#include "endovascular_sim/VesselMesh.h"
 #include "intervention/stent_placement.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
-#include "nodes/runtime/real_time.h"
 #include "nodes/runtime/ros_names.h"
 #include "visualization/tube_mesh.h"
-#include "visualization/wall_heat_map.h"
 
 namespace endovascular_sim::nodes
 {
@@ -26,14 +16,14 @@ namespace
 {
 
 constexpr double kMarkerRate = 30.0;          ///< [Hz]; rviz stutters with more
-constexpr int kTubeSides = 8;                 ///< corners of the drawn wire's cross-section
-constexpr std::size_t kTipPathPoints = 2000;  ///< the path keeps its newest points
-constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two of them [m]
-constexpr double kTipPathWidth = 0.6e-3;      ///< [m]
-constexpr int kBalloonSides = 24;
-constexpr double kStrutWidth = 0.12e-3;  ///< of drawn struts [m]
-constexpr double kHeatRadius = 2e-3;     ///< over which a touched triangle's colour fades [m]
-constexpr double kHeatInset = 0.1e-3;    ///< of the coloured triangles from the wall, into the lumen [m]
+constexpr int kTubeSides = 8;                 ///< corners of the drawn cross-section of the wire
+constexpr std::size_t kTipPathPoints = 2000;  ///< capacity of the path; the oldest points are dropped
+constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two points of the path [m]
+constexpr double kTipPathWidth = 0.6e-3;      ///< width of the drawn path [m]
+constexpr int kBalloonSides = 24;             ///< corners of the drawn cross-section of a balloon
+constexpr double kStrutWidth = 0.12e-3;       ///< width of drawn struts [m]
+constexpr double kHeatRadius = 2e-3;          ///< distance over which the colour of a touched triangle fades [m]
+constexpr double kHeatInset = 0.1e-3;         ///< distance of the coloured triangles from the wall, into the lumen [m]
 
 Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
 {
@@ -49,7 +39,7 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& vector)
   return point;
 }
 
-/** A marker in the given frame, with a fixed name and id, so that every message replaces the one before. */
+/** Marker with a fixed namespace and id: every message replaces the last one. */
 visualization_msgs::Marker marker(const std_msgs::Header& header, const char* name, int type)
 {
   visualization_msgs::Marker result;
@@ -74,237 +64,201 @@ std_msgs::ColorRGBA toColour(const visualization::Colour& colour, double alpha)
   return result;
 }
 
-/** Draws the wire, its tip's path, what the wall has borne and, from a recording, the vessel. */
-class Visualization
+/** Publishes a marker; an empty one as a deletion, since rviz rejects empty lists. */
+void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& publisher)
 {
-public:
-  explicit Visualization(ros::NodeHandle& node, const ros::NodeHandle& parameters)
-    : full_scale_(parameters.param("force_full_scale", 0.1)),
-      radius_scale_(parameters.param("radius_scale", 1.5)),
-      heat_of_(parameters.param<std::string>("heat_of", "peak")),
-      heat_full_scale_(parameters.param("heat_full_scale", 0.1)),
-      wire_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
-      tip_path_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
-      balloon_marker_(node.advertise<visualization_msgs::Marker>(names::kBalloonMarker, 1, true)),
-      stent_marker_(node.advertise<visualization_msgs::Marker>(names::kStentMarker, 1, true)),
-      heat_marker_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true))
-  {
-    const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
-    rod_ = node.subscribe(names::kRodStateVisual, 2, &Visualization::drawWire, this, no_delay);
-    if (heat_of_ != "peak" && heat_of_ != "integral" && heat_of_ != "time_over_threshold")
-    {
-      ROS_WARN("visualization: ~heat_of is '%s'; must be peak, integral or time_over_threshold: showing the peak",
-               heat_of_.c_str());
-      heat_of_ = "peak";
-    }
-    if (parameters.param("draw_vessel", false))
-      vessel_marker_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
-    vessel_ = node.subscribe(names::kVesselMesh, 1, &Visualization::receiveVessel, this, no_delay);
-    treatment_ = node.subscribe(names::kTreatmentVisual, 2, &Visualization::drawTreatment, this, no_delay);
-    force_map_ = node.subscribe(names::kContactForceMap, 1, &Visualization::receiveForceMap, this, no_delay);
-  }
-
-private:
-  void drawWire(const RodStateVisual& state)
-  {
-    if (state.time < last_time_)
-      path_.clear();  // the session, or the recording, has begun again
-    else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
-      return;
-    last_time_ = state.time;
-    if (state.nodes.empty() || state.radius.size() != state.nodes.size())
-      return;
-
-    std::vector<Eigen::Vector3d> nodes(state.nodes.size());
-    std::transform(state.nodes.begin(), state.nodes.end(), nodes.begin(), toEigen);
-    const visualization::TubeMesh mesh = visualization::tubeMesh(nodes, state.radius, kTubeSides, radius_scale_);
-    visualization_msgs::Marker tube = marker(state.header, "wire", visualization_msgs::Marker::TRIANGLE_LIST);
-    tube.points.resize(mesh.corners.size());
-    std::transform(mesh.corners.begin(), mesh.corners.end(), tube.points.begin(), toPoint);
-    const std::vector<std_msgs::ColorRGBA> colours = nodeColours(state);
-    tube.colors.reserve(mesh.corners.size());
-    for (const std::size_t i : mesh.node_of_corner)
-      tube.colors.push_back(colours[i]);
-    // rviz refuses an empty triangle list: before the first edge there is nothing to show.
-    if (!tube.points.empty())
-      wire_.publish(tube);
-    drawTipPath(state.header, nodes.back());
-  }
-
-  std::vector<std_msgs::ColorRGBA> nodeColours(const RodStateVisual& state) const
-  {
-    std::vector<std_msgs::ColorRGBA> colours(state.nodes.size());
-    for (std::size_t i = 0; i < colours.size(); ++i)
-    {
-      double force = 0.0;
-      if (i < state.contact_force.size())
-        force = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
-      colours[i] = toColour(visualization::forceColour(force, full_scale_), 1.0);
-    }
-    return colours;
-  }
-
-  void drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
-  {
-    if (!path_.empty() && (toEigen(path_.back()) - tip).norm() < kTipPathSpacing)
-      return;
-    path_.push_back(toPoint(tip));
-    if (path_.size() > kTipPathPoints)
-      path_.pop_front();
-    if (path_.size() < 2)
-      return;
-    visualization_msgs::Marker line = marker(header, "tip_path", visualization_msgs::Marker::LINE_STRIP);
-    line.scale.x = kTipPathWidth;
-    line.color.r = 0.25F;
-    line.color.g = 0.65F;
-    line.color.b = 1.0F;
-    line.color.a = 0.8F;
-    line.points.assign(path_.begin(), path_.end());
-    tip_path_.publish(line);
-  }
-
-  void receiveVessel(const VesselMesh& vessel)
-  {
-    heat_ = std::make_unique<visualization::WallHeatMap>(fromMessage(vessel), kHeatRadius, kHeatInset);
-    if (vessel.version == 1 || vessel_hash_ == 0)
-      vessel_hash_ = vessel.content_hash;  // the map names the wall as it was at the beginning
-    if (newest_map_)
-      drawHeat(*newest_map_);  // it came before the vessel
-    if (vessel_marker_)
-      drawVessel(vessel);
-  }
-
-  void drawTreatment(const TreatmentVisual& message)
-  {
-    if (std::abs(message.time - last_treatment_) < 1.0 / kMarkerRate - 1e-4)
-      return;
-    last_treatment_ = message.time;
-    try
-    {
-      drawBalloons(message);
-      drawStents(message);
-    }
-    catch (const InputError& error)
-    {
-      ROS_WARN_THROTTLE(1.0, "visualization: %s", error.what());
-    }
-  }
-
-  void drawBalloons(const TreatmentVisual& message)
-  {
-    visualization_msgs::Marker balloons = marker(message.header, "balloon", visualization_msgs::Marker::TRIANGLE_LIST);
-    balloons.color.r = 0.95F;
-    balloons.color.g = 0.9F;
-    balloons.color.b = 0.6F;
-    balloons.color.a = 0.5F;
-    for (const TreatmentBody& body : message.balloons)
-    {
-      const intervention::RoundBody balloon = fromMessage(body);
-      for (const Eigen::Vector3d& corner :
-           visualization::tubeMesh(balloon.axis, balloon.radii, kBalloonSides, 1.0).corners)
-        balloons.points.push_back(toPoint(corner));
-    }
-    publishOrRemove(balloons, balloon_marker_);
-  }
-
-  void drawStents(const TreatmentVisual& message)
-  {
-    visualization_msgs::Marker stents = marker(message.header, "stent", visualization_msgs::Marker::LINE_LIST);
-    stents.color.r = stents.color.g = stents.color.b = 0.75F;
-    stents.scale.x = kStrutWidth;
-    for (const TreatmentBody& body : message.stents)
-      for (const std::vector<Eigen::Vector3d>& ring : intervention::strutsOf(fromMessage(body)))
-        for (std::size_t k = 0; k + 1 < ring.size(); ++k)
-        {
-          stents.points.push_back(toPoint(ring[k]));
-          stents.points.push_back(toPoint(ring[k + 1]));
-        }
-    publishOrRemove(stents, stent_marker_);
-  }
-
-  /** rviz refuses an empty list. */
-  static void publishOrRemove(visualization_msgs::Marker& marker, const ros::Publisher& publisher)
-  {
-    if (marker.points.empty())
-      marker.action = visualization_msgs::Marker::DELETE;
-    publisher.publish(marker);
-  }
-
-  void receiveForceMap(const ContactForceMapConstPtr& map)
-  {
-    newest_map_ = map;
-    if (heat_)
-      drawHeat(*map);
-  }
-
-  void drawHeat(const ContactForceMap& map)
-  {
-    if (map.content_hash != vessel_hash_)
-      return;
-    const bool of_peak = heat_of_ == "peak";
-    const visualization::HeatPatch patch =
-        heat_->patch(map.triangles, of_peak                  ? map.peak
-                                    : heat_of_ == "integral" ? map.integral
-                                                             : map.time_over_threshold);
-    visualization_msgs::Marker heat = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
-    heat.points.resize(patch.corners.size());
-    std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
-    for (const double value : patch.values)
-      // Small values fade into the wall; the colour's first stop, grey, is for the wire.
-      heat.colors.push_back(
-          toColour(visualization::forceColour(std::max(value, heat_full_scale_ / 3.0), heat_full_scale_),
-                   std::min(1.0, 3.0 * value / heat_full_scale_)));
-    if (heat.points.empty())
-      heat.action = visualization_msgs::Marker::DELETE;  // a session that has begun again
-    heat_marker_.publish(heat);
-  }
-
-  void drawVessel(const VesselMesh& vessel)
-  {
-    visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
-    wall.color.r = 1.0F;
-    wall.color.g = 0.55F;
-    wall.color.b = 0.5F;
-    wall.color.a = 0.35F;
-    wall.points.reserve(3 * vessel.mesh.triangles.size());
-    for (const shape_msgs::MeshTriangle& triangle : vessel.mesh.triangles)
-      for (const std::uint32_t index : triangle.vertex_indices)
-        if (index < vessel.mesh.vertices.size())
-          wall.points.push_back(vessel.mesh.vertices[index]);
-    if (!wall.points.empty() && wall.points.size() % 3 == 0)
-      vessel_marker_.publish(wall);
-  }
-
-  double full_scale_;
-  double radius_scale_;
-  std::string heat_of_;
-  double heat_full_scale_;  ///< [N], [N·s] or [s]
-  std::unique_ptr<visualization::WallHeatMap> heat_;
-  std::uint64_t vessel_hash_ = 0;
-  ContactForceMapConstPtr newest_map_;
-  double last_time_ = -1.0;
-  double last_treatment_ = -1.0;
-  std::deque<geometry_msgs::Point> path_;
-  ros::Publisher wire_;
-  ros::Publisher tip_path_;
-  ros::Publisher balloon_marker_, stent_marker_;
-  ros::Publisher heat_marker_;
-  ros::Publisher vessel_marker_;
-  ros::Subscriber rod_;
-  ros::Subscriber vessel_;
-  ros::Subscriber force_map_;
-  ros::Subscriber treatment_;
-};
+  if (marker.points.empty())
+    marker.action = visualization_msgs::Marker::DELETE;
+  publisher.publish(marker);
+}
 
 }  // namespace
-}  // namespace endovascular_sim::nodes
 
-int main(int argc, char** argv)
+VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle& parameters)
+  : full_scale_(parameters.param("force_full_scale", 0.1)),
+    radius_scale_(parameters.param("radius_scale", 1.5)),
+    heat_of_(parameters.param<std::string>("heat_of", "peak")),
+    heat_full_scale_(parameters.param("heat_full_scale", 0.1)),
+    wire_publisher_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
+    tip_path_publisher_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
+    balloon_publisher_(node.advertise<visualization_msgs::Marker>(names::kBalloonMarker, 1, true)),
+    stent_publisher_(node.advertise<visualization_msgs::Marker>(names::kStentMarker, 1, true)),
+    heat_publisher_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true))
 {
-  endovascular_sim::nodes::keepOffLockStepCpu();
-  ros::init(argc, argv, "visualization");
-  ros::NodeHandle node;
-  const endovascular_sim::nodes::Visualization visualization(node, ros::NodeHandle("~"));
-  ros::spin();
-  return 0;
+  if (heat_of_ != "peak" && heat_of_ != "integral" && heat_of_ != "time_over_threshold")
+  {
+    ROS_WARN("~heat_of is '%s'; must be peak, integral or time_over_threshold: using peak", heat_of_.c_str());
+    heat_of_ = "peak";
+  }
+  if (parameters.param("draw_vessel", false))
+    vessel_publisher_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  rod_subscriber_ = node.subscribe(names::kRodStateVisual, 2, &VisualizationNode::drawWire, this, no_delay);
+  vessel_subscriber_ = node.subscribe(names::kVesselMesh, 1, &VisualizationNode::receiveVessel, this, no_delay);
+  treatment_subscriber_ =
+      node.subscribe(names::kTreatmentVisual, 2, &VisualizationNode::receiveTreatment, this, no_delay);
+  force_map_subscriber_ =
+      node.subscribe(names::kContactForceMap, 1, &VisualizationNode::receiveForceMap, this, no_delay);
 }
+
+void VisualizationNode::drawWire(const RodStateVisual& state)
+{
+  if (state.time < last_time_)
+    path_.clear();  // the session or the replay was restarted
+  else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
+    return;
+  last_time_ = state.time;
+  if (state.nodes.empty() || state.radius.size() != state.nodes.size())
+    return;
+
+  std::vector<Eigen::Vector3d> nodes(state.nodes.size());
+  std::transform(state.nodes.begin(), state.nodes.end(), nodes.begin(), toEigen);
+  const visualization::TubeMesh mesh = visualization::tubeMesh(nodes, state.radius, kTubeSides, radius_scale_);
+  visualization_msgs::Marker tube = marker(state.header, "wire", visualization_msgs::Marker::TRIANGLE_LIST);
+  tube.points.resize(mesh.corners.size());
+  std::transform(mesh.corners.begin(), mesh.corners.end(), tube.points.begin(), toPoint);
+  const std::vector<std_msgs::ColorRGBA> colours = nodeColours(state);
+  tube.colors.reserve(mesh.corners.size());
+  for (const std::size_t i : mesh.node_of_corner)
+    tube.colors.push_back(colours[i]);
+  // rviz rejects empty triangle lists: no marker before the first edge.
+  if (!tube.points.empty())
+    wire_publisher_.publish(tube);
+  drawTipPath(state.header, nodes.back());
+}
+
+std::vector<std_msgs::ColorRGBA> VisualizationNode::nodeColours(const RodStateVisual& state) const
+{
+  std::vector<std_msgs::ColorRGBA> colours(state.nodes.size());
+  for (std::size_t i = 0; i < colours.size(); ++i)
+  {
+    double force = 0.0;
+    if (i < state.contact_force.size())
+      force = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
+    colours[i] = toColour(visualization::forceColour(force, full_scale_), 1.0);
+  }
+  return colours;
+}
+
+void VisualizationNode::drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
+{
+  if (!path_.empty() && (toEigen(path_.back()) - tip).norm() < kTipPathSpacing)
+    return;
+  path_.push_back(toPoint(tip));
+  if (path_.size() > kTipPathPoints)
+    path_.pop_front();
+  if (path_.size() < 2)
+    return;
+  visualization_msgs::Marker line = marker(header, "tip_path", visualization_msgs::Marker::LINE_STRIP);
+  line.scale.x = kTipPathWidth;
+  line.color.r = 0.25F;
+  line.color.g = 0.65F;
+  line.color.b = 1.0F;
+  line.color.a = 0.8F;
+  line.points.assign(path_.begin(), path_.end());
+  tip_path_publisher_.publish(line);
+}
+
+void VisualizationNode::receiveVessel(const VesselMesh& vessel)
+{
+  heat_ = std::make_unique<visualization::WallHeatMap>(fromMessage(vessel), kHeatRadius, kHeatInset);
+  if (vessel.version == 1 || vessel_hash_ == 0)
+    vessel_hash_ = vessel.content_hash;  // maps contain the hash of the initial wall
+  if (newest_map_)
+    drawHeatMap(*newest_map_);  // it arrived before the vessel
+  if (vessel_publisher_)
+    drawVessel(vessel);
+}
+
+void VisualizationNode::receiveTreatment(const TreatmentVisual& message)
+{
+  if (std::abs(message.time - last_treatment_) < 1.0 / kMarkerRate - 1e-4)
+    return;
+  last_treatment_ = message.time;
+  try
+  {
+    drawBalloons(message);
+    drawStents(message);
+  }
+  catch (const InputError& error)
+  {
+    ROS_WARN_THROTTLE(1.0, "%s", error.what());
+  }
+}
+
+void VisualizationNode::drawBalloons(const TreatmentVisual& message)
+{
+  visualization_msgs::Marker balloons = marker(message.header, "balloon", visualization_msgs::Marker::TRIANGLE_LIST);
+  balloons.color.r = 0.95F;
+  balloons.color.g = 0.9F;
+  balloons.color.b = 0.6F;
+  balloons.color.a = 0.5F;
+  for (const TreatmentBody& body : message.balloons)
+  {
+    const intervention::RoundBody balloon = fromMessage(body);
+    for (const Eigen::Vector3d& corner :
+         visualization::tubeMesh(balloon.axis, balloon.radii, kBalloonSides, 1.0).corners)
+      balloons.points.push_back(toPoint(corner));
+  }
+  publishOrDelete(balloons, balloon_publisher_);
+}
+
+void VisualizationNode::drawStents(const TreatmentVisual& message)
+{
+  visualization_msgs::Marker stents = marker(message.header, "stent", visualization_msgs::Marker::LINE_LIST);
+  stents.color.r = stents.color.g = stents.color.b = 0.75F;
+  stents.scale.x = kStrutWidth;
+  for (const TreatmentBody& body : message.stents)
+    for (const std::vector<Eigen::Vector3d>& ring : intervention::strutsOf(fromMessage(body)))
+      for (std::size_t k = 0; k + 1 < ring.size(); ++k)
+      {
+        stents.points.push_back(toPoint(ring[k]));
+        stents.points.push_back(toPoint(ring[k + 1]));
+      }
+  publishOrDelete(stents, stent_publisher_);
+}
+
+void VisualizationNode::receiveForceMap(const ContactForceMapConstPtr& map)
+{
+  newest_map_ = map;
+  if (heat_)
+    drawHeatMap(*map);
+}
+
+void VisualizationNode::drawHeatMap(const ContactForceMap& map)
+{
+  if (map.content_hash != vessel_hash_)
+    return;
+  const bool of_peak = heat_of_ == "peak";
+  const visualization::HeatPatch patch =
+      heat_->patch(map.triangles, of_peak                  ? map.peak
+                                  : heat_of_ == "integral" ? map.integral
+                                                           : map.time_over_threshold);
+  visualization_msgs::Marker heat = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
+  heat.points.resize(patch.corners.size());
+  std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
+  for (const double value : patch.values)
+    // Small values are transparent; the first colour of the scale, grey, is for the wire only.
+    heat.colors.push_back(
+        toColour(visualization::forceColour(std::max(value, heat_full_scale_ / 3.0), heat_full_scale_),
+                 std::min(1.0, 3.0 * value / heat_full_scale_)));
+  publishOrDelete(heat, heat_publisher_);
+}
+
+void VisualizationNode::drawVessel(const VesselMesh& vessel)
+{
+  visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
+  wall.color.r = 1.0F;
+  wall.color.g = 0.55F;
+  wall.color.b = 0.5F;
+  wall.color.a = 0.35F;
+  wall.points.reserve(3 * vessel.mesh.triangles.size());
+  for (const shape_msgs::MeshTriangle& triangle : vessel.mesh.triangles)
+    for (const std::uint32_t index : triangle.vertex_indices)
+      if (index < vessel.mesh.vertices.size())
+        wall.points.push_back(vessel.mesh.vertices[index]);
+  if (!wall.points.empty() && wall.points.size() % 3 == 0)
+    vessel_publisher_.publish(wall);
+}
+
+}  // namespace endovascular_sim::nodes

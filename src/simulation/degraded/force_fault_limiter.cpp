@@ -8,37 +8,37 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr double kPeakGrowth = 1.02;  // per step
+constexpr double kPeakGrowth = 1.02;  ///< largest growth of the peak per limited step [1]
 
 }  // namespace
 
-double ForceFaultLimiter::told(double force, bool blind, double dt)
+double ForceFaultLimiter::filter(double force, bool stale, double dt)
 {
   const double most = dt * kRate * peak_;
-  if (blind)
+  if (stale)
   {
-    left_ = kSettlingTime;
-    return told_;
+    remaining_ = kSettlingTime;
+    return output_;
   }
-  if (left_ > 0.0)
+  if (remaining_ > 0.0)
   {
-    const double missing = force - told_;
-    told_ += std::clamp(missing, -most, most);
-    // Not sooner than the force has been met: what is left to go then is no jump.
-    // It may grow under lasting faults, but hardly by a blow.
+    const double difference = force - output_;
+    output_ += std::clamp(difference, -most, most);
+    // Bounded growth: the peak follows lasting changes of the force, but not a single spike after a stale set.
     peak_ = std::max(peak_, std::min(std::abs(force), kPeakGrowth * peak_));
-    left_ = left_ > dt || std::abs(missing) <= most ? left_ - dt : left_;
-    return told_;
+    // The limit ends only after the output has met the force, so its end causes no jump.
+    remaining_ = remaining_ > dt || std::abs(difference) <= most ? remaining_ - dt : remaining_;
+    return output_;
   }
   peak_ = std::max(peak_, std::abs(force));
-  told_ = force;
-  return told_;
+  output_ = force;
+  return output_;
 }
 
-void ForceFaultLimiter::drop()
+void ForceFaultLimiter::reset()
 {
-  told_ = 0.0;
-  left_ = kSettlingTime;
+  output_ = 0.0;
+  remaining_ = kSettlingTime;
 }
 
 }  // namespace endovascular_sim::simulation

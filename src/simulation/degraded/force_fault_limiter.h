@@ -3,35 +3,36 @@
 namespace endovascular_sim::simulation
 {
 
-/** Carries the force that the hand is told over contact sets that failed to come.
+/** Slew-rate limiter of the rendered force after missing contact sets. One object per force component.
  *
- *  Without a fresh set the force is held; afterwards it goes back to the simulation's, which at first answers the old
- *  set's errors with a blow. On both ways it changes per second by at most ten times the largest force so far, which is
- *  1 % of the peak per millisecond, until it has met the simulation's force and `kSettlingTime` has passed. While no
- *  set has failed it passes the force on unchanged. One object per component of force. */
+ *  During steps with a stale contact set the last force is held. Afterwards the output approaches the simulation's
+ * force with a rate of at most kRate times the largest force so far, 1 % of this peak per millisecond. The limit ends
+ * when the output has met the simulation's force and kSettlingTime has passed. The limit is needed because the first
+ * fresh set reveals the errors of the stale one, and the simulation corrects them with a peak of force. Without a
+ * missing set the force passes unchanged. */
 class ForceFaultLimiter
 {
 public:
-  static constexpr double kRate = 10.0;           ///< of the peak [1/s]
-  static constexpr double kSettlingTime = 50e-3;  ///< after the last old set [s]
+  static constexpr double kRate = 10.0;           ///< largest slew rate, relative to the peak [1/s]
+  static constexpr double kSettlingTime = 50e-3;  ///< duration of the limit after the last stale set [s]
 
-  /** @param least peak that is assumed before the force has one [N or N·m] */
-  explicit ForceFaultLimiter(double least) : peak_(least) {}
+  /** @param least_peak lower bound of the peak [N or N·m] */
+  explicit ForceFaultLimiter(double least_peak) : peak_(least_peak) {}
 
-  /** @param force of the simulation after a step of @p dt [s]
-   *  @param blind the step used an old contact set
-   *  @return the force to tell */
-  double told(double force, bool blind, double dt);
+  /** Filters the force of one step.
+   *  @param force force of the simulation after the step [N or N·m]
+   *  @param stale true when the step used a stale contact set
+   *  @param dt duration of the step [s]
+   *  @return force to render [N or N·m] */
+  double filter(double force, bool stale, double dt);
 
-  /** The force was taken away: it comes back from zero. */
-  void drop();
-
-  bool isPassing() const { return left_ <= 0.0; }  ///< the simulation's force is told as it is
+  /** Sets the output to zero; the next forces are approached from there. */
+  void reset();
 
 private:
   double peak_;
-  double told_ = 0.0;
-  double left_ = 0.0;  ///< until a meeting ends the bridge [s]
+  double output_ = 0.0;
+  double remaining_ = 0.0;  ///< time until the limit may end [s]
 };
 
 }  // namespace endovascular_sim::simulation

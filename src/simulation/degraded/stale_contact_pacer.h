@@ -8,51 +8,54 @@ class Archive;
 namespace endovascular_sim::simulation
 {
 
-/** What the hand asks for at one step. */
+/** Command to the proximal end of one instrument for one step. */
 struct HandCommand
 {
-  double insertion = 0.0;  ///< [m]
-  double rotation = 0.0;   ///< [rad]
-  double pressure = 0.0;   ///< at the inflator of its balloon [Pa]
+  double insertion = 0.0;  ///< insertion of the instrument [m]
+  double rotation = 0.0;   ///< rotation of the handle [rad]
+  double pressure = 0.0;   ///< pressure at the inflator of its balloon [Pa]
 };
 
-/** Paces the hand while contact sets fail to come, so that neither their absence nor their return is felt as a jump.
+/** Paces the commanded motion while contact sets are missing, so that neither their loss nor their return causes a
+ * jump.
  *
- *  An old set covers only so much motion. The hand brakes with limited jerk to a creep that keeps sliding friction
- *  sliding, and stops where the cover ends; afterwards it makes up for what it missed. The pace p of the hand obeys
- *  |p''| ≤ v²/D² while braking (v its speed before, D the travel left), which is the least that comes to rest in time,
- *  and |p''| ≤ ω² while recovering; what was missed is released at the speed q with q'' = ω²(missed/τ − q) − 2ωq', with
- *  τ = 27/(4ω), where all roots are real, and missed/τ limited to 5 mm/s and a fifth of v.
- *  While no set has failed it passes every number on unchanged; a pressure is never paced. */
+ *  A stale set covers a limited motion only. The motion brakes with limited jerk to a creep, which keeps sliding
+ *  friction sliding, and stops where the cover ends. With fresh sets the missed motion is released again.
+ *
+ *  The pace p scales the commanded motion. While braking, |p''| ≤ v²/D², with the earlier speed v and the remaining
+ *  travel D: the smallest bound that stops in time. While recovering, |p''| ≤ ω². The missed motion m is released with
+ *  the speed q, q'' = ω²(m/τ − q) − 2ωq'. With τ = 27/(4ω) all roots are real. m/τ is limited to 5 mm/s plus a fifth of
+ *  v. Without a missing set every number passes unchanged. Pressures are never paced. */
 class StaleContactPacer
 {
 public:
-  /** @param cover motion of the wire that an old contact set covers [m]
-   *  @param time_step [s] */
+  /** @param cover motion of the wire that a stale contact set covers [m]
+   *  @param time_step duration of a step [s] */
   StaleContactPacer(double cover, double time_step) : cover_(cover), dt_(time_step) {}
 
-  /** @param wanted motion of this step, with all that was missed before
-   *  @param blind the newest contact set is an old one
-   *  @return the motion of this step */
-  HandCommand follow(const HandCommand& wanted, bool blind);
+  /** Paces the motion of one step.
+   *  @param wanted commanded motion of the step, including all missed motion
+   *  @param stale true when the newest contact set is stale
+   *  @return motion that the step performs */
+  HandCommand follow(const HandCommand& wanted, bool stale);
 
-  /** Travel that may be made without a fresh set [m]. */
+  /** Largest travel without a fresh set [m]. */
   double reach() const;
 
-  /** What of the last motion given was not made after all. */
+  /** Adds to the missed motion the part of the last returned motion that was not performed. */
   void miss(const HandCommand& motion);
 
-  void archive(Archive& archive);  ///< saves or loads all that changes
+  void archive(Archive& archive);  ///< saves or loads the state
 
 private:
-  /** One direction of motion; units m or rad. */
+  /** State of one direction of motion; units m or rad. */
   struct Channel
   {
-    double missed = 0.0;
-    double release = 0.0;       ///< speed at which it is made up for [1/s]
-    double release_rate = 0.0;  ///< [1/s²]
+    double missed = 0.0;        ///< commanded but not yet performed motion
+    double release = 0.0;       ///< speed at which the missed motion is released [1/s]
+    double release_rate = 0.0;  ///< time derivative of the release [1/s²]
 
-    double follow(double wanted, double pace, bool blind, double most, double dt);
+    double follow(double wanted, double pace, bool stale, double most, double dt);
     void archive(Archive& archive);
   };
 
@@ -68,11 +71,11 @@ private:
   Channel insertion_;
   Channel rotation_;
   double pace_ = 1.0;
-  double pace_rate_ = 0.0;  ///< [1/s]
-  double jerk_ = 0.0;       ///< of the pace while braking [1/s²]
-  double speed_ = 0.0;      ///< of the hand before, smoothed [m/s]
-  double last_ = 0.0;       ///< travel of the last step [m]
-  double travel_ = 0.0;     ///< since the last fresh set [m]
+  double pace_rate_ = 0.0;    ///< time derivative of the pace [1/s]
+  double jerk_ = 0.0;         ///< bound of the pace's second derivative while braking [1/s²]
+  double speed_ = 0.0;        ///< smoothed speed of the motion before the first stale set [m/s]
+  double last_travel_ = 0.0;  ///< travel of the last step [m]
+  double travel_ = 0.0;       ///< travel since the last fresh set [m]
 };
 
 }  // namespace endovascular_sim::simulation

@@ -37,7 +37,7 @@ void expectEqual(const results::WallForceTotals& a, const results::WallForceTota
   EXPECT_EQ(a.time_over_threshold, b.time_over_threshold);
 }
 
-TEST(ContactForceConversions, TotalsComeBackBitForBitAndTrianglesInSinglePrecision)
+TEST(ContactForceConversions, RestoreTotalsBitForBitAndTrianglesInSinglePrecision)
 {
   results::WallForceSummary summary;
   summary.threshold = 0.1;
@@ -68,7 +68,7 @@ TEST(ContactForceConversions, TotalsComeBackBitForBitAndTrianglesInSinglePrecisi
   }
 }
 
-TEST(ContactForceConversions, AMapOfUnequalListsIsCutToWhatAllSpeakOf)
+TEST(ContactForceConversions, TruncateListsOfUnequalLength)
 {
   ContactForceMap message;
   toMessage(results::WallForceSummary(), std::vector<results::WallForce>(3), message);
@@ -76,7 +76,7 @@ TEST(ContactForceConversions, AMapOfUnequalListsIsCutToWhatAllSpeakOf)
   EXPECT_EQ(touchedFromMessage(message).size(), 2U);
 }
 
-TEST(ContactForceConversions, ARegionThatSixteenBitsCannotHoldIsNone)
+TEST(ContactForceConversions, MapRegionsBeyondSixteenBitsToNone)
 {
   EXPECT_EQ(regionFromMessage(regionToMessage(65534)), 65534);
   EXPECT_EQ(regionFromMessage(regionToMessage(65535)), results::kNoRegion);

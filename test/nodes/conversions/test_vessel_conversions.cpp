@@ -21,7 +21,7 @@ vessel::TubeShape tube()
   return shape;
 }
 
-TEST(VesselConversions, AMeshComesBackWithTheSameHash)
+TEST(VesselConversions, RestoreAMeshWithTheSameHash)
 {
   const geometry::TriangleMesh mesh = vessel::tubeMesh(tube());
   VesselMesh message;
@@ -29,7 +29,7 @@ TEST(VesselConversions, AMeshComesBackWithTheSameHash)
   EXPECT_EQ(fromMessage(message).hash(), mesh.hash());
 }
 
-TEST(VesselConversions, ACentrelineComesBackBitForBit)
+TEST(VesselConversions, RestoreACentrelineBitForBit)
 {
   const vessel::CentrelineTree tree = vessel::tubeCentreline(tube());
   VesselCentreline message;
@@ -42,7 +42,7 @@ TEST(VesselConversions, ACentrelineComesBackBitForBit)
   EXPECT_EQ(back.branches[0].radii, tree.branches[0].radii);
 }
 
-TEST(VesselConversions, LesionsComeBackAndAreRefusedOnBranchesThatAreNotThere)
+TEST(VesselConversions, RestoreLesionsAndRejectUnknownBranches)
 {
   VesselCentreline message;
   toMessage(vessel::tubeCentreline(tube()), message);
@@ -66,21 +66,21 @@ TEST(VesselConversions, LesionsComeBackAndAreRefusedOnBranchesThatAreNotThere)
   EXPECT_THROW(lesionsFromMessage(message), InputError);
 }
 
-TEST(VesselConversions, MovedVerticesComeBackBitForBit)
+TEST(VesselConversions, RestoreDisplacedVerticesBitForBit)
 {
-  const intervention::WallDisplacement moved{{0, 7}, {{0.1, 1.0 / 3.0, -2e-3}, {0.0, 1e-9, 3.0}}};
+  const intervention::WallDisplacement displacement{{0, 7}, {{0.1, 1.0 / 3.0, -2e-3}, {0.0, 1e-9, 3.0}}};
   WallDisplacement message;
-  toMessage(moved, message);
+  toMessage(displacement, message);
   const intervention::WallDisplacement back = fromMessage(message, 8);
-  EXPECT_EQ(back.indices, moved.indices);
-  EXPECT_EQ(back.positions, moved.positions);
+  EXPECT_EQ(back.indices, displacement.indices);
+  EXPECT_EQ(back.positions, displacement.positions);
 }
 
-TEST(VesselConversions, RefuseMovementsThatTheMeshCannotMake)
+TEST(VesselConversions, RejectInvalidDisplacements)
 {
   WallDisplacement message;
   toMessage(intervention::WallDisplacement{{0, 7}, {{0, 0, 0}, {0, 0, 0}}}, message);
-  EXPECT_THROW(fromMessage(message, 7), InputError) << "vertex 7 is the eighth";
+  EXPECT_THROW(fromMessage(message, 7), InputError) << "the mesh has vertices 0 to 6";
   message.position.back().y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(fromMessage(message, 8), InputError);
   message.position.pop_back();

@@ -10,56 +10,56 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-TEST(ResponseTimeout, WaitsInFullWhileAnswersCome)
+TEST(ResponseTimeout, IsCompleteWhileResponsesArrive)
 {
-  ResponseTimeout patience(3e-3);
-  EXPECT_EQ(patience.next(), 3e-3);
-  patience.answered();
-  EXPECT_EQ(patience.next(), 3e-3);
-  EXPECT_FALSE(patience.silent());
+  ResponseTimeout timeout(3e-3);
+  EXPECT_EQ(timeout.next(), 3e-3);
+  timeout.received();
+  EXPECT_EQ(timeout.next(), 3e-3);
+  EXPECT_FALSE(timeout.silent());
 }
 
-TEST(ResponseTimeout, KeepsItsPaceWhileTheOtherSideIsSilent)
+TEST(ResponseTimeout, IsShortAfterAMissedResponse)
 {
-  ResponseTimeout patience(3e-3);
-  for (int question = 0; question < 5; ++question)
+  ResponseTimeout timeout(3e-3);
+  for (int query = 0; query < 5; ++query)
   {
-    patience.missed();
-    EXPECT_TRUE(patience.silent());
-    EXPECT_DOUBLE_EQ(patience.next(), 0.3e-3);
+    timeout.missed();
+    EXPECT_TRUE(timeout.silent());
+    EXPECT_DOUBLE_EQ(timeout.next(), 0.3e-3);
   }
-  patience.answered();
-  EXPECT_EQ(patience.next(), 3e-3);
+  timeout.received();
+  EXPECT_EQ(timeout.next(), 3e-3);
 }
 
-/** The other side takes 0.9 ms for each question, one after another, and 5 ms for the first. */
-TEST(ResponseTimeout, CatchesUpWithASideThatWasLateOnceAndTakesLongerThanTheFraction)
+/** The peer needs 0.9 ms for each query in turn, and 5 ms for the first one. */
+TEST(ResponseTimeout, CatchesUpWithAPeerThatWasLateOnceAndNeedsLongerThanTheShortTimeout)
 {
-  ResponseTimeout patience(3e-3);
+  ResponseTimeout timeout(3e-3);
   std::deque<double> late;
   double now = 0.0;
   double done = 0.0;
   int missed = 0;
-  for (int question = 0; question < 20; ++question)
+  for (int query = 0; query < 20; ++query)
   {
     for (; !late.empty() && late.front() <= now; late.pop_front())
-      patience.heardLate();
-    done = std::max(now, done) + (question == 0 ? 5e-3 : 0.9e-3);
-    const double until = now + patience.next();
+      timeout.receivedLate();
+    done = std::max(now, done) + (query == 0 ? 5e-3 : 0.9e-3);
+    const double until = now + timeout.next();
     if (done <= until)
     {
-      patience.answered();
+      timeout.received();
       late.clear();
     }
     else
     {
-      patience.missed();
+      timeout.missed();
       ++missed;
       late.push_back(done);
     }
     now = std::min(done, until) + 0.7e-3;
   }
-  EXPECT_FALSE(patience.silent());
+  EXPECT_FALSE(timeout.silent());
   EXPECT_EQ(missed, 3);
 }
 

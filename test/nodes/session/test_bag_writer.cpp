@@ -31,7 +31,7 @@ boost::shared_ptr<geometry_msgs::PointStamped> pointAt(double time)
   return message;
 }
 
-TEST(BagWriter, WritesAFewMessagesBeforeItIsClosed)
+TEST(BagWriter, WritesFewMessagesBeforeItIsClosed)
 {
   const std::string file = freshFile("few");
   BagWriter writer(file);
@@ -43,13 +43,13 @@ TEST(BagWriter, WritesAFewMessagesBeforeItIsClosed)
   std::filesystem::remove(file);
 }
 
-TEST(BagWriter, KeepsTheOrderAndTheTimesOfManyMessagesUpToTheLast)
+TEST(BagWriter, RetainsOrderAndTimesOfAllMessages)
 {
   const std::string file = freshFile("many");
   {
     BagWriter writer(file);
     for (int k = 1; k <= 3000; ++k)
-      writer.write("/point", ros::Time(1.0), pointAt(k));  // one time, or reading would sort them
+      writer.write("/point", ros::Time(1.0), pointAt(k));  // equal times: rosbag sorts by time
     writer.close();
     EXPECT_EQ(writer.messages(), 3000U);
     EXPECT_EQ(writer.dropped(), 0U);

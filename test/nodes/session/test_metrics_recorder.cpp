@@ -18,7 +18,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** The scene of a stent: a tube of 1.6 mm, narrowed by 60 %. */
+/** Scene of a stent in a tube of 1.6 mm radius with a stenosis of 60 %. */
 class RecordedStent : public testing::Test
 {
 protected:
@@ -37,34 +37,34 @@ protected:
     recorder_.add(centreline);
   }
 
-  /** Moves the narrowed wall out to the tube's radius. */
+  /** Displaces the narrowed wall to the radius of the tube. */
   void open()
   {
     const geometry::Polyline axis(vessel_.centreline.branches[0].points);
-    intervention::WallDisplacement moved;
+    intervention::WallDisplacement displacement;
     for (std::size_t i = 0; i < vessel_.mesh.vertices.size(); ++i)
     {
       const Eigen::Vector3d& vertex = vessel_.mesh.vertices[i];
       const geometry::Polyline::Foot foot = axis.nearest(vertex);
       if (foot.arc < vessel_.lesions[0].begin || foot.arc > vessel_.lesions[0].end)
         continue;
-      moved.indices.push_back(static_cast<int>(i));
-      moved.positions.emplace_back(foot.point + kRadius * (vertex - foot.point).normalized());
+      displacement.indices.push_back(static_cast<int>(i));
+      displacement.positions.emplace_back(foot.point + kRadius * (vertex - foot.point).normalized());
     }
     WallDisplacement message;
-    toMessage(moved, message);
+    toMessage(displacement, message);
     recorder_.add(message);
   }
 
-  /** A stent along the lesion. */
+  /** Adds a stent along the lesion. */
   void place(bool opened)
   {
     const geometry::Polyline axis(vessel_.centreline.branches[0].points);
     TreatmentVisual message;
     message.stents.emplace_back();
-    for (const double place : {vessel_.lesions[0].begin, vessel_.lesions[0].middle, vessel_.lesions[0].end})
+    for (const double arc : {vessel_.lesions[0].begin, vessel_.lesions[0].middle, vessel_.lesions[0].end})
     {
-      message.stents[0].axis.push_back(toPoint(axis.at(place)));
+      message.stents[0].axis.push_back(toPoint(axis.at(arc)));
       message.stents[0].radius.push_back(kRadius);
     }
     message.stents[0].opened = opened;
@@ -86,7 +86,7 @@ protected:
   std::string folder_;
 };
 
-TEST_F(RecordedStent, LeavesANarrowedVesselAsItIsWhileNothingHappens)
+TEST_F(RecordedStent, ReportsTheSameStenosisBeforeAndAfterWithoutTreatment)
 {
   const nlohmann::json json = lesion();
   EXPECT_EQ(json["branch"], "tube");
@@ -95,7 +95,7 @@ TEST_F(RecordedStent, LeavesANarrowedVesselAsItIsWhileNothingHappens)
   EXPECT_FALSE(json["after"]["stented"].get<bool>());
 }
 
-TEST_F(RecordedStent, IsMeasuredInTheWallThatHasMoved)
+TEST_F(RecordedStent, EvaluatesTheLesionInTheDisplacedWall)
 {
   open();
   place(true);
@@ -106,13 +106,13 @@ TEST_F(RecordedStent, IsMeasuredInTheWallThatHasMoved)
   EXPECT_NEAR(json["after"]["placement_error"].get<double>(), 0.0, 0.2e-3);
 }
 
-TEST_F(RecordedStent, DoesNotCountWhileItIsCrimped)
+TEST_F(RecordedStent, IgnoresACrimpedStent)
 {
   place(false);
   EXPECT_FALSE(lesion()["after"]["stented"].get<bool>());
 }
 
-TEST_F(RecordedStent, MovementsBeforeTheVesselAreLeftOut)
+TEST_F(RecordedStent, IgnoresDisplacementsBeforeTheVessel)
 {
   MetricsRecorder early(scene_);
   WallDisplacement message;

@@ -12,30 +12,31 @@
 #include "simulation/degraded/force_fault_limiter.h"
 #include "simulation/simulation.h"
 
-// Slow, late, duplicate, missing and garbled contact sets, injected between the detector and the solver.
+// Late, duplicate, missing and invalid contact sets, injected between the detector and the solver.
 
 namespace endovascular_sim::simulation
 {
 namespace
 {
 
-constexpr double kPeakShare = 0.02;  // jump of the told force that may not be exceeded, of the peak
-constexpr int kLongestSilence = 14;  // steps of 1 ms; at 15 ms the simulation pauses
-constexpr double kMostPenetration = 1e-4;
+constexpr double kPeakShare = 0.02;        ///< largest permitted jump of the rendered force, relative to the peak [1]
+constexpr int kLongestSilence = 14;        ///< longest gap without a pause, which begins at 15 ms [steps of 1 ms]
+constexpr double kMostPenetration = 1e-4;  ///< [m]
 
-/** A contact node behind a bad line. What reaches the solver has passed the same check as a set that came by topic. */
+/** Contact source with random faults. Sets pass the same validation as those of a remote contact node. */
 class FaultySource : public contact::ContactSource
 {
 public:
   FaultySource(contact::ContactSource& detector, unsigned seed) : detector_(detector), random_(seed) {}
 
-  /** @param probability per query of a fault that goes on for up to @p longest steps */
+  /** @param probability probability per query of a fault [1]
+   *  @param longest largest duration of a fault [steps] */
   void setFaults(double probability, int longest)
   {
     probability_ = probability;
     longest_ = longest;
   }
-  /** The node is dead until told otherwise. */
+  /** Suppresses all sets while true. */
   void setDead(bool dead) { dead_ = dead; }
 
   void detect(const contact::Query& query, contact::ContactSet& set) override
@@ -67,7 +68,7 @@ private:
       fault_ = static_cast<int>(share_(random_) * kFaults);
     }
     if (silent_steps_ > 0 || dead_)
-      answer = spoil(query, answer);
+      answer = corrupted(query, answer);
     else
       last_good_ = answer;
     if (!dead_ && contact::isValidAnswer(query, answer))
@@ -80,7 +81,11 @@ private:
     set.stale = true;
   }
 
-  contact::ContactSet spoil(const contact::Query& query, contact::ContactSet answer)
+  static constexpr int kFaults = 12;
+  const std::array<int, kFaults>& dropped() const { return dropped_; }
+
+private:
+  contact::ContactSet corrupted(const contact::Query& query, contact::ContactSet answer)
   {
     contact::Feature bad;
     bad.edge = query.first_node;
@@ -90,8 +95,8 @@ private:
     contact::Feature& feature = answer.features[random_() % answer.features.size()];
     switch (fault_)
     {
-      case 0:  // missing, or slower than it is waited for
-      case 1:  // late or double: the last good one once more
+      case 0:  // missing, or later than the timeout
+      case 1:  // late or duplicate: the last valid set again
         return last_good_;
       case 2:
         ++answer.step;
@@ -139,7 +144,7 @@ private:
   std::array<int, kFaults> dropped_ = {};
 };
 
-/** A scene whose contact sets pass the bad line, and the force that its hand is told. */
+/** Simulation of a scene with a faulty contact source, and its rendered force. */
 struct Bench
 {
   Bench(const std::string& name, unsigned seed, const std::vector<std::string>& overrides = {})
@@ -157,17 +162,20 @@ struct Bench
     const double end = static_cast<double>(simulation.steps() + 1) * dt;
     simulation.step(
         {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)});
-    const bool blind = simulation.report().first_stale_pass != contact::kNoStalePass;
-    told = bridge.told(simulation.state().hand_force, blind, dt);
-    blind_steps += blind;
+    const bool stale = simulation.report().first_stale_pass != contact::kNoStalePass;
+    rendered = limiter.filter(simulation.state().hand_force, stale, dt);
+    stale_steps += stale;
   }
+
+  /** Reports whether the limiter has changed the force of the last step. */
+  bool isLimited() const { return rendered != simulation.state().hand_force; }
 
   void expectSane() const
   {
     ASSERT_TRUE(simulation.report().solved) << "step " << simulation.steps();
     ASSERT_LT(simulation.report().max_strain, 1e-3) << "step " << simulation.steps();
     ASSERT_LE(simulation.surfacePenetration(), kMostPenetration) << "step " << simulation.steps();
-    ASSERT_TRUE(std::isfinite(told) && std::isfinite(simulation.state().hand_torque));
+    ASSERT_TRUE(std::isfinite(rendered) && std::isfinite(simulation.state().hand_torque));
   }
 
   void expectInside() const
@@ -182,9 +190,9 @@ struct Bench
   contact::Detector detector;
   FaultySource source;
   Simulation simulation;
-  ForceFaultLimiter bridge{5e-3};
-  double told = 0.0;
-  int blind_steps = 0;
+  ForceFaultLimiter limiter{5e-3};
+  double rendered = 0.0;  ///< force after the limiter [N]
+  int stale_steps = 0;
 };
 
 /** Largest force and largest change of it from one step to the next [N]. */
@@ -202,27 +210,27 @@ struct Jumps
   }
 };
 
-/** Runs a scene with and without faults and compares the jumps of the told force. */
+/** Compares the jumps of the rendered force with and without faults. */
 void expectNoJumps(const std::string& name, int steps, double probability, int longest, unsigned seed)
 {
-  Bench sound(name, seed);
+  Bench intact(name, seed);
   Bench faulty(name, seed);
   Jumps without;
   Jumps with;
-  double bridged = 0.0;  ///< largest jump while or after sets failed to come [N]
-  int bridged_steps = 0;
+  double limited = 0.0;  ///< largest jump in steps with a limited force [N]
+  int limited_steps = 0;
   faulty.source.setFaults(probability, longest);
   for (int k = 0; k < steps; ++k)
   {
-    sound.step();
+    intact.step();
     faulty.step();
-    without.add(sound.told);
+    without.add(intact.rendered);
     const double before = with.before;
-    with.add(faulty.told);
-    if (!faulty.bridge.isPassing())
+    with.add(faulty.rendered);
+    if (faulty.isLimited())
     {
-      bridged = std::max(bridged, std::abs(faulty.told - before));
-      ++bridged_steps;
+      limited = std::max(limited, std::abs(faulty.rendered - before));
+      ++limited_steps;
     }
     faulty.expectSane();
     if (testing::Test::HasFatalFailure())
@@ -232,34 +240,34 @@ void expectNoJumps(const std::string& name, int steps, double probability, int l
   }
   faulty.expectInside();
   EXPECT_GT(without.peak, 0.0);
-  EXPECT_GT(faulty.blind_steps, steps / 200) << "the faults have hit";
-  EXPECT_EQ(sound.blind_steps, 0);
-  EXPECT_GT(bridged_steps, faulty.blind_steps);
-  EXPECT_LE(bridged, kPeakShare * without.peak);
-  // Where the bridge has ended, the jumps are the scene's own, on a path that faults have moved a little.
+  EXPECT_GT(faulty.stale_steps, steps / 200) << "faults occurred";
+  EXPECT_EQ(intact.stale_steps, 0);
+  EXPECT_GT(limited_steps, 0);
+  EXPECT_LE(limited, kPeakShare * without.peak);
+  // Unlimited jumps are those of the scene, on a trajectory that the faults have changed slightly.
   EXPECT_LE(with.largest, 1.5 * without.largest);
   EXPECT_LE(with.peak, 1.5 * without.peak);
   for (const int dropped : faulty.source.dropped())
-    EXPECT_GT(dropped, 0) << "every kind of fault has come";
+    EXPECT_GT(dropped, 0) << "every kind of fault occurred";
 }
 
-TEST(ContactFaults, ASingleBadSetLeavesTheForceInABentTubeWithoutAJump)
+TEST(ContactFaults, ASingleInvalidSetCausesNoForceJumpInABentTube)
 {
   expectNoJumps("tube.yaml", 3500, 0.05, 1, 1);
 }
 
-TEST(ContactFaults, SilencesOfAnyLengthUpToThePauseLeaveTheForceInABentTubeWithoutAJump)
+TEST(ContactFaults, GapsUpToThePauseCauseNoForceJumpInABentTube)
 {
   for (const unsigned seed : {1U, 2U, 3U})
     expectNoJumps("tube.yaml", 3500, 0.04, kLongestSilence, seed);
 }
 
-TEST(ContactFaults, SilencesLeaveTheForceInTheAortaWithoutAJump)
+TEST(ContactFaults, GapsCauseNoForceJumpInTheAorta)
 {
   expectNoJumps("demo.yaml", 9000, 0.02, kLongestSilence, 1);
 }
 
-TEST(ContactFaults, ARunWithoutFaultsIsTheSameBitsBehindTheCheckOfAnswers)
+TEST(ContactFaults, ValidationWithoutFaultsChangesNoBits)
 {
   Bench checked("tube.yaml", 1);
   contact::Detector detector(checked.vessel.mesh, scene::wallLaw(*checked.scene.vessel));
@@ -271,13 +279,13 @@ TEST(ContactFaults, ARunWithoutFaultsIsTheSameBitsBehindTheCheckOfAnswers)
     const double end = static_cast<double>(direct.steps() + 1) * checked.scene.solver.time_step;
     direct.step({checked.scene.instruments.front().drive.insertionAt(end),
                  checked.scene.instruments.front().drive.rotationAt(end)});
-    ASSERT_EQ(checked.told, direct.state().hand_force) << "the bridge passes it on";
+    ASSERT_EQ(checked.rendered, direct.state().hand_force) << "the limiter does not change it";
   }
   EXPECT_EQ(checked.simulation.trajectoryHash(), direct.trajectoryHash());
-  EXPECT_EQ(checked.blind_steps, 0);
+  EXPECT_EQ(checked.stale_steps, 0);
 }
 
-TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
+TEST(ContactFaults, InsertionSlowsWithStaleSetsAndCatchesUpCompletely)
 {
   Bench bench("tube.yaml", 1, {"drive.travel=0.06"});
   for (int k = 0; k < 1000; ++k)
@@ -286,9 +294,9 @@ TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
   bench.source.setDead(true);
   for (int k = 0; k < kLongestSilence; ++k)
     bench.step();
-  EXPECT_GT(bench.simulation.state().inserted_length, before) << "it goes on";
+  EXPECT_GT(bench.simulation.state().inserted_length, before) << "insertion continues";
   EXPECT_LE(bench.simulation.state().inserted_length - before, bench.scene.solver.stepper.contact_margin + 0.06e-3)
-      << "but not beyond what the last set covers, besides the step that began with a fresh one";
+      << "insertion ends with the cover of the last set, apart from the step that began with a fresh set";
   bench.source.setDead(false);
   double fastest = 0.0;
   double last = bench.simulation.state().inserted_length;
@@ -296,7 +304,7 @@ TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
   {
     bench.step();
     const double moved = bench.simulation.state().inserted_length - last;
-    EXPECT_GE(moved, -1e-12) << "never backwards";
+    EXPECT_GE(moved, -1e-12) << "insertion is monotonic";
     fastest = std::max(fastest, moved);
     last += moved;
   }
@@ -304,45 +312,45 @@ TEST(ContactFaults, TheHandIsSlowedWhileBlindAndCatchesUpWithoutLoss)
   EXPECT_NEAR(last, bench.scene.instruments.front().drive.insertionAt(2.9), 1e-6);
 }
 
-TEST(ContactFaults, AfterAPauseTheForceComesBackFromZeroWithoutAJump)
+TEST(ContactFaults, ForceReturnsFromZeroWithoutAJumpAfterAPause)
 {
   Bench bench("tube.yaml", 1);
   Jumps jumps;
   for (int k = 0; k < 2800; ++k)
   {
     bench.step();
-    jumps.add(bench.told);
+    jumps.add(bench.rendered);
   }
   bench.source.setDead(true);
   for (int k = 0; k < 15; ++k)
     bench.step();
-  // What the loop of the rod node does after it has ramped the force down and the node answers again.
-  bench.bridge.drop();
+  // As the rod node after its ramp, when the contact node responds again.
+  bench.limiter.reset();
   bench.source.setDead(false);
   Jumps after;
   double met = 0.0;
   for (int k = 0; k < 400; ++k)
   {
     bench.step();
-    after.add(bench.told);
+    after.add(bench.rendered);
     bench.expectSane();
-    if (met == 0.0 && bench.bridge.isPassing())
+    if (met == 0.0 && !bench.isLimited())
       met = 1e-3 * k;
   }
   EXPECT_LE(after.largest, jumps.largest + kPeakShare * jumps.peak);
   EXPECT_GT(met, 0.0);
-  EXPECT_LE(met, 0.2) << "within 0.2 s the force is the simulation's again";
-  EXPECT_EQ(bench.told, bench.simulation.state().hand_force);
+  EXPECT_LE(met, 0.2) << "the rendered force equals that of the simulation within 0.2 s";
+  EXPECT_EQ(bench.rendered, bench.simulation.state().hand_force);
 }
 
-TEST(ContactFaults, ManyKindsOfFaultAtOnceOverALongTimeLeaveNothingThatIsNotANumber)
+TEST(ContactFaults, StateStaysFiniteUnderManyKindsOfFaults)
 {
   Bench bench("tube.yaml", 9, {"drive.speed=0.2", "vessel.friction=0.3"});
   bench.source.setFaults(0.2, kLongestSilence);
   for (int k = 0; k < 3000; ++k)
   {
     bench.step();
-    ASSERT_TRUE(std::isfinite(bench.told));
+    ASSERT_TRUE(std::isfinite(bench.rendered));
     if (k % 500 == 0)
       bench.expectInside();
   }

@@ -5,8 +5,10 @@
 namespace endovascular_sim::nodes
 {
 
-/** A mutex whose holder runs at the priority of who waits for it: a thread with real-time scheduling waits no longer
- * than what is guarded takes, however busy the machine. For std::lock_guard. */
+/** Mutex with priority inheritance: its holder runs at the highest priority of the threads that wait for it.
+ *
+ *  A real-time thread therefore waits no longer than the critical section takes, however busy the machine is. Meets the
+ *  requirements of std::lock_guard. */
 class PriorityInheritanceMutex
 {
 public:

@@ -1,0 +1,15 @@
+#include "nodes/contact/contact_node.h"
+#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/scene_parameters.h"
+
+int main(int argc, char** argv)
+{
+  using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
+  return runNode(argc, argv, {"contact", NodeScheduling::kLockStep, 60},
+                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 {
+                   const ContactNode contact(node, sceneFromParameters(node), grant);
+                   spinUntilShutdown();
+                   return true;
+                 });
+}

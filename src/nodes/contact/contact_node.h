@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include "contact/detector.h"
+#include "endovascular_sim/RodState.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "endovascular_sim/WallDisplacement.h"
+#include "nodes/conversions/contact_set_serializer.h"
+#include "nodes/runtime/direct_callback_queue.h"
+#include "nodes/runtime/real_time.h"
+#include "scene/model/scene.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** ROS node of contact detection: responds to every rod state with the wall features near the rod.
+ *
+ *  Lock-step with a moving wall: a rod state requests a version of the vessel. The node applies the displacements up to
+ *  this version, never beyond it, and defers the response until they have arrived. */
+class ContactNode
+{
+public:
+  /** Without a vessel in the scene the node does nothing. */
+  ContactNode(ros::NodeHandle node, const scene::Scene& scene, SchedulingGrant grant);
+
+private:
+  void subscribe();
+  void receiveVessel(const VesselMeshConstPtr& message);
+  void receiveDisplacement(const WallDisplacementConstPtr& message);
+  void receiveState(const RodStateConstPtr& message);
+  bool advanceWallTo(std::uint64_t version);
+  bool prepareWall(std::uint64_t version);
+  void respond(const RodStateConstPtr& message);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle node_;
+  SchedulingGrant grant_;
+  contact::WallLaw law_;
+  std::mutex mutex_;                              ///< guards the next three: vessels arrive in another thread
+  std::unique_ptr<contact::Detector> detector_;   ///< null before the first vessel
+  std::deque<WallDisplacementConstPtr> pending_;  ///< displacements that no rod state has requested yet
+  RodStateConstPtr deferred_;                     ///< rod state that waits for its version of the wall
+  contact::Query query_;
+  StampedContactSet response_;
+  // Counters for /diagnostics, which another thread publishes.
+  std::atomic<std::uint64_t> responses_{0};
+  std::atomic<std::size_t> features_{0};
+  std::atomic<std::size_t> triangles_{0};
+  std::atomic<std::uint64_t> version_{0};
+  std::atomic<std::uint64_t> deferrals_{0};
+  ros::Publisher publisher_;
+  DirectCallbackQueue queue_;
+  diagnostic_updater::Updater diagnostics_;
+  // Last, so that they end before the members that their callbacks use.
+  ros::Subscriber vessel_subscriber_, displacement_subscriber_, state_subscriber_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,17 @@
+#include <ros/ros.h>
+
+#include "nodes/fluoroscopy/fluoroscopy_node.h"
+#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/scene_parameters.h"
+
+int main(int argc, char** argv)
+{
+  using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
+  return runNode(argc, argv, {"fluoroscopy", NodeScheduling::kIdle},
+                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 {
+                   const FluoroscopyNode fluoroscopy(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   ros::spin();
+                   return true;
+                 });
+}

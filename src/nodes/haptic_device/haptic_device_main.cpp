@@ -1,0 +1,16 @@
+#include "nodes/haptic_device/haptic_device_node.h"
+#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/scene_parameters.h"
+
+int main(int argc, char** argv)
+{
+  using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
+  // The lowest real-time priority: above ordinary threads, below those of the simulation.
+  return runNode(argc, argv, {"haptic_device", NodeScheduling::kRealTime, 1},
+                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 {
+                   const HapticDeviceNode device(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   spinUntilShutdown();
+                   return true;
+                 });
+}

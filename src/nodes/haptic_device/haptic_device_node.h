@@ -1,0 +1,75 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "endovascular_sim/OperatingState.h"
+#include "haptics/host/haptic_link.h"
+#include "nodes/runtime/priority_inheritance_mutex.h"
+#include "nodes/runtime/real_time.h"
+#include "scene/model/scene.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** ROS node of the haptic device: its motion drives an instrument, and the instrument's force is rendered by its
+ * motors.
+ *
+ *  One thread waits for the serial line, another for forces. Both write to the line under one lock: a force is sent at
+ *  once, and frames do not interleave. */
+class HapticDeviceNode
+{
+public:
+  /** Opens the line and starts the threads.
+   *  @param parameters handle of the private parameters
+   *  @throws InputError when a parameter is invalid */
+  HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const scene::Scene& scene,
+                   SchedulingGrant grant);
+  ~HapticDeviceNode();
+  HapticDeviceNode(const HapticDeviceNode&) = delete;
+  HapticDeviceNode& operator=(const HapticDeviceNode&) = delete;
+
+private:
+  void servePort();
+  void waitForPort(double until, int descriptor, bool wants_write) const;
+  void receiveForce(const sensor_msgs::JointState& state);
+  void publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force);
+  void publishState(haptics::DeviceState state, const std::string& reason, const haptics::HandMotion& command);
+  void publishInvalidMeasurement(const haptics::HandMotion& command);
+  void shutDownDevice();
+  void wake() const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  SchedulingGrant grant_;
+  PriorityInheritanceMutex mutex_;  ///< guards link_
+  haptics::HapticLink link_;
+  int wake_up_;  ///< event that ends a wait of the port's thread
+  std::atomic<bool> running_{true};
+  std::atomic<std::uint64_t> forces_without_effort_{0};
+
+  // Used by the port's thread only.
+  haptics::DeviceState published_state_ = haptics::DeviceState::kDisabled;
+  OperatingState operating_state_;
+  double last_motion_time_ = -std::numeric_limits<double>::infinity();  ///< [s]
+  haptics::HandMotion last_command_;
+
+  ros::CallbackQueue force_queue_;
+  ros::Publisher servo_publisher_, measured_publisher_, state_publisher_;
+  diagnostic_updater::Updater diagnostics_;
+  // Last, so that they end before the members that their callbacks use.
+  ros::Subscriber force_subscriber_;
+  ros::WallTimer diagnostics_timer_;
+  ros::AsyncSpinner force_spinner_{1, &force_queue_};
+  std::thread thread_;
+};
+
+}  // namespace endovascular_sim::nodes

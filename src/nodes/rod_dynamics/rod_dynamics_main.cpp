@@ -1,0 +1,14 @@
+#include "nodes/rod_dynamics/rod_dynamics_node.h"
+#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/scene_parameters.h"
+
+int main(int argc, char** argv)
+{
+  using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
+  return runNode(argc, argv, {"rod_dynamics", NodeScheduling::kLockStep, 70},
+                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 {
+                   RodDynamicsNode rod(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   return rod.run();
+                 });
+}

@@ -1,0 +1,66 @@
+#include "nodes/rod_dynamics/step_statistics.h"
+
+#include <algorithm>
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kLate = 1e-3;  ///< delay behind its deadline above which a step counts as late [s]
+
+}  // namespace
+
+void StepStatistics::addStep(const simulation::Simulation& simulation, const StepTimes& times, bool is_faded)
+{
+  const double seconds = std::chrono::duration<double>(times.end - times.begin).count();
+  const double delay = std::chrono::duration<double>(times.end - times.slot_end).count();
+  ++steps_;
+  late_steps_ += delay > kLate;
+  worst_delay_ = std::max(worst_delay_.load(), delay);
+  rejected_steps_ += !simulation.report().solved;
+  is_rejecting_ = !simulation.report().solved || is_faded;
+  if (!simulation.contactSet().stale)  // a stale set gives an estimate only
+    worst_penetration_ = std::max(worst_penetration_.load(), simulation.surfacePenetration());
+  longest_step_ = std::max(longest_step_.load(), seconds);
+  total_step_ = total_step_ + seconds;
+}
+
+void StepStatistics::setContactSets(std::uint64_t stale, std::uint64_t rejected)
+{
+  stale_sets_ = stale;
+  rejected_sets_ = rejected;
+}
+
+void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::DiagnosticStatusWrapper& status) const
+{
+  const std::uint64_t steps = steps_;
+  const std::uint64_t late = late_steps_;
+  const double on_time = steps > 0 ? 100.0 * (1.0 - static_cast<double>(late) / static_cast<double>(steps)) : 100.0;
+  if (paused_)
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "paused: no response of the contact node");
+  else if (is_rejecting_)
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
+                   "the solver rejects steps: the wire is held, without force");
+  else if (!grant.granted)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant.message);
+  else if (on_time < 99.0)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "more than 1 % of the steps are late");
+  else
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  status.add("scheduling", grant.message);
+  status.add("steps", steps);
+  status.add("deadline misses", late);
+  status.add("on time [%]", on_time);
+  status.add("step time, mean [us]", steps > 0 ? 1e6 * total_step_ / static_cast<double>(steps) : 0.0);
+  status.add("step time, longest [us]", 1e6 * longest_step_);
+  status.add("stale contact sets", stale_sets_.load());
+  status.add("rejected contact sets (late, duplicate or invalid)", rejected_sets_.load());
+  status.add("pauses", pauses_.load());
+  status.add("rejected steps", rejected_steps_.load());
+  status.add("largest delay behind the deadline [s]", worst_delay_.load());
+  status.add("discarded backlogs", discarded_backlogs_.load());
+  status.add("worst penetration [m]", worst_penetration_.load());
+}
+
+}  // namespace endovascular_sim::nodes

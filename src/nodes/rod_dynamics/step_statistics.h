@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include "nodes/runtime/real_time.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Counters of the simulation loop for /diagnostics: written by the loop, read by another thread. */
+class StepStatistics
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  /** Times of one step. */
+  struct StepTimes
+  {
+    Clock::time_point begin, end;
+    Clock::time_point slot_end;  ///< deadline of the step
+  };
+
+  /** Counts a step.
+   *  @param is_faded true while rendered forces are faded after rejected steps */
+  void addStep(const simulation::Simulation& simulation, const StepTimes& times, bool is_faded);
+
+  /** Sets the totals of the contact source. */
+  void setContactSets(std::uint64_t stale, std::uint64_t rejected);
+
+  void addPause() { ++pauses_; }
+  void setPaused(bool paused) { paused_ = paused; }
+  void addDiscardedBacklog() { ++discarded_backlogs_; }
+
+  void diagnose(const SchedulingGrant& grant, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+private:
+  std::atomic<std::uint64_t> steps_{0};
+  std::atomic<std::uint64_t> late_steps_{0};
+  std::atomic<std::uint64_t> stale_sets_{0};
+  std::atomic<std::uint64_t> rejected_sets_{0};
+  std::atomic<std::uint64_t> pauses_{0};
+  std::atomic<std::uint64_t> rejected_steps_{0};
+  std::atomic<std::uint64_t> discarded_backlogs_{0};
+  std::atomic<bool> is_rejecting_{false};
+  std::atomic<double> worst_penetration_{0.0};  ///< [m]
+  std::atomic<double> longest_step_{0.0};       ///< [s]
+  std::atomic<double> worst_delay_{0.0};        ///< largest delay of a step's end behind its deadline [s]
+  std::atomic<double> total_step_{0.0};         ///< sum of all step times [s]
+  std::atomic<bool> paused_{false};
+};
+
+}  // namespace endovascular_sim::nodes

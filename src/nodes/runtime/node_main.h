@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+
+#include <ros/node_handle.h>
+
+#include "nodes/runtime/real_time.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Scheduling classes of the nodes. All but kLockStep leave the processor of the lock-step nodes to these. */
+enum class NodeScheduling
+{
+  kDefault,   ///< ordinary scheduling
+  kIdle,      ///< SCHED_IDLE
+  kRealTime,  ///< SCHED_FIFO
+  kLockStep,  ///< SCHED_FIFO on the processor that the rod and the contact node share, memory locked
+};
+
+/** Name and scheduling of a node's process. */
+struct NodeProgram
+{
+  const char* name;  ///< default name of the node
+  NodeScheduling scheduling = NodeScheduling::kDefault;
+  int priority = 0;  ///< real-time priority, 1 to 99; unused without one
+};
+
+/** Main function of a node: requests scheduling, initialises ROS and runs the node.
+ *
+ *  Log lines on the console begin with the node's name, unless ROSCONSOLE_FORMAT is set. An exception ends the process
+ *  with a log line and exit code 1.
+ *  @param run constructs the node and returns when it has ended; false: it failed
+ *  @return exit code */
+int runNode(int argc, char** argv, const NodeProgram& program,
+            const std::function<bool(ros::NodeHandle& node, const SchedulingGrant& grant)>& run);
+
+}  // namespace endovascular_sim::nodes

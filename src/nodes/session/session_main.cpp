@@ -1,0 +1,14 @@
+#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "nodes/session/session_node.h"
+
+int main(int argc, char** argv)
+{
+  using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
+  return runNode(argc, argv, {"session"},
+                 [](ros::NodeHandle& node, const SchedulingGrant& /*grant*/)
+                 {
+                   SessionNode session(node, ros::NodeHandle("~"), sceneFromParameters(node));
+                   return session.run();
+                 });
+}

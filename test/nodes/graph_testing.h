@@ -1,0 +1,46 @@
+#pragma once
+
+#include <signal.h>
+
+#include <string>
+
+#include <XmlRpcClient.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/ros.h>
+
+namespace endovascular_sim
+{
+
+/** Waits until a condition holds. @return false when it did not hold within the time [s] */
+template <typename Condition>
+bool waitUntil(double seconds, Condition condition)
+{
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::WallTime::now() < end)
+  {
+    if (condition())
+      return true;
+    ros::WallDuration(0.005).sleep();
+  }
+  return condition();
+}
+
+/** Kills a node, as a crash would. @return false when the node was not found */
+inline bool killNode(const std::string& name)
+{
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = name;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, response, payload, false) ||
+      !ros::network::splitURI(payload, host, port))
+    return false;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue caller, reply;
+  caller[0] = ros::this_node::getName();
+  return client.execute("getPid", caller, reply) && kill(static_cast<int>(reply[2]), SIGKILL) == 0;
+}
+
+}  // namespace endovascular_sim

@@ -1,0 +1,133 @@
+#include "nodes/session/session_bag.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <topic_tools/shape_shifter.h>
+
+#include "common/error.h"
+#include "common/version.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+/** Bag of a short session without a vessel, in a namespace. */
+class SessionBagFile : public testing::Test
+{
+protected:
+  SessionBagFile()
+    : file_((std::filesystem::temp_directory_path() / ("session_bag" + std::to_string(::getpid()) + ".bag")).string())
+  {
+    info_.scene_name = "tube";
+    info_.scene_yaml = "name: tube\n";
+    info_.software_version = "0.9.8";
+    info_.commit = "0123456789ab";
+    info_.physics_number = kPhysicsNumber;
+  }
+  ~SessionBagFile() override { std::filesystem::remove(file_); }
+
+  template <typename Info>
+  void write(const Info& info, int steps = 3) const
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.write("/room/session/info", ros::Time(1.0), info);
+    for (int step = 0; step < steps; ++step)
+    {
+      DriveApplied applied;
+      applied.step = static_cast<std::uint64_t>(step);
+      bag.write("/room/drive/applied", ros::Time(2.0 + step), applied);
+    }
+    bag.close();
+  }
+
+  /** Serialised info under another type hash, as a bag of another version contains it.
+   *  @param omitted number of bytes omitted at the end
+   *  @param appended number of bytes appended */
+  topic_tools::ShapeShifter infoOfOtherVersion(std::size_t omitted, std::size_t appended) const
+  {
+    std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(info_));
+    ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    ros::serialization::serialize(out, info_);
+    bytes.resize(bytes.size() - omitted + appended);
+    topic_tools::ShapeShifter message;
+    message.morph(std::string(32, '5'), "endovascular_sim/SessionInfo", "string other", "1");
+    ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    message.read(in);
+    return message;
+  }
+
+  /** Length of the last two fields of the message, which earlier versions do not have [B]. */
+  std::size_t newFields() const { return sizeof(std::uint32_t) + info_.commit.size() + sizeof(std::int32_t); }
+
+  std::string refusal() const
+  {
+    try
+    {
+      readSessionBag(file_);
+    }
+    catch (const InputError& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string file_;
+  SessionInfo info_;
+};
+
+TEST_F(SessionBagFile, IsReadInAnyNamespace)
+{
+  write(info_);
+  const SessionBag session = readSessionBag(file_);
+  EXPECT_EQ(session.info.scene_name, "tube");
+  EXPECT_EQ(session.steps.size(), 3U);
+  EXPECT_FALSE(session.mesh);
+}
+
+TEST_F(SessionBagFile, IsRefusedWithAnotherPhysicsNumberAndTheErrorNamesVersionAndCommit)
+{
+  info_.physics_number = kPhysicsNumber + 1;
+  write(info_);
+  const std::string error = refusal();
+  EXPECT_NE(error.find("physics " + std::to_string(kPhysicsNumber + 1)), std::string::npos) << error;
+  EXPECT_NE(error.find("version 0.9.8"), std::string::npos) << error;
+  EXPECT_NE(error.find("build of commit 0123456789ab"), std::string::npos) << error;
+  EXPECT_NE(error.find("this program has physics " + std::to_string(kPhysicsNumber)), std::string::npos) << error;
+}
+
+TEST_F(SessionBagFile, IsRefusedWithoutAPhysicsNumberAndTheErrorNamesTheVersion)
+{
+  write(infoOfOtherVersion(newFields(), 0));
+  const std::string error = refusal();
+  EXPECT_NE(error.find("no physics number"), std::string::npos) << error;
+  EXPECT_NE(error.find("replay it with version 0.9.8"), std::string::npos) << error;
+}
+
+TEST_F(SessionBagFile, IsReadWithEqualPhysicsAndFurtherFields)
+{
+  write(infoOfOtherVersion(0, 8));
+  EXPECT_EQ(readSessionBag(file_).info.scene_yaml, info_.scene_yaml);
+}
+
+TEST_F(SessionBagFile, IsRefusedWithoutSessionInfo)
+{
+  rosbag::Bag bag(file_, rosbag::bagmode::Write);
+  bag.write("/drive/applied", ros::Time(1.0), DriveApplied());
+  bag.close();
+  EXPECT_NE(refusal().find("session/info: missing"), std::string::npos) << refusal();
+}
+
+TEST_F(SessionBagFile, IsRefusedWithoutSteps)
+{
+  write(info_, 0);
+  EXPECT_NE(refusal().find("no step"), std::string::npos) << refusal();
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,119 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <visualization_msgs/Marker.h>
+
+#include "contact/detector.h"
+#include "endovascular_sim/DriveApplied.h"
+#include "nodes/contact/contact_node.h"
+#include "nodes/fluoroscopy/fluoroscopy_node.h"
+#include "nodes/rod_dynamics/rod_dynamics_node.h"
+#include "nodes/runtime/ros_names.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "nodes/session/session_node.h"
+#include "nodes/vessel_server/vessel_server_node.h"
+#include "nodes/visualization/visualization_node.h"
+#include "scene/scene_vessel.h"
+#include "simulation/replay_source.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+/** All steps that a rod publishes. */
+class StepListener
+{
+public:
+  StepListener()
+  {
+    subscriber_ = node_.subscribe<DriveApplied>(names::kDriveApplied, 10000,
+                                                [this](const DriveAppliedConstPtr& message)
+                                                {
+                                                  const std::lock_guard<std::mutex> lock(mutex_);
+                                                  steps_[message->step] = *message;
+                                                });
+  }
+
+  std::map<std::uint64_t, DriveApplied> steps() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return steps_;
+  }
+
+private:
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, DriveApplied> steps_;
+  ros::Subscriber subscriber_;
+};
+
+TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
+{
+  ros::NodeHandle node;
+  const scene::Scene scene = sceneFromParameters(node);
+  const StepListener listener;
+  const VesselServerNode server(node, scene);
+  const ContactNode contact(node, scene, SchedulingGrant());
+  const VisualizationNode visualization(node, ros::NodeHandle("~"));
+  RodDynamicsNode rod(node, ros::NodeHandle("~rod"), scene, SchedulingGrant());
+  ASSERT_TRUE(rod.run());
+  for (int k = 0; k < 200 && listener.steps().size() < 300; ++k)
+    ros::WallDuration(0.01).sleep();
+  const std::map<std::uint64_t, DriveApplied> steps = listener.steps();
+  ASSERT_EQ(steps.size(), 300U);
+
+  const vessel::Vessel vessel =
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, scene::wallLaw(*scene.vessel));
+  simulation::ReplayContactSource source(detector);
+  simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, vessel, scene.file), &source,
+                                    &vessel.centreline);
+  for (const auto& [step, applied] : steps)
+  {
+    source.setFirstStalePass(applied.first_stale_pass);
+    simulation.stepAll(simulation::commandsAt(scene, static_cast<double>(step + 1) * scene.solver.time_step));
+    ASSERT_EQ(applied.state_hash, simulation.stateHash()) << "step " << step;
+  }
+}
+
+TEST(NodeClasses, SessionWritesItsReportWhenItIsDestroyed)
+{
+  ros::NodeHandle node;
+  const std::string folder = testing::TempDir() + "/node_classes_" + std::to_string(::getpid());
+  ros::NodeHandle parameters("~session");
+  parameters.setParam("results", folder);
+  {
+    const SessionNode session(node, parameters, sceneFromParameters(node));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder + "/report.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/session.bag"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(NodeClasses, FluoroscopyIsConstructed)
+{
+  ros::NodeHandle node;
+  scene::Scene scene = sceneFromParameters(node);
+  scene.fluoroscopy.emplace();
+  EXPECT_NO_THROW(FluoroscopyNode(node, ros::NodeHandle("~"), scene, SchedulingGrant()));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_node_classes");
+  const ros::NodeHandle keep_alive;
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
