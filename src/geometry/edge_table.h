@@ -7,14 +7,14 @@
 namespace endovascular_sim::geometry
 {
 
-/** Maps edges (unordered pairs of vertices) to a vertex each; open addressing. Never enumerated, so the order of its
- *  memory influences no result. */
+/** Hash map from an edge (unordered pair of vertices) to a vertex, with open addressing. It offers no iteration, so
+ *  results cannot depend on the order of its slots. */
 class EdgeTable
 {
 public:
   EdgeTable() : slots_(1U << 16U) {}
 
-  /** The vertex of the edge, −1 when it has none. */
+  /** Vertex stored for the edge; −1 without an entry. */
   int find(int a, int b) const
   {
     const std::uint64_t key = keyOf(a, b);
@@ -27,7 +27,8 @@ public:
     }
   }
 
-  /** @pre the edge has no vertex yet */
+  /** Stores a vertex for an edge.
+   *  @pre the edge has no entry */
   void insert(int a, int b, int vertex)
   {
     if (2 * ++count_ > slots_.size())

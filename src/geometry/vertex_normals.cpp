@@ -43,7 +43,7 @@ Eigen::Vector3d normalAt(const TriangleMesh& mesh, const std::vector<Eigen::Vect
   return normal.norm() > 0.0 ? Eigen::Vector3d(normal.normalized()) : normals[static_cast<std::size_t>(t[0])];
 }
 
-double SidedMesh::at(const Eigen::Vector3d& p) const
+double SignedMeshDistance::at(const Eigen::Vector3d& p) const
 {
   const ClosestPoint closest = distance_.closest(p);
   return (p - closest.point).dot(normalAt(mesh_, normals_, closest)) < 0.0 ? -closest.distance : closest.distance;

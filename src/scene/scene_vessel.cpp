@@ -135,8 +135,8 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
   char distance[32];
   std::snprintf(distance, sizeof distance, "%.3g mm", 1e3 * wall.distance);
   throw InputError(origin, "entry.position",
-                   vessel::formatPlace(pose.position) + " is not inside of the vessel: it lies " + distance +
-                       " outside of its wall, whose nearest point is " + vessel::formatPlace(wall.point) +
+                   vessel::formatLocation(pose.position) + " is not inside of the vessel: it lies " + distance +
+                       " outside of its wall, whose nearest point is " + vessel::formatLocation(wall.point) +
                        "; move it inward, or use nearest_centreline_end: true");
 }
 

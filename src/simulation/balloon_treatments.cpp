@@ -129,7 +129,7 @@ std::uint64_t BalloonTreatments::beginStep(std::uint64_t step)
   if (wall_ == nullptr)
     return 0;
   if (step % kPressEvery == 0 && shown_ != due_)
-    wall_->show(shown_ = due_);
+    wall_->activate(shown_ = due_);
   return shown_;
 }
 
@@ -239,21 +239,21 @@ void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& c
   {
     const double covered_from = coveredFrom(worked.instrument, state, rod);
     if (isHeldBack(worked, covered_from, state))
-      worked.treatment.stripStent();
+      worked.treatment.dislodgeStent();
     const std::optional<intervention::ShaftLine> shaft = shaftOf(worked, state, rod);
     const intervention::BalloonLoad& pressing = worked.treatment.step(
         time_step_, commanded[static_cast<std::size_t>(worked.instrument)], shaft ? &*shaft : nullptr, covered_from);
     if (pressing.sleeve)
       next_.sleeve = pressing.sleeve;
-    if (strongest == nullptr || pressing.pressure > strongest->pressing().pressure)
+    if (strongest == nullptr || pressing.pressure > strongest->load().pressure)
       strongest = &worked.treatment;
     collectEvents(worked, step);
   }
   if (wall_ == nullptr || strongest == nullptr || (step + 1) % kPressEvery != 0)
     return;
   due_ = promised_;
-  next_.balloon = strongest->pressing().balloon;
-  next_.pressure = strongest->pressing().pressure;
+  next_.balloon = strongest->load().balloon;
+  next_.pressure = strongest->load().pressure;
   pressWall(step);
 }
 
@@ -269,7 +269,7 @@ void BalloonTreatments::pressWall(std::uint64_t step)
     ++still_;
   if (!pressed_ || still_ > kSettlePressings)
     return;
-  promised_ = wall_->press(step, next_);
+  promised_ = wall_->applyLoad(step, next_);
   next_.sleeve.reset();
   if (wall_->atRisk() && !at_risk_)
     addEvent(step, treatments_.front().instrument, TreatmentEvent::kAtRisk);

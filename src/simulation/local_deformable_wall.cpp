@@ -8,17 +8,17 @@ namespace endovascular_sim::simulation
 {
 
 LocalDeformableWall::LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector)
-  : opening_(vessel, intervention::OpeningLaw{}), detector_(detector)
+  : opening_(vessel, intervention::DilatationLaw{}), detector_(detector)
 {
 }
 
-std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& pressing)
+std::uint64_t LocalDeformableWall::applyLoad(std::uint64_t /*step*/, const intervention::BalloonLoad& pressing)
 {
-  waiting_.push_back({++version_, opening_.press(pressing, kMostMovedVertices)});
+  waiting_.push_back({++version_, opening_.applyLoad(pressing, kMostMovedVertices)});
   return version_;
 }
 
-void LocalDeformableWall::show(std::uint64_t version)
+void LocalDeformableWall::activate(std::uint64_t version)
 {
   shown_ = version;
   for (; !waiting_.empty() && waiting_.front().version <= version; waiting_.pop_front())
@@ -35,7 +35,7 @@ void LocalDeformableWall::archive(Archive& archive)
   // The detector lags behind the opening: its vertices are compared with those of the beginning.
   intervention::WallDisplacement moved;
   const std::vector<Eigen::Vector3d>& shown = detector_.wall().vertices;
-  const std::vector<Eigen::Vector3d>& first = opening_.firstVertices();
+  const std::vector<Eigen::Vector3d>& first = opening_.initialVertices();
   for (std::size_t v = 0; v < first.size() && !archive.reading(); ++v)
     if (shown[v] != first[v])
     {

@@ -6,6 +6,7 @@
 
 #include "contact/detector.h"
 #include "intervention/deformable_wall.h"
+#include "intervention/vessel_dilatation.h"
 #include "scene/model/scene.h"
 #include "vessel/model/vessel.h"
 
@@ -28,12 +29,12 @@ public:
    *  @param detector must outlive this */
   LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector);
 
-  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& pressing) override;
-  void show(std::uint64_t version) override;
+  std::uint64_t applyLoad(std::uint64_t step, const intervention::BalloonLoad& pressing) override;
+  void activate(std::uint64_t version) override;
   std::uint64_t version() const override { return version_; }
   bool atRisk() const override { return opening_.atRisk(); }
 
-  const intervention::VesselOpening& opening() const { return opening_; }
+  const intervention::VesselDilatation& opening() const { return opening_; }
 
   void archive(Archive& archive) override;
 
@@ -46,7 +47,7 @@ private:
     void archive(Archive& archive);
   };
 
-  intervention::VesselOpening opening_;
+  intervention::VesselDilatation opening_;
   contact::Detector& detector_;
   std::uint64_t version_ = 1;
   std::uint64_t shown_ = 1;     ///< that contact searches

@@ -44,7 +44,7 @@ private:
   double radius_;
   std::vector<Eigen::Vector3d> normals_;  ///< of the vertices, out of the lumen, unit
   std::vector<Eigen::Vector3d> inset_;    ///< the vertices as they are drawn [m]
-  geometry::PointTree tree_;
+  geometry::KdTree tree_;
 };
 
 }  // namespace endovascular_sim::visualization

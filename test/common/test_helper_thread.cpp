@@ -84,7 +84,7 @@ Query balloon(double place)
 
 TEST(HelperThread, SharesALongSearchToTheSameBits)
 {
-  const geometry::TriangleMesh mesh = bumpy(geometry::flatSubdivision(bentTube(), 3), 0.02);
+  const geometry::TriangleMesh mesh = bumpy(geometry::midpointSubdivision(bentTube(), 3), 0.02);
   Detector alone(mesh, WallLaw{1e6, 0.1, {}});
   Detector shared(mesh, WallLaw{1e6, 0.1, {}});
   HelperThread helper([] {});
@@ -105,7 +105,7 @@ TEST(HelperThread, SharesALongSearchToTheSameBits)
 
 TEST(HelperThread, SharesAMovementOfTheWallToTheSameBits)
 {
-  geometry::TriangleMesh mesh = bumpy(geometry::flatSubdivision(bentTube(), 3), 0.02);
+  geometry::TriangleMesh mesh = bumpy(geometry::midpointSubdivision(bentTube(), 3), 0.02);
   HelperThread helper([] {});
   Detector shared(mesh, WallLaw{});
   shared.setHelper(&helper);

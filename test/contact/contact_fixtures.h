@@ -45,7 +45,7 @@ inline geometry::TriangleMesh bumpy(geometry::TriangleMesh mesh, double bump)
 
 inline geometry::TriangleMesh bumpyTube(double bump)
 {
-  return bumpy(geometry::flatSubdivision(bentTube(), 2), bump);
+  return bumpy(geometry::midpointSubdivision(bentTube(), 2), bump);
 }
 
 /** Path of a mesh of ENDOVASCULAR_DATA_DIR, empty when it is not there. */

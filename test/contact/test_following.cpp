@@ -18,7 +18,7 @@ namespace
 
 geometry::TriangleMesh fineTube()
 {
-  return geometry::flatSubdivision(bentTube(), 2);
+  return geometry::midpointSubdivision(bentTube(), 2);
 }
 
 /** A wire along the tube's wall. @param slid from where it begins [m] */
@@ -121,7 +121,7 @@ TEST(WireWhoseNodesComeAndGo, GetsTheAnswersOfADetectorThatIsMadeAnew)
 
 TEST(WireThatSlides, TakesOverWhatWasListedForTheNodesBeforeIt)
 {
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(fineTube(), 1);
+  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(fineTube(), 1);
   constexpr std::uint64_t kNodes = 20;
   const auto renewed = [&mesh](const std::vector<double>& places)
   {

@@ -131,7 +131,7 @@ private:
         [&]
         {
           if (xray_.follow_tip && tip_)
-            move(fluoroscopy::followTip(fluoroscope_.geometry().pose(), *tip_));
+            move(fluoroscopy::panToTip(fluoroscope_.geometry().pose(), *tip_));
           publishFrame();
         });
   }

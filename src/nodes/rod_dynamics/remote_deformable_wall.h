@@ -24,8 +24,8 @@ public:
   /** Waits until vessel_server listens: what is told before is lost. @return false when ROS ended */
   bool waitForServer() const;
 
-  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& pressing) override;
-  void show(std::uint64_t /*version*/) override {}  // every rod/state says it
+  std::uint64_t applyLoad(std::uint64_t step, const intervention::BalloonLoad& pressing) override;
+  void activate(std::uint64_t /*version*/) override {}  // every rod/state says it
   std::uint64_t version() const override { return version_; }
   bool atRisk() const override { return at_risk_; }
   void archive(Archive& archive) override;

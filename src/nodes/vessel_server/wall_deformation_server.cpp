@@ -19,7 +19,7 @@ bool WallDeformationServer::press(const BalloonLoad& pressing, WallDisplacement&
 {
   if (pressing.version != version_ + 1)  // which no other thread changes
     return false;
-  toMessage(opening_.press(pressingFromMessage(pressing), simulation::kMostMovedVertices), answer);
+  toMessage(opening_.applyLoad(pressingFromMessage(pressing), simulation::kMostMovedVertices), answer);
   answer.step = pressing.step;
   answer.version = pressing.version;
   answer.at_risk = opening_.atRisk();

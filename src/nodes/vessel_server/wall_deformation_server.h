@@ -5,7 +5,7 @@
 
 #include "endovascular_sim/BalloonLoad.h"
 #include "endovascular_sim/WallDisplacement.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 #include "nodes/runtime/priority_mutex.h"
 
 namespace endovascular_sim::nodes
@@ -17,7 +17,7 @@ class WallDeformationServer
 public:
   /** @param vessel version 1 of it */
   explicit WallDeformationServer(const vessel::Vessel& vessel)
-    : opening_(vessel, intervention::OpeningLaw{}), base_(vessel.mesh)
+    : opening_(vessel, intervention::DilatationLaw{}), base_(vessel.mesh)
   {
   }
 
@@ -37,7 +37,7 @@ public:
   std::uint64_t version() const;  ///< newest
 
 private:
-  intervention::VesselOpening opening_;     ///< the pressing thread's
+  intervention::VesselDilatation opening_;  ///< the pressing thread's
   mutable PriorityInheritanceMutex mutex_;  ///< of what follows
   std::uint64_t version_ = 1;
   geometry::TriangleMesh base_;          ///< the wall before recent_

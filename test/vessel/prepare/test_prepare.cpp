@@ -13,7 +13,7 @@
 #include "test/vessel/prepare/dirty_meshes.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/io/mesh_reader.h"
-#include "vessel/prepare/pieces.h"
+#include "vessel/prepare/component_bridges.h"
 #include "vessel/repair/mesh_check.h"
 #include "vessel/repair/mesh_repair.h"
 
@@ -43,7 +43,7 @@ void expectSound(const PreparedVessel& made)
 const Cylinder kTrunk{{0, 0, 0}, {0, 0, 0.016}, 3e-3};
 const Cylinder kSide{{0, 0, 0.008}, {8e-3, 0, 9e-3}, 1.5e-3};
 
-TEST(Prepare, UnitesOverlappingTubesWithinTheStatedDistanceOfTheirUnion)
+TEST(Prepare, UnitesOverlappingTubesWithinTheTolerance)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   append(soup, kSide.mesh(64, 20));
@@ -55,7 +55,7 @@ TEST(Prepare, UnitesOverlappingTubesWithinTheStatedDistanceOfTheirUnion)
   EXPECT_GT(made.report.inner_area, 0.0);
 }
 
-TEST(Prepare, ReportsTheDistancesThatBruteForceFinds)
+TEST(Prepare, ReportsTheDistancesOfABruteForceSearch)
 {
   const geometry::TriangleMesh input = kSide.mesh(16, 6);
   const PreparedVessel made = prepare(input);
@@ -82,7 +82,7 @@ TEST(Prepare, ReportsTheDistancesThatBruteForceFinds)
   EXPECT_GT(made.report.input_to_result.largest, 2e-5);
 }
 
-TEST(Prepare, DoesNotCareHowThePiecesAreTurned)
+TEST(Prepare, IsIndependentOfTheOrientationOfComponents)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   geometry::TriangleMesh side = kSide.mesh(64, 20);
@@ -109,8 +109,8 @@ TEST(Prepare, ClosesAHoleByALid)
   const PreparedVessel made = prepare(holed);
   expectSound(made);
   ASSERT_EQ(made.report.holes.size(), 1U);
-  EXPECT_LT((made.report.holes[0].place - hole).norm(), 5e-4);
-  // The lid is a chord: at most the sagitta of 1.2 mm on 3 mm below the cylinder.
+  EXPECT_LT((made.report.holes[0].location - hole).norm(), 5e-4);
+  // The lid is planar: its largest depth is the sagitta of a 1.2 mm chord at a radius of 3 mm.
   EXPECT_LE(largestDistance(made.mesh, {kTrunk}), kStated + 1.3e-3 * 1.3e-3 / (2 * 3e-3));
   EXPECT_GT(made.report.lid_area, 1e-6);
 }
@@ -130,7 +130,7 @@ TEST(Prepare, DropsFinsDuplicatesAndSlivers)
   const Vector3d a = mesh.vertices[static_cast<std::size_t>(cut[0])];
   const Vector3d b = mesh.vertices[static_cast<std::size_t>(cut[1])];
   const int on_edge = add(a + 0.5 * (b - a) + Vector3d(0, 0, 1e-9));
-  mesh.triangles.emplace_back(cut[0], on_edge, cut[1]);  // a sliver, a non-manifold edge
+  mesh.triangles.emplace_back(cut[0], on_edge, cut[1]);  // sliver with a non-manifold edge
   EXPECT_GT(checkMesh(mesh).non_manifold_edges.count, 0);
   EXPECT_GT(checkMesh(mesh).duplicate_faces.count, 0);
   const PreparedVessel made = prepare(mesh);
@@ -138,7 +138,7 @@ TEST(Prepare, DropsFinsDuplicatesAndSlivers)
   EXPECT_LE(largestDistance(made.mesh, {kTrunk}), kStated);
 }
 
-/** Two legs side by side, joined by a crossbar. */
+/** Two parallel tubes, connected by a crossbar. */
 std::vector<Cylinder> fork(double septum)
 {
   const double x = 2e-3 + 0.5 * septum;
@@ -153,7 +153,7 @@ geometry::TriangleMesh soupOf(const std::vector<Cylinder>& parts)
   return soup;
 }
 
-TEST(Prepare, KeepsASeptumOfThreeVoxels)
+TEST(Prepare, RetainsASeptumOfThreeVoxels)
 {
   const std::vector<Cylinder> parts = fork(6e-4);
   const PreparedVessel made = prepare(soupOf(parts));
@@ -162,17 +162,17 @@ TEST(Prepare, KeepsASeptumOfThreeVoxels)
   EXPECT_EQ(made.report.after.defects.genus, 0);
 }
 
-TEST(Prepare, ReportsASeptumThatTheVoxelsLose)
+TEST(Prepare, ReportsASeptumLostByTheGrid)
 {
   PrepareOptions options;
   options.voxel = 6e-4;
   const PreparedVessel made = prepare(soupOf(fork(2.5e-4)), options);
   EXPECT_GT(made.report.gaps.closed, 0);
   EXPECT_GE(made.report.gaps.widest_closed, 2.4e-4);
-  EXPECT_NE(made.report.text(made.centreline).find("a septum there needs --voxel"), std::string::npos);
+  EXPECT_NE(made.report.text(made.centreline).find("a septum there requires --voxel"), std::string::npos);
 }
 
-TEST(Prepare, ReportsLoosePiecesAndBridgesThemWhenAsked)
+TEST(Prepare, ReportsLooseComponentsAndBridgesThemOnRequest)
 {
   const Cylinder above{{0, 0, 0.017}, {0, 0, 0.024}, 2e-3};
   geometry::TriangleMesh soup = kTrunk.mesh(64, 20);
@@ -196,7 +196,7 @@ TEST(Prepare, ReportsLoosePiecesAndBridgesThemWhenAsked)
 
 constexpr double kBore = 1.8e-3;
 
-/** The trunk with a bore of 1.8 mm radius through it: outer and inner wall, joined by ring-shaped ends. */
+/** Trunk with a bore of 1.8 mm radius: outer and inner wall, connected by annular ends. */
 geometry::TriangleMesh pipe()
 {
   geometry::TriangleMesh outer = kTrunk.mesh(48, 12);
@@ -222,7 +222,7 @@ const std::vector<Plug> kPipePlugs{{{1e-4, 0, 5e-4}, 2.4e-3}, {{0, 1e-4, 0.0155}
 const double kPipeVolume = M_PI * 9e-6 * 0.016;
 const double kBoreVolume = M_PI * kBore * kBore * 0.016;
 
-TEST(Prepare, FillsAThickWallWhoseOpeningsAreStoppedUp)
+TEST(Prepare, FillsAThickWallWithPluggedOpenings)
 {
   PrepareOptions options;
   options.plugs = kPipePlugs;
@@ -232,7 +232,7 @@ TEST(Prepare, FillsAThickWallWhoseOpeningsAreStoppedUp)
   EXPECT_NEAR(made.report.inner_area, 2.0 * M_PI * kBore * 0.015, 0.05 * 2.0 * M_PI * kBore * 0.016);
 }
 
-TEST(Prepare, TakesTheHollowInsideOfAThickWallAsTheLumen)
+TEST(Prepare, ExtractsTheLumenInsideAThickWall)
 {
   PrepareOptions options;
   options.plugs = kPipePlugs;
@@ -251,7 +251,7 @@ TEST(Prepare, TakesTheHollowInsideOfAThickWallAsTheLumen)
   }
 }
 
-TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugWithoutWallsAround)
+TEST(Prepare, RejectsAnOpenCavityAndAPlugWithoutWalls)
 {
   PrepareOptions options;
   options.hollow = true;
@@ -261,7 +261,7 @@ TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugWithoutWallsAround)
   EXPECT_THROW(prepare(pipe(), options), InputError);
 }
 
-TEST(Prepare, OpensTheEndsAskedForWithFlatRimsThatASceneCloses)
+TEST(Prepare, OpensSelectedEndsWithPlanarRimsThatASceneCloses)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   append(soup, kSide.mesh(64, 20));
@@ -278,12 +278,12 @@ TEST(Prepare, OpensTheEndsAskedForWithFlatRimsThatASceneCloses)
   const RepairedMesh closed = repairMesh(made.mesh, "opened");
   EXPECT_EQ(checkMesh(closed.mesh).summary(), "");
   ASSERT_FALSE(closed.notes.empty());
-  EXPECT_NE(closed.notes[0].find("3 open ends"), std::string::npos) << closed.notes[0];
+  EXPECT_NE(closed.notes[0].find("3 planar ends"), std::string::npos) << closed.notes[0];
   for (const Opening& opening : made.report.openings)
     EXPECT_LT(std::min(std::abs(opening.radius - 3e-3), std::abs(opening.radius - 1.5e-3)), kStated);
 }
 
-TEST(Prepare, RefusesAnEndThatIsNotThereAndNamesThoseThatAre)
+TEST(Prepare, RejectsAnUnknownEndAndListsTheKnownOnes)
 {
   PrepareOptions options;
   options.open = {"aorta"};
@@ -300,7 +300,7 @@ TEST(Prepare, RefusesAnEndThatIsNotThereAndNamesThoseThatAre)
   }
 }
 
-TEST(Prepare, RefusesATubeWithoutWallsAndOptionsOutOfRange)
+TEST(Prepare, RejectsAnOpenSurfaceAndInvalidOptions)
 {
   geometry::TriangleMesh flat;
   flat.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}};
@@ -314,7 +314,7 @@ TEST(Prepare, RefusesATubeWithoutWallsAndOptionsOutOfRange)
   EXPECT_THROW(prepare(kTrunk.mesh(48, 10), options), InputError);
 }
 
-/** Root mean square of the turn between neighbouring faces along the mesh's edges, away from the caps [rad]. */
+/** Root mean square of the dihedral angles, without the caps [rad]. */
 double roughness(const geometry::TriangleMesh& mesh)
 {
   double sum = 0.0;
@@ -342,9 +342,9 @@ double roughness(const geometry::TriangleMesh& mesh)
   return std::sqrt(sum / count);
 }
 
-TEST(Prepare, SmoothsAFacettedTubeWithinTheStatedDistance)
+TEST(Prepare, SmoothsACoarseTubeWithinTheTolerance)
 {
-  // Ten facets: their middles lie 0.15 mm inside of the cylinder.
+  // Ten facets: their centres lie 0.15 mm inside the cylinder.
   const geometry::TriangleMesh coarse = kTrunk.mesh(10, 4);
   const PreparedVessel as_is = prepare(coarse);
   PrepareOptions options;
@@ -352,14 +352,14 @@ TEST(Prepare, SmoothsAFacettedTubeWithinTheStatedDistance)
   const PreparedVessel smooth = prepare(coarse, options);
   expectSound(smooth);
   EXPECT_LT(roughness(smooth.mesh), 0.9 * roughness(as_is.mesh));
-  // The lumen goes from the facets' prism towards the cylinder around it, and not beyond.
+  // Smoothing moves the wall from the prism towards the circumscribed cylinder, but not beyond it.
   EXPECT_GT(smooth.mesh.signedVolume(), 0.99 * as_is.mesh.signedVolume());
   EXPECT_LT(smooth.mesh.signedVolume(), M_PI * 9e-6 * 0.016);
   EXPECT_GT(smooth.report.largest_move, 1e-5);
   EXPECT_LE(smooth.report.largest_move, 0.5 * kStated + 1e-12);
 }
 
-TEST(Prepare, FindsTheCentrelineWithItsRadii)
+TEST(Prepare, ExtractsTheCentrelineWithRadii)
 {
   const PreparedVessel made = prepare(kTrunk.mesh(96, 20));
   ASSERT_EQ(made.centreline.branches.size(), 1U);
@@ -377,14 +377,14 @@ TEST(Prepare, FindsTheCentrelineWithItsRadii)
   EXPECT_GT(looked_at, 2);
 }
 
-TEST(Prepare, IsTheSameBitForBit)
+TEST(Prepare, IsReproducibleBitForBit)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(48, 10);
   append(soup, kSide.mesh(32, 10));
   EXPECT_EQ(prepare(soup).mesh.hash(), prepare(soup).mesh.hash());
 }
 
-/** Meshes of real vessels, which are kept beside the project; coarse voxels, for the tests' time. */
+/** Meshes of segmented vessels, which are not part of the repository. Large voxels reduce the run time. */
 class DirtyVessels : public testing::Test
 {
 protected:
@@ -392,7 +392,7 @@ protected:
   {
     const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
     if (folder == nullptr || !std::filesystem::exists(std::string(folder) + "/aortic_arch_tree.obj"))
-      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR is not set to the folder of the segmented vessels";
     folder_ = std::string(folder) + "/";
     options_.max_distance = 1.2e-3;
     options_.longest_facet = 4e-3;
@@ -402,7 +402,7 @@ protected:
   PrepareOptions options_;
 };
 
-TEST_F(DirtyVessels, ThePhantomBecomesOneClosedSurface)
+TEST_F(DirtyVessels, PreparesThePhantomAsOneClosedSurface)
 {
   const geometry::TriangleMesh mesh = readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0);
   options_.max_distance = 1e-3;
@@ -419,16 +419,16 @@ TEST_F(DirtyVessels, ThePhantomBecomesOneClosedSurface)
   EXPECT_LT(made.report.input_to_result.p99, options_.max_distance);
 }
 
-double distanceToEnd(const CentrelineTree& tree, const Vector3d& place)
+double distanceToEnd(const CentrelineTree& tree, const Vector3d& point)
 {
   double nearest = 1e300;
   for (const CentrelineEnd& end : centrelineEnds(tree))
-    nearest = std::min(nearest, (end.position - place).norm());
+    nearest = std::min(nearest, (end.position - point).norm());
   return nearest;
 }
 
-/** The commands of docs/VESSELS.md with a coarser grid. */
-TEST_F(DirtyVessels, TheAortaWithIliacsIsOpenFromTheFemoralArteriesToTheCoronaries)
+/** Commands of docs/VESSELS.md with a coarser grid. */
+TEST_F(DirtyVessels, ConnectsTheFemoralArteriesWithTheCoronaries)
 {
   geometry::TriangleMesh mesh = readMesh(folder_ + "aorta_coronary_female.obj", 1e-3);
   append(mesh, loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/aorta_coronary_female_iliacs.yaml", "").mesh);
@@ -442,7 +442,8 @@ TEST_F(DirtyVessels, TheAortaWithIliacsIsOpenFromTheFemoralArteriesToTheCoronari
   EXPECT_EQ(made.report.bridges.size(), 2U);
   EXPECT_TRUE(made.report.dropped.empty()) << made.report.text(made.centreline);
   EXPECT_LT(made.report.input_to_result.p99, options_.max_distance);
-  // Both femoral arteries, left anterior descending, diagonal; this grid is too coarse for the right coronary's waist.
+  // Both femoral arteries, left anterior descending and diagonal artery. The grid is too coarse for the narrowest part
+  // of the right coronary artery.
   for (const Vector3d& end : {Vector3d(0.091, -0.060, 0.021), Vector3d(-0.074, -0.060, 0.023),
                               Vector3d(0.103, 0.381, 0.036), Vector3d(0.108, 0.427, -0.017)})
     EXPECT_LT(distanceToEnd(made.centreline, end), 0.010) << end.transpose();
