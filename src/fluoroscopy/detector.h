@@ -11,8 +11,8 @@ namespace endovascular_sim::fluoroscopy
  *  image_raw is linear in intensity: half of full scale at 1, saturated at 2 (little or no tissue).
  *
  *  image is the displayed image: logarithmic, with a fixed window and a compressed dynamic range of the background, as
- * in angiography systems. A thin wire thereby retains its contrast inside a contrast-filled aorta. With the optical
- * depths δ = −ln(intensity) of the background and δ_w of the wire,
+ *  in angiography systems. A thin wire thereby retains its contrast inside a contrast-filled aorta. With the optical
+ *  depths δ = −ln(intensity) of the background and δ_w of the wire,
  *
  *      grey = 255 · (δ₁ − c(δ) − δ_w) / (δ₁ − δ₀),   c(δ) = w·(1 − exp(−δ/w)) for δ > 0, else δ,
  *

@@ -15,7 +15,7 @@ namespace
 constexpr int kSubpixelBits = 12;
 constexpr std::int64_t kSubpixels = std::int64_t{1} << kSubpixelBits;
 constexpr double kMaxCoordinate = 1 << 29;  // products of coordinate differences fit into 62 bits
-constexpr double kNearest = 0.02;           // least depth of a vertex, as a fraction of SID
+constexpr double kNearest = 0.02;           // minimum depth of a vertex, as a fraction of SID
 
 struct Corner
 {
@@ -46,7 +46,7 @@ std::int64_t edgeFunction(const Corner& a, const Corner& b, std::int64_t column,
 }
 
 /** Fill-rule bias: 0 if samples exactly on the edge a → b belong to the triangle, else 1. It is equivalent to a shift
- * of all samples by (ε, ε²), after which no sample lies on an edge. */
+ *  of all samples by (ε, ε²), after which no sample lies on an edge. */
 std::int64_t edgeBias(const Corner& a, const Corner& b)
 {
   const bool inside = b.row < a.row || (b.row == a.row && b.column > a.column);

@@ -12,10 +12,10 @@ namespace endovascular_sim::fluoroscopy
  *  order from the top left.
  *
  *  The ray r(t) = s + t·d with d = (x, y, 1) in the optical frame intersects a face with outward normal n and corner a
- * at t = n·(a − s) / (n·d). The path length is |d|·Σ ±t: + at exits (n·d > 0), − at entries. Vertices are rounded to
- * 1/4096 pixel, and coverage is computed in integers with a fill rule: a ray through an edge or a vertex intersects
- * exactly one of the adjacent faces. The result is therefore exact for a mesh with vertices perturbed by less than
- * 1/5000 pixel.
+ *  at t = n·(a − s) / (n·d). The path length is |d|·Σ ±t: + at exits (n·d > 0), − at entries. Vertices are rounded to
+ *  1/4096 pixel, and coverage is computed in integers with a fill rule: a ray through an edge or a vertex intersects
+ *  exactly one of the adjacent faces. The result is therefore exact for a mesh with vertices perturbed by less than
+ *  1/5000 pixel.
  *
  *  @throws InputError if the mesh extends to the source */
 std::vector<double> vesselPathLength(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh);

@@ -24,8 +24,8 @@ namespace
 constexpr int kSamples = 89;              // rays per pixel: Fibonacci number F(11)
 constexpr int kLatticeStep = 55;          // generator of the lattice: F(10)
 constexpr std::size_t kPadded = 96;       // samples, padded to a multiple of the SIMD width
-constexpr double kNearest = 0.02;         // least depth of a visible edge, as a fraction of SID
-constexpr double kFoldedCosine = 0.05;    // least cosine of the bend at a mitre joint
+constexpr double kNearest = 0.02;         // minimum depth of a visible edge, as a fraction of SID
+constexpr double kFoldedCosine = 0.05;    // minimum cosine of the bend at a mitre joint
 constexpr double kHalfDiagonal = 0.7072;  // half the diagonal of a pixel, rounded up [pixel]
 constexpr double kStraight = 1e-6;        // tolerance of positions and radii of merged edges [m]
 constexpr std::size_t kLongestRun = 64;   // largest number of merged edges; the cost of the search is quadratic
@@ -46,7 +46,7 @@ void check(const XRayWire& wire)
 }
 
 /** Normal of the clipping plane of an edge towards its neighbour: the bisecting plane, or the plane normal to the edge
- * at a sharp bend. */
+ *  at a sharp bend. */
 Eigen::Vector3d mitre(const Eigen::Vector3d& own, const Eigen::Vector3d& other)
 {
   return own.dot(other) > kFoldedCosine ? (own + other).normalized() : own;
@@ -150,7 +150,7 @@ struct WireProjection::Edge
 
 /** Chords of all sample rays of a pixel in an edge. The loops have no calls, branches or aliasing, so that the compiler
  *  vectorises them. Values are relative to the pixel's central ray and to the edge's midpoint, for which single
- * precision suffices. */
+ *  precision suffices. */
 class WireProjection::Chords
 {
 public:
@@ -170,7 +170,7 @@ public:
   {
     const float second_order = 2.0F * reach * reach;
     const float a = a_.z - a_.spread(reach) - second_order;
-    if (a <= least_)
+    if (a <= min_a_)
       return Clipping::kPartial;
     const float middle = closest_.z / a_.z;
     const float wide = (closest_.spread(reach) + depth_ * second_order + std::abs(middle) * (a_.z - a)) / a;
@@ -212,7 +212,7 @@ public:
       const float turned = c.axis_x_ * x + c.axis_y_ * y;
       const float second_order = x * x + y * y - turned * turned;  // of A
       const float a = c.a_.at(x, y) + second_order;
-      const float inverse = 1.0F / (a > c.least_ ? a : c.least_);
+      const float inverse = 1.0F / (a > c.min_a_ ? a : c.min_a_);
       const float off = c.off_.at(x, y);
       const float discriminant = a * c.radius_ * c.radius_ - off * off;
       const float half = std::sqrt(discriminant > 0.0F ? discriminant : 0.0F) * inverse;
@@ -225,7 +225,7 @@ public:
       to = slope0 < 0.0F && cut0 < to ? cut0 : to;
       from = slope1 >= 0.0F && cut1 > from ? cut1 : from;
       to = slope1 < 0.0F && cut1 < to ? cut1 : to;
-      const float chord = to > from && a > c.least_ ? to - from : 0.0F;
+      const float chord = to > from && a > c.min_a_ ? to - from : 0.0F;
       depth[i] += chord * c.per_chord_.at(x, y);
     }
   }
@@ -242,12 +242,12 @@ private:
       axis_x_(static_cast<float>(edge.axis.x())),
       axis_y_(static_cast<float>(edge.axis.y())),
       depth_(static_cast<float>(edge.depth)),
-      least_(static_cast<float>(kParallel * ray.squaredNorm())),
+      min_a_(static_cast<float>(kParallel * ray.squaredNorm())),
       radius_(static_cast<float>(edge.radius))
   {
   }
 
-  static constexpr double kParallel = 1e-12;  // least A/|d|²; rays nearly parallel to the axis are omitted
+  static constexpr double kParallel = 1e-12;  // minimum A/|d|²; rays nearly parallel to the axis are omitted
   static constexpr float kRounding = 1.001F;
 
   /** Clipping plane in ray coordinates: slope·t ≥ offset is retained, with t relative to the edge's midpoint. */
@@ -271,7 +271,7 @@ private:
   Linear a_, off_, closest_;  ///< A; d·(a×p); d·p⊥ − A·depth
   Plane begin_, end_;
   Linear per_chord_;  ///< optical depth per unit of t
-  float axis_x_, axis_y_, depth_, least_, radius_;
+  float axis_x_, axis_y_, depth_, min_a_, radius_;
 };
 
 float* WireProjection::samplesOf(std::uint32_t pixel)
@@ -290,8 +290,8 @@ float* WireProjection::samplesOf(std::uint32_t pixel)
  *
  *  A point of the edge is x + ρw with x on the axis extended by the mitres, ρ ≤ r, and w a unit vector normal to the
  *  axis. Its image is displaced from that of x by f ρ J w/(x_z + ρ w_z) with J = (I | −x_xy/x_z). The displacement
- * along an image direction e is at most f r |Jᵀe − (Jᵀe·a) a|/(z − r). This bound is a convex function of x_xy/x_z and
- * takes its maximum at an end. */
+ *  along an image direction e is at most f r |Jᵀe − (Jᵀe·a) a|/(z − r). This bound is a convex function of x_xy/x_z and
+ *  takes its maximum at an end. */
 class WireProjection::Footprint
 {
 public:

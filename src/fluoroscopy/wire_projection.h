@@ -9,7 +9,7 @@ namespace endovascular_sim::fluoroscopy
 {
 
 /** X-ray model of a wire: chain of solid cylinders with mitre joints; edge j joins nodes j and j + 1. Collinear edges
- * of equal radius may be merged. A hollow shaft consists of two wires: a solid one, and its lumen with negative
+ *  of equal radius may be merged. A hollow shaft consists of two wires: a solid one, and its lumen with negative
  *  attenuation. */
 struct XRayWire
 {

@@ -13,7 +13,7 @@ struct CArmPose
   double secondary_angle = 0.0;                         ///< Positioner Secondary Angle, cranial positive [rad]
   double source_to_detector = 1.2;                      ///< SID [m]
   double source_to_patient = 0.75;                      ///< SOD, source to isocentre [m]
-  Eigen::Vector3d isocentre = Eigen::Vector3d::Zero();  ///< patient frame: x left, y posterior, z head [m]
+  Eigen::Vector3d isocentre = Eigen::Vector3d::Zero();  ///< patient frame: x left, y posterior, z superior [m]
   double detector_width = 0.3;                          ///< width of the square detector [m]
   int pixels = 512;                                     ///< pixels per side of the image
 };
@@ -26,7 +26,7 @@ inline bool operator!=(const CArmPose& a, const CArmPose& b)
 
 /** Pinhole camera model of one C-arm pose.
  *
- *  With primary angle α and secondary angle β, the axes in the patient frame (x left, y posterior, z head) are
+ *  With primary angle α and secondary angle β, the axes in the patient frame (x left, y posterior, z superior) are
  *
  *      right    = ( cos α,        sin α,        0     )   direction of increasing image columns
  *      up       = (−sin α sin β,  cos α sin β,  cos β )   direction of decreasing image rows
@@ -37,8 +37,8 @@ inline bool operator!=(const CArmPose& a, const CArmPose& b)
  *  frame `x_ray_source_optical`: right-handed, with z from the source to the detector. Visible points have z > 0.
  *
  *  The displayed image has radiological orientation: in AP the patient's left is on the right of the image, and the
- * head is up. It is the view from the detector towards the source, the mirror image of the view of a camera at the
- * source. The camera matrix K contains the reflection:
+ *  head is up. It is the view from the detector towards the source, the mirror image of the view of a camera at the
+ *  source. The camera matrix K contains the reflection:
  *
  *          ⎡ f  0   c ⎤    f = SID / pixel size,  c = (pixels − 1) / 2
  *      K = ⎢ 0 −f   c ⎥    column = K₀₀·x/z + c,  row = K₁₁·y/z + c  (pixel centres at integers)
@@ -94,7 +94,7 @@ private:
 };
 
 /** Pose after table panning: moves the isocentre to @p tip [m] if the tip is outside of the central half of the field
- * of view. A single large shift keeps the number of background renderings small. */
+ *  of view. A single large shift keeps the number of background renderings small. */
 CArmPose panToTip(const CArmPose& pose, const Eigen::Vector3d& tip);
 
 }  // namespace endovascular_sim::fluoroscopy

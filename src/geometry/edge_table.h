@@ -33,7 +33,7 @@ public:
   {
     if (2 * ++count_ > slots_.size())
       grow();
-    place({keyOf(a, b), vertex});
+    store({keyOf(a, b), vertex});
   }
 
 private:
@@ -54,7 +54,7 @@ private:
     return static_cast<std::size_t>(key >> 20U) & (slots_.size() - 1);
   }
 
-  void place(const Slot& slot)
+  void store(const Slot& slot)
   {
     std::size_t i = start(slot.key);
     while (slots_[i].key != 0)
@@ -68,7 +68,7 @@ private:
     old.swap(slots_);
     for (const Slot& slot : old)
       if (slot.key != 0)
-        place(slot);
+        store(slot);
   }
 
   std::vector<Slot> slots_;

@@ -39,7 +39,7 @@ public:
     double distance = 0.0;                               ///< from the query point [m]
   };
   /** Closest point of the polyline; the first one among equal distances. The cost is linear in the number of segments.
-   */
+   *  */
   Foot nearest(const Eigen::Vector3d& p) const;
 
   /** Projection along normal planes: the point of the polyline whose normal plane contains p, near the closest point.
@@ -48,7 +48,7 @@ public:
   Foot normalPlaneFoot(const Eigen::Vector3d& p) const;
 
   /** Projection along normal planes, searched from a given segment; the cost does not depend on the number of segments.
-   */
+   *  */
   Foot normalPlaneFoot(const Eigen::Vector3d& p, std::size_t segment) const;
 
   /** Index of the segment that contains an arc length, clamped to the first and last one. */

@@ -26,7 +26,7 @@ public:
   };
 
   /** Advances the pressure by the exact solution of dp/dt = (p_c − p)/τ with the inflation or deflation time constant
-   * τ.
+   *  τ.
    *  @param dt time step [s]
    *  @param commanded transmural pressure p_c commanded at the inflator [Pa] */
   Event step(double dt, double commanded);

@@ -73,7 +73,7 @@ LesionReport reportLesion(const geometry::TriangleMesh& mesh, const vessel::Cent
     if (1.0 - diameter / reference <= report.stenosis)
       continue;
     report.stenosis = 1.0 - diameter / reference;
-    report.least_diameter = diameter;
+    report.minimal_diameter = diameter;
     report.reference_diameter = reference;
   }
   if (stent == nullptr || stent->axis.size() < 2)

@@ -12,8 +12,8 @@ namespace endovascular_sim::intervention
 struct LesionReport
 {
   double reference_diameter = 0.0;  ///< interpolated healthy diameter at the minimal lumen [m]
-  double least_diameter = 0.0;      ///< minimal lumen diameter, of a circle of equal area [m]
-  double stenosis = 0.0;            ///< diameter stenosis 1 − least/reference [1]
+  double minimal_diameter = 0.0;    ///< minimal lumen diameter, of a circle of equal area [m]
+  double stenosis = 0.0;            ///< diameter stenosis 1 − minimal/reference [1]
   bool stented = false;             ///< true if a stent is placed
   double coverage = 0.0;            ///< fraction of the lesion's length covered by the stent [1]
   double apposition = 0.0;          ///< fraction of the stent's surface within 0.1 mm of the wall [1]

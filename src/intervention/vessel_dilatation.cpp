@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kStill = 1e-6;  // smallest reported displacement [m]
-/** Least cosine between a vertex normal and the direction from the balloon's axis. Below it the vertex belongs to
+/** Minimum cosine between a vertex normal and the direction from the balloon's axis. Below it the vertex belongs to
  *  another vessel or to an end cap. */
 constexpr double kOwnWall = 0.2;
 

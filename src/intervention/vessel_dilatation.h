@@ -34,10 +34,10 @@ struct DilatationLaw
 /** Kinematic model of balloon dilatation and stenting of the wall (docs/INTERVENTION.md).
  *
  *  A vertex within a body of radius r moves radially away from the body's axis, from its distance r₀ to r₀ + s·(r −
- * r₀). The yield fraction s rises linearly from 0 at the onset pressure to 1 at the full pressure. It never decreases,
- *  because fractured plaque does not heal. When the body shrinks, the wall recoils to the larger of r₀ and
- *  (1 − recoil) times its peak distance. Within a stent the wall stays outside of the stent. Distances refer to the
- *  positions at the last empty balloon, so the result does not depend on the number of calls. */
+ *  r₀). The yield fraction s rises linearly from 0 at the onset pressure to 1 at the full pressure. It never decreases,
+ *  because fractured plaque does not heal. When the body shrinks, the wall recoils to the larger of r₀ and (1 − recoil)
+ *  times its peak distance. Within a stent the wall stays outside of the stent. Distances refer to the positions at the
+ *  last empty balloon, so the result does not depend on the number of calls. */
 class VesselDilatation
 {
 public:

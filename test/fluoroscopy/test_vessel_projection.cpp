@@ -48,7 +48,7 @@ double at(const std::vector<double>& map, int pixels, int row, int column)
 }
 
 /** Compares the projection with brute force: a loose bound of every pixel, and a tight bound of the mean. Grazing
- * facets amplify the rounding of vertices to 1/4096 pixel (0.1 µm at the isocentre). */
+ *  facets amplify the rounding of vertices to 1/4096 pixel (0.1 µm at the isocentre). */
 void expectBruteForce(const geometry::TriangleMesh& mesh, const CArmPose& pose)
 {
   const XRayGeometry geometry(pose);

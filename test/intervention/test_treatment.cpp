@@ -56,7 +56,7 @@ TEST(Treatment, LeavesTheRecoilAsStenosisAfterBalloonAngioplasty)
   const TreatmentEvents events = inflateAndDeflate(treatment, opening, 8.0 * kAtmosphere, shaftAt(kLesion));
   const LesionReport report = reportLesion(opening.mesh(), vessel.centreline, lesion);
   EXPECT_NEAR(report.stenosis, 0.10, 0.01);
-  EXPECT_NEAR(report.least_diameter, 0.9 * 3.0e-3, 0.02e-3);
+  EXPECT_NEAR(report.minimal_diameter, 0.9 * 3.0e-3, 0.02e-3);
   EXPECT_NEAR(report.reference_diameter, 3.0e-3, 0.02e-3);
   EXPECT_FALSE(report.stented);
   EXPECT_FALSE(events.burst || events.above_rated || events.stent_lost || opening.atRisk());
@@ -73,7 +73,7 @@ TEST(Treatment, LeavesOnlyTheRecoilOfTheStent)
   ASSERT_EQ(treatment.stent()->state(), StentPlacement::State::kPlaced);
   const LesionReport report =
       reportLesion(opening.mesh(), vessel.centreline, vessel.lesions.front(), &treatment.stent()->sleeve());
-  EXPECT_NEAR(report.least_diameter, 0.95 * 3.0e-3 + 0.18e-3, 0.03e-3);
+  EXPECT_NEAR(report.minimal_diameter, 0.95 * 3.0e-3 + 0.18e-3, 0.03e-3);
   EXPECT_NEAR(report.coverage, 1.0, 1e-9);
   EXPECT_GT(report.apposition, 0.99);
   EXPECT_NEAR(report.placement_error, 0.0, 1e-6);

@@ -69,7 +69,7 @@ struct AnatomyChain
 
 /** Samples the chains of an anatomy. The first point of a child chain is moved onto its parent's centreline.
  *  @throws InputError if a branch begins outside of its parent, or its radius of curvature is smaller than its radius
- */
+ *           */
 std::vector<AnatomyChain> sampleChains(const Anatomy& anatomy);
 
 /** Centreline tree of the sampled chains, one branch per branch of the anatomy. */

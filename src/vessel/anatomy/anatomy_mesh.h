@@ -20,7 +20,7 @@ std::string anatomyCacheFolder();
 
 /** Reads an anatomy file. The mesh comes from the cache, or is generated and cached (about ten seconds).
  *  @param cache_folder folder of cached meshes; empty disables the cache. Damaged entries are rebuilt. A read-only
- * folder is no error.
+ *           folder is no error.
  *  @throws InputError if the file is invalid */
 Vessel loadAnatomy(const std::string& file, const std::string& cache_folder = anatomyCacheFolder());
 

@@ -168,9 +168,9 @@ FieldSample ImplicitVessel::at(const Eigen::Vector3d& p) const
   field.edge_length = longest_facet_;
   for (const Tube& tube : tubes_)
   {
-    const double least = tube.axis_box.exteriorDistance(p) - tube.widest;
-    const bool far_from_wall = least >= field.distance + blend_ * tube.widest;
-    const bool has_longer_edges = tube.shortest_edge + kEdgeGrowth * std::max(least, 0.0) >= field.edge_length;
+    const double lower_bound = tube.axis_box.exteriorDistance(p) - tube.widest;
+    const bool far_from_wall = lower_bound >= field.distance + blend_ * tube.widest;
+    const bool has_longer_edges = tube.shortest_edge + kEdgeGrowth * std::max(lower_bound, 0.0) >= field.edge_length;
     if (far_from_wall && has_longer_edges)
       continue;
     const TubeSample sample = sampleTube(tube, p);

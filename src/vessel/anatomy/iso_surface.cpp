@@ -19,7 +19,7 @@ constexpr double kCube = 16e-3;
 constexpr double kCoarseness = 2.0;
 /** Lipschitz constant of the field: the wall is at least |distance|/kSteepest away from a point. */
 constexpr double kSteepest = 1.3;
-/** Least distance of an intersection from the ends of its edge, as a fraction of the edge. */
+/** Minimum distance of an intersection from the ends of its edge, as a fraction of the edge. */
 constexpr double kCornerMargin = 0.03;
 
 /** Tetrahedron in Maubach's vertex order: its refinement edge joins corner 0 and corner `tag`. */
@@ -80,14 +80,14 @@ private:
   /** False if the values at the corners exclude that the wall intersects the tetrahedron. */
   bool nearWall(const Tetrahedron& t, double longest) const
   {
-    double least = 1e300;
+    double min_distance = 1e300;
     int inside = 0;
     for (int v : t.corner)
     {
-      least = std::min(least, std::abs(at(v).distance));
+      min_distance = std::min(min_distance, std::abs(at(v).distance));
       inside += at(v).distance < 0.0 ? 1 : 0;
     }
-    return (inside > 0 && inside < 4) || least < 0.7 * kSteepest * longest;
+    return (inside > 0 && inside < 4) || min_distance < 0.7 * kSteepest * longest;
   }
 
   bool tooCoarse(const Tetrahedron& t) const

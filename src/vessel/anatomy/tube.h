@@ -35,7 +35,7 @@ struct TubeShape
 constexpr double kTubeRunIn = 4.0;
 
 /** Closed mesh of the tube with flat end caps. Vertices lie exactly on the wall; the centres of the inscribed facets
- * are radius·(1 − cos(π/facets_around)) inside.
+ *  are radius·(1 − cos(π/facets_around)) inside.
  *  @throws InputError for a tube without pieces, a bend tighter than its radius, or a direction of zero length */
 geometry::TriangleMesh tubeMesh(const TubeShape& shape);
 

@@ -9,7 +9,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kSpacing = 0.25;  // least spacing of evaluated points, in radii of the lumen
+constexpr double kSpacing = 0.25;  // minimum spacing of evaluated points, in radii of the lumen
 
 /** Menger curvature: curvature of the circle through three points [1/m]. */
 double circleCurvature(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)

@@ -15,12 +15,12 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Least spacing of the thinned spheres, in radii: sparse enough for a graph, dense enough to overlap. */
+/** Minimum spacing of the thinned spheres, in radii: sparse enough for a graph, dense enough to overlap. */
 constexpr double kSphereSpacing = 0.6;
 /** Spacing of the centreline's points, in mean radii of the branch. */
 constexpr double kPointSpacing = 0.35;
 constexpr int kCentringRounds = 4;
-/** Least decrease of the radius per length towards the rim of a flat cap. It is 1/√2 there, and smaller in a tapering
+/** Minimum decrease of the radius per length towards the rim of a flat cap. It is 1/√2 there, and smaller in a tapering
  *  vessel. */
 constexpr double kRimSlope = 0.35;
 /** Gap between the line's end and the cap, as a fraction of the extension. */

@@ -10,7 +10,7 @@ namespace endovascular_sim::vessel
  *
  *  1. Overlapping medial spheres form a graph, so that the resolution follows the vessel's radius.
  *  2. Branches are minimal paths of ∫ds/r² in the graph, traced from the farthest uncovered sphere. Each path covers
- * its surroundings (after M. Sato et al., "TEASAR: tree-structure extraction algorithm for accurate and robust
+ *     its surroundings (after M. Sato et al., "TEASAR: tree-structure extraction algorithm for accurate and robust
  *     skeletons", 2000).
  *  3. The paths are moved onto the ridge of the distance to the wall and extended to the end caps.
  *

@@ -11,11 +11,11 @@ namespace
 
 /** Distance covered by a path, in radii. The rim of a flat cap is at √2. */
 constexpr double kCover = 1.2;
-/** Least length of a branch outside of the covered region, in radii of the branch. */
+/** Minimum length of a branch outside of the covered region, in radii of the branch. */
 constexpr double kShortestBranch = 1.0;
-/** Least slope of the radius along a groove that leads into a lumen. A tapering vessel has a smaller slope. */
+/** Minimum slope of the radius along a groove that leads into a lumen. A tapering vessel has a smaller slope. */
 constexpr double kGrooveSlope = 0.1;
-/** Least radius of a tip relative to the largest sphere that is reachable along a groove. */
+/** Minimum radius of a tip relative to the largest sphere that is reachable along a groove. */
 constexpr double kGrooveDepth = 0.5;
 /** Range of a sphere, in radii, within which spheres below kGrooveDepth of its radius are no tips. Such spheres fill
  *  crevices between adjacent vessels. */

@@ -19,7 +19,7 @@ constexpr int kDeepestSplit = 9;
 constexpr double kSampleSpacing = 0.7;
 /** Largest number of sampled triangles; larger meshes are sampled with a stride. */
 constexpr std::size_t kMaxTriangles = 40000;
-/** Least gain of distance per step length away from the nearest wall. The gain is smaller at the ridge. */
+/** Minimum gain of distance per step length away from the nearest wall. The gain is smaller at the ridge. */
 constexpr double kMinGain = 0.3;
 /** Cosine of the smallest separation angle of a medial sphere in a lumen (110°). Spheres in grooves between facets and
  *  in the rims of flat caps have smaller angles. */

@@ -30,7 +30,7 @@ std::vector<MedialSphere> thinSpheres(std::vector<MedialSphere> spheres, double 
 std::vector<std::vector<int>> overlappingSpheres(const std::vector<MedialSphere>& spheres);
 
 /** Connects components of the overlap graph, for instance at the ostium of a small vessel. Pairs of spheres are
- * connected by increasing gap if their line of sight is free and their gap is at most the larger radius. */
+ *  connected by increasing gap if their line of sight is free and their gap is at most the larger radius. */
 void connectComponents(const std::vector<MedialSphere>& spheres, const geometry::MeshDistance& distance,
                        std::vector<std::vector<int>>& neighbours);
 

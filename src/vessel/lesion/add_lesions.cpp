@@ -25,7 +25,7 @@ namespace
 
 constexpr double kHighestGrade = 0.99;
 constexpr double kGradeTolerance = 0.05;  // largest deviation of the measured grade in a separate lumen
-constexpr int kCentrelinePoints = 24;     // least number of centreline segments over a lesion
+constexpr int kCentrelinePoints = 24;     // minimum number of centreline segments over a lesion
 
 std::string branchNames(const CentrelineTree& tree)
 {
@@ -64,8 +64,8 @@ Lesion resolvePoint(Lesion lesion, const CentrelineTree& tree, const std::string
 }
 
 /** Validates a lesion and locates it on its branch. */
-PlacedLesion place(const Lesion& specified, const CentrelineTree& tree, const std::string& source,
-                   const std::string& origin, const std::string& key)
+PlacedLesion locate(const Lesion& specified, const CentrelineTree& tree, const std::string& source,
+                    const std::string& origin, const std::string& key)
 {
   const Lesion lesion = resolvePoint(specified, tree, origin, key);
   PlacedLesion placed;
@@ -101,8 +101,8 @@ PlacedLesion place(const Lesion& specified, const CentrelineTree& tree, const st
 }
 
 /** Rejects a lesion at a location where its branch still runs inside a wider branch. */
-void requireOwnLumen(const PlacedLesion& placed, const CentrelineTree& tree, const std::string& origin,
-                     const std::string& key)
+void requireSeparateLumen(const PlacedLesion& placed, const CentrelineTree& tree, const std::string& origin,
+                          const std::string& key)
 {
   const CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(placed.branch)];
   const geometry::Polyline own(branch.points);
@@ -167,7 +167,7 @@ void narrowCentreline(CentrelineTree& tree, const PlacedLesion& placed, const Le
   CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(placed.branch)];
   for (std::size_t k = 0; k < branch.points.size(); ++k)
   {
-    const LesionShape::Image image = shape.at(branch.points[k]);
+    const LesionShape::Image image = shape.map(branch.points[k]);
     if (image.narrowing <= 0.0)
       continue;
     for (CentrelineBranch& other : tree.branches)
@@ -185,8 +185,8 @@ void requireGrade(const PlacedLesion& placed, const std::string& origin, const s
   if (std::abs(grade - placed.lesion.grade) <= kGradeTolerance)
     return;
   std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << "\"" << placed.lesion.branch
-       << "\" has no lumen of its own there (grade " << placed.lesion.grade << " specified, " << grade
+  text << std::fixed << std::setprecision(2) << "\"" << placed.lesion.branch << "\" has no separate lumen there (grade "
+       << placed.lesion.grade << " specified, " << grade
        << " measured): it runs inside of another branch or through a junction; move the lesion along the branch";
   throw InputError(origin, key, text.str());
 }
@@ -211,8 +211,8 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
   for (std::size_t k = 0; k < lesions.size(); ++k)
   {
     const std::string key = "vessel.lesions." + std::to_string(k);
-    all.push_back(place(lesions[k], healthy, vessel.source, origin, key));
-    requireOwnLumen(all.back(), healthy, origin, key);
+    all.push_back(locate(lesions[k], healthy, vessel.source, origin, key));
+    requireSeparateLumen(all.back(), healthy, origin, key);
   }
   for (std::size_t k = 0; k < all.size(); ++k)
   {
@@ -228,7 +228,7 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
                        "the wall would fold there; move the lesion away from the junction, increase its length, or "
                        "reduce its grade");
     const geometry::MeshDistance narrowed_distance(narrowed);
-    placed.narrowed_diameter = lumenDiameter(narrowed_distance, shape.at(shape.middle()).position, shape.direction());
+    placed.narrowed_diameter = lumenDiameter(narrowed_distance, shape.map(shape.middle()).position, shape.direction());
     requireGrade(placed, origin, key);
     vessel.mesh = std::move(narrowed);
     refineCentreline(vessel.centreline.branches[static_cast<std::size_t>(placed.branch)], placed);
@@ -242,7 +242,7 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
     const geometry::Polyline before(healthy.branches[static_cast<std::size_t>(placed.branch)].points);
     const LesionShape shape(healthy.branches[static_cast<std::size_t>(placed.branch)], placed.lesion, placed.middle);
     const geometry::Polyline now(vessel.centreline.branches[static_cast<std::size_t>(placed.branch)].points);
-    const Eigen::Vector3d middle = shape.at(shape.middle()).position;
+    const Eigen::Vector3d middle = shape.map(shape.middle()).position;
     const Eigen::Vector3d ends[2] = {before.at(placed.begin), before.at(placed.end)};
     placed.begin = now.nearest(ends[0]).arc;
     placed.middle = now.nearest(middle).arc;

@@ -13,7 +13,7 @@ namespace endovascular_sim::vessel
  *  ½·grade·(1 + cos 2πx/length) (D. F. Young, "Effect of a time-dependent stenosis on flow through a tube", 1968).
  *  Cross-sections of any shape shrink towards the centreline, or towards a point beside it for an eccentric lesion. The
  *  wall within a lesion is remeshed with an edge length of 1/24 of the narrowed circumference. Centreline, radii and
- * the vessel's list of lesions are updated.
+ *  the vessel's list of lesions are updated.
  *
  *  @pre the vessel's mesh is clean and its centreline is present
  *  @param origin file of the scene, for errors

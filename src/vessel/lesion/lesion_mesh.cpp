@@ -72,7 +72,7 @@ geometry::TriangleMesh refineLongFacets(const geometry::TriangleMesh& mesh, cons
       const int k = longestSide(edit, t, side);
       const Eigen::Vector3i& c = edit.triangle(t);
       if (side <= kLongestFacet * length ||
-          !shape.isNear(0.5 * (edit.position(c[k]) + edit.position(c[(k + 1) % 3])), side))
+          !shape.affects(0.5 * (edit.position(c[k]) + edit.position(c[(k + 1) % 3])), side))
         continue;
       splitTowards(edit, t);
       any = true;
@@ -93,12 +93,12 @@ std::vector<char> verticesWithin(const geometry::TriangleMesh& mesh, const std::
   double nearest = 1e300;
   for (std::size_t v = 0; v < n; ++v)
   {
-    within[v] = shape.at(healthy[v]).narrowing > 0.0 ? 1 : 0;
+    within[v] = shape.map(healthy[v]).narrowing > 0.0 ? 1 : 0;
     const double radii = within[v] != 0 ? shape.foot(mesh.vertices[v]).radii : nearest;
     if (radii < nearest)
       nearest = radii, first = v;
   }
-  std::vector<char> taken(n, 0);
+  std::vector<char> selected(n, 0);
   const EditableMesh topology(mesh);
   std::vector<int> open;
   if (first < n)
@@ -107,19 +107,19 @@ std::vector<char> verticesWithin(const geometry::TriangleMesh& mesh, const std::
   {
     const int v = open.back();
     open.pop_back();
-    if (taken[static_cast<std::size_t>(v)] != 0)
+    if (selected[static_cast<std::size_t>(v)] != 0)
       continue;
-    taken[static_cast<std::size_t>(v)] = 1;
+    selected[static_cast<std::size_t>(v)] = 1;
     for (int next : topology.neighbours(v))
       if (within[static_cast<std::size_t>(next)] != 0)
         open.push_back(next);
   }
-  return taken;
+  return selected;
 }
 
 /** Mesh of the triangles with a selected vertex and of their neighbours. It contains the whole wall of the lesion and
  *  retains all vertices. */
-geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::vector<char>& taken)
+geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::vector<char>& selected)
 {
   geometry::TriangleMesh patch;
   patch.vertices = mesh.vertices;
@@ -128,9 +128,9 @@ geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::ve
     return marked[static_cast<std::size_t>(t[0])] != 0 || marked[static_cast<std::size_t>(t[1])] != 0 ||
            marked[static_cast<std::size_t>(t[2])] != 0;
   };
-  std::vector<char> wide = taken;
+  std::vector<char> wide = selected;
   for (const Eigen::Vector3i& t : mesh.triangles)
-    if (touches(taken, t))
+    if (touches(selected, t))
       for (int k = 0; k < 3; ++k)
         wide[static_cast<std::size_t>(t[k])] = 1;
   for (const Eigen::Vector3i& t : mesh.triangles)
@@ -151,8 +151,8 @@ public:
   /** The edge length is 0 outside the lesion. */
   TargetPoint project(const Eigen::Vector3d& p) const override
   {
-    const geometry::ClosestPoint at = healthyPoint(shape_.before(p));
-    const LesionShape::Image image = shape_.at(at.point);
+    const geometry::ClosestPoint at = healthyPoint(shape_.inverse(p));
+    const LesionShape::Image image = shape_.map(at.point);
     const Eigen::Vector3d normal = geometry::normalAt(healthy_, normals_, at).normalized();
     if (!(image.narrowing > 0.0))
       return {p, normal, 0.0};
@@ -161,13 +161,13 @@ public:
     const Eigen::Vector3d u = normal.unitOrthogonal();
     const Eigen::Vector3d v = normal.cross(u);
     const auto along = [&](const Eigen::Vector3d& d)
-    { return Eigen::Vector3d(shape_.at(at.point + h * d).position - shape_.at(at.point - h * d).position); };
+    { return Eigen::Vector3d(shape_.map(at.point + h * d).position - shape_.map(at.point - h * d).position); };
     return {image.position, along(u).cross(along(v)).normalized(), image.edge_length};
   }
 
 private:
   /** Radial projection from the axis onto the healthy wall; injective in spite of creases. At a side branch, the
-   * closest point is used instead. */
+   *  closest point is used instead. */
   geometry::ClosestPoint healthyPoint(const Eigen::Vector3d& p) const
   {
     const LesionShape::Foot foot = shape_.foot(p);
@@ -193,8 +193,8 @@ geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const Centrelin
   Lesion stage = lesion;
   mesh = refineLongFacets(mesh, LesionShape(branch, lesion, middle), lesion.length);
   std::vector<Eigen::Vector3d> healthy = mesh.vertices;
-  std::vector<char> taken = verticesWithin(mesh, healthy, LesionShape(branch, lesion, middle));
-  const geometry::TriangleMesh patch = patchOf(mesh, taken);
+  std::vector<char> selected = verticesWithin(mesh, healthy, LesionShape(branch, lesion, middle));
+  const geometry::TriangleMesh patch = patchOf(mesh, selected);
   double left = 1.0;
   for (bool last = !(lesion.grade > 0.0); !last;)
   {
@@ -203,15 +203,15 @@ geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const Centrelin
     stage.grade = last ? lesion.grade : 1.0 - left;
     const LesionShape shape(branch, stage, middle);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (taken[v] != 0)
-        mesh.vertices[v] = shape.at(healthy[v]).position;
-    mesh = remeshRegion(mesh, LesionTarget(patch, shape), taken, kRemeshRounds);
+      if (selected[v] != 0)
+        mesh.vertices[v] = shape.map(healthy[v]).position;
+    mesh = remeshRegion(mesh, LesionTarget(patch, shape), selected, kRemeshRounds);
     if (last)
       break;
     healthy.clear();
     for (const Eigen::Vector3d& p : mesh.vertices)
-      healthy.push_back(shape.before(p));
-    taken = verticesWithin(mesh, healthy, shape);
+      healthy.push_back(shape.inverse(p));
+    selected = verticesWithin(mesh, healthy, shape);
   }
   return mesh;
 }
@@ -224,7 +224,7 @@ bool hasFoldedFaces(const geometry::TriangleMesh& mesh, const geometry::Triangle
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
     const Eigen::Vector3d middle = (a + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
     const LesionShape::Foot foot = shape.foot(middle);
-    if (shape.lostAt(foot.from_middle) <= 0.0 || foot.radii > 1.0)
+    if (shape.narrowingAt(foot.from_middle) <= 0.0 || foot.radii > 1.0)
       continue;
     const Eigen::Vector3d normal = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
     if (normal.dot(wall.project(middle).normal) <= 0.0)

@@ -8,7 +8,7 @@ namespace endovascular_sim::vessel
 {
 
 /** Mesh with a lesion. The wall is narrowed and remeshed in stages that limit the distortion of facets. Vertices
- * outside the lesion are unchanged.
+ *  outside the lesion are unchanged.
  *  @param branch healthy branch
  *  @param middle arc length of the throat on the branch [m] */
 geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const CentrelineBranch& branch, const Lesion& lesion,

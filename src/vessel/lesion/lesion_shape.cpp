@@ -57,7 +57,7 @@ LesionShape::LesionShape(const CentrelineBranch& branch, const Lesion& lesion, d
   away_ = -sideOf(direction(), lesion.angle);
 }
 
-double LesionShape::lostAt(double from_middle) const
+double LesionShape::narrowingAt(double from_middle) const
 {
   const double x = std::abs(from_middle) / lesion_.length;
   return x < 0.5 ? 0.5 * lesion_.grade * (1.0 + std::cos(2.0 * M_PI * x)) : 0.0;
@@ -70,19 +70,19 @@ LesionShape::Foot LesionShape::foot(const Eigen::Vector3d& p) const
   return {on_axis.point, on_axis.distance, on_axis.distance / radius, on_axis.arc - middle_};
 }
 
-bool LesionShape::isNear(const Eigen::Vector3d& p, double distance) const
+bool LesionShape::affects(const Eigen::Vector3d& p, double distance) const
 {
   const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(p);
   return std::abs(on_axis.arc - middle_) < 0.5 * lesion_.length + distance &&
          on_axis.distance - distance < kNoReach * axis_.interpolate(radii_, on_axis.arc);
 }
 
-LesionShape::Image LesionShape::at(const Eigen::Vector3d& p) const
+LesionShape::Image LesionShape::map(const Eigen::Vector3d& p) const
 {
   const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(p);
   const double radius = axis_.interpolate(radii_, on_axis.arc);
   Image image;
-  image.narrowing = lostAt(on_axis.arc - middle_) * mapWeight(on_axis.distance / radius);
+  image.narrowing = narrowingAt(on_axis.arc - middle_) * mapWeight(on_axis.distance / radius);
   image.edge_length =
       std::min(2.0 * M_PI * radius * (1.0 - image.narrowing) / kFacetsAround, lesion_.length / kFacetsAlong);
   image.position = p - image.narrowing * (p - fixedPoint(on_axis, radius));
@@ -98,15 +98,15 @@ Eigen::Vector3d LesionShape::fixedPoint(const geometry::Polyline::Foot& on_axis,
   return on_axis.point + lesion_.eccentricity * radius * across.normalized();
 }
 
-Eigen::Vector3d LesionShape::before(const Eigen::Vector3d& image) const
+Eigen::Vector3d LesionShape::inverse(const Eigen::Vector3d& image) const
 {
   const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(image);
-  const double most = lostAt(on_axis.arc - middle_);
-  if (most <= 0.0)
+  const double narrowing = narrowingAt(on_axis.arc - middle_);
+  if (narrowing <= 0.0)
     return image;
   const Eigen::Vector3d fixed = fixedPoint(on_axis, axis_.interpolate(radii_, on_axis.arc));
   const Eigen::Vector3d offset = image - fixed;
-  double high = 1.0 / (1.0 - most);
+  double high = 1.0 / (1.0 - narrowing);
   if (foot(fixed + high * offset).radii <= kFullReach)
     return fixed + high * offset;
   // Bisection in the transition of the weight: the map is monotonic along a ray from the fixed point.
@@ -114,7 +114,7 @@ Eigen::Vector3d LesionShape::before(const Eigen::Vector3d& image) const
   for (int k = 0; k < kBisections; ++k)
   {
     const double middle = 0.5 * (low + high);
-    const bool beyond = (at(fixed + middle * offset).position - fixed).dot(offset) > offset.squaredNorm();
+    const bool beyond = (map(fixed + middle * offset).position - fixed).dot(offset) > offset.squaredNorm();
     (beyond ? high : low) = middle;
   }
   return fixed + low * offset;

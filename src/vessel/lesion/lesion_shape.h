@@ -29,10 +29,10 @@ public:
     double narrowing = 0.0;    ///< relative reduction of the distance from the fixed point; 0 outside the lesion
     double edge_length = 0.0;  ///< target edge length of the mesh [m]
   };
-  Image at(const Eigen::Vector3d& p) const;
+  Image map(const Eigen::Vector3d& p) const;
 
   /** Inverse map: the point whose image is @p image. */
-  Eigen::Vector3d before(const Eigen::Vector3d& image) const;
+  Eigen::Vector3d inverse(const Eigen::Vector3d& image) const;
 
   /** Foot point on the axis of the healthy branch. */
   struct Foot
@@ -45,10 +45,10 @@ public:
   Foot foot(const Eigen::Vector3d& p) const;
 
   /** Relative loss of diameter at an arc length from the throat. */
-  double lostAt(double from_middle) const;
+  double narrowingAt(double from_middle) const;
 
   /** True if the lesion affects points within a distance [m] of a point. */
-  bool isNear(const Eigen::Vector3d& p, double distance) const;
+  bool affects(const Eigen::Vector3d& p, double distance) const;
 
   Eigen::Vector3d middle() const { return axis_.at(middle_); }  ///< throat on the healthy axis [m]
   Eigen::Vector3d direction() const { return axis_.normalPlaneFoot(middle()).tangent; }  ///< tangent at the throat

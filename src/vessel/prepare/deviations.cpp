@@ -18,13 +18,13 @@ namespace
 /** Spacing of the surface samples, in voxels. */
 constexpr double kSampleSpacing = 2.0;
 /** Depth below the union's surface, in voxels, beyond which a wall of the input is not the wall of the lumen. It
- * exceeds the error of the grid, which rounds a right-angled crease by half a voxel diagonal. */
+ *  exceeds the error of the grid, which rounds a right-angled crease by half a voxel diagonal. */
 constexpr double kBuried = 0.75;
 /** Largest number of winding number queries; each costs a pass over all triangles. */
 constexpr int kMaxWindingQueries = 3000;
 /** Offset from a wall of the queries on its two sides, in voxels. */
 constexpr double kSideOffset = 0.05;
-/** Least absolute cosine between the normals of walls that face each other. */
+/** Minimum absolute cosine between the normals of walls that face each other. */
 constexpr double kFacing = 0.8;
 
 /** Components of a triangle soup as solids, for point containment. */

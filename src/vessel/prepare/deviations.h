@@ -21,7 +21,7 @@ struct InputSurfaces
 void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report);
 
 /** Samples gaps between walls of the input that are narrower than two voxels, and counts those that the result retains.
- */
+ *  */
 NarrowGaps measureGaps(const InputSurfaces& input, const geometry::TriangleMesh& result);
 
 }  // namespace endovascular_sim::vessel

@@ -44,8 +44,8 @@ Eigen::Vector3d around(const Eigen::Vector3d& axis, int k, int count)
 }
 
 /** Distances to the wall along rays in a plane, limited to the plug's radius [m]. */
-std::vector<double> reaches(const Plug& plug, const Eigen::Vector3d& normal, const geometry::MeshDistance& walls,
-                            int count)
+std::vector<double> wallDistances(const Plug& plug, const Eigen::Vector3d& normal, const geometry::MeshDistance& walls,
+                                  int count)
 {
   std::vector<double> result;
   for (int k = 0; k < count; ++k)
@@ -58,7 +58,7 @@ std::vector<double> reaches(const Plug& plug, const Eigen::Vector3d& normal, con
 
 }  // namespace
 
-Disc discOver(const Plug& plug, const geometry::MeshDistance& walls, double overlap, const std::string& source)
+Disc fitDisc(const Plug& plug, const geometry::MeshDistance& walls, double overlap, const std::string& source)
 {
   Disc disc;
   disc.centre = plug.centre;
@@ -70,7 +70,7 @@ Disc discOver(const Plug& plug, const geometry::MeshDistance& walls, double over
     const double hit = walls.rayHit(plug.centre, normal);
     free += (hit < 0.0 ? kSight * plug.radius : std::min(hit, kSight * plug.radius)) * normal;
     double size = 0.0;
-    for (double reach : reaches(plug, normal, walls, kTrialEdges))
+    for (double reach : wallDistances(plug, normal, walls, kTrialEdges))
       size += reach < plug.radius ? reach * reach : 1e3 * plug.radius * plug.radius;
     if (size >= smallest)
       continue;
@@ -79,7 +79,7 @@ Disc discOver(const Plug& plug, const geometry::MeshDistance& walls, double over
   }
   if (free.dot(disc.out) < 0.0)
     disc.out = -disc.out;
-  const std::vector<double> reach = reaches(plug, disc.out, walls, kRimEdges);
+  const std::vector<double> reach = wallDistances(plug, disc.out, walls, kRimEdges);
   disc.reach = *std::max_element(reach.begin(), reach.end());
   if (disc.reach >= plug.radius)
     throw InputError(source, "--plug",
@@ -99,17 +99,17 @@ Disc discOver(const Plug& plug, const geometry::MeshDistance& walls, double over
 geometry::TriangleMesh innerWall(const geometry::TriangleMesh& soup, const geometry::TriangleMesh& outside,
                                  double depth, const std::vector<Disc>& discs)
 {
-  const geometry::SignedMeshDistance side(outside);
-  const auto beside = [&](const Eigen::Vector3d& p, const Disc& disc)
+  const geometry::SignedMeshDistance outer_wall(outside);
+  const auto isBelow = [&](const Eigen::Vector3d& p, const Disc& disc)
   {
     const Eigen::Vector3d from = p - disc.centre;
     const double height = from.dot(disc.out);
     return height < 0.0 && height > -kBelowDisc * depth && (from - height * disc.out).norm() < disc.reach + depth;
   };
-  const auto keeps = [&](const Eigen::Vector3d& p)
+  const auto isInner = [&](const Eigen::Vector3d& p)
   {
-    return side.at(p) < -depth ||
-           std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) { return beside(p, disc); });
+    return outer_wall.at(p) < -depth ||
+           std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) { return isBelow(p, disc); });
   };
   geometry::TriangleMesh kept;
   for (const Eigen::Vector3i& whole : soup.triangles)
@@ -118,7 +118,7 @@ geometry::TriangleMesh innerWall(const geometry::TriangleMesh& soup, const geome
     for (const std::array<Eigen::Vector3d, 3>& part :
          geometry::bisectTriangle({corner(0), corner(1), corner(2)}, kPartLength * depth))
     {
-      if (!keeps((part[0] + part[1] + part[2]) / 3.0))
+      if (!isInner((part[0] + part[1] + part[2]) / 3.0))
         continue;
       const int first = static_cast<int>(kept.vertices.size());
       kept.vertices.insert(kept.vertices.end(), part.begin(), part.end());

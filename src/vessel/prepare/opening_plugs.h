@@ -31,7 +31,7 @@ struct Disc
  *  @param overlap extension of the disc beyond the wall's surface [m]
  *  @param source name of the mesh in errors
  *  @throws InputError if no wall surrounds the plug within its radius */
-Disc discOver(const Plug& plug, const geometry::MeshDistance& walls, double overlap, const std::string& source);
+Disc fitDisc(const Plug& plug, const geometry::MeshDistance& walls, double overlap, const std::string& source);
 
 /** Inner surface of a thick wall: triangles deeper than a threshold below its outer surface, and triangles near the
  *  discs on their inner side. The result is a soup of small triangles.

@@ -105,7 +105,7 @@ private:
     soup_ = std::move(closed.mesh);
     const geometry::MeshDistance walls(input_);
     for (const Plug& plug : options_.plugs)
-      discs_.push_back(discOver(plug, walls, 0.5 * voxel_, source_));
+      discs_.push_back(fitDisc(plug, walls, 0.5 * voxel_, source_));
     own_triangles_ = input_.triangles.size();
     appendDiscs();
     if (options_.hollow)
@@ -122,7 +122,7 @@ private:
       report().separated_sheets = std::move(united.separated);
       std::vector<geometry::TriangleMesh> pieces = splitComponents(united.mesh);
       united_ = std::move(pieces.front());
-      if (united_.signedVolume() < least_volume_)
+      if (united_.signedVolume() < min_volume_)
         throw InputError(source_, "--hollow", "finds no cavity inside the wall; close every opening with a --plug");
       pieces.erase(pieces.begin());
       if (!addBridges(pieces))
@@ -143,7 +143,7 @@ private:
     const geometry::TriangleMesh outside = unite(soup_, voxel_).mesh;
     geometry::TriangleMesh walls = innerWall(soup_, outside, kHollowDepth * voxel_, discs_);
     own_triangles_ = walls.triangles.size();
-    least_volume_ = kCrumb * outside.signedVolume();
+    min_volume_ = kCrumb * outside.signedVolume();
     soup_ = std::move(walls);
     appendDiscs();
   }
@@ -263,7 +263,7 @@ private:
   double voxel_ = 0.0;
   std::vector<Disc> discs_;        ///< discs of the plugged openings
   std::size_t own_triangles_ = 0;  ///< number of triangles of the input in soup_
-  double least_volume_ = 0.0;      ///< smallest volume of a vessel [m³]
+  double min_volume_ = 0.0;        ///< smallest volume of a vessel [m³]
   geometry::TriangleMesh soup_;    ///< input, lids, discs, bridges
   geometry::TriangleMesh united_;  ///< outer wall at the resolution of the grid
   std::vector<double> limits_;     ///< largest displacement by smoothing, per vertex [m]

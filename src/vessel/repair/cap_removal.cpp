@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr int kMaxRounds = 200;  // in a row of caps, each round flips the outermost ones
-constexpr double kGain = 1.01;   // least gain of height by a flip, above rounding
+constexpr double kGain = 1.01;   // minimum gain of height by a flip, above rounding
 
 /** Area vector times two: normal of the triangle [m²]. */
 Eigen::Vector3d areaVector(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& triangle)

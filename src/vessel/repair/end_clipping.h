@@ -18,7 +18,7 @@ struct ClipPlane
 };
 
 /** Clips the end of a vessel: removes the part beyond the plane that is connected to the tip. The rim of the new
- * opening lies in the plane. Vertices next to the plane are snapped onto it to avoid slivers.
+ *  opening lies in the plane. Vertices next to the plane are snapped onto it to avoid slivers.
  *  @param source name of the mesh in errors
  *  @throws InputError if the plane would remove more than the end */
 geometry::TriangleMesh clipEnd(const geometry::TriangleMesh& mesh, const ClipPlane& plane, const std::string& source);

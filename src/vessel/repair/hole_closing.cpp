@@ -15,7 +15,7 @@ namespace
 
 /** Largest unevenness of a planar rim, relative to its perimeter. */
 constexpr double kFlat = 1e-3;
-/** Least number of edges of a vessel's end; holes with fewer edges are defects. */
+/** Minimum number of edges of a vessel's end; holes with fewer edges are defects. */
 constexpr int kMinEdges = 8;
 
 /** Boundary edge in the direction of its face. */

@@ -14,7 +14,7 @@ namespace endovascular_sim::vessel
 /** Parameters of the sizing field. */
 struct SizingRule
 {
-  int facets_around = 24;   ///< least number of facets around a lumen
+  int facets_around = 24;   ///< minimum number of facets around a lumen
   double deviation = 5e-5;  ///< largest distance of a facet's centre from a cylinder of the lumen's radius [m]
   double shortest = 2e-4;   ///< smallest edge length [m]
   double longest = 2.5e-3;  ///< largest edge length [m]

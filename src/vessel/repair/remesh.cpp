@@ -17,8 +17,8 @@ constexpr double kLongest = 4.0 / 3.0;
 constexpr double kShortest = 4.0 / 5.0;
 /** Cosine of the largest rotation of a face normal by a collapse or flip. */
 constexpr double kMaxRotation = 0.5;
-/** Guards at the creases of a coarse wall, where several points may have the same projection: least ratio of a face's
- *  new area to the old one, and least relative length of the parts of a split edge. Smooth targets need no guards. */
+/** Guards at the creases of a coarse wall, where several points may have the same projection: minimum ratio of a face's
+ *  new area to the old one, and minimum relative length of the parts of a split edge. Smooth targets need no guards. */
 constexpr double kMinAreaRatio = 1e-7;
 constexpr double kMinSplitRatio = 0.05;
 

@@ -36,8 +36,7 @@ geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const RemeshTa
 
 /** Remeshes a region. Fixed vertices and the triangles between them are unchanged.
  *  @param is_free per vertex, 1 if it may move, else 0; new vertices may move where the target's edge length is
- * positive
- */
+ *           positive */
 geometry::TriangleMesh remeshRegion(const geometry::TriangleMesh& mesh, const RemeshTarget& target,
                                     const std::vector<char>& is_free, int rounds = 6);
 
