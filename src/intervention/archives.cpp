@@ -43,15 +43,16 @@ void Treatment::archive(Archive& archive)
 void VesselDilatation::archive(Archive& archive)
 {
   std::vector<int> changed;
-  for (std::size_t v = 0; v < walls_.size() && !archive.reading(); ++v)
-    if (walls_[v].active || walls_[v].peak != 0.0 || walls_[v].base != initial_vertices_[v] ||
+  for (std::size_t v = 0; v < vertices_.size() && !archive.reading(); ++v)
+    if (vertices_[v].active || vertices_[v].peak != 0.0 || vertices_[v].base != initial_vertices_[v] ||
         mesh_.vertices[v] != initial_vertices_[v])
       changed.push_back(static_cast<int>(v));
   archive(changed, active_, next_.first, next_.second, empty_, largest_displacement_, peak_pressure_, largest_stretch_);
   for (int v : changed)
   {
-    Wall& wall = walls_.at(static_cast<std::size_t>(v));
-    archive(mesh_.vertices[static_cast<std::size_t>(v)], wall.base, wall.peak, wall.rest, wall.held, wall.active);
+    VertexState& vertex_state = vertices_.at(static_cast<std::size_t>(v));
+    archive(mesh_.vertices[static_cast<std::size_t>(v)], vertex_state.base, vertex_state.peak, vertex_state.rest,
+            vertex_state.held, vertex_state.active);
   }
 }
 

@@ -41,7 +41,7 @@ VesselDilatation::VesselDilatation(const vessel::Vessel& vessel, const Dilatatio
     initial_vertices_(vessel.mesh.vertices),
     normals_(geometry::vertexNormals(vessel.mesh)),
     tree_(initial_vertices_),
-    walls_(initial_vertices_.size()),
+    vertices_(initial_vertices_.size()),
     segment_of_(initial_vertices_.size(), 0),
     marked_(initial_vertices_.size(), 0)
 {
@@ -55,20 +55,20 @@ VesselDilatation::VesselDilatation(const vessel::Vessel& vessel, const Dilatatio
   const vessel::BranchFinder branches(vessel.centreline);
   for (std::size_t v = 0; v < initial_vertices_.size(); ++v)
   {
-    walls_[v].base = initial_vertices_[v];
+    vertices_[v].base = initial_vertices_[v];
     const int nearest = branches.nearest(initial_vertices_[v]);
     if (nearest < 0)
       continue;
     const auto b = static_cast<std::size_t>(nearest);
-    walls_[v].healthy_radius = axes[b].interpolate(radii[b], axes[b].nearest(initial_vertices_[v]).arc);
+    vertices_[v].healthy_radius = axes[b].interpolate(radii[b], axes[b].nearest(initial_vertices_[v]).arc);
   }
 }
 
-/** Uses the vertex position of the last empty balloon. */
+/** Evaluated at the base position of the vertex. */
 VesselDilatation::Reach VesselDilatation::reachOf(const geometry::Polyline& axis, const std::vector<double>& radii,
                                                   int vertex) const
 {
-  const Eigen::Vector3d& base = walls_[static_cast<std::size_t>(vertex)].base;
+  const Eigen::Vector3d& base = vertices_[static_cast<std::size_t>(vertex)].base;
   const geometry::Polyline::Foot foot = axis.normalPlaneFoot(base, segment_of_[static_cast<std::size_t>(vertex)]);
   Reach reach;
   const Eigen::Vector3d offset = base - foot.point;
@@ -139,11 +139,11 @@ void VesselDilatation::resetBase()
 {
   for (int v : active_)
   {
-    Wall& wall = walls_[static_cast<std::size_t>(v)];
-    wall.base += wall.held.norm() > wall.rest.norm() ? wall.held : wall.rest;
-    wall.held.setZero();
-    wall.rest.setZero();
-    wall.peak = 0.0;
+    VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];
+    vertex_state.base += vertex_state.held.norm() > vertex_state.rest.norm() ? vertex_state.held : vertex_state.rest;
+    vertex_state.held.setZero();
+    vertex_state.rest.setZero();
+    vertex_state.peak = 0.0;
   }
   peak_pressure_ = 0.0;
   empty_ = true;
@@ -156,9 +156,9 @@ void VesselDilatation::deflate(std::size_t max_vertices)
     resetBase();
   const auto isAtRest = [this, max_vertices](int v)
   {
-    Wall& wall = walls_[static_cast<std::size_t>(v)];
-    wall.active = !moveVertex(v, wall.base, max_vertices);
-    return !wall.active;
+    VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];
+    vertex_state.active = !moveVertex(v, vertex_state.base, max_vertices);
+    return !vertex_state.active;
   };
   active_.erase(std::remove_if(active_.begin(), active_.end(), isAtRest), active_.end());
 }
@@ -167,18 +167,18 @@ void VesselDilatation::deflate(std::size_t max_vertices)
  *  @return radial displacement by the balloon [m] */
 double VesselDilatation::dilate(int vertex, const Reach& reach, double yield_fraction)
 {
-  Wall& wall = walls_[static_cast<std::size_t>(vertex)];
+  VertexState& vertex_state = vertices_[static_cast<std::size_t>(vertex)];
   const double dilatation = yield_fraction * std::max(0.0, reach.radius - reach.distance);
-  if (reach.distance + dilatation > wall.peak && dilatation > 0.0)
+  if (reach.distance + dilatation > vertex_state.peak && dilatation > 0.0)
   {
-    wall.peak = reach.distance + dilatation;
-    wall.rest = std::max(0.0, (1.0 - law_.recoil) * wall.peak - reach.distance) * reach.outward;
-    if (wall.healthy_radius > 0.0)
-      largest_stretch_ = std::max(largest_stretch_, wall.peak / wall.healthy_radius);
+    vertex_state.peak = reach.distance + dilatation;
+    vertex_state.rest = std::max(0.0, (1.0 - law_.recoil) * vertex_state.peak - reach.distance) * reach.outward;
+    if (vertex_state.healthy_radius > 0.0)
+      largest_stretch_ = std::max(largest_stretch_, vertex_state.peak / vertex_state.healthy_radius);
   }
-  if (dilatation > 0.0 && !wall.active)
+  if (dilatation > 0.0 && !vertex_state.active)
   {
-    wall.active = true;
+    vertex_state.active = true;
     active_.push_back(vertex);
   }
   return dilatation;
@@ -207,13 +207,14 @@ const WallDisplacement& VesselDilatation::applyLoad(const RoundBody& balloon, do
   bool deferred = false;
   for (int v : near_)
   {
-    const Wall& wall = walls_[static_cast<std::size_t>(v)];
+    const VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];
     const Reach reach = reachOf(axis, balloon.radii, v);
     const double dilatation = dilate(v, reach, yield_fraction);
-    Eigen::Vector3d shift = dilatation > wall.rest.norm() ? Eigen::Vector3d(dilatation * reach.outward) : wall.rest;
-    if (wall.held.norm() > shift.norm())
-      shift = wall.held;
-    if (!moveVertex(v, wall.base + shift, max_vertices) && !deferred)
+    Eigen::Vector3d shift =
+        dilatation > vertex_state.rest.norm() ? Eigen::Vector3d(dilatation * reach.outward) : vertex_state.rest;
+    if (vertex_state.held.norm() > shift.norm())
+      shift = vertex_state.held;
+    if (!moveVertex(v, vertex_state.base + shift, max_vertices) && !deferred)
       next_ = orderOf(v), deferred = true;
   }
   return displacement_;
@@ -232,14 +233,14 @@ void VesselDilatation::placeSleeve(const RoundBody& sleeve)
   findNear(axis, *std::max_element(sleeve.radii.begin(), sleeve.radii.end()));
   for (int v : near_)
   {
-    Wall& wall = walls_[static_cast<std::size_t>(v)];
+    VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];
     const Reach reach = reachOf(axis, sleeve.radii, v);
     const double outside = reach.radius - reach.distance;
-    if (outside > wall.held.norm())
-      wall.held = outside * reach.outward;
-    if (wall.held.norm() > 0.0 && !wall.active)
+    if (outside > vertex_state.held.norm())
+      vertex_state.held = outside * reach.outward;
+    if (vertex_state.held.norm() > 0.0 && !vertex_state.active)
     {
-      wall.active = true;
+      vertex_state.active = true;
       active_.push_back(v);
     }
   }

@@ -33,11 +33,11 @@ struct DilatationLaw
 
 /** Kinematic model of balloon dilatation and stenting of the wall (docs/INTERVENTION.md).
  *
- *  A vertex within a body of radius r moves radially away from the body's axis, from its distance r₀ to r₀ + s·(r −
- *  r₀). The yield fraction s rises linearly from 0 at the onset pressure to 1 at the full pressure. It never decreases,
- *  because fractured plaque does not heal. When the body shrinks, the wall recoils to the larger of r₀ and (1 − recoil)
- *  times its peak distance. Within a stent the wall stays outside of the stent. Distances refer to the positions at the
- *  last empty balloon, so the result does not depend on the number of calls. */
+ *  A vertex at distance r₀ from the axis of a body of radius r > r₀ moves radially to the distance r₀ + s·(r − r₀). The
+ *  yield fraction s rises linearly from 0 at the onset pressure to 1 at the full pressure. It never decreases, because
+ *  fractured plaque does not heal. When the body shrinks, the wall recoils to the larger of r₀ and (1 − recoil) times
+ *  its peak distance. Within a stent the wall stays outside of the stent. Distances r₀ refer to the positions when the
+ *  balloon was last empty, so the result does not depend on the number of calls. */
 class VesselDilatation
 {
 public:
@@ -76,9 +76,9 @@ public:
 
 private:
   /** Deformation state of a vertex. */
-  struct Wall
+  struct VertexState
   {
-    Eigen::Vector3d base;                            ///< position at the last empty balloon [m]
+    Eigen::Vector3d base;                            ///< position when the balloon was last empty [m]
     double peak = 0.0;                               ///< largest distance from a balloon's axis since then [m]
     Eigen::Vector3d rest = Eigen::Vector3d::Zero();  ///< displacement from the base after recoil [m]
     Eigen::Vector3d held = Eigen::Vector3d::Zero();  ///< displacement from the base to the surface of a stent [m]
@@ -110,14 +110,14 @@ private:
   std::vector<Eigen::Vector3d> initial_vertices_;  ///< undeformed vertices, referenced by the tree [m]
   std::vector<Eigen::Vector3d> normals_;           ///< outward unit normals of the undeformed mesh, per vertex
   geometry::KdTree tree_;
-  std::vector<Wall> walls_;
+  std::vector<VertexState> vertices_;
   std::vector<int> near_, active_;
   std::vector<std::size_t> segment_of_;  ///< segment of the body's axis, per vertex in near_
   Order next_;                           ///< first vertex of the next call
   bool empty_ = true;                    ///< true while the balloon is empty
   std::vector<char> marked_;
   double largest_displacement_ = 0.0;  ///< of any vertex from its undeformed position [m]
-  double peak_pressure_ = 0.0;         ///< largest pressure since the last empty balloon [Pa]
+  double peak_pressure_ = 0.0;         ///< largest pressure since the balloon was last empty [Pa]
   double largest_stretch_ = 1.0;
   WallDisplacement displacement_;  ///< result of the last call
 };

@@ -50,7 +50,7 @@ private:
 };
 
 /** Measures the distances from the input's outer wall to the result, and the area of inner walls. */
-void fromInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
+void measureInputToResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
   const geometry::SignedMeshDistance united(input.united);
   const geometry::MeshDistance wall(result);
@@ -98,7 +98,7 @@ void fromInput(const InputSurfaces& input, const geometry::TriangleMesh& result,
 }
 
 /** Measures the distances from the result to the input, without lids and bridges. */
-void fromResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
+void measureResultToInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
   const geometry::MeshDistance soup(input.soup);
   std::vector<geometry::SurfaceSample> own;
@@ -147,8 +147,8 @@ bool measureGap(const geometry::SurfaceSample& sample, const Eigen::Vector3d& di
 
 void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
-  fromInput(input, result, report);
-  fromResult(input, result, report);
+  measureInputToResult(input, result, report);
+  measureResultToInput(input, result, report);
 }
 
 NarrowGaps measureGaps(const InputSurfaces& input, const geometry::TriangleMesh& result)
