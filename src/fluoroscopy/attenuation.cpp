@@ -12,21 +12,21 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kSquareCentimetrePerGram = 0.1;    // in m²/kg
-constexpr double kGramPerCubicCentimetre = 1000.0;  // in kg/m³
+constexpr double kSquareCentimetrePerGram = 0.1;    // [m²/kg]
+constexpr double kGramPerCubicCentimetre = 1000.0;  // [kg/m³]
 
 double positiveNumber(const YAML::Node& node, const std::string& file, const std::string& key)
 {
   double value = 0.0;
   if (!node || !YAML::convert<double>::decode(node, value) || !std::isfinite(value) || value <= 0.0)
-    throw InputError(file, key, "must be a number above 0");
+    throw InputError(file, key, "must be a positive number");
   return value;
 }
 
 std::vector<double> positiveNumbers(const YAML::Node& node, const std::string& file, const std::string& key)
 {
   if (!node || !node.IsSequence() || node.size() < 2)
-    throw InputError(file, key, "must be a list of at least two numbers above 0");
+    throw InputError(file, key, "must be a list of at least two positive numbers");
   std::vector<double> values;
   for (std::size_t i = 0; i < node.size(); ++i)
     values.push_back(positiveNumber(node[i], file, key + "[" + std::to_string(i) + "]"));
@@ -59,7 +59,7 @@ AttenuationTable AttenuationTable::load(const std::string& file)
     const auto name = entry.first.as<std::string>();
     const YAML::Node& node = entry.second;
     if (!node.IsMap())
-      throw InputError(file, name, "must hold density, energy and mass_attenuation");
+      throw InputError(file, name, "must contain density, energy and mass_attenuation");
     Material material;
     material.density = positiveNumber(node["density"], file, name + ".density") * kGramPerCubicCentimetre;
     material.energy = positiveNumbers(node["energy"], file, name + ".energy");
@@ -88,14 +88,14 @@ double AttenuationTable::mass(const std::string& material, double energy) const
   const Material& table = find(material);
   if (!(energy >= table.energy.front() && energy <= table.energy.back()))
     throw InputError(file_, material + ".energy",
-                     "does not reach " + std::to_string(energy) + " keV; use an energy between " +
+                     "does not include " + std::to_string(energy) + " keV; use an energy between " +
                          std::to_string(table.energy.front()) + " and " + std::to_string(table.energy.back()));
   const auto above = std::upper_bound(table.energy.begin(), table.energy.end(), energy);
   if (above == table.energy.end())
     return table.mass.back();
   const auto k = static_cast<std::size_t>(above - table.energy.begin());
-  const double part = std::log(energy / table.energy[k - 1]) / std::log(table.energy[k] / table.energy[k - 1]);
-  return table.mass[k - 1] * std::pow(table.mass[k] / table.mass[k - 1], part);
+  const double fraction = std::log(energy / table.energy[k - 1]) / std::log(table.energy[k] / table.energy[k - 1]);
+  return table.mass[k - 1] * std::pow(table.mass[k] / table.mass[k - 1], fraction);
 }
 
 double AttenuationTable::linear(const std::string& material, double energy) const

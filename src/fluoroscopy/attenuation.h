@@ -17,24 +17,24 @@ public:
 
   /** Linear attenuation coefficient μ = (μ/ρ)·ρ [1/m] of a material of the table.
    *  @param energy photon energy [keV]
-   *  @throws InputError for an unknown material or an energy outside the table */
+   *  @throws InputError for an unknown material or an energy outside of the table */
   double linear(const std::string& material, double energy) const;
 
-  /** Linear attenuation coefficient [1/m] of blood with iodine: μ_blood + c·(μ/ρ)_iodine.
+  /** Linear attenuation coefficient of blood with iodinated contrast medium, μ_blood + c·(μ/ρ)_iodine [1/m].
    *  @param iodine concentration c [mgI/ml]
    *  @param energy photon energy [keV] */
   double contrast(double iodine, double energy) const;
 
-  /** Mass attenuation coefficient [m²/kg], linear between the table's points in log μ/ρ over log energy; between two
-   *  points with the same energy the table jumps (an absorption edge). */
+  /** Mass attenuation coefficient μ/ρ [m²/kg] by log-log interpolation. Two entries of equal energy form an absorption
+   *  edge. */
   double mass(const std::string& material, double energy) const;
 
 private:
   struct Material
   {
     double density = 0.0;        ///< [kg/m³]
-    std::vector<double> energy;  ///< increasing, an edge stands twice [keV]
-    std::vector<double> mass;    ///< [m²/kg]
+    std::vector<double> energy;  ///< increasing; an absorption edge is listed twice [keV]
+    std::vector<double> mass;    ///< mass attenuation coefficient at each energy [m²/kg]
   };
 
   const Material& find(const std::string& material) const;

@@ -8,14 +8,14 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kWhite = -0.5;       // compressed optical depth
-constexpr double kBlack = 2.2;        // compressed optical depth
-constexpr double kCompression = 1.2;  // optical depth over which the vessel's range is compressed
-constexpr double kDarkest = 1e-30;    // keeps the logarithm finite
+constexpr double kWhite = -0.5;          // compressed optical depth of grey value 255
+constexpr double kBlack = 2.2;           // compressed optical depth of grey value 0
+constexpr double kCompression = 1.2;     // optical depth scale w of the compression
+constexpr double kMinIntensity = 1e-30;  // avoids an infinite logarithm
 
 double opticalDepth(double intensity)
 {
-  return -std::log(std::max(intensity, kDarkest));
+  return -std::log(std::max(intensity, kMinIntensity));
 }
 
 }  // namespace

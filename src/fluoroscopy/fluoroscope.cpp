@@ -13,7 +13,7 @@ Fluoroscope::Fluoroscope(const CArmPose& pose, const XRayScene& scene) : geometr
 {
   for (const double value : {scene.tissue_attenuation, scene.vessel_attenuation, scene.tissue_thickness})
     if (!std::isfinite(value) || value < 0.0)
-      throw InputError("X-ray scene", "attenuation, thickness", "must be at least 0");
+      throw InputError("X-ray scene", "attenuation, thickness", "must be non-negative");
 }
 
 void Fluoroscope::setPose(const CArmPose& pose)
@@ -21,14 +21,14 @@ void Fluoroscope::setPose(const CArmPose& pose)
   if (pose == geometry_.pose())
     return;
   const XRayGeometry geometry(pose);
-  requireVesselBeforeSource(geometry, vessel_);
+  requireVesselInFrontOfSource(geometry, vessel_);
   geometry_ = geometry;
   background_valid_ = false;
 }
 
 void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
 {
-  requireVesselBeforeSource(geometry_, mesh);
+  requireVesselInFrontOfSource(geometry_, mesh);
   vessel_ = std::move(mesh);
   background_valid_ = false;
 }

@@ -7,11 +7,12 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** Writes a grey image as PNG, 8 bits per pixel, rows from the top.
- *  @throws InputError when sizes do not fit or the file cannot be written */
+/** Writes a greyscale PNG with 8 bits per pixel, in row-major order from the top.
+ *  @throws InputError if the sizes are inconsistent or the file cannot be written */
 void writePng(const std::string& file, int width, int height, const std::vector<std::uint8_t>& grey);
 
-/** The same with 16 bits per pixel, marked as linear in intensity (gamma 1). */
+/** Writes a greyscale PNG with 16 bits per pixel, tagged as linear in intensity (gamma 1).
+ *  @throws InputError if the sizes are inconsistent or the file cannot be written */
 void writePng(const std::string& file, int width, int height, const std::vector<std::uint16_t>& grey);
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -14,8 +14,8 @@ namespace
 
 constexpr int kSubpixelBits = 12;
 constexpr std::int64_t kSubpixels = std::int64_t{1} << kSubpixelBits;
-constexpr double kMaxCoordinate = 1 << 29;  // products of differences of such stay within 62 bits
-constexpr double kNearest = 0.02;           // closest approach to the source, as a part of SID
+constexpr double kMaxCoordinate = 1 << 29;  // products of coordinate differences fit into 62 bits
+constexpr double kNearest = 0.02;           // minimum depth of a vertex, as a fraction of SID
 
 struct Corner
 {
@@ -33,19 +33,20 @@ Corner projectCorner(const XRayGeometry& geometry, const Eigen::Vector3d& vertex
   const double row = offset - scale * p.y() / p.z();
   if (!(p.z() >= kNearest * geometry.pose().source_to_detector) || !(std::abs(column) < kMaxCoordinate) ||
       !(std::abs(row) < kMaxCoordinate))
-    throw InputError("C-arm", "isocentre",
-                     "the vessel reaches the X-ray source; move the isocentre or increase distance_source_to_patient");
+    throw InputError(
+        "C-arm", "isocentre",
+        "the vessel extends to the X-ray source; move the isocentre or increase distance_source_to_patient");
   return {std::llround(column), std::llround(row), 1.0 / p.z()};
 }
 
-/** Twice the signed area of the triangle a, b, (column, row); positive clockwise on the screen. */
+/** Edge function: twice the signed area of the triangle (a, b, (column, row)); positive if clockwise on the screen. */
 std::int64_t edgeFunction(const Corner& a, const Corner& b, std::int64_t column, std::int64_t row)
 {
   return (b.column - a.column) * (row - a.row) - (b.row - a.row) * (column - a.column);
 }
 
-/** 0 where a sample exactly on the edge a → b belongs to the triangle, else 1: as if every sample were shifted by
- *  (ε, ε²), after which none lies on an edge. */
+/** Fill-rule bias: 0 if samples exactly on the edge a → b belong to the triangle, else 1. It is equivalent to a shift
+ *  of all samples by (ε, ε²), after which no sample lies on an edge. */
 std::int64_t edgeBias(const Corner& a, const Corner& b)
 {
   const bool inside = b.row < a.row || (b.row == a.row && b.column > a.column);
@@ -62,13 +63,13 @@ int lastPixel(std::int64_t subpixel, int pixels)
   return subpixel < 0 ? -1 : static_cast<int>(std::min<std::int64_t>(subpixel >> kSubpixelBits, pixels - 1));
 }
 
-/** Adds ± the depth of one triangle, up to the detector, at every pixel whose central ray meets it. */
+/** Adds the signed depth of a triangle, limited to the detector, to every pixel whose central ray intersects it. */
 void addTriangle(Corner a, Corner b, Corner c, double detector_depth, int pixels, std::vector<double>& sum)
 {
   std::int64_t area = edgeFunction(a, b, c.column, c.row);
   if (area == 0)
     return;
-  // Outward normals and rows that grow downwards: clockwise on the screen is where the ray enters.
+  // Rows increase downwards, so an outward oriented triangle is clockwise on the screen where the ray enters.
   const double sign = area > 0 ? -1.0 : 1.0;
   if (area < 0)
   {
@@ -93,7 +94,7 @@ void addTriangle(Corner a, Corner b, Corner c, double detector_depth, int pixels
     {
       if (((wa - bias_a) | (wb - bias_b) | (wc - bias_c)) < 0)
         continue;
-      // 1/depth is affine on the image of a plane.
+      // The inverse depth of a plane is affine in image coordinates.
       const double inverse_depth =
           (static_cast<double>(wa) * a.inverse_depth + static_cast<double>(wb) * b.inverse_depth +
            static_cast<double>(wc) * c.inverse_depth) *
@@ -114,7 +115,7 @@ std::vector<Corner> projectCorners(const XRayGeometry& geometry, const geometry:
 
 }  // namespace
 
-void requireVesselBeforeSource(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh)
+void requireVesselInFrontOfSource(const XRayGeometry& geometry, const geometry::TriangleMesh& mesh)
 {
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     projectCorner(geometry, vertex);

@@ -8,7 +8,8 @@
 
 #include "common/error.h"
 
-// Code for wider vector registers too, which processors that have them take. It gives the same bits: nothing is fused.
+// Function multiversioning: an additional AVX2 version is selected at run time. Results are bitwise equal, because no
+// multiply-add is fused.
 #if defined(__x86_64__)
 #define EVS_WIDE_VECTORS [[gnu::target_clones("avx2", "default")]]
 #else
@@ -20,14 +21,14 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr int kSamples = 89;  // Fibonacci numbers F(11), and F(10) for the lattice
-constexpr int kLatticeStep = 55;
-constexpr std::size_t kPadded = 96;     // a multiple of the values in a vector register
-constexpr double kNearest = 0.02;       // closest approach to the source, as a part of SID
-constexpr double kFoldedCosine = 0.05;  // mitres are for bends below 90°
-constexpr double kHalfDiagonal = 0.7072;
-constexpr double kStraight = 1e-6;  // m that nodes may be off a line, and radii off each other, to be seen as one edge
-constexpr std::size_t kLongestRun = 64;  // of edges seen as one: looking for its end costs the square of it
+constexpr int kSamples = 89;              // rays per pixel: Fibonacci number F(11)
+constexpr int kLatticeStep = 55;          // generator of the lattice: F(10)
+constexpr std::size_t kPadded = 96;       // samples, padded to a multiple of the SIMD width
+constexpr double kNearest = 0.02;         // minimum depth of a visible edge, as a fraction of SID
+constexpr double kFoldedCosine = 0.05;    // minimum cosine of the bend at a mitre joint
+constexpr double kHalfDiagonal = 0.7072;  // half the diagonal of a pixel, rounded up [pixel]
+constexpr double kStraight = 1e-6;        // tolerance of positions and radii of merged edges [m]
+constexpr std::size_t kLongestRun = 64;   // largest number of merged edges; the cost of the search is quadratic
 
 void check(const XRayWire& wire)
 {
@@ -38,19 +39,20 @@ void check(const XRayWire& wire)
                          std::to_string(wire.nodes.size()) + " nodes");
   for (std::size_t i = 0; i < wire.nodes.size(); ++i)
     if (!wire.nodes[i].allFinite() || !std::isfinite(wire.radius[i]) || wire.radius[i] < 0.0)
-      throw InputError("wire", "node " + std::to_string(i), "must be finite with a radius of at least 0");
+      throw InputError("wire", "node " + std::to_string(i), "must be finite with a non-negative radius");
   for (std::size_t j = 0; j < edges; ++j)
     if (!std::isfinite(wire.attenuation[j]))
       throw InputError("wire", "attenuation " + std::to_string(j), "must be finite");
 }
 
-/** Normal of the plane between edges with directions a and b; both when the wire folds back. */
+/** Normal of the clipping plane of an edge towards its neighbour: the bisecting plane, or the plane normal to the edge
+ *  at a sharp bend. */
 Eigen::Vector3d mitre(const Eigen::Vector3d& own, const Eigen::Vector3d& other)
 {
   return own.dot(other) > kFoldedCosine ? (own + other).normalized() : own;
 }
 
-/** The node up to which a wire is one straight even cylinder: cuts between edges cost more than edges. */
+/** Last node of the straight cylinder of constant radius that begins at @p first. Merging edges saves their joints. */
 std::size_t endOfStraight(const XRayWire& wire, std::size_t first)
 {
   std::size_t end = first + 1;
@@ -62,9 +64,9 @@ std::size_t endOfStraight(const XRayWire& wire, std::size_t first)
     double reached = 0.0;
     for (std::size_t k = first + 1; k < last; ++k)
     {
-      const Eigen::Vector3d way = wire.nodes[k] - from;
-      const double along = way.dot(chord);
-      if (!(along >= reached) || !(way.norm() <= length) || way.cross(chord).norm() > kStraight * length)
+      const Eigen::Vector3d offset = wire.nodes[k] - from;
+      const double along = offset.dot(chord);
+      if (!(along >= reached) || !(offset.norm() <= length) || offset.cross(chord).norm() > kStraight * length)
         return false;
       reached = along;
     }
@@ -78,7 +80,7 @@ std::size_t endOfStraight(const XRayWire& wire, std::size_t first)
   return end;
 }
 
-/** Something that changes evenly over a pixel. */
+/** Affine function of the sample's offset within a pixel. */
 struct Linear
 {
   Linear(const Eigen::Vector3d& gradient, double centre)
@@ -86,14 +88,15 @@ struct Linear
   {
   }
   float at(float right, float up) const { return right * x + up * y + z; }
-  /** How far it may differ from the centre's. @param reach of the pixel to every side */
+  /** Largest deviation from the value at the centre.
+   *  @param reach half width of the pixel */
   float spread(float reach) const { return reach * (std::abs(x) + std::abs(y)); }
   float x, y, z;
 };
 
 }  // namespace
 
-/** Samples of a pixel from its centre, as differences of rays with z = 1; what fills up the last vector is not used. */
+/** Offsets of a pixel's samples from its centre, as differences of rays with z = 1. The padding is not evaluated. */
 struct WireProjection::Offsets
 {
   explicit Offsets(double focal_length)
@@ -110,10 +113,11 @@ struct WireProjection::Offsets
   std::array<float, kPadded> x{}, y{};
 };
 
-/** One mitred cylinder in the optical frame. */
+/** Cylinder with clipping planes in the optical frame. */
 struct WireProjection::Edge
 {
-  /** Cut straight. @pre its ends differ */
+  /** Cylinder with end planes normal to its axis.
+   *  @pre the ends are distinct */
   Edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double edge_radius, double coefficient)
     : begin(from),
       end(to),
@@ -128,15 +132,15 @@ struct WireProjection::Edge
   {
   }
 
-  Eigen::Vector3d begin, end;                // ends of the axis [m]
-  Eigen::Vector3d axis;                      // unit
-  Eigen::Vector3d begin_normal, end_normal;  // of the planes that cut it, both along the axis
-  Eigen::Vector3d moment, across;            // a × p and p⊥ of the formula [m]
-  double depth;                              // of the middle: t there [m]
-  double radius;                             // [m]
-  double attenuation;                        // [1/m]
+  Eigen::Vector3d begin, end;                ///< ends of the axis [m]
+  Eigen::Vector3d axis;                      ///< unit vector from begin to end
+  Eigen::Vector3d begin_normal, end_normal;  ///< unit normals of the clipping planes, oriented along the axis
+  Eigen::Vector3d moment, across;            ///< a × p and p⊥ of the chord formula [m]
+  double depth;                              ///< depth of the midpoint, the t of its ray [m]
+  double radius;                             ///< [m]
+  double attenuation;                        ///< [1/m]
 
-  /** How far a plane that cuts the cylinder reaches beyond its axis's end, along the axis [m]. */
+  /** Extension of the cylinder beyond the end of its axis by an oblique clipping plane [m]. */
   double mitreDepth(const Eigen::Vector3d& normal) const
   {
     const double cosine = normal.dot(axis);
@@ -144,42 +148,44 @@ struct WireProjection::Edge
   }
 };
 
-/** Cuts a pixel's rays with an edge, all samples at once: without calls, branches and references, so that the loops
- *  become vector code. By what a ray differs from the pixel's centre ray, and how far beyond the edge's middle
- *  something lies along it, single precision is enough for. */
+/** Chords of all sample rays of a pixel in an edge. The loops have no calls, branches or aliasing, so that the compiler
+ *  vectorises them. Values are relative to the pixel's central ray and to the edge's midpoint, for which single
+ *  precision suffices. */
 class WireProjection::Chords
 {
 public:
-  /** @param ray through the pixel's centre, z = 1 */
+  /** @param ray central ray of the pixel, with z = 1 */
   Chords(const Edge& edge, const Eigen::Vector3d& ray) : Chords(edge, ray, ray - edge.axis.dot(ray) * edge.axis) {}
 
-  enum class Kept
+  /** Effect of the clipping planes on the chords of a pixel. */
+  enum class Clipping
   {
-    kNothing,  ///< by the planes that cut the edge, of all chords of the pixel
-    kSome,
-    kAll,
+    kOutside,  ///< all chords are removed
+    kPartial,  ///< chords may be clipped
+    kInside,   ///< no chord is clipped
   };
-  /** @param reach of the pixel to every side, of rays with z = 1 */
-  Kept kept(float reach) const
+  /** Classifies the pixel.
+   *  @param reach half width of the pixel, for rays with z = 1 */
+  Clipping clipping(float reach) const
   {
     const float second_order = 2.0F * reach * reach;
     const float a = a_.z - a_.spread(reach) - second_order;
-    if (a <= least_)
-      return Kept::kSome;
+    if (a <= min_a_)
+      return Clipping::kPartial;
     const float middle = closest_.z / a_.z;
     const float wide = (closest_.spread(reach) + depth_ * second_order + std::abs(middle) * (a_.z - a)) / a;
-    const float half = kRounding * (wide + radius_ / std::sqrt(a));  // of the t of all chords
+    const float half = kRounding * (wide + radius_ / std::sqrt(a));  // bound of |t − middle| of all chords
     const auto [begin_low, begin_high] = begin_.range(middle, half, reach);
     const auto [end_low, end_high] = end_.range(middle, half, reach);
     if (begin_high < 0.0F || end_high < 0.0F)
-      return Kept::kNothing;
-    return begin_low > 0.0F && end_low > 0.0F ? Kept::kAll : Kept::kSome;
+      return Clipping::kOutside;
+    return begin_low > 0.0F && end_low > 0.0F ? Clipping::kInside : Clipping::kPartial;
   }
 
-  /** Adds to every sample's optical depth. */
-  EVS_WIDE_VECTORS void addWhole(const Offsets& offsets, float* depth) const
+  /** Adds the unclipped chords to the optical depth of every sample. */
+  EVS_WIDE_VECTORS void addUnclipped(const Offsets& offsets, float* depth) const
   {
-    const Chords c = *this;  // nothing that is written to can be part of it
+    const Chords c = *this;  // a local copy excludes aliasing with the output
     const float* offset_x = offsets.x.data();
     const float* offset_y = offsets.y.data();
     for (std::size_t i = 0; i < kPadded; ++i)
@@ -194,7 +200,8 @@ public:
     }
   }
 
-  EVS_WIDE_VECTORS void addCut(const Offsets& offsets, float* depth) const
+  /** Adds the clipped chords to the optical depth of every sample. */
+  EVS_WIDE_VECTORS void addClipped(const Offsets& offsets, float* depth) const
   {
     const Chords c = *this;
     const float* offset_x = offsets.x.data();
@@ -205,26 +212,26 @@ public:
       const float turned = c.axis_x_ * x + c.axis_y_ * y;
       const float second_order = x * x + y * y - turned * turned;  // of A
       const float a = c.a_.at(x, y) + second_order;
-      const float inverse = 1.0F / (a > c.least_ ? a : c.least_);
+      const float inverse = 1.0F / (a > c.min_a_ ? a : c.min_a_);
       const float off = c.off_.at(x, y);
       const float discriminant = a * c.radius_ * c.radius_ - off * off;
       const float half = std::sqrt(discriminant > 0.0F ? discriminant : 0.0F) * inverse;
       const float middle = (c.closest_.at(x, y) - c.depth_ * second_order) * inverse;
       const float slope0 = c.begin_.slope.at(x, y) + 0.0F, slope1 = c.end_.slope.at(x, y) + 0.0F;  // no −0
-      // What is kept has slope·t ≥ offset.
+      // The retained half-space is slope·t ≥ offset.
       const float cut0 = c.begin_.offset.at(x, y) / slope0, cut1 = c.end_.offset.at(x, y) / slope1;
       float from = middle - half, to = middle + half;
       from = slope0 >= 0.0F && cut0 > from ? cut0 : from;
       to = slope0 < 0.0F && cut0 < to ? cut0 : to;
       from = slope1 >= 0.0F && cut1 > from ? cut1 : from;
       to = slope1 < 0.0F && cut1 < to ? cut1 : to;
-      const float chord = to > from && a > c.least_ ? to - from : 0.0F;
+      const float chord = to > from && a > c.min_a_ ? to - from : 0.0F;
       depth[i] += chord * c.per_chord_.at(x, y);
     }
   }
 
 private:
-  /** @param turned the ray's part across the edge's axis */
+  /** @param turned component of the ray normal to the edge's axis */
   Chords(const Edge& edge, const Eigen::Vector3d& ray, const Eigen::Vector3d& turned)
     : a_(2.0 * turned, turned.dot(ray)),
       off_(edge.moment, edge.moment.dot(ray)),
@@ -235,22 +242,22 @@ private:
       axis_x_(static_cast<float>(edge.axis.x())),
       axis_y_(static_cast<float>(edge.axis.y())),
       depth_(static_cast<float>(edge.depth)),
-      least_(static_cast<float>(kParallel * ray.squaredNorm())),
+      min_a_(static_cast<float>(kParallel * ray.squaredNorm())),
       radius_(static_cast<float>(edge.radius))
   {
   }
 
-  static constexpr double kParallel = 1e-12;  // of |d|²: rays with less across the axis are left out
+  static constexpr double kParallel = 1e-12;  // minimum A/|d|²; rays nearly parallel to the axis are omitted
   static constexpr float kRounding = 1.001F;
 
-  /** A plane that cuts the edge, as rays have it: slope·t ≥ offset is kept, t counted from the edge's middle. */
+  /** Clipping plane in ray coordinates: slope·t ≥ offset is retained, with t relative to the edge's midpoint. */
   struct Plane
   {
-    Plane(const Eigen::Vector3d& normal, double place, double middle_depth, const Eigen::Vector3d& ray)
-      : slope(normal, normal.dot(ray)), offset(-middle_depth * normal, place - middle_depth * normal.dot(ray))
+    Plane(const Eigen::Vector3d& normal, double distance, double middle_depth, const Eigen::Vector3d& ray)
+      : slope(normal, normal.dot(ray)), offset(-middle_depth * normal, distance - middle_depth * normal.dot(ray))
     {
     }
-    /** Least and largest slope·t − offset of a pixel's rays within t = @p middle ± @p half. */
+    /** Bounds of slope·t − offset over a pixel's rays within t = @p middle ± @p half. */
     std::pair<float, float> range(float middle, float half, float reach) const
     {
       const float centre = slope.z * middle - offset.z;
@@ -263,8 +270,8 @@ private:
 
   Linear a_, off_, closest_;  ///< A; d·(a×p); d·p⊥ − A·depth
   Plane begin_, end_;
-  Linear per_chord_;  ///< optical depth
-  float axis_x_, axis_y_, depth_, least_, radius_;
+  Linear per_chord_;  ///< optical depth per unit of t
+  float axis_x_, axis_y_, depth_, min_a_, radius_;
 };
 
 float* WireProjection::samplesOf(std::uint32_t pixel)
@@ -279,12 +286,12 @@ float* WireProjection::samplesOf(std::uint32_t pixel)
   return optical_depth_.data() + static_cast<std::size_t>(slot) * kPadded;
 }
 
-/** Pixels that an edge may touch: a rectangle along its axis's image.
+/** Conservative footprint of an edge: a rectangle along the image of its axis.
  *
- *  A point of the edge is x + ρw: x on the axis, as far beyond its ends as the mitres reach, ρ ≤ r, w a unit vector
- *  across the axis. In the image it lies f ρ J w/(x_z + ρ w_z) beside x, with J = (I | −x_xy/x_z) in units of z, so
- *  along an image direction e by at most f r |Jᵀe − (Jᵀe·a) a|/(z − r), a convex function of x_xy/x_z: largest at
- *  an end. */
+ *  A point of the edge is x + ρw with x on the axis extended by the mitres, ρ ≤ r, and w a unit vector normal to the
+ *  axis. Its image is displaced from that of x by f ρ J w/(x_z + ρ w_z) with J = (I | −x_xy/x_z). The displacement
+ *  along an image direction e is at most f r |Jᵀe − (Jᵀe·a) a|/(z − r). This bound is a convex function of x_xy/x_z and
+ *  takes its maximum at an end. */
 class WireProjection::Footprint
 {
 public:
@@ -294,7 +301,7 @@ public:
     const Eigen::Vector3d first = edge.begin - edge.mitreDepth(edge.begin_normal) * edge.axis;
     const Eigen::Vector3d second = edge.end + edge.mitreDepth(edge.end_normal) * edge.axis;
     const double nearest = std::min(first.z(), second.z()) - edge.radius;
-    // Before the image's rows turn round: right and up.
+    // Image coordinates to the right and up.
     const Eigen::Vector2d a = first.head<2>() / first.z(), b = second.head<2>() / second.z();
     const Eigen::Vector2d ab = f * (b - a);
     const double length = ab.norm();
@@ -302,10 +309,10 @@ public:
     across_ = Eigen::Vector2d(-along_.y(), along_.x());
     const auto reach = [&](const Eigen::Vector2d& e)
     {
-      const auto at = [&](const Eigen::Vector2d& place)
+      const auto at = [&](const Eigen::Vector2d& point)
       {
-        const Eigen::Vector3d seen(e.x(), e.y(), -place.dot(e));
-        return (seen - seen.dot(edge.axis) * edge.axis).norm();
+        const Eigen::Vector3d direction(e.x(), e.y(), -point.dot(e));
+        return (direction - direction.dot(edge.axis) * edge.axis).norm();
       };
       return f * edge.radius / nearest * std::max(at(a), at(b)) + kHalfDiagonal;
     };
@@ -315,8 +322,8 @@ public:
     middle_ = 0.5 * f * (a + b);
     const Eigen::Vector2d half = half_length_ * along_.cwiseAbs() + half_width_ * across_.cwiseAbs();
     const double last = geometry.pixels() - 1;
-    const auto from = [last](double place) { return static_cast<int>(std::ceil(std::clamp(place, 0.0, last + 1.0))); };
-    const auto to = [last](double place) { return static_cast<int>(std::floor(std::clamp(place, -1.0, last))); };
+    const auto from = [last](double x) { return static_cast<int>(std::ceil(std::clamp(x, 0.0, last + 1.0))); };
+    const auto to = [last](double x) { return static_cast<int>(std::floor(std::clamp(x, -1.0, last))); };
     first_column = from(centre + middle_.x() - half.x());
     last_column = to(centre + middle_.x() + half.x());
     first_row = from(centre - middle_.y() - half.y());
@@ -324,7 +331,7 @@ public:
     middle_ = Eigen::Vector2d(centre + middle_.x(), centre - middle_.y());
   }
 
-  bool holds(int column, int row) const
+  bool contains(int column, int row) const
   {
     const Eigen::Vector2d from_middle(column - middle_.x(), middle_.y() - row);
     return std::abs(from_middle.dot(along_)) <= half_length_ && std::abs(from_middle.dot(across_)) <= half_width_;
@@ -333,8 +340,8 @@ public:
   int first_row, last_row, first_column, last_column;
 
 private:
-  Eigen::Vector2d along_, across_;   ///< unit, right and up
-  Eigen::Vector2d middle_;           ///< column and row [pixel]
+  Eigen::Vector2d along_, across_;   ///< unit vectors in image coordinates to the right and up
+  Eigen::Vector2d middle_;           ///< column and row of the centre [pixel]
   double half_length_, half_width_;  ///< [pixel]
 };
 
@@ -345,17 +352,17 @@ void WireProjection::addEdge(const XRayGeometry& geometry, const Offsets& offset
   for (int row = footprint.first_row; row <= footprint.last_row; ++row)
     for (int column = footprint.first_column; column <= footprint.last_column; ++column)
     {
-      if (!footprint.holds(column, row))
+      if (!footprint.contains(column, row))
         continue;
       const Chords chords(edge, geometry.ray(column, row));
-      const Chords::Kept kept = chords.kept(reach);
-      if (kept == Chords::Kept::kNothing)
+      const Chords::Clipping clipping = chords.clipping(reach);
+      if (clipping == Chords::Clipping::kOutside)
         continue;
       float* depth = samplesOf(static_cast<std::uint32_t>(row * geometry.pixels() + column));
-      if (kept == Chords::Kept::kAll)
-        chords.addWhole(offsets, depth);
+      if (clipping == Chords::Clipping::kInside)
+        chords.addUnclipped(offsets, depth);
       else
-        chords.addCut(offsets, depth);
+        chords.addClipped(offsets, depth);
     }
 }
 
@@ -363,7 +370,7 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
 {
   const double nearest = kNearest * geometry.pose().source_to_detector;
   const double farthest = geometry.pose().source_to_detector;
-  const auto canBeSeen = [&](double z, double radius)  // mitres reach less than r beyond
+  const auto isVisible = [&](double z, double radius)  // mitre joints extend the axis by less than r
   { return z >= nearest + 2.0 * radius && z <= farthest; };
   std::vector<Edge> edges;
   std::size_t next = 0;
@@ -371,9 +378,9 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
   {
     next = endOfStraight(wire, j);
     const Eigen::Vector3d begin = geometry.toOptical(wire.nodes[j]);
-    const double most = std::max(wire.radius[j], wire.radius[next]);
-    // What cannot be seen is left out edge by edge.
-    if (!canBeSeen(begin.z(), most) || !canBeSeen(geometry.toOptical(wire.nodes[next]).z(), most))
+    const double largest_radius = std::max(wire.radius[j], wire.radius[next]);
+    // Invisible edges are omitted one by one, so that they are not merged.
+    if (!isVisible(begin.z(), largest_radius) || !isVisible(geometry.toOptical(wire.nodes[next]).z(), largest_radius))
       next = j + 1;
     const Eigen::Vector3d end = geometry.toOptical(wire.nodes[next]);
     if (begin == end)
@@ -387,7 +394,7 @@ void WireProjection::addWire(const XRayGeometry& geometry, const Offsets& offset
     edges.push_back(edge);
   }
   for (const Edge& edge : edges)
-    if (canBeSeen(edge.begin.z(), edge.radius) && canBeSeen(edge.end.z(), edge.radius))
+    if (isVisible(edge.begin.z(), edge.radius) && isVisible(edge.end.z(), edge.radius))
       addEdge(geometry, offsets, edge);
 }
 

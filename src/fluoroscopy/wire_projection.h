@@ -8,39 +8,39 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** What X-rays see of a wire: a chain of mitred solid cylinders, edge j from node j to node j + 1. Edges that
- * are one straight even cylinder may be taken for one. A hollow shaft is two: a solid one, and its lumen with what the
- * wall's material would have added there taken away again. */
+/** X-ray model of a wire: chain of solid cylinders with mitre joints; edge j joins nodes j and j + 1. Collinear edges
+ *  of equal radius may be merged. A hollow shaft consists of two wires: a solid one, and its lumen with negative
+ *  attenuation. */
 struct XRayWire
 {
   std::vector<Eigen::Vector3d> nodes;  ///< patient frame [m]
-  std::vector<double> radius;          ///< at the nodes; an edge is a cylinder of the mean of its two [m]
-  /** Per edge: linear attenuation coefficient of the material less that of what it displaces [1/m]. */
+  std::vector<double> radius;          ///< radius at the nodes [m]; an edge has the mean radius of its nodes
+  /** Per edge: linear attenuation coefficient of the material minus that of the displaced medium [1/m]. */
   std::vector<double> attenuation;
 };
 
-/** How a wire changes the image: the pixels that it touches, in the order in which it first touches them. */
+/** Shadow of wires in the image: affected pixels in the order of their first access. */
 struct WireShadow
 {
-  std::vector<std::uint32_t> pixels;  ///< row·N + column
-  std::vector<double> transmission;   ///< factor on the pixel's signal, the mean over the pixel's area [1]
+  std::vector<std::uint32_t> pixels;  ///< pixel index row·N + column
+  std::vector<double> transmission;   ///< transmission averaged over the pixel's area [1]
 };
 
-/** Projects a wire, keeping its work space from frame to frame.
+/** Projection of wires onto the detector; work space is reused between frames.
  *
- *  In each touched pixel 89 rays are cast at the points of a Fibonacci lattice, whose projections on both image axes
- *  are 89 evenly spaced values, so that a wire thinner than a pixel keeps its integrated attenuation wherever it lies
- *  between the pixels. Along a ray s + t·d the chord in the cylinder (axis a through p, radius r) is
+ *  Each affected pixel is sampled by 89 rays at the points of a Fibonacci lattice, whose projections on both image axes
+ *  are equidistant. The integrated attenuation of a wire thinner than a pixel is thereby independent of its sub-pixel
+ *  position. The chord of a ray s + t·d in a cylinder (axis a through p, radius r) is
  *
  *      t = (d·p⊥ ± √(A r² − (d·(a×p))²)) / A,   A = |d|² − (d·a)²,   p⊥ = p − (p·a) a,
  *
- *  cut by the planes that bisect the angle to the neighbouring edges, so that edges neither overlap nor leave gaps.
- *  The signal is averaged as exp(−Σ μ·chord), the intensity, not the length. */
+ *  clipped by the bisecting planes to the adjacent edges, so that edges neither overlap nor leave gaps. The average is
+ *  taken over the intensity exp(−Σ μ·chord), not over the chord. */
 class WireProjection
 {
 public:
-  /** @param wires all at once; where they overlap, their attenuations add up
-   *  @throws InputError when a wire's arrays do not fit together or hold numbers that are not finite */
+  /** Projects all wires of a frame; the attenuations of overlapping wires add up.
+   *  @throws InputError for a wire with arrays of inconsistent size or non-finite numbers */
   void project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, WireShadow& shadow);
 
 private:
@@ -53,9 +53,9 @@ private:
   void addEdge(const XRayGeometry& geometry, const Offsets& offsets, const Edge& edge);
   float* samplesOf(std::uint32_t pixel);
 
-  std::vector<std::int32_t> slot_;     // per pixel: index among the touched pixels, −1 when untouched
-  std::vector<std::uint32_t> pixels_;  // touched pixels
-  std::vector<float> optical_depth_;   // per touched pixel and sample [1]
+  std::vector<std::int32_t> slot_;     ///< per pixel: index in pixels_, −1 for an unaffected pixel
+  std::vector<std::uint32_t> pixels_;  ///< affected pixels
+  std::vector<float> optical_depth_;   ///< per affected pixel and sample [1]
 };
 
 }  // namespace endovascular_sim::fluoroscopy

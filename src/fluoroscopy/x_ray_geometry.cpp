@@ -25,12 +25,12 @@ void check(const CArmPose& pose)
   require(std::isfinite(pose.secondary_angle) && std::abs(pose.secondary_angle) <= 0.5 * kPi,
           "positioner_secondary_angle", "must lie between -pi/2 (caudal) and pi/2 (cranial) [rad]");
   require(std::isfinite(pose.source_to_patient) && pose.source_to_patient > 0.0, "distance_source_to_patient",
-          "must be above 0 [m]");
+          "must be positive [m]");
   require(std::isfinite(pose.source_to_detector) && pose.source_to_detector > pose.source_to_patient,
           "distance_source_to_detector", "must be greater than distance_source_to_patient [m]");
   require(std::isfinite(pose.detector_width) && pose.detector_width > 0.0 &&
               pose.detector_width <= 2.0 * pose.source_to_detector,
-          "detector_width", "must be above 0 and at most twice distance_source_to_detector [m]");
+          "detector_width", "must be positive and at most twice distance_source_to_detector [m]");
   require(pose.pixels >= 2 && pose.pixels <= kMaxPixels, "pixels", "must lie between 2 and 4096");
   require(pose.isocentre.allFinite(), "isocentre", "must be finite [m]");
 }
@@ -77,7 +77,7 @@ Eigen::Vector2d XRayGeometry::project(const Eigen::Vector3d& point) const
   return {centre() + focal_length_ * p.x() / p.z(), centre() - focal_length_ * p.y() / p.z()};
 }
 
-CArmPose followTip(const CArmPose& pose, const Eigen::Vector3d& tip)
+CArmPose panToTip(const CArmPose& pose, const Eigen::Vector3d& tip)
 {
   const XRayGeometry geometry(pose);
   const Eigen::Vector3d p = geometry.toOptical(tip);

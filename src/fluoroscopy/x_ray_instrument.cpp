@@ -10,7 +10,7 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-/** The space inside of a hollow chain: takes away what its solid cylinders have too much. */
+/** Lumen of a hollow chain: cylinders of negative attenuation that correct the solid ones. */
 XRayWire lumenOf(XRayWire chain, double inner_radius)
 {
   for (double& attenuation : chain.attenuation)
@@ -21,7 +21,7 @@ XRayWire lumenOf(XRayWire chain, double inner_radius)
 
 }  // namespace
 
-void cutDistal(std::vector<Eigen::Vector3d>& nodes, double length)
+void trimDistal(std::vector<Eigen::Vector3d>& nodes, double length)
 {
   while (nodes.size() > 1 && length > 0.0)
   {
@@ -56,7 +56,7 @@ void XRayInstrument::append(const std::vector<Eigen::Vector3d>& nodes, double be
                             std::vector<XRayWire>& wires) const
 {
   std::vector<Eigen::Vector3d> covered = nodes;
-  cutDistal(covered, behind);
+  trimDistal(covered, behind);
   if (covered.size() < 2 || section_attenuation_.empty())
     return;
   const XRayWire solid = shaft(std::move(covered));
@@ -66,7 +66,7 @@ void XRayInstrument::append(const std::vector<Eigen::Vector3d>& nodes, double be
     wires.push_back(lumenOf(solid, inner));
   for (std::size_t m = 0; m < instrument_->markers.size(); ++m)
   {
-    const XRayWire marker = ring(solid, m);
+    const XRayWire marker = markerBand(solid, m);
     if (marker.nodes.empty())
       continue;
     wires.push_back(marker);
@@ -75,7 +75,7 @@ void XRayInstrument::append(const std::vector<Eigen::Vector3d>& nodes, double be
   }
 }
 
-/** An edge lies in the section at its middle's distance from the tip. */
+/** Assigns each edge to the section at its midpoint. */
 XRayWire XRayInstrument::shaft(std::vector<Eigen::Vector3d> nodes) const
 {
   const std::vector<rod::Section>& sections = instrument_->wire.sections;
@@ -84,7 +84,7 @@ XRayWire XRayInstrument::shaft(std::vector<Eigen::Vector3d> nodes) const
   result.attenuation.resize(result.nodes.size() - 1);
   result.radius.resize(result.nodes.size());
   std::size_t section = sections.size() - 1;
-  double section_end = sections[section].length;  // its proximal end's distance from the tip
+  double section_end = sections[section].length;  // distance from the tip to the section's proximal end
   double from_tip = 0.0;
   result.radius.back() = sections[section].radius;
   for (std::size_t j = result.attenuation.size(); j-- > 0;)
@@ -99,20 +99,20 @@ XRayWire XRayInstrument::shaft(std::vector<Eigen::Vector3d> nodes) const
   return result;
 }
 
-XRayWire XRayInstrument::ring(const XRayWire& shaft, std::size_t marker) const
+XRayWire XRayInstrument::markerBand(const XRayWire& shaft, std::size_t marker) const
 {
-  const instrument::Marker& place = instrument_->markers[marker];
+  const instrument::Marker& band = instrument_->markers[marker];
   XRayWire result;
   result.nodes = shaft.nodes;
-  cutDistal(result.nodes, place.from_tip);
+  trimDistal(result.nodes, band.from_tip);
   double length = 0.0;
   for (std::size_t j = 0; j + 1 < result.nodes.size(); ++j)
     length += (result.nodes[j + 1] - result.nodes[j]).norm();
   std::reverse(result.nodes.begin(), result.nodes.end());
-  cutDistal(result.nodes, length - place.length);
+  trimDistal(result.nodes, length - band.length);
   if (result.nodes.size() < 2)
     return {};
-  result.radius.assign(result.nodes.size(), instrument_->wire.radiusAt(instrument_->wire.length() - place.from_tip));
+  result.radius.assign(result.nodes.size(), instrument_->wire.radiusAt(instrument_->wire.length() - band.from_tip));
   result.attenuation.assign(result.nodes.size() - 1, marker_attenuation_[marker]);
   return result;
 }

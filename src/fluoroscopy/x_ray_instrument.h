@@ -11,32 +11,32 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** What X-rays see of an instrument: its shaft, section by section, without its lumen, and its marker rings. */
+/** X-ray model of an instrument: shaft sections, lumen and marker bands. */
 class XRayInstrument
 {
 public:
-  /** @param instrument must outlive this
-   *  @param energy of the photons [keV]
-   *  @param displaced linear attenuation of what the instrument displaces [1/m]
-   *  @throws InputError for a material that the table does not know, or sections without materials */
+  /** @param instrument must outlive this object
+   *  @param energy photon energy [keV]
+   *  @param displaced linear attenuation coefficient of the displaced medium [1/m]
+   *  @throws InputError for a material that is missing in the table, or sections without materials */
   XRayInstrument(const instrument::Instrument& instrument, const AttenuationTable& table, double energy,
                  double displaced);
 
-  /** Appends the wires that it looks like.
-   *  @param nodes a centreline that it follows, proximal to distal [m]
-   *  @param behind how far its tip stays behind the last node [m] */
+  /** Appends the X-ray wires of the instrument.
+   *  @param nodes common centreline, from proximal to distal [m]
+   *  @param behind arc length from the instrument's tip to the last node [m] */
   void append(const std::vector<Eigen::Vector3d>& nodes, double behind, std::vector<XRayWire>& wires) const;
 
 private:
   XRayWire shaft(std::vector<Eigen::Vector3d> nodes) const;
-  XRayWire ring(const XRayWire& shaft, std::size_t marker) const;
+  XRayWire markerBand(const XRayWire& shaft, std::size_t marker) const;
 
   const instrument::Instrument* instrument_;
-  std::vector<double> section_attenuation_;  ///< less that of what is displaced [1/m]
-  std::vector<double> marker_attenuation_;   ///< less that of the shaft [1/m]
+  std::vector<double> section_attenuation_;  ///< coefficient minus that of the displaced medium [1/m]
+  std::vector<double> marker_attenuation_;   ///< coefficient minus that of the shaft [1/m]
 };
 
-/** Takes the last @p length off a chain of nodes; nothing is left of a shorter one [m]. */
-void cutDistal(std::vector<Eigen::Vector3d>& nodes, double length);
+/** Trims a polyline by @p length [m] at its distal end; a shorter polyline becomes empty. */
+void trimDistal(std::vector<Eigen::Vector3d>& nodes, double length);
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -20,7 +20,7 @@ std::vector<XRayWire> strutWires(const std::vector<std::vector<Eigen::Vector3d>>
 {
   std::vector<XRayWire> wires;
   for (const std::vector<Eigen::Vector3d>& line : lines)
-    // Strut by strut: joined at these angles, mitred cylinders would reach far beyond their corners.
+    // Every strut is a separate wire: at these acute angles, mitre joints would extend far beyond the corners.
     for (std::size_t k = 0; k + 1 < line.size(); ++k)
     {
       XRayWire strut;

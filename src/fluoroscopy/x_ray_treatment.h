@@ -9,15 +9,16 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** A balloon filled with diluted contrast, as X-rays see it.
- *  @param axis, radius along the balloon, two points or more [m]
- *  @param attenuation of its filling less that of what it displaces [1/m] */
+/** X-ray model of a balloon filled with diluted contrast medium.
+ *  @param axis points along the balloon, two or more [m]
+ *  @param radius radius at each point [m]
+ *  @param attenuation attenuation coefficient of the filling minus that of the displaced medium [1/m] */
 XRayWire balloonWire(std::vector<Eigen::Vector3d> axis, std::vector<double> radius, double attenuation);
 
-/** Struts of a stent as wires of a square cross-section's area.
- *  @param lines along the struts [m]
- *  @param thickness of the struts [m]
- *  @param attenuation of the metal less that of what it displaces [1/m] */
+/** X-ray model of stent struts: round wires with the cross-sectional area of square struts.
+ *  @param lines polylines along the struts [m]
+ *  @param thickness thickness of the struts [m]
+ *  @param attenuation attenuation coefficient of the metal minus that of the displaced medium [1/m] */
 std::vector<XRayWire> strutWires(const std::vector<std::vector<Eigen::Vector3d>>& lines, double thickness,
                                  double attenuation);
 

@@ -7,14 +7,14 @@
 namespace endovascular_sim::geometry
 {
 
-/** Maps edges (unordered pairs of vertices) to a vertex each; open addressing. Never enumerated, so the order of its
- *  memory influences no result. */
+/** Hash map from an edge (unordered pair of vertices) to a vertex, with open addressing. It offers no iteration, so
+ *  results cannot depend on the order of its slots. */
 class EdgeTable
 {
 public:
   EdgeTable() : slots_(1U << 16U) {}
 
-  /** The vertex of the edge, −1 when it has none. */
+  /** Vertex stored for the edge; −1 without an entry. */
   int find(int a, int b) const
   {
     const std::uint64_t key = keyOf(a, b);
@@ -27,12 +27,13 @@ public:
     }
   }
 
-  /** @pre the edge has no vertex yet */
+  /** Stores a vertex for an edge.
+   *  @pre the edge has no entry */
   void insert(int a, int b, int vertex)
   {
     if (2 * ++count_ > slots_.size())
       grow();
-    place({keyOf(a, b), vertex});
+    store({keyOf(a, b), vertex});
   }
 
 private:
@@ -53,7 +54,7 @@ private:
     return static_cast<std::size_t>(key >> 20U) & (slots_.size() - 1);
   }
 
-  void place(const Slot& slot)
+  void store(const Slot& slot)
   {
     std::size_t i = start(slot.key);
     while (slots_[i].key != 0)
@@ -67,7 +68,7 @@ private:
     old.swap(slots_);
     for (const Slot& slot : old)
       if (slot.key != 0)
-        place(slot);
+        store(slot);
   }
 
   std::vector<Slot> slots_;

@@ -9,17 +9,17 @@
 namespace endovascular_sim::geometry
 {
 
-/** Fixed points, asked for those within a ball (k-d tree). Keeps a reference to the points. */
-class PointTree
+/** k-d tree over fixed points for fixed-radius queries. Keeps a reference to the points. */
+class KdTree
 {
 public:
-  explicit PointTree(const std::vector<Eigen::Vector3d>& points) : points_(points), order_(points.size())
+  explicit KdTree(const std::vector<Eigen::Vector3d>& points) : points_(points), order_(points.size())
   {
     std::iota(order_.begin(), order_.end(), 0);
     build(0, order_.size(), 0);
   }
 
-  /** Calls visit(index) for every point within @p radius of @p centre, in an order that depends on the points alone. */
+  /** Calls visit(index) for every point within @p radius of @p centre. The order depends on the points only. */
   template <typename Visit>
   void within(const Eigen::Vector3d& centre, double radius, Visit visit) const
   {

@@ -9,25 +9,25 @@ namespace endovascular_sim::geometry
 namespace
 {
 
-/** Index of the new vertex on each side of each triangle, in the order of the sorted edges. */
-std::vector<Eigen::Vector3i> edgeVertices(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses)
+/** Index of the new vertex on each edge of each triangle; vertices are numbered in the order of the sorted edges. */
+std::vector<Eigen::Vector3i> edgeVertices(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges)
 {
-  std::vector<Eigen::Vector3i> on_side(mesh.triangles.size());
+  std::vector<Eigen::Vector3i> edge_vertex(mesh.triangles.size());
   int next = static_cast<int>(mesh.vertices.size());
-  for (std::size_t begin = 0; begin < uses.size(); begin = endOfEdge(uses, begin), ++next)
-    for (std::size_t k = begin; k < endOfEdge(uses, begin); ++k)
-      on_side[static_cast<std::size_t>(uses[k].triangle)][uses[k].side] = next;
-  return on_side;
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = endOfEdge(half_edges, begin), ++next)
+    for (std::size_t k = begin; k < endOfEdge(half_edges, begin); ++k)
+      edge_vertex[static_cast<std::size_t>(half_edges[k].triangle)][half_edges[k].side] = next;
+  return edge_vertex;
 }
 
-std::vector<Eigen::Vector3i> cutInFour(const TriangleMesh& mesh, const std::vector<Eigen::Vector3i>& on_side)
+std::vector<Eigen::Vector3i> splitIntoFour(const TriangleMesh& mesh, const std::vector<Eigen::Vector3i>& edge_vertex)
 {
   std::vector<Eigen::Vector3i> triangles;
   triangles.reserve(4 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     const Eigen::Vector3i& corner = mesh.triangles[t];
-    const Eigen::Vector3i& side = on_side[t];
+    const Eigen::Vector3i& side = edge_vertex[t];
     triangles.emplace_back(corner[0], side[0], side[2]);
     triangles.emplace_back(side[0], corner[1], side[1]);
     triangles.emplace_back(side[2], side[1], corner[2]);
@@ -36,13 +36,13 @@ std::vector<Eigen::Vector3i> cutInFour(const TriangleMesh& mesh, const std::vect
   return triangles;
 }
 
-const Eigen::Vector3d& opposite(const TriangleMesh& mesh, const EdgeUse& use)
+const Eigen::Vector3d& opposite(const TriangleMesh& mesh, const HalfEdge& use)
 {
   const int vertex = mesh.triangles[static_cast<std::size_t>(use.triangle)][(use.side + 2) % 3];
   return mesh.vertices[static_cast<std::size_t>(vertex)];
 }
 
-/** Loop's weight of each of the n neighbours. */
+/** Weight of each neighbour of a vertex of valence n in Loop's vertex rule. */
 double neighbourWeight(int n)
 {
   const double c = 0.375 + 0.25 * std::cos(2.0 * M_PI / n);
@@ -51,20 +51,21 @@ double neighbourWeight(int n)
 
 TriangleMesh subdivideOnce(const TriangleMesh& mesh, bool smooth)
 {
-  const std::vector<EdgeUse> uses = sortedEdgeUses(mesh);
+  const std::vector<HalfEdge> half_edges = sortedHalfEdges(mesh);
   TriangleMesh fine;
   fine.vertices = mesh.vertices;
   std::vector<Eigen::Vector3d> neighbour_sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
   std::vector<int> degree(mesh.vertices.size(), 0);
-  for (std::size_t begin = 0; begin < uses.size(); begin = endOfEdge(uses, begin))
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = endOfEdge(half_edges, begin))
   {
-    const auto low = static_cast<std::size_t>(uses[begin].low);
-    const auto high = static_cast<std::size_t>(uses[begin].high);
+    const auto low = static_cast<std::size_t>(half_edges[begin].low);
+    const auto high = static_cast<std::size_t>(half_edges[begin].high);
     const Eigen::Vector3d sum = mesh.vertices[low] + mesh.vertices[high];
-    const bool inner = endOfEdge(uses, begin) - begin == 2;
+    const bool inner = endOfEdge(half_edges, begin) - begin == 2;
     fine.vertices.emplace_back(0.5 * sum);
     if (smooth && inner)
-      fine.vertices.back() = 0.375 * sum + 0.125 * (opposite(mesh, uses[begin]) + opposite(mesh, uses[begin + 1]));
+      fine.vertices.back() =
+          0.375 * sum + 0.125 * (opposite(mesh, half_edges[begin]) + opposite(mesh, half_edges[begin + 1]));
     neighbour_sum[low] += mesh.vertices[high];
     neighbour_sum[high] += mesh.vertices[low];
     ++degree[low];
@@ -77,7 +78,7 @@ TriangleMesh subdivideOnce(const TriangleMesh& mesh, bool smooth)
         const double weight = neighbourWeight(degree[v]);
         fine.vertices[v] = (1.0 - degree[v] * weight) * mesh.vertices[v] + weight * neighbour_sum[v];
       }
-  fine.triangles = cutInFour(mesh, edgeVertices(mesh, uses));
+  fine.triangles = splitIntoFour(mesh, edgeVertices(mesh, half_edges));
   return fine;
 }
 
@@ -95,7 +96,7 @@ TriangleMesh loopSubdivision(TriangleMesh mesh, int levels)
   return subdivide(std::move(mesh), levels, true);
 }
 
-TriangleMesh flatSubdivision(TriangleMesh mesh, int levels)
+TriangleMesh midpointSubdivision(TriangleMesh mesh, int levels)
 {
   return subdivide(std::move(mesh), levels, false);
 }

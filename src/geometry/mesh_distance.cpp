@@ -20,7 +20,8 @@ const Eigen::Vector3d& corner(const TriangleMesh& mesh, int t, int k)
   return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])];
 }
 
-/** Distance along the ray to the triangle, −1 without a hit. T. Möller, B. Trumbore, 1997. */
+/** Distance along the ray to the triangle; −1 without a hit. T. Möller, B. Trumbore, "Fast, minimum storage
+ *  ray/triangle intersection", 1997. */
 double rayTriangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, const Eigen::Vector3d& a,
                    const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
@@ -39,7 +40,7 @@ double rayTriangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& directi
   return ac.dot(q) / determinant;
 }
 
-/** Where the ray enters the box, or infinity. */
+/** Distance along the ray to its entry into the box (slab test); 1e300 without a hit. */
 double rayBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse, const Eigen::AlignedBox3d& box)
 {
   const Eigen::Array3d t0 = (box.min() - origin).array() * inverse.array();
@@ -112,7 +113,7 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
     const Node& node = nodes_[static_cast<std::size_t>(index)];
     if (node.right >= 0)
     {
-      // The nearer child is looked at first.
+      // The nearer child is visited first.
       const double left = nodes_[static_cast<std::size_t>(index) + 1].box.squaredExteriorDistance(p);
       const double right = nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(p);
       const bool left_first = left <= right;

@@ -10,45 +10,48 @@
 namespace endovascular_sim::geometry
 {
 
-/** The point of a mesh closest to another point. */
+/** Closest point of a mesh to a query point. */
 struct ClosestPoint
 {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< on the mesh [m]
-  double distance = 0.0;                            ///< ≥ 0 [m]
-  int triangle = -1;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< closest point [m]
+  double distance = 0.0;                            ///< unsigned distance [m]
+  int triangle = -1;                                ///< index of the triangle that contains the point
 };
 
-/** Distance queries to a fixed mesh over a tree of boxes. For preparation and checks; the wire's contact has its own
- *  detector. Keeps a reference to the mesh. */
+/** Distance and ray queries against a fixed mesh by a bounding volume hierarchy of axis-aligned boxes. Used by mesh
+ *  preparation and by checks; contact detection has its own search structures (contact/broad_phase). Keeps a reference
+ *  to the mesh. */
 class MeshDistance
 {
 public:
   explicit MeshDistance(const TriangleMesh& mesh);
 
-  /** Closest point of the mesh; the triangle is −1 when none is nearer than @p limit [m]. */
+  /** Closest point of the mesh.
+   *  @param limit search radius [m]; the result's triangle is −1 if no triangle is nearer */
   ClosestPoint closest(const Eigen::Vector3d& p, double limit = 1e300) const;
 
-  /** Distance along a ray to its first hit, −1 without one. @param direction unit vector */
+  /** Distance along a ray to its first hit [m]; −1 without a hit.
+   *  @param direction unit vector */
   double rayHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
 private:
   struct Node
   {
     Eigen::AlignedBox3d box;
-    int begin = 0;  ///< into order_
-    int end = 0;
-    int right = -1;  ///< second child, the first one follows the node; −1 for a leaf
+    int begin = 0;   ///< first entry of the node's range in order_
+    int end = 0;     ///< end of the range
+    int right = -1;  ///< index of the second child; −1 for a leaf. The first child is the next node.
   };
 
   int build(int begin, int end, const std::vector<Eigen::Vector3d>& centres);
 
   const TriangleMesh& mesh_;
   std::vector<Node> nodes_;
-  std::vector<int> order_;
+  std::vector<int> order_;  ///< triangle indices, permuted so that every node has a contiguous range
 };
 
-/** How often the surface winds round p: 1 inside of a closed, outward oriented mesh, 0 outside. Looks at every
- * triangle. A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", 1983. */
+/** Winding number of the surface around p: 1 inside a closed, outward oriented mesh, 0 outside. The cost is linear in
+ *  the number of triangles. A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", 1983. */
 double windingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& p);
 
 }  // namespace endovascular_sim::geometry

@@ -7,23 +7,23 @@
 namespace endovascular_sim::geometry
 {
 
-/** One side of a triangle, seen as an undirected edge. */
-struct EdgeUse
+/** Half-edge of a triangle, with the vertices of its undirected edge sorted. */
+struct HalfEdge
 {
   int low = 0;   ///< smaller vertex index
   int high = 0;  ///< larger vertex index
   int triangle = 0;
-  int side = 0;          ///< joins corner `side` and corner (side + 1) % 3
-  bool forward = false;  ///< the triangle runs from low to high
+  int side = 0;          ///< the half-edge joins corner `side` and corner (side + 1) % 3
+  bool forward = false;  ///< true if the triangle traverses the edge from low to high
 };
 
-/** All sides of all triangles, sorted by edge and then by triangle: the uses of an edge stand together. */
-std::vector<EdgeUse> sortedEdgeUses(const TriangleMesh& mesh);
+/** Half-edges of all triangles, sorted by edge and then by triangle: those of one edge are contiguous. */
+std::vector<HalfEdge> sortedHalfEdges(const TriangleMesh& mesh);
 
-/** End of the run of uses of the same edge that begins at @p begin. */
-std::size_t endOfEdge(const std::vector<EdgeUse>& uses, std::size_t begin);
+/** End of the range of half-edges that share their edge with the one at @p begin. */
+std::size_t endOfEdge(const std::vector<HalfEdge>& half_edges, std::size_t begin);
 
-/** Sets that merge (union–find); the representative is the smallest member. */
+/** Disjoint-set forest (union–find). The representative of a set is its smallest member. */
 class DisjointSets
 {
 public:
@@ -35,7 +35,7 @@ private:
   std::vector<int> parent_;
 };
 
-/** Per triangle, the smallest index of a triangle in its component (joined over edges). */
-std::vector<int> triangleComponents(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses);
+/** Connected component of each triangle (connected over edges), named by the component's smallest triangle index. */
+std::vector<int> triangleComponents(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges);
 
 }  // namespace endovascular_sim::geometry

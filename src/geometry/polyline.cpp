@@ -32,7 +32,6 @@ Polyline::Polyline(const std::vector<Eigen::Vector3d>& points, double tangent_re
   }
 }
 
-/** The first segment that ends beyond the arc length, else the last one. */
 std::size_t Polyline::segmentAt(double arc) const
 {
   const auto beyond = std::upper_bound(arcs_.begin() + 1, arcs_.end() - 1, arc);
@@ -86,13 +85,13 @@ Polyline::Foot Polyline::nearest(const Eigen::Vector3d& p) const
   return {arcs_[k] + t * (arcs_[k + 1] - arcs_[k]), foot, chord.normalized(), (foot - p).norm()};
 }
 
-Polyline::Foot Polyline::section(const Eigen::Vector3d& p) const
+Polyline::Foot Polyline::normalPlaneFoot(const Eigen::Vector3d& p) const
 {
   double t = 0.0;
-  return section(p, nearestSegment(p, t));
+  return normalPlaneFoot(p, nearestSegment(p, t));
 }
 
-Polyline::Foot Polyline::section(const Eigen::Vector3d& p, std::size_t segment) const
+Polyline::Foot Polyline::normalPlaneFoot(const Eigen::Vector3d& p, std::size_t segment) const
 {
   std::size_t k = segment;
   const auto beyond = [&](std::size_t point) { return (p - points_[point]).dot(tangents_[point]) > 0.0; };
@@ -100,7 +99,7 @@ Polyline::Foot Polyline::section(const Eigen::Vector3d& p, std::size_t segment) 
     --k;
   while (k + 2 < points_.size() && beyond(k + 1))
     ++k;
-  // (p − P − t d)·(T + t ΔT) = 0, the root between 0 and 1.
+  // Root in [0, 1] of (p − P − t d)·(T + t ΔT) = 0 with chord d and tangents T to T + ΔT.
   const Eigen::Vector3d from = p - points_[k];
   const Eigen::Vector3d chord = points_[k + 1] - points_[k];
   const Eigen::Vector3d turn = tangents_[k + 1] - tangents_[k];

@@ -8,50 +8,54 @@
 namespace endovascular_sim::geometry
 {
 
-/** A line of straight segments, measured by its arc length. */
+/** Polyline parametrised by arc length. */
 class Polyline
 {
 public:
-  /** @param points [m], two or more; those that repeat their neighbour are left out
-   *  @param tangent_reach directions at the points are those of chords that reach this far to both sides [m]: noise of
-   *         the points does not turn them; 0: the mean of both segments */
+  /** @param points two or more [m]; consecutive duplicates are dropped
+   *  @param tangent_reach half length of the chord that defines the tangent at a point [m], against noise of the
+   *         points; 0 takes the mean direction of both adjacent segments */
   explicit Polyline(const std::vector<Eigen::Vector3d>& points, double tangent_reach = 0.0);
 
-  double length() const { return arcs_.back(); }                          ///< [m]
+  double length() const { return arcs_.back(); }                          ///< total arc length [m]
   const std::vector<Eigen::Vector3d>& points() const { return points_; }  ///< [m]
-  const std::vector<double>& arcs() const { return arcs_; }               ///< of the points, from the first one [m]
+  const std::vector<double>& arcs() const { return arcs_; }               ///< arc length at each point [m]
 
-  /** The line at an arc length; the end points beyond it. @param arc [m] */
+  /** Position at an arc length [m], clamped to the ends. */
   Eigen::Vector3d at(double arc) const;
 
-  /** Unit vector along the line. */
+  /** Unit tangent of the segment at an arc length. */
   Eigen::Vector3d tangentAt(double arc) const;
 
-  /** Linear interpolation of values given at points(). */
+  /** Linear interpolation of per-point values at an arc length. */
   double interpolate(const std::vector<double>& values, double arc) const;
 
-  /** A point of the line that belongs to another point. */
+  /** Foot point: projection of a query point onto the polyline. */
   struct Foot
   {
-    double arc = 0.0;                                    ///< [m]
+    double arc = 0.0;                                    ///< arc length [m]
     Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< [m]
     Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ();  ///< unit
-    double distance = 0.0;                               ///< [m]
+    double distance = 0.0;                               ///< from the query point [m]
   };
-  /** Of equally near ones the first. Looks at every segment. */
+  /** Closest point of the polyline; the first one among equal distances. The cost is linear in the number of segments.
+   *  */
   Foot nearest(const Eigen::Vector3d& p) const;
 
-  /** The point of the line in whose normal plane p lies, near the nearest one. Normal planes turn evenly between the
-   *  line's points, so that this one, unlike the nearest, goes evenly along with p beside a bend. */
-  Foot section(const Eigen::Vector3d& p) const;
+  /** Projection along normal planes: the point of the polyline whose normal plane contains p, near the closest point.
+   *  Tangents are interpolated between the points, so the foot is a continuous function of p beside a bend, where the
+   *  closest point jumps. */
+  Foot normalPlaneFoot(const Eigen::Vector3d& p) const;
 
-  /** The same, near a segment that is known to be near: time does not grow with the line's length. */
-  Foot section(const Eigen::Vector3d& p, std::size_t segment) const;
+  /** Projection along normal planes, searched from a given segment; the cost does not depend on the number of segments.
+   *  */
+  Foot normalPlaneFoot(const Eigen::Vector3d& p, std::size_t segment) const;
 
-  /** The segment that holds an arc length. */
+  /** Index of the segment that contains an arc length, clamped to the first and last one. */
   std::size_t segmentAt(double arc) const;
 
-  /** The part between two arc lengths, with the line's own points in it. @pre begin < end */
+  /** Section between two arc lengths; it contains the polyline's points in between.
+   *  @pre begin < end */
   Polyline part(double begin, double end) const;
 
 private:
@@ -59,7 +63,7 @@ private:
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> arcs_;
-  std::vector<Eigen::Vector3d> tangents_;  ///< unit, at the points
+  std::vector<Eigen::Vector3d> tangents_;  ///< unit tangent at each point
 };
 
 }  // namespace endovascular_sim::geometry

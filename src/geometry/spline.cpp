@@ -12,7 +12,7 @@ Spline3::Spline3(const std::vector<Eigen::Vector3d>& points)
   const std::size_t n = points.size();
   for (std::size_t k = 1; k < n; ++k)
     knots_.push_back(knots_.back() + (points[k] - points[k - 1]).norm());
-  // Tridiagonal system for the second derivatives (Thomas' algorithm), zero at both ends.
+  // Tridiagonal system for the second derivatives (Thomas algorithm) with natural end conditions.
   std::vector<double> factor(n, 0.0);
   for (std::size_t k = 1; k + 1 < n; ++k)
   {

@@ -7,14 +7,14 @@
 namespace endovascular_sim::geometry
 {
 
-/** Natural cubic spline through points, with the chord lengths as parameter: C², no overshoot between even points. */
+/** Natural cubic spline through points, parametrised by cumulative chord length; C². */
 class Spline3
 {
 public:
-  /** @pre at least two points, neighbours distinct */
+  /** @pre at least two points; consecutive points are distinct */
   explicit Spline3(const std::vector<Eigen::Vector3d>& points);
 
-  /** Parameter of each control point [m]; from 0 up. */
+  /** Parameter of each control point [m]; the first is 0. */
   const std::vector<double>& knots() const { return knots_; }
   Eigen::Vector3d position(double u) const;
   Eigen::Vector3d derivative(double u) const;
@@ -27,12 +27,12 @@ private:
   std::vector<double> knots_;
 };
 
-/** Monotone piecewise cubic through values (F. N. Fritsch, J. Butland, 1984): no over- or undershoot; constant outside.
- */
+/** Monotone piecewise cubic interpolation, constant outside of its range. F. N. Fritsch, J. Butland, "A method for
+ *  constructing local monotone piecewise cubic interpolants", 1984. */
 class MonotoneCubic
 {
 public:
-  /** @pre positions increase strictly, at least one */
+  /** @pre at least one position; positions increase strictly */
   MonotoneCubic(std::vector<double> positions, std::vector<double> values);
   double operator()(double x) const;
 

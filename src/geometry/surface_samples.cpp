@@ -9,13 +9,13 @@
 namespace endovascular_sim::geometry
 {
 
-std::vector<TrianglePart> cutTriangle(const TrianglePart& triangle, double longest)
+std::vector<TriangleCorners> bisectTriangle(const TriangleCorners& triangle, double longest)
 {
-  std::vector<TrianglePart> parts;
-  std::vector<TrianglePart> open{triangle};
+  std::vector<TriangleCorners> parts;
+  std::vector<TriangleCorners> open{triangle};
   while (!open.empty())
   {
-    const TrianglePart t = open.back();
+    const TriangleCorners t = open.back();
     open.pop_back();
     std::size_t side = 0;
     for (std::size_t k = 1; k < 3; ++k)
@@ -44,7 +44,7 @@ std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacin
   for (std::size_t t = first; t < std::min(last, mesh.triangles.size()); ++t)
   {
     const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    for (const TrianglePart& part : cutTriangle({at(0), at(1), at(2)}, spacing))
+    for (const TriangleCorners& part : bisectTriangle({at(0), at(1), at(2)}, spacing))
     {
       const Eigen::Vector3d twice = (part[1] - part[0]).cross(part[2] - part[0]);
       samples.push_back({(part[0] + part[1] + part[2]) / 3.0, twice.normalized(), 0.5 * twice.norm()});
@@ -53,7 +53,7 @@ std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacin
   return samples;
 }
 
-Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vector<double>& distances, double stated)
+Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vector<double>& distances, double tolerance)
 {
   Deviation deviation;
   double area = 0.0;
@@ -61,12 +61,12 @@ Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vect
   {
     area += samples[k].area;
     deviation.rms += samples[k].area * distances[k] * distances[k];
-    if (distances[k] > stated)
+    if (distances[k] > tolerance)
       deviation.beyond += samples[k].area;
     if (distances[k] > deviation.largest)
     {
       deviation.largest = distances[k];
-      deviation.place = samples[k].point;
+      deviation.location = samples[k].point;
     }
   }
   if (!(area > 0.0))

@@ -11,36 +11,38 @@
 namespace endovascular_sim::geometry
 {
 
-/** A point of a surface that stands for some of its area. */
+/** Quadrature point of a surface. */
 struct SurfaceSample
 {
   Eigen::Vector3d point;   ///< [m]
-  Eigen::Vector3d normal;  ///< unit, of its triangle
-  double area;             ///< [m²]
+  Eigen::Vector3d normal;  ///< unit normal of the triangle
+  double area;             ///< area that the sample represents [m²]
 };
 
-using TrianglePart = std::array<Eigen::Vector3d, 3>;
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
-/** Halves a triangle across its longest edge until no edge is longer than @p longest [m]; none without area. */
-std::vector<TrianglePart> cutTriangle(const TrianglePart& triangle, double longest);
+/** Longest-edge bisection of a triangle until no edge is longer than @p longest [m]. Degenerate parts are dropped. */
+std::vector<TriangleCorners> bisectTriangle(const TriangleCorners& triangle, double longest);
 
-/** Centres of the pieces into which the triangles from @p first to before @p last are cut until no edge is longer than
- *  @p spacing [m]; triangles without area give none. */
+/** Samples of the triangles with indices in [@p first, @p last): centroids of their longest-edge bisection.
+ *  @param spacing longest edge of a bisected triangle [m] */
 std::vector<SurfaceSample> sampleSurface(const TriangleMesh& mesh, double spacing, std::size_t first = 0,
                                          std::size_t last = static_cast<std::size_t>(-1));
 
-/** How far points of one surface are from another. */
+/** Statistics of the distance from one surface to another, weighted by area. */
 struct Deviation
 {
-  double largest = 0.0;                             ///< one side of Hausdorff's distance [m]
-  double rms = 0.0;                                 ///< over the area [m]
-  double p99 = 0.0;                                 ///< what 99 % of the area keeps within [m]
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the largest [m]
-  double beyond = 0.0;                              ///< area beyond the stated distance [m²]
+  double largest = 0.0;                                ///< one-sided Hausdorff distance [m]
+  double rms = 0.0;                                    ///< root mean square [m]
+  double p99 = 0.0;                                    ///< 99th percentile [m]
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();  ///< sample with the largest distance [m]
+  double beyond = 0.0;                                 ///< area with a distance above the tolerance [m²]
 };
 
-/** @param distances [m], one per sample
- *  @param stated distance [m] beyond which area is counted */
-Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vector<double>& distances, double stated);
+/** Computes the statistics of sampled distances.
+ *  @param distances one per sample [m]
+ *  @param tolerance distance above which area counts as `beyond` [m] */
+Deviation deviationOf(const std::vector<SurfaceSample>& samples, const std::vector<double>& distances,
+                      double tolerance);
 
 }  // namespace endovascular_sim::geometry

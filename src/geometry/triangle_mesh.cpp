@@ -11,7 +11,7 @@ double TriangleMesh::signedVolume() const
 {
   if (vertices.empty())
     return 0.0;
-  // Taken about a vertex, so that a mesh far from the origin loses no digits.
+  // Computed about a vertex: a mesh far from the origin would lose digits by cancellation.
   const Eigen::Vector3d origin = vertices.front();
   double six_volumes = 0.0;
   for (const Eigen::Vector3i& t : triangles)

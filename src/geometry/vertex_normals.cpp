@@ -23,27 +23,27 @@ std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh)
 Eigen::Vector3d barycentric(const TriangleMesh& mesh, const ClosestPoint& at)
 {
   const Eigen::Vector3i& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
-  Eigen::Vector3d share;
+  Eigen::Vector3d weights;
   for (int k = 0; k < 3; ++k)
   {
     const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
     const Eigen::Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[(k + 2) % 3])];
-    share[k] = (b - at.point).cross(c - at.point).norm();
+    weights[k] = (b - at.point).cross(c - at.point).norm();
   }
-  return share.sum() > 0.0 ? Eigen::Vector3d(share / share.sum()) : Eigen::Vector3d::Constant(1.0 / 3.0);
+  return weights.sum() > 0.0 ? Eigen::Vector3d(weights / weights.sum()) : Eigen::Vector3d::Constant(1.0 / 3.0);
 }
 
 Eigen::Vector3d normalAt(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& normals, const ClosestPoint& at)
 {
   const Eigen::Vector3i& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
-  const Eigen::Vector3d share = barycentric(mesh, at);
+  const Eigen::Vector3d weights = barycentric(mesh, at);
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k)
-    normal += share[k] * normals[static_cast<std::size_t>(t[k])];
+    normal += weights[k] * normals[static_cast<std::size_t>(t[k])];
   return normal.norm() > 0.0 ? Eigen::Vector3d(normal.normalized()) : normals[static_cast<std::size_t>(t[0])];
 }
 
-double SidedMesh::at(const Eigen::Vector3d& p) const
+double SignedMeshDistance::at(const Eigen::Vector3d& p) const
 {
   const ClosestPoint closest = distance_.closest(p);
   return (p - closest.point).dot(normalAt(mesh_, normals_, closest)) < 0.0 ? -closest.distance : closest.distance;

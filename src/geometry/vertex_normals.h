@@ -10,23 +10,23 @@
 namespace endovascular_sim::geometry
 {
 
-/** Unit normals at the vertices, from the faces round them by area. */
+/** Unit vertex normals: area-weighted means of the adjacent face normals. */
 std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh);
 
-/** Weights of a triangle's corners at a point on it; a third each where it has no area. */
+/** Barycentric coordinates of a point on a triangle; 1/3 each for a degenerate triangle. */
 Eigen::Vector3d barycentric(const TriangleMesh& mesh, const ClosestPoint& at);
 
-/** The vertices' normals, interpolated. */
+/** Unit normal at a point of the mesh, interpolated from vertex normals. */
 Eigen::Vector3d normalAt(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& normals, const ClosestPoint& at);
 
-/** A mesh of fine even triangles that tells on which side a point lies. Keeps a reference to the mesh. */
-class SidedMesh
+/** Signed distance to a fine, isotropic mesh; the sign comes from interpolated vertex normals. Keeps a reference to the
+ *  mesh. */
+class SignedMeshDistance
 {
 public:
-  explicit SidedMesh(const TriangleMesh& mesh) : mesh_(mesh), distance_(mesh), normals_(vertexNormals(mesh)) {}
+  explicit SignedMeshDistance(const TriangleMesh& mesh) : mesh_(mesh), distance_(mesh), normals_(vertexNormals(mesh)) {}
 
-  /** Distance to the mesh, negative on the side away from the normals [m]; its sign may be wrong closer to a crease
-   *  than the triangles are long. */
+  /** Signed distance [m], negative on the inner side. The sign may be wrong within one edge length of a crease. */
   double at(const Eigen::Vector3d& p) const;
 
   const MeshDistance& distance() const { return distance_; }

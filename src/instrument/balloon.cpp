@@ -5,7 +5,7 @@ namespace endovascular_sim::instrument
 namespace
 {
 
-double onLine(const Balloon::Compliance& a, const Balloon::Compliance& b, double pressure)
+double interpolate(const Balloon::Compliance& a, const Balloon::Compliance& b, double pressure)
 {
   return a.diameter + (b.diameter - a.diameter) * ((pressure - a.pressure) / (b.pressure - a.pressure));
 }
@@ -19,9 +19,9 @@ double Balloon::diameterAt(double pressure) const
   Balloon::Compliance below{0.0, folded_diameter};
   for (const Compliance& above : compliance)
   {
-    // The last row is not left: its segment goes on beyond it.
+    // Pressures beyond the last row are extrapolated with its segment.
     if (pressure <= above.pressure || &above == &compliance.back())
-      return onLine(below, above, pressure);
+      return interpolate(below, above, pressure);
     below = above;
   }
   return folded_diameter;

@@ -15,49 +15,48 @@ enum class Kind
 {
   kGuidewire,
   kCatheter,
-  kBalloonCatheter,  ///< may carry a stent
-  kStent,            ///< by itself: it has no shaft
+  kBalloonCatheter,  ///< with or without a stent
+  kStent,            ///< stent without a delivery system
 };
 
-/** What a section is made of, for the X-ray. */
+/** Material of a section; determines the X-ray attenuation. */
 enum class Material
 {
   kNitinol,
   kSteel,
   kPlatinum,
   kPolymer,
-  kFilledPolymer,  ///< with barium sulfate
+  kFilledPolymer,  ///< polymer filled with barium sulfate
 };
 
-/** As files write it. */
+/** Name of a material in instrument files. */
 const char* materialName(Material material);
 
-/** A radiopaque ring on a shaft. */
+/** Radiopaque marker band on a shaft. */
 struct Marker
 {
-  double from_tip = 0.0;  ///< from the tip to the ring's distal edge [m]
+  double from_tip = 0.0;  ///< distance from the tip to the band's distal edge [m]
   double length = 0.0;    ///< [m]
   Material material = Material::kPlatinum;
 };
 
-/** A device: the mechanics of its shaft, what X-rays see of it, and what it carries. */
+/** Interventional device: mechanics of the shaft, radiopacity, balloon and stent. */
 struct Instrument
 {
   std::string name;
   Kind kind = Kind::kGuidewire;
-  rod::Wire wire;                   ///< the shaft; no section for a stent by itself
+  rod::Wire wire;                   ///< shaft; without sections for a bare stent
   std::vector<Material> materials;  ///< one per section of the wire
-  double inner_radius = 0.0;        ///< of the lumen over the whole length; 0: none [m]
-  std::vector<Marker> markers;      ///< from the tip backwards or in any order
-  std::optional<Balloon> balloon;   ///< of a balloon catheter
-  std::optional<Stent> stent;       ///< on the balloon, centred; or the stent by itself
+  double inner_radius = 0.0;        ///< radius of the shaft's lumen, constant over its length; 0 without a lumen [m]
+  std::vector<Marker> markers;      ///< in any order
+  std::optional<Balloon> balloon;   ///< set for a balloon catheter
+  std::optional<Stent> stent;       ///< crimped on the centre of the balloon, or the bare stent
 };
 
-/** Radius of the hole that the whole instrument passes: of the thickest section, the folded balloon or the crimped
- *  stent [m]. */
+/** Crossing profile as a radius [m]: the largest of the sections, the folded balloon and the crimped stent. */
 double crossingRadius(const Instrument& instrument);
 
-/** Whether @p inner can be pushed through the whole lumen of @p outer. */
+/** True if @p inner passes through the whole lumen of @p outer. */
 bool fitsInside(const Instrument& inner, const Instrument& outer);
 
 }  // namespace endovascular_sim::instrument

@@ -10,7 +10,7 @@ namespace endovascular_sim::instrument
 namespace
 {
 
-/** The point at a distance beyond the beginning of an arc of constant curvature vector in the material frame. */
+/** Point at a distance along an arc whose curvature vector is constant in the material frame. */
 RestPoint advance(const RestPoint& begin, const Eigen::Vector2d& rest_curvature, double distance)
 {
   RestPoint end = begin;
@@ -21,7 +21,8 @@ RestPoint advance(const RestPoint& begin, const Eigen::Vector2d& rest_curvature,
     end.position += distance * begin.tangent;
     return end;
   }
-  // κb = ω₁ d2 − ω₂ d1 with ω = (κb·d2, −κb·d1). The frame turns about it, so it stays where it is in space.
+  // Curvature vector κb = ω₁ d2 − ω₂ d1 with ω = (κb·d2, −κb·d1). The frame rotates about κb, so κb is constant in
+  // space.
   const Eigen::Vector3d d2 = begin.tangent.cross(begin.d1);
   const Eigen::Vector3d axis = (rest_curvature[0] * d2 - rest_curvature[1] * begin.d1) / curvature;
   const double angle = curvature * distance;

@@ -10,21 +10,21 @@
 namespace endovascular_sim::instrument
 {
 
-/** A point of a wire that nothing touches. */
+/** Point of the unloaded wire. */
 struct RestPoint
 {
-  double arc_length = 0.0;  ///< from the hand's end [m]
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();  ///< material direction
-  std::size_t section = 0;                        ///< that ends here or holds the point
+  double arc_length = 0.0;                             ///< from the proximal end [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ();  ///< unit
+  Eigen::Vector3d d1 = Eigen::Vector3d::UnitX();       ///< first director of the material frame
+  std::size_t section = 0;                             ///< index of the section that contains or ends at the point
 };
 
-/** Shape of a free wire: an arc for every section, joined with equal tangent and material frame (the Frenet–Serret
- *  integral of piecewise constant curvature, exact at every point). The hand's end lies in the origin, the wire leaves
- *  it along z, d1 along x.
- *  @param spacing largest distance of two points [m]; every end of a section is a point
- *  @return points in order, their lengths in metres */
+/** Shape of the unloaded wire: one circular arc per section, joined with continuous tangent and material frame. This
+ *  is the exact integral of the Frenet–Serret equations for piecewise constant curvature. The proximal end lies at the
+ *  origin with its tangent along z and d1 along x.
+ *  @param spacing largest arc length between two points [m]; the ends of every section are points
+ *  @return points from proximal to distal */
 std::vector<RestPoint> restShape(const rod::Wire& wire, double spacing);
 
 }  // namespace endovascular_sim::instrument

@@ -5,32 +5,32 @@
 namespace endovascular_sim::instrument
 {
 
-/** A balloon-expandable stent. Diameters are inner ones unless noted. */
+/** Balloon-expandable stent. Diameters are inner diameters unless noted. */
 struct Stent
 {
-  /** Length at a diameter: stents shorten as they open. */
+  /** Row of the foreshortening table. */
   struct Expansion
   {
     double diameter = 0.0;  ///< [m]
     double length = 0.0;    ///< [m]
   };
 
-  double crimped_diameter = 0.0;  ///< outer, on its balloon [m]
-  double nominal_diameter = 0.0;  ///< labelled [m]
-  double strut_thickness = 0.0;   ///< with the coating [m]
-  double recoil = 0.0;            ///< share of the diameter that is lost when the balloon is deflated [1]
-  std::vector<Expansion> expansion;
+  double crimped_diameter = 0.0;     ///< outer diameter, crimped on the balloon [m]
+  double nominal_diameter = 0.0;     ///< labelled diameter [m]
+  double strut_thickness = 0.0;      ///< including the coating [m]
+  double recoil = 0.0;               ///< acute recoil: relative loss of diameter at balloon deflation [1]
+  std::vector<Expansion> expansion;  ///< foreshortening table, by increasing diameter
 
-  /** Length at an inner diameter [m]: linear between the rows, the outermost beyond them. */
+  /** Length at an inner diameter [m]: linear between the rows of the table, constant outside of it. */
   double lengthAt(double diameter) const;
 
-  /** Inner diameter after deflation of a balloon that has opened it to @p diameter [m]. */
+  /** Inner diameter after recoil from an expanded @p diameter [m]. */
   double afterRecoil(double diameter) const { return diameter * (1.0 - recoil); }
 
-  /** Largest diameter to which it may be opened [m]. */
+  /** Largest permitted diameter, the post-dilatation limit [m]. */
   double largestDiameter() const { return expansion.back().diameter; }
 
-  /** Length on the balloon [m]. */
+  /** Length crimped on the balloon [m]. */
   double crimpedLength() const { return expansion.front().length; }
 };
 

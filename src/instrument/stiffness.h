@@ -16,21 +16,22 @@ struct Stiffness
  *  @param poisson_ratio ν in (−1, 0.5] */
 double shearModulus(double young_modulus, double poisson_ratio);
 
-/** A solid round section: EI = E·π r⁴/4, GJ = G·π r⁴/2, EA = E·π r².
+/** Stiffness of a solid circular section: EI = E·π r⁴/4, GJ = G·π r⁴/2, EA = E·π r².
  *  @param young_modulus E [Pa]
  *  @param shear_modulus G [Pa]
  *  @param radius r [m] */
 Stiffness solidSection(double young_modulus, double shear_modulus, double radius);
 
-/** A tube: EI = E·π (r⁴ − i⁴)/4, GJ = G·π (r⁴ − i⁴)/2, EA = E·π (r² − i²).
+/** Stiffness of an annular section (tube): EI = E·π (r⁴ − i⁴)/4, GJ = G·π (r⁴ − i⁴)/2, EA = E·π (r² − i²).
  *  @param young_modulus E of the wall [Pa]
  *  @param shear_modulus G of the wall [Pa]
- *  @param radius outer, r [m]
- *  @param inner_radius i < r [m]; at 0 the section is solid */
+ *  @param radius outer radius r [m]
+ *  @param inner_radius inner radius i < r [m]; 0 gives a solid section */
 Stiffness hollowSection(double young_modulus, double shear_modulus, double radius, double inner_radius);
 
-/** The Young's modulus [Pa] that gives a section of this radius [m] the bending stiffness EI [N·m²].
- *  @param inner_radius of a tube [m] */
+/** Young's modulus [Pa] of a homogeneous section with the given bending stiffness EI [N·m²].
+ *  @param radius outer radius [m]
+ *  @param inner_radius inner radius of a tube [m] */
 double equivalentYoungModulus(double bending_stiffness, double radius, double inner_radius = 0.0);
 
 }  // namespace endovascular_sim::instrument

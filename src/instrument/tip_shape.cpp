@@ -8,20 +8,21 @@ namespace endovascular_sim::instrument
 namespace
 {
 
-// Pieces shorter than this are rounding of lengths that were meant to be equal.
-constexpr double kShortestPiece = 1e-9;
+// Tolerance for rounding errors in lengths that should be equal [m].
+constexpr double kLengthTolerance = 1e-9;
 
-/** Cuts the wire at a distance from its tip; returns the index of the first section beyond the cut. */
-std::size_t cutFromTip(Instrument& instrument, double distance)
+/** Splits the section at a distance from the tip.
+ *  @return index of the first section distal to the split */
+std::size_t splitSection(Instrument& instrument, double distance)
 {
   auto& sections = instrument.wire.sections;
   double beyond = 0.0;
   for (std::size_t k = sections.size(); k-- > 0;)
   {
-    if (distance - beyond < kShortestPiece)
+    if (distance - beyond < kLengthTolerance)
       return k + 1;
     const double inside = distance - beyond;
-    if (inside < sections[k].length - kShortestPiece)
+    if (inside < sections[k].length - kLengthTolerance)
     {
       rod::Section distal = sections[k];
       distal.length = inside;
@@ -45,15 +46,15 @@ Eigen::Vector2d arcCurvature(double radius, double direction)
 
 void applyTipShape(Instrument& instrument, const TipShape& shape)
 {
-  if (shape.length() > instrument.wire.length() + kShortestPiece)
-    throw std::invalid_argument("the tip's shape is longer than the wire");
-  const std::size_t arc = cutFromTip(instrument, shape.length());
-  const std::size_t leg = cutFromTip(instrument, shape.straight);
+  if (shape.length() > instrument.wire.length() + kLengthTolerance)
+    throw std::invalid_argument("the tip shape is longer than the wire");
+  const std::size_t arc = splitSection(instrument, shape.length());
+  const std::size_t leg = splitSection(instrument, shape.straight);
   for (std::size_t k = arc; k < instrument.wire.sections.size(); ++k)
   {
     rod::Section& section = instrument.wire.sections[k];
     if (!section.rest_curvature.isZero(0.0))
-      throw std::invalid_argument("a section under the tip's shape already has rest curvature");
+      throw std::invalid_argument("a section within the tip shape already has rest curvature");
     if (k < leg)
       section.rest_curvature = arcCurvature(shape.radius, shape.direction);
   }

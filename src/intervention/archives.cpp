@@ -1,7 +1,8 @@
 #include "common/archive.h"
 #include "intervention/treatment.h"
+#include "intervention/vessel_dilatation.h"
 
-// What of a treatment and of the wall changes, to be saved and loaded.
+// Serialization of the state of treatments and of the deformable wall.
 
 namespace endovascular_sim::intervention
 {
@@ -11,9 +12,9 @@ void archive(Archive& archive, RoundBody& body)
   archive(body.axis, body.radii);
 }
 
-void archive(Archive& archive, BalloonLoad& pressing)
+void archive(Archive& archive, BalloonLoad& load)
 {
-  archive(pressing.balloon, pressing.pressure, pressing.sleeve);
+  archive(load.balloon, load.pressure, load.sleeve);
 }
 
 void archive(Archive& archive, WallDisplacement& displacement)
@@ -38,23 +39,25 @@ void StentPlacement::archive(Archive& archive)
 
 void Treatment::archive(Archive& archive)
 {
-  archive(inflation_, stripped_, events_, pressing_);
+  archive(inflation_, dislodged_, events_, load_);
   if (stent_)
     archive(*stent_);
 }
 
-/** Of vertices only those that have been through something. */
-void VesselOpening::archive(Archive& archive)
+/** Archives only vertices whose state differs from the initial one. */
+void VesselDilatation::archive(Archive& archive)
 {
   std::vector<int> changed;
-  for (std::size_t v = 0; v < walls_.size() && !archive.reading(); ++v)
-    if (walls_[v].active || walls_[v].peak != 0.0 || walls_[v].base != first_[v] || mesh_.vertices[v] != first_[v])
+  for (std::size_t v = 0; v < vertices_.size() && !archive.reading(); ++v)
+    if (vertices_[v].active || vertices_[v].peak != 0.0 || vertices_[v].base != initial_vertices_[v] ||
+        mesh_.vertices[v] != initial_vertices_[v])
       changed.push_back(static_cast<int>(v));
-  archive(changed, active_, next_.first, next_.second, empty_, farthest_, peak_pressure_, largest_stretch_);
+  archive(changed, active_, next_.first, next_.second, empty_, largest_displacement_, peak_pressure_, largest_stretch_);
   for (int v : changed)
   {
-    Wall& wall = walls_.at(static_cast<std::size_t>(v));
-    archive(mesh_.vertices[static_cast<std::size_t>(v)], wall.base, wall.peak, wall.rest, wall.held, wall.active);
+    VertexState& vertex_state = vertices_.at(static_cast<std::size_t>(v));
+    archive(mesh_.vertices[static_cast<std::size_t>(v)], vertex_state.base, vertex_state.peak, vertex_state.rest,
+            vertex_state.held, vertex_state.active);
   }
 }
 

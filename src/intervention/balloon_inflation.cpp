@@ -8,7 +8,7 @@ namespace endovascular_sim::intervention
 namespace
 {
 
-constexpr double kEmpty = 100.0;  // Pa: a balloon that is let out counts as empty below it
+constexpr double kEmpty = 100.0;  // pressure below which a deflating balloon counts as empty [Pa]
 
 }  // namespace
 

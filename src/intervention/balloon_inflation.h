@@ -12,7 +12,7 @@ class Archive;
 namespace endovascular_sim::intervention
 {
 
-/** A balloon driven by an inflator: pressure, diameter, rupture. */
+/** Inflation state of a balloon: pressure, diameter, rupture. */
 class BalloonInflation
 {
 public:
@@ -21,31 +21,33 @@ public:
   enum class Event
   {
     kNone,
-    kAboveRated,  ///< the pressure has just exceeded the rated burst pressure
-    kBurst,       ///< it has just exceeded the burst pressure: the balloon is empty from now on
+    kAboveRated,  ///< first step with a pressure above the rated burst pressure
+    kBurst,       ///< first step with a pressure above the burst pressure; the balloon stays empty
   };
 
-  /** Advances by @p dt [s]: the pressure follows the inflator's @p commanded one [Pa, above that of the blood] as
-   *  dp/dt = (commanded − p)/τ with the balloon's time constants of filling and emptying, solved exactly. */
+  /** Advances the pressure by the exact solution of dp/dt = (p_c − p)/τ with the inflation or deflation time constant
+   *  τ.
+   *  @param dt time step [s]
+   *  @param commanded transmural pressure p_c commanded at the inflator [Pa] */
   Event step(double dt, double commanded);
 
   double pressure() const { return pressure_; }           ///< [Pa]
-  double peakPressure() const { return peak_pressure_; }  ///< so far [Pa]
+  double peakPressure() const { return peak_pressure_; }  ///< largest pressure since construction [Pa]
   bool burst() const { return burst_; }
-  double diameter() const { return balloon_.diameterAt(pressure_); }  ///< where nothing holds it [m]
+  double diameter() const { return balloon_.diameterAt(pressure_); }  ///< unconstrained [m]
   const instrument::Balloon& balloon() const { return balloon_; }
 
-  /** Radius of the free balloon at a distance from the catheter's tip [m]; 0 where there is none. A cylinder between
-   *  cones that are as long as the labelled diameter (assumed; a slope of about 1 in 2). */
+  /** Radius of the unconstrained balloon at a distance from the catheter's tip [m]; 0 outside of the balloon. The shape
+   *  is a cylinder between two cones. Each cone is as long as the labelled diameter (assumed; slope of about 1/2). */
   double radiusAt(double from_tip) const { return radiusOf(diameter(), from_tip); }
-  /** The same of the folded balloon [m]. */
+  /** Radius of the folded balloon at a distance from the catheter's tip [m]. */
   double foldedRadiusAt(double from_tip) const { return radiusOf(balloon_.folded_diameter, from_tip); }
 
-  /** The distances from the tip between which radiusAt() is positive [m]. */
+  /** Distances from the tip between which radiusAt() is positive [m]. */
   double begin() const { return balloon_.from_tip - coneLength(); }
   double end() const { return balloon_.from_tip + balloon_.length + coneLength(); }
 
-  void archive(Archive& archive);  ///< saves or loads all that changes
+  void archive(Archive& archive);  ///< saves or loads the state
 
 private:
   double radiusOf(double diameter, double from_tip) const;

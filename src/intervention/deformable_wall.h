@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "intervention/vessel_opening.h"
+#include "intervention/balloon_load.h"
 
 namespace endovascular_sim
 {
@@ -12,27 +12,27 @@ class Archive;
 namespace endovascular_sim::intervention
 {
 
-/** What moves the wall of a vessel: in this process, or vessel_server behind its topics. */
+/** Interface to a wall that yields to balloons and stents. The wall is deformed in this process or by vessel_server. */
 class DeformableWall
 {
 public:
   virtual ~DeformableWall() = default;
 
-  /** Lets a step's balloon act on the wall. What contact searches does not change yet.
-   *  @param step of the simulation
-   *  @return the version of the vessel that comes of it, one more than before */
-  virtual std::uint64_t press(std::uint64_t step, const BalloonLoad& pressing) = 0;
+  /** Applies the balloon load of a step. Contact detection keeps its current version of the wall until activate().
+   *  @param step index of the simulation step
+   *  @return version of the deformed wall: the previous version plus one */
+  virtual std::uint64_t applyLoad(std::uint64_t step, const BalloonLoad& load) = 0;
 
-  /** From now on contact searches this version, which press() has promised. */
-  virtual void show(std::uint64_t version) = 0;
+  /** Makes contact detection use a version that applyLoad() has returned. */
+  virtual void activate(std::uint64_t version) = 0;
 
-  virtual std::uint64_t version() const = 0;  ///< last promised, or that of the vessel at the beginning
+  virtual std::uint64_t version() const = 0;  ///< version last returned by applyLoad(), or the initial version
 
-  /** Whether some wall was stretched so far that it may tear, as far as is known. */
+  /** True if the wall has been stretched beyond the critical stretch anywhere, as last reported. */
   virtual bool atRisk() const = 0;
 
-  /** Saves or loads all that changes, what contact searches included; loading needs the wall of the beginning.
-   *  @throws std::logic_error where the wall is another process's */
+  /** Saves or loads the state of the wall and of its contact detection. Loading requires the initial wall.
+   *  @throws std::logic_error if the wall belongs to another process */
   virtual void archive(Archive& archive) = 0;
 };
 

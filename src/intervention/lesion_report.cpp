@@ -15,14 +15,14 @@ namespace endovascular_sim::intervention
 namespace
 {
 
-constexpr int kSections = 40;           // along a lesion
-constexpr double kSectionReach = 1e-3;  // m along the centreline to both sides, for the direction of a section
+constexpr int kSections = 40;           // sections along a lesion
+constexpr double kTangentReach = 1e-3;  // half length of the chord that defines the normal of a section [m]
 constexpr int kStentSections = 30;
 constexpr int kStentRays = 32;
-constexpr double kApposed = 0.1e-3;  // m
-constexpr double kHair = 1e-6;       // m: struts may stand in the wall by rounding
+constexpr double kApposed = 0.1e-3;  // largest gap between an apposed strut and the wall [m]
+constexpr double kTolerance = 1e-6;  // rounding tolerance of the gap [m]
 
-/** Share of the stent's surface that lies against the wall. */
+/** Fraction of the stent's surface that is apposed to the wall. */
 double apposition(const geometry::MeshDistance& wall, const RoundBody& stent)
 {
   const geometry::Polyline axis(stent.axis);
@@ -38,7 +38,7 @@ double apposition(const geometry::MeshDistance& wall, const RoundBody& stent)
     {
       const double angle = 2.0 * M_PI * ray / kStentRays;
       const double hit = wall.rayHit(axis.at(arc), std::cos(angle) * u + std::sin(angle) * v);
-      apposed += hit >= 0.0 && hit - radius <= kApposed + kHair ? 1 : 0;
+      apposed += hit >= 0.0 && hit - radius <= kApposed + kTolerance ? 1 : 0;
     }
   }
   return static_cast<double>(apposed) / (kStentSections * kStentRays);
@@ -50,30 +50,30 @@ LesionReport reportLesion(const geometry::TriangleMesh& mesh, const vessel::Cent
                           const vessel::PlacedLesion& lesion, const RoundBody* stent)
 {
   const vessel::CentrelineBranch& branch = centreline.branches[static_cast<std::size_t>(lesion.branch)];
-  const geometry::Polyline axis(branch.points, kSectionReach);
+  const geometry::Polyline axis(branch.points, kTangentReach);
   const geometry::MeshDistance wall(mesh);
   const auto diameterAt = [&](double arc)
   {
-    const geometry::Polyline::Foot place = axis.section(axis.at(arc));
-    return vessel::lumenDiameter(wall, place.point, place.tangent);
+    const geometry::Polyline::Foot foot = axis.normalPlaneFoot(axis.at(arc));
+    return vessel::lumenDiameter(wall, foot.point, foot.tangent);
   };
   const double before = std::max(0.0, lesion.begin - lesion.healthy_diameter);
-  const double behind = std::min(axis.length(), lesion.end + lesion.healthy_diameter);
+  const double after = std::min(axis.length(), lesion.end + lesion.healthy_diameter);
   const double proximal = diameterAt(before);
-  const double distal = diameterAt(behind);
+  const double distal = diameterAt(after);
 
   LesionReport report;
   report.stenosis = -1e300;
   for (int k = 0; k <= kSections; ++k)
   {
     const double arc = lesion.begin + (lesion.end - lesion.begin) * k / kSections;
-    const double t = (arc - before) / (behind - before);
+    const double t = (arc - before) / (after - before);
     const double reference = (1.0 - t) * proximal + t * distal;
     const double diameter = diameterAt(arc);
     if (1.0 - diameter / reference <= report.stenosis)
       continue;
     report.stenosis = 1.0 - diameter / reference;
-    report.least_diameter = diameter;
+    report.minimal_diameter = diameter;
     report.reference_diameter = reference;
   }
   if (stent == nullptr || stent->axis.size() < 2)

@@ -1,31 +1,31 @@
 #pragma once
 
 #include "geometry/triangle_mesh.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/balloon_load.h"
 #include "vessel/centreline/centreline.h"
 #include "vessel/model/lesion.h"
 
 namespace endovascular_sim::intervention
 {
 
-/** How a lesion looks, before or after its treatment. */
+/** Quantitative measures of a lesion, before or after its treatment. */
 struct LesionReport
 {
-  double reference_diameter = 0.0;  ///< between the lumens before and behind the lesion, at its narrowest place [m]
-  double least_diameter = 0.0;      ///< of circles with the sections' areas [m]
-  double stenosis = 0.0;            ///< 1 − least/reference
-  bool stented = false;
-  double coverage = 0.0;         ///< share of the lesion's length inside of the stent [1]
-  double apposition = 0.0;       ///< share of the stent's surface within 0.1 mm of the wall [1]
-  double placement_error = 0.0;  ///< of the stent's middle from the lesion's, distal is positive [m]
+  double reference_diameter = 0.0;  ///< interpolated healthy diameter at the minimal lumen [m]
+  double minimal_diameter = 0.0;    ///< minimal lumen diameter, of a circle of equal area [m]
+  double stenosis = 0.0;            ///< diameter stenosis 1 − minimal/reference [1]
+  bool stented = false;             ///< true if a stent is placed
+  double coverage = 0.0;            ///< fraction of the lesion's length covered by the stent [1]
+  double apposition = 0.0;          ///< fraction of the stent's surface within 0.1 mm of the wall [1]
+  double placement_error = 0.0;     ///< offset of the stent's centre from the lesion's centre, positive distally [m]
 };
 
-/** Measures a lesion in a mesh as it is now. The reference is interpolated between the sections one reference diameter
- *  before and behind the lesion (as in quantitative angiography: J. H. C. Reiber et al., 1985), so residual stenosis
- *  can be negative.
- *  @param mesh of the wall now
- *  @param centreline in which the lesion was placed
- *  @param stent the placed sleeve, or null */
+/** Measures a lesion in the current mesh. The reference diameter is interpolated between the sections one reference
+ *  diameter proximal and distal to the lesion (as in quantitative coronary angiography: J. H. C. Reiber et al., 1985).
+ *  Residual stenosis can be negative.
+ *  @param mesh current mesh of the wall
+ *  @param centreline centreline on which the lesion was placed
+ *  @param stent sleeve of the placed stent, or null */
 LesionReport reportLesion(const geometry::TriangleMesh& mesh, const vessel::CentrelineTree& centreline,
                           const vessel::PlacedLesion& lesion, const RoundBody* stent = nullptr);
 

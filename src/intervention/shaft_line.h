@@ -10,12 +10,12 @@
 namespace endovascular_sim::intervention
 {
 
-/** The shaft of an instrument in space, asked by the distance from its tip. */
+/** Centreline of an instrument's shaft, parametrised by the distance from its tip. */
 class ShaftLine
 {
 public:
-  /** @param from_tip of the points, ascending or descending, two or more [m]
-   *  @param points [m] */
+  /** @param from_tip distances of the points from the tip, monotonic, two or more [m]
+   *  @param points positions [m] */
   ShaftLine(std::vector<double> from_tip, std::vector<Eigen::Vector3d> points)
     : from_tip_(std::move(from_tip)), points_(std::move(points))
   {
@@ -25,7 +25,7 @@ public:
     std::reverse(points_.begin(), points_.end());
   }
 
-  /** Straight on beyond the ends. */
+  /** Position at a distance from the tip [m]; extrapolated linearly beyond the ends. */
   Eigen::Vector3d at(double from_tip) const
   {
     const auto next = std::upper_bound(from_tip_.begin() + 1, from_tip_.end() - 1, from_tip);
@@ -34,8 +34,8 @@ public:
     return points_[k - 1] + t * (points_[k] - points_[k - 1]);
   }
 
-  double begin() const { return from_tip_.front(); }  ///< [m]
-  double end() const { return from_tip_.back(); }     ///< [m]
+  double begin() const { return from_tip_.front(); }  ///< smallest distance from the tip [m]
+  double end() const { return from_tip_.back(); }     ///< largest distance from the tip [m]
 
 private:
   std::vector<double> from_tip_;

@@ -13,8 +13,8 @@ namespace endovascular_sim::intervention
 namespace
 {
 
-constexpr double kSleeveSpacing = 0.5e-3;  // m, of the axis's points
-constexpr double kZigzag = 0.8;            // of a ring's length: its struts
+constexpr double kSleeveSpacing = 0.5e-3;  // spacing of the points on the sleeve's axis [m]
+constexpr double kZigzag = 0.8;            // axial length of a strut, relative to the length of its ring
 
 }  // namespace
 
@@ -26,7 +26,7 @@ StentPlacement::StentPlacement(instrument::Stent stent, const instrument::Balloo
 {
 }
 
-StentPlacement::State StentPlacement::follow(const ShaftLine& shaft, double pressure, double balloon_diameter)
+StentPlacement::State StentPlacement::update(const ShaftLine& shaft, double pressure, double balloon_diameter)
 {
   if (state_ == State::kPlaced || state_ == State::kLost)
     return state_;
@@ -38,15 +38,15 @@ StentPlacement::State StentPlacement::follow(const ShaftLine& shaft, double pres
   }
   if (state_ == State::kExpanding && balloon_diameter < stent_.afterRecoil(inner_diameter_))
   {
-    // It stays where the balloon has just left it.
+    // The stent keeps the pose of the last step in which the balloon filled it.
     state_ = State::kPlaced;
     inner_diameter_ = stent_.afterRecoil(inner_diameter_);
   }
-  layAlong(shaft);
+  alignWith(shaft);
   return state_;
 }
 
-void StentPlacement::stripOff()
+void StentPlacement::dislodge()
 {
   if (state_ == State::kCrimped)
     state_ = State::kLost;
@@ -58,7 +58,7 @@ void StentPlacement::release()
     state_ = State::kPlaced;
 }
 
-void StentPlacement::layAlong(const ShaftLine& shaft)
+void StentPlacement::alignWith(const ShaftLine& shaft)
 {
   const double length = stent_.lengthAt(inner_diameter_);
   const int count = std::max(2, static_cast<int>(std::ceil(length / kSleeveSpacing)));
@@ -68,7 +68,7 @@ void StentPlacement::layAlong(const ShaftLine& shaft)
   sleeve_.radii.assign(sleeve_.axis.size(), 0.5 * outerDiameter());
 }
 
-std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int crowns, double ring_length)
+std::vector<std::vector<Eigen::Vector3d>> stentStruts(const RoundBody& sleeve, int crowns, double ring_length)
 {
   std::vector<std::vector<Eigen::Vector3d>> rings;
   if (sleeve.axis.size() < 2)
@@ -82,13 +82,13 @@ std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int 
   {
     const double middle = (ring + 0.5) * spacing;
     const Eigen::Vector3d along = axis.tangentAt(middle);
-    side = (side - side.dot(along) * along).normalized();  // carried along the axis without turning
+    side = (side - side.dot(along) * along).normalized();  // parallel transport along the axis
     std::vector<Eigen::Vector3d> line;
     for (int k = 0; k <= 2 * crowns; ++k)
     {
       const double angle = M_PI * k / crowns;
-      const double place = middle + (k % 2 == 0 ? -0.5 : 0.5) * kZigzag * spacing;
-      line.emplace_back(axis.at(place) + radius * (Eigen::AngleAxisd(angle, along) * side));
+      const double arc = middle + (k % 2 == 0 ? -0.5 : 0.5) * kZigzag * spacing;
+      line.emplace_back(axis.at(arc) + radius * (Eigen::AngleAxisd(angle, along) * side));
     }
     rings.push_back(std::move(line));
   }

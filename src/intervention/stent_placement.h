@@ -6,8 +6,8 @@
 
 #include "instrument/balloon.h"
 #include "instrument/stent.h"
+#include "intervention/balloon_load.h"
 #include "intervention/shaft_line.h"
-#include "intervention/vessel_opening.h"
 
 namespace endovascular_sim
 {
@@ -17,67 +17,70 @@ class Archive;
 namespace endovascular_sim::intervention
 {
 
-/** Struts of a stent for pictures: rings of a zigzag, one ring per line [m]. Drawn, not the maker's pattern.
- *  @param crowns of each ring
- *  @param ring_length along the stent [m] */
-std::vector<std::vector<Eigen::Vector3d>> strutsOf(const RoundBody& sleeve, int crowns = 8,
-                                                   double ring_length = 1.5e-3);
+/** Strut polylines of a stent for rendering: generic zigzag rings, not the pattern of a manufacturer.
+ *  @param crowns number of crowns of each ring
+ *  @param ring_length axial length of a ring [m]
+ *  @return one polyline per ring [m] */
+std::vector<std::vector<Eigen::Vector3d>> stentStruts(const RoundBody& sleeve, int crowns = 8,
+                                                      double ring_length = 1.5e-3);
 
-/** A stent from its balloon to its place in the vessel. */
+/** State of a stent from its delivery balloon to its implantation. */
 class StentPlacement
 {
 public:
   enum class State
   {
-    kCrimped,    ///< on the balloon, moves with it
-    kExpanding,  ///< opened by the balloon, still on it
-    kPlaced,     ///< stays where it is, in space
-    kLost,       ///< came off the balloon before it was opened: lies in the vessel, crimped
+    kCrimped,    ///< on the balloon, unexpanded
+    kExpanding,  ///< on the balloon, at least partly expanded
+    kPlaced,     ///< implanted, fixed in space
+    kLost,       ///< dislodged from the balloon before expansion; lies in the vessel, crimped
   };
 
-  /** @param balloon it is crimped on, in the middle
-   *  @param opening_pressure below which it does not open; 3 atm: assumed [Pa] */
+  /** @param balloon delivery balloon, with the stent crimped on its centre
+   *  @param opening_pressure pressure at which expansion begins; 3 atm is assumed [Pa] */
   StentPlacement(instrument::Stent stent, const instrument::Balloon& balloon, double opening_pressure = 3.04e5);
 
-  /** Follows the balloon. From its opening pressure on the stent has at least the balloon's diameter, up to its
-   * largest; it is placed when the balloon has become narrower than the recoiled stent.
-   *  @param balloon_diameter [m]
-   *  @return the state afterwards */
-  State follow(const ShaftLine& shaft, double pressure, double balloon_diameter);
+  /** Updates the stent from its balloon. Above the opening pressure the stent takes the balloon's diameter, up to the
+   *  largest permitted one. It is placed when the balloon is narrower than the stent after recoil.
+   *  @param shaft current centreline of the catheter
+   *  @param pressure transmural pressure of the balloon [Pa]
+   *  @param balloon_diameter unconstrained diameter of the balloon [m]
+   *  @return the updated state */
+  State update(const ShaftLine& shaft, double pressure, double balloon_diameter);
 
-  /** It is pulled off its balloon: lost, unless it was opened before. */
-  void stripOff();
+  /** Dislodges a crimped stent from its balloon: the stent is lost. No effect in other states. */
+  void dislodge();
 
-  /** An opened one comes off its balloon: placed where it is. */
+  /** Releases an expanding stent from its balloon: it is placed at its current pose. No effect in other states. */
   void release();
 
   State state() const { return state_; }
-  double innerDiameter() const { return inner_diameter_; }                                 ///< now [m]
-  double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< now [m]
+  double innerDiameter() const { return inner_diameter_; }                                 ///< current [m]
+  double outerDiameter() const { return inner_diameter_ + 2.0 * stent_.strut_thickness; }  ///< current [m]
   double strutThickness() const { return stent_.strut_thickness; }                         ///< [m]
   double crimpedDiameter() const { return stent_.crimped_diameter; }                       ///< outer [m]
-  double length() const { return stent_.lengthAt(inner_diameter_); }  ///< now: it shortens as it opens [m]
-  bool overExpanded() const { return over_expanded_; }  ///< the balloon wanted more than its largest diameter
+  double length() const { return stent_.lengthAt(inner_diameter_); }  ///< current length, after foreshortening [m]
+  bool overExpanded() const { return over_expanded_; }  ///< true if the balloon has exceeded the largest diameter
 
-  /** Its axis and outer radius where it is now. Empty before the first follow(). */
+  /** Axis and outer radius at the current pose. Empty before the first update(). */
   const RoundBody& sleeve() const { return sleeve_; }
 
-  /** Its struts for pictures, see strutsOf(). */
+  /** Strut polylines for rendering, see stentStruts(). */
   std::vector<std::vector<Eigen::Vector3d>> struts(int crowns = 8, double ring_length = 1.5e-3) const
   {
-    return strutsOf(sleeve_, crowns, ring_length);
+    return stentStruts(sleeve_, crowns, ring_length);
   }
 
-  void archive(Archive& archive);  ///< saves or loads all that changes
+  void archive(Archive& archive);  ///< saves or loads the state
 
 private:
-  void layAlong(const ShaftLine& shaft);
+  void alignWith(const ShaftLine& shaft);
 
   instrument::Stent stent_;
-  double middle_from_tip_;  ///< of the stent on its balloon [m]
-  double opening_pressure_;
+  double middle_from_tip_;   ///< distance from the catheter's tip to the stent's centre [m]
+  double opening_pressure_;  ///< [Pa]
   State state_ = State::kCrimped;
-  double inner_diameter_;
+  double inner_diameter_;  ///< [m]
   bool over_expanded_ = false;
   RoundBody sleeve_;
 };

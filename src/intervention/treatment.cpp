@@ -10,12 +10,12 @@ namespace endovascular_sim::intervention
 namespace
 {
 
-constexpr double kBodySpacing = 0.25e-3;  // m, of the axis's points
+constexpr double kBodySpacing = 0.25e-3;  // spacing of the points on the balloon's axis [m]
 
 instrument::Balloon balloonOf(const instrument::Instrument& instrument)
 {
   if (!instrument.balloon)
-    throw InputError(instrument.name, "balloon", "has none; only a balloon_catheter treats a vessel");
+    throw InputError(instrument.name, "balloon", "is missing; a treatment requires a balloon_catheter");
   return *instrument.balloon;
 }
 
@@ -51,9 +51,9 @@ double Treatment::crossingRadiusAt(double from_tip) const
   return isUnderStent(from_tip) ? std::max(balloon, 0.5 * stent_->crimpedDiameter()) : balloon;
 }
 
-void Treatment::layBody(const ShaftLine& shaft, double covered_from)
+void Treatment::updateBalloonBody(const ShaftLine& shaft, double covered_from)
 {
-  RoundBody& body = pressing_.balloon;
+  RoundBody& body = load_.balloon;
   const double begin = std::max(inflation_.begin(), shaft.begin());
   const double end = std::min(inflation_.end(), shaft.end());
   const int count = std::max(2, static_cast<int>(std::ceil((end - begin) / kBodySpacing)));
@@ -65,55 +65,55 @@ void Treatment::layBody(const ShaftLine& shaft, double covered_from)
   }
 }
 
-void Treatment::followStent(const ShaftLine* shaft)
+void Treatment::updateStent(const ShaftLine* shaft)
 {
   if (!carriesStent())
     return;
   if (shaft == nullptr)
   {
-    // Opened outside of the vessel, it is of no use any more.
+    // A stent that expands outside of the vessel is lost.
     if (inflation_.diameter() > stent_->crimpedDiameter())
-      stent_->stripOff();
+      stent_->dislodge();
     events_.stent_lost = events_.stent_lost || !carriesStent();
     return;
   }
-  const bool was_over = stent_->overExpanded();
-  const StentPlacement::State state = stent_->follow(*shaft, inflation_.pressure(), inflation_.diameter());
-  events_.over_expanded = !was_over && stent_->overExpanded();
+  const bool was_over_expanded = stent_->overExpanded();
+  const StentPlacement::State state = stent_->update(*shaft, inflation_.pressure(), inflation_.diameter());
+  events_.over_expanded = !was_over_expanded && stent_->overExpanded();
   events_.stent_placed = state == StentPlacement::State::kPlaced;
 }
 
 const BalloonLoad& Treatment::step(double dt, double commanded, const ShaftLine* shaft, double covered_from)
 {
   events_ = TreatmentEvents{};
-  if (stripped_)
+  if (dislodged_)
   {
     events_.stent_lost = stent_->state() == StentPlacement::State::kLost;
     events_.stent_placed = !events_.stent_lost;
-    stripped_ = false;
+    dislodged_ = false;
   }
   const BalloonInflation::Event event = inflation_.step(dt, commanded);
   events_.above_rated = event == BalloonInflation::Event::kAboveRated;
   events_.burst = event == BalloonInflation::Event::kBurst;
-  followStent(shaft);
-  pressing_.balloon.axis.clear();
-  pressing_.balloon.radii.clear();
-  pressing_.sleeve.reset();
-  pressing_.pressure = shaft != nullptr ? inflation_.pressure() : 0.0;
-  if (pressing_.pressure > 0.0)
-    layBody(*shaft, covered_from);
+  updateStent(shaft);
+  load_.balloon.axis.clear();
+  load_.balloon.radii.clear();
+  load_.sleeve.reset();
+  load_.pressure = shaft != nullptr ? inflation_.pressure() : 0.0;
+  if (load_.pressure > 0.0)
+    updateBalloonBody(*shaft, covered_from);
   if (events_.stent_placed)
-    pressing_.sleeve = stent_->sleeve();
-  return pressing_;
+    load_.sleeve = stent_->sleeve();
+  return load_;
 }
 
-void Treatment::stripStent()
+void Treatment::dislodgeStent()
 {
   if (!carriesStent())
     return;
-  stent_->stripOff();
+  stent_->dislodge();
   stent_->release();
-  stripped_ = true;
+  dislodged_ = true;
 }
 
 }  // namespace endovascular_sim::intervention

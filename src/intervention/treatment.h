@@ -17,65 +17,65 @@ class Archive;
 namespace endovascular_sim::intervention
 {
 
-/** What happened in one step of a treatment. */
+/** Events of one step of a treatment. */
 struct TreatmentEvents
 {
   bool above_rated = false;    ///< the pressure exceeded the balloon's rated burst pressure
   bool burst = false;          ///< the balloon ruptured
-  bool stent_placed = false;   ///< the balloon left the opened stent
-  bool over_expanded = false;  ///< the balloon opened the stent beyond its largest diameter
-  bool stent_lost = false;     ///< the stent came off its balloon unopened, or was opened outside of the vessel
+  bool stent_placed = false;   ///< the stent was implanted
+  bool over_expanded = false;  ///< the balloon exceeded the largest permitted diameter of the stent
+  bool stent_lost = false;     ///< the stent was dislodged before expansion, or expanded outside of the vessel
 };
 
-/** One balloon catheter, with or without a stent, at work in a vessel: the instrument's side. What it does to the wall
- *  is a DeformableWall's matter. */
+/** Treatment state of one balloon catheter with an optional stent. It yields the balloon load; DeformableWall computes
+ *  the response of the wall. */
 class Treatment
 {
 public:
-  /** @param instrument a balloon catheter
-   *  @throws InputError when the instrument has no balloon */
+  /** @throws InputError if the instrument has no balloon */
   explicit Treatment(const instrument::Instrument& instrument);
 
-  /** Advances by @p dt [s].
-   *  @param commanded pressure at the inflator [Pa]
-   *  @param shaft as it lies now, as far as it is in the vessel; null: the balloon is outside
-   *  @param covered_from distance from the tip from which on another instrument covers it [m]
-   *  @return what the wall is to be told; valid until the next step */
+  /** Advances balloon and stent by one step.
+   *  @param dt time step [s]
+   *  @param commanded transmural pressure commanded at the inflator [Pa]
+   *  @param shaft current centreline of the shaft inside the vessel; null if the balloon is outside
+   *  @param covered_from distance from the tip beyond which another instrument covers the shaft [m]
+   *  @return balloon load on the wall; valid until the next step */
   const BalloonLoad& step(double dt, double commanded, const ShaftLine* shaft,
                           double covered_from = std::numeric_limits<double>::infinity());
 
-  const TreatmentEvents& events() const { return events_; }  ///< of the last step
+  const TreatmentEvents& events() const { return events_; }  ///< events of the last step
   const BalloonInflation& inflation() const { return inflation_; }
   const std::optional<StentPlacement>& stent() const { return stent_; }
-  const BalloonLoad& pressing() const { return pressing_; }  ///< of the last step
+  const BalloonLoad& load() const { return load_; }  ///< balloon load of the last step
 
-  /** The stent is held back: it comes off its balloon where it is. Tells its event with the next step's. */
-  void stripStent();
+  /** Removes the stent from its balloon at its current pose. The event is reported by the next step. */
+  void dislodgeStent();
 
-  /** Outer radius at a distance from the tip, of the balloon and a stent that is still on it; 0 where there is neither
-   *  [m]. The shaft's own counts where it is larger. */
+  /** Outer radius of balloon and carried stent at a distance from the tip [m]; 0 outside of both. The shaft is not
+   *  included. */
   double radiusAt(double from_tip) const;
 
-  /** The same of the folded balloon and the crimped stent: what cannot give way [m]. */
+  /** Outer radius of the folded balloon and the crimped stent at a distance from the tip [m]: the rigid profile. */
   double crossingRadiusAt(double from_tip) const;
 
-  double begin() const { return inflation_.begin(); }  ///< distance from the tip from which on it is there [m]
-  double end() const { return inflation_.end(); }      ///< and up to which [m]
-  bool carriesStent() const;                           ///< on the balloon, crimped or opened
+  double begin() const { return inflation_.begin(); }  ///< distance from the tip to the balloon's distal end [m]
+  double end() const { return inflation_.end(); }      ///< distance from the tip to the balloon's proximal end [m]
+  bool carriesStent() const;                           ///< true while a crimped or expanding stent is on the balloon
 
-  /** Saves or loads all that changes. */
+  /** Saves or loads the state. */
   void archive(Archive& archive);
 
 private:
-  void followStent(const ShaftLine* shaft);
+  void updateStent(const ShaftLine* shaft);
   bool isUnderStent(double from_tip) const;
-  void layBody(const ShaftLine& shaft, double covered_from);
+  void updateBalloonBody(const ShaftLine& shaft, double covered_from);
 
   BalloonInflation inflation_;
   std::optional<StentPlacement> stent_;
-  bool stripped_ = false;  ///< since the last step
+  bool dislodged_ = false;  ///< true if the stent has left its balloon since the last step
   TreatmentEvents events_;
-  BalloonLoad pressing_;
+  BalloonLoad load_;
 };
 
 }  // namespace endovascular_sim::intervention

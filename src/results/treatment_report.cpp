@@ -28,7 +28,7 @@ const char* nameOf(intervention::StentPlacement::State state)
 Json toJson(const intervention::LesionReport& report)
 {
   Json json = {{"reference_diameter", report.reference_diameter},
-               {"least_diameter", report.least_diameter},
+               {"least_diameter", report.minimal_diameter},
                {"stenosis", report.stenosis},
                {"stented", report.stented}};
   if (report.stented)

@@ -135,8 +135,8 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
   char distance[32];
   std::snprintf(distance, sizeof distance, "%.3g mm", 1e3 * wall.distance);
   throw InputError(origin, "entry.position",
-                   vessel::formatPlace(pose.position) + " is not inside the vessel: it lies " + distance +
-                       " outside the wall, with nearest point " + vessel::formatPlace(wall.point) +
+                   vessel::formatLocation(pose.position) + " is not inside the vessel: it lies " + distance +
+                       " outside the wall, with nearest point " + vessel::formatLocation(wall.point) +
                        "; move it inward, or use nearest_centreline_end: true");
 }
 

@@ -132,7 +132,7 @@ std::uint64_t BalloonTreatments::beginStep(std::uint64_t step)
   if (wall_ == nullptr)
     return 0;
   if (step % kBalloonLoadPeriod == 0 && shown_ != due_)
-    wall_->show(shown_ = due_);
+    wall_->activate(shown_ = due_);
   return shown_;
 }
 
@@ -244,21 +244,21 @@ void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& c
   {
     const double covered_from = coveredFrom(treated.instrument, state, rod);
     if (isHeldBack(treated, covered_from, state))
-      treated.treatment.stripStent();
+      treated.treatment.dislodgeStent();
     const std::optional<intervention::ShaftLine> shaft = shaftOf(treated, state, rod);
-    const intervention::BalloonLoad& pressing = treated.treatment.step(
+    const intervention::BalloonLoad& load = treated.treatment.step(
         time_step_, commanded[static_cast<std::size_t>(treated.instrument)], shaft ? &*shaft : nullptr, covered_from);
-    if (pressing.sleeve)
-      next_.sleeve = pressing.sleeve;
-    if (strongest == nullptr || pressing.pressure > strongest->pressing().pressure)
+    if (load.sleeve)
+      next_.sleeve = load.sleeve;
+    if (strongest == nullptr || load.pressure > strongest->load().pressure)
       strongest = &treated.treatment;
     collectEvents(treated, step);
   }
   if (wall_ == nullptr || strongest == nullptr || (step + 1) % kBalloonLoadPeriod != 0)
     return;
   due_ = promised_;
-  next_.balloon = strongest->pressing().balloon;
-  next_.pressure = strongest->pressing().pressure;
+  next_.balloon = strongest->load().balloon;
+  next_.pressure = strongest->load().pressure;
   loadWall(step);
 }
 
@@ -274,7 +274,7 @@ void BalloonTreatments::loadWall(std::uint64_t step)
     ++still_;
   if (!pressed_ || still_ > kSettleRounds)
     return;
-  promised_ = wall_->press(step, next_);
+  promised_ = wall_->applyLoad(step, next_);
   next_.sleeve.reset();
   if (wall_->atRisk() && !at_risk_)
     addEvent(step, treatments_.front().instrument, TreatmentEvent::kAtRisk);

@@ -78,12 +78,12 @@ std::vector<fluoroscopy::XRayWire> FluoroscopySystem::wires(const Simulation& si
     const intervention::Treatment* treatment = simulation.treatment(k);
     if (treatment == nullptr)
       continue;
-    const intervention::RoundBody& balloon = treatment->pressing().balloon;
+    const intervention::RoundBody& balloon = treatment->load().balloon;
     if (!balloon.axis.empty())
       wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, filling_));
     if (treatment->stent() && !treatment->stent()->sleeve().axis.empty())
-      for (fluoroscopy::XRayWire& strut : fluoroscopy::strutWires(intervention::strutsOf(treatment->stent()->sleeve()),
-                                                                  treatment->stent()->strutThickness(), metal_))
+      for (fluoroscopy::XRayWire& strut : fluoroscopy::strutWires(
+               intervention::stentStruts(treatment->stent()->sleeve()), treatment->stent()->strutThickness(), metal_))
         wires.push_back(std::move(strut));
   }
   return wires;

@@ -8,16 +8,16 @@ namespace endovascular_sim::simulation
 {
 
 LocalDeformableWall::LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector)
-  : opening_(vessel, intervention::OpeningLaw{}), detector_(detector)
+  : opening_(vessel, intervention::DilatationLaw{}), detector_(detector)
 {
 }
 
-std::uint64_t LocalDeformableWall::press(std::uint64_t /*step*/, const intervention::BalloonLoad& load)
+std::uint64_t LocalDeformableWall::applyLoad(std::uint64_t /*step*/, const intervention::BalloonLoad& load)
 {
-  return history_.append(opening_.press(load, kMostDisplacedVertices));
+  return history_.append(opening_.applyLoad(load, kMostDisplacedVertices));
 }
 
-void LocalDeformableWall::show(std::uint64_t version)
+void LocalDeformableWall::activate(std::uint64_t version)
 {
   history_.advanceTo(version, [this](std::uint64_t passed, const intervention::WallDisplacement& displacement)
                      { detector_.moveVertices(displacement.indices, displacement.positions, passed); });
@@ -28,7 +28,7 @@ intervention::WallDisplacement LocalDeformableWall::detectedDisplacement() const
 {
   intervention::WallDisplacement detected;
   const std::vector<Eigen::Vector3d>& vertices = detector_.wall().vertices;
-  const std::vector<Eigen::Vector3d>& initial = opening_.firstVertices();
+  const std::vector<Eigen::Vector3d>& initial = opening_.initialVertices();
   for (std::size_t v = 0; v < initial.size(); ++v)
     if (vertices[v] != initial[v])
     {
@@ -44,7 +44,7 @@ void LocalDeformableWall::archive(Archive& archive)
   if (archive.reading())
   {
     for (std::size_t k = 0; k < detected.indices.size(); ++k)
-      detected.positions[k] = opening_.firstVertices()[static_cast<std::size_t>(detected.indices[k])];
+      detected.positions[k] = opening_.initialVertices()[static_cast<std::size_t>(detected.indices[k])];
     detector_.moveVertices(detected.indices, detected.positions, history_.base());
   }
   archive(opening_, history_, detected);

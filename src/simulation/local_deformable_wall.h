@@ -5,6 +5,7 @@
 
 #include "contact/detector.h"
 #include "intervention/deformable_wall.h"
+#include "intervention/vessel_dilatation.h"
 #include "scene/model/scene.h"
 #include "simulation/wall_history.h"
 #include "vessel/model/vessel.h"
@@ -25,19 +26,19 @@ public:
    *  @param detector must outlive this object */
   LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector);
 
-  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& load) override;
-  void show(std::uint64_t version) override;
+  std::uint64_t applyLoad(std::uint64_t step, const intervention::BalloonLoad& load) override;
+  void activate(std::uint64_t version) override;
   std::uint64_t version() const override { return history_.newest(); }
   bool atRisk() const override { return opening_.atRisk(); }
 
-  const intervention::VesselOpening& opening() const { return opening_; }
+  const intervention::VesselDilatation& opening() const { return opening_; }
 
   void archive(Archive& archive) override;
 
 private:
   intervention::WallDisplacement detectedDisplacement() const;
 
-  intervention::VesselOpening opening_;
+  intervention::VesselDilatation opening_;
   contact::Detector& detector_;
   WallHistory<intervention::WallDisplacement> history_;  ///< its base is the version that the detector searches
 };

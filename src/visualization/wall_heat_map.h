@@ -47,7 +47,7 @@ private:
   double radius_;
   std::vector<Eigen::Vector3d> normals_;  ///< unit normals of the vertices, out of the lumen
   std::vector<Eigen::Vector3d> inset_;    ///< displayed vertices, moved into the lumen [m]
-  geometry::PointTree tree_;
+  geometry::KdTree tree_;
 };
 
 }  // namespace endovascular_sim::visualization

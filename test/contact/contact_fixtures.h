@@ -46,7 +46,7 @@ inline geometry::TriangleMesh bumpy(geometry::TriangleMesh mesh, double bump)
 
 inline geometry::TriangleMesh bumpyTube(double bump)
 {
-  return bumpy(geometry::flatSubdivision(bentTube(), 2), bump);
+  return bumpy(geometry::midpointSubdivision(bentTube(), 2), bump);
 }
 
 /** Path of a mesh in ENDOVASCULAR_DATA_DIR; empty if the variable is not set. */

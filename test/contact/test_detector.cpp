@@ -153,7 +153,7 @@ TEST(Detector, GivesTheSameBitsWithReusedAndWithNewLists)
 
 TEST(Detector, GivesTheSameBitsToAWireThatSlidesForwardsAndBack)
 {
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 2);
+  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   Detector warm(mesh, WallLaw{});
   std::mt19937 random(12);
   const Query wire = randomWire(Eigen::Vector3d(0.0, 0.0, 0.012), random, 40);
@@ -222,7 +222,7 @@ TEST(Detector, FindsTheSameGapsInASubdividedMesh)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector coarse(mesh, WallLaw{});
-  Detector fine(geometry::flatSubdivision(mesh, 2), WallLaw{});
+  Detector fine(geometry::midpointSubdivision(mesh, 2), WallLaw{});
   std::mt19937 random(9);
   for (int trial = 0; trial < 30; ++trial)
   {
@@ -251,7 +251,7 @@ TEST(Detector, FindsAContactExactlyAboveAnEdgeOrAVertexBetweenCoplanarTriangles)
   shape.facet_length = 5e-3;
   shape.facets_around = 8;
   shape.pieces = {{0.03, 0.0, 0.0}};
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(vessel::tubeMesh(shape), 1);
+  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(vessel::tubeMesh(shape), 1);
   Detector detector(mesh, WallLaw{});
   const Eigen::Vector3d above(0.0, 0.0, 0.03 - 0.6e-3);  // the cap's centre is a vertex
   Query query;

@@ -16,7 +16,7 @@ namespace
 
 geometry::TriangleMesh fineTube()
 {
-  return geometry::flatSubdivision(bentTube(), 2);
+  return geometry::midpointSubdivision(bentTube(), 2);
 }
 
 TEST(WallMovement, GivesBitForBitTheWallOfTheMovedMesh)
@@ -118,7 +118,7 @@ TEST(WallMovement, GivesTheBitsOfANewDetectorWhenFacetsTiltWithinTheSkin)
   std::size_t changed = 0;
   for (int trial = 0; trial < 4; ++trial)
   {
-    geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 3);
+    geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 3);
     const Wall start(mesh);
     Detector moving(mesh, WallLaw{});
     Query wire;

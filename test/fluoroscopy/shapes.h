@@ -10,7 +10,7 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-/** A sphere of @p rows rings with @p columns facets, normals outward [m]. */
+/** Sphere of @p rows rings with @p columns facets, outward oriented [m]. */
 inline geometry::TriangleMesh sphere(const Eigen::Vector3d& centre, double radius, int rows, int columns)
 {
   geometry::TriangleMesh mesh;
@@ -38,7 +38,7 @@ inline geometry::TriangleMesh sphere(const Eigen::Vector3d& centre, double radiu
   return mesh;
 }
 
-/** A closed cylinder from @p a to @p b with @p columns facets, normals outward [m]. */
+/** Closed cylinder from @p a to @p b with @p columns facets, outward oriented [m]. */
 inline geometry::TriangleMesh cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, int columns)
 {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b - a);
@@ -62,7 +62,7 @@ inline geometry::TriangleMesh cylinder(const Eigen::Vector3d& a, const Eigen::Ve
   return mesh;
 }
 
-/** Length of the ray s + t·d inside a ball [m]. */
+/** Chord of the ray s + t·d in a sphere [m]. */
 inline double chordInSphere(const Eigen::Vector3d& s, const Eigen::Vector3d& d, const Eigen::Vector3d& centre,
                             double radius)
 {

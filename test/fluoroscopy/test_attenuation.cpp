@@ -15,7 +15,7 @@ namespace
 
 const std::string kTable = PROJECT_DIR "/config/xray/attenuation.yaml";
 
-TEST(AttenuationTable, GivesTheKnownTransmissionsAt60keV)
+TEST(AttenuationTable, ReproducesKnownTransmissionsAt60keV)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
   const double blood = table.linear("blood", 60.0);
@@ -28,7 +28,7 @@ TEST(AttenuationTable, GivesTheKnownTransmissionsAt60keV)
   EXPECT_NEAR(std::exp(-table.linear("platinum", 60.0) * 0.36e-3), 0.035, 5e-4);
 }
 
-TEST(AttenuationTable, ReproducesItsPointsAndInterpolatesInLogarithms)
+TEST(AttenuationTable, ReproducesItsPointsAndInterpolatesLogarithmically)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
   EXPECT_NEAR(table.mass("blood", 30.0), 0.0380, 1e-12);
@@ -37,7 +37,7 @@ TEST(AttenuationTable, ReproducesItsPointsAndInterpolatesInLogarithms)
   EXPECT_NEAR(table.mass("steel", std::sqrt(60.0 * 70.0)), std::sqrt(0.121 * 0.082), 1e-12);
 }
 
-TEST(AttenuationTable, JumpsAtTheAbsorptionEdges)
+TEST(AttenuationTable, IsDiscontinuousAtAbsorptionEdges)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
   EXPECT_LT(table.mass("iodine", 33.1), 0.7);
@@ -48,7 +48,7 @@ TEST(AttenuationTable, JumpsAtTheAbsorptionEdges)
   EXPECT_GT(table.mass("platinum", 78.4), 0.9);
 }
 
-TEST(AttenuationTable, HasEveryMaterialThatInstrumentsAreMadeOf)
+TEST(AttenuationTable, ContainsEveryMaterialOfInstruments)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
   for (const char* material :
@@ -56,7 +56,7 @@ TEST(AttenuationTable, HasEveryMaterialThatInstrumentsAreMadeOf)
     EXPECT_GT(table.linear(material, 60.0), 10.0) << material;
 }
 
-TEST(AttenuationTable, RefusesUnknownMaterialsAndEnergiesByName)
+TEST(AttenuationTable, RejectsUnknownMaterialsAndEnergiesByName)
 {
   const AttenuationTable table = AttenuationTable::load(kTable);
   EXPECT_THROW(table.linear("kryptonite", 60.0), InputError);
@@ -64,7 +64,7 @@ TEST(AttenuationTable, RefusesUnknownMaterialsAndEnergiesByName)
   EXPECT_THROW(table.linear("steel", 100.1), InputError);
 }
 
-TEST(AttenuationTable, RefusesDamagedFilesByKey)
+TEST(AttenuationTable, RejectsInvalidFilesByKey)
 {
   const std::string file = testing::TempDir() + "attenuation.yaml";
   const auto message = [&](const std::string& text) -> std::string
@@ -89,7 +89,7 @@ TEST(AttenuationTable, RefusesDamagedFilesByKey)
             std::string::npos);
   EXPECT_NE(message("a: {density: 1, energy: [30, x], mass_attenuation: [2, 1]}").find("a.energy[1]"),
             std::string::npos);
-  EXPECT_NE(message("a: 5").find("must hold"), std::string::npos);
+  EXPECT_NE(message("a: 5").find("must contain"), std::string::npos);
   EXPECT_NE(message("").find("must map"), std::string::npos);
   EXPECT_NE(message("a: [").find("YAML"), std::string::npos);
   EXPECT_THROW(AttenuationTable::load("/nowhere.yaml"), InputError);

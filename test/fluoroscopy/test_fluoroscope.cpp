@@ -35,10 +35,10 @@ TEST(Fluoroscope, ShowsTissueOnTheCentralRayAtHalfScale)
   const std::size_t centre = nearestPixel(fluoroscope.geometry(), {0.0, 0.0, 0.0});
   EXPECT_NEAR(frame.raw[centre], Detector::kBackgroundSignal, 2.0);
   EXPECT_NEAR(frame.image[centre], 208, 1);
-  EXPECT_LT(frame.raw[0], frame.raw[centre]);  // longer way through the slab
+  EXPECT_LT(frame.raw[0], frame.raw[centre]);  // longer path through the slab
 }
 
-TEST(Fluoroscope, AttenuatesByTheVesselsExcessOverTissue)
+TEST(Fluoroscope, AttenuatesByTheDifferenceOfVesselAndTissue)
 {
   Fluoroscope fluoroscope(CArmPose{}, scene());
   fluoroscope.setVessel(sphere({0.0, 0.0, 0.0}, 0.01, 60, 120));
@@ -47,7 +47,7 @@ TEST(Fluoroscope, AttenuatesByTheVesselsExcessOverTissue)
   EXPECT_NEAR(frame.raw[nearestPixel(fluoroscope.geometry(), {0.0, 0.0, 0.0})], expected, 0.005 * expected);
 }
 
-/** Mean (column, row) of all pixels darker than @p signal. */
+/** Centroid (column, row) of all pixels darker than @p signal. */
 Eigen::Vector2d centreOfShadow(const Frame& frame, int signal)
 {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -62,11 +62,11 @@ Eigen::Vector2d centreOfShadow(const Frame& frame, int signal)
   return sum / count;
 }
 
-TEST(Fluoroscope, DrawsKnownPointsWhereCameraMatrixAndTransformSayAtAnyAngle)
+TEST(Fluoroscope, RendersKnownPointsAtTheirProjectionAtAnyAngle)
 {
-  const Eigen::Vector3d ball(0.03, -0.02, 0.04);  // left, before and above the isocentre
+  const Eigen::Vector3d bead(0.03, -0.02, 0.04);  // left, anterior and superior of the isocentre
   XRayWire wire;
-  wire.nodes = {0.5 * ball - Eigen::Vector3d(0.0, 0.0, 1e-3), 0.5 * ball + Eigen::Vector3d(0.0, 0.0, 1e-3)};
+  wire.nodes = {0.5 * bead - Eigen::Vector3d(0.0, 0.0, 1e-3), 0.5 * bead + Eigen::Vector3d(0.0, 0.0, 1e-3)};
   wire.radius = {1e-3, 1e-3};
   wire.attenuation = {5000.0};
   for (const double lao : {0.0, 0.8, -0.8, 1.5707963})
@@ -79,14 +79,14 @@ TEST(Fluoroscope, DrawsKnownPointsWhereCameraMatrixAndTransformSayAtAnyAngle)
       const Eigen::Isometry3d optical = fluoroscope.geometry().patientFromOptical().inverse();
       const Eigen::Matrix3d k = fluoroscope.geometry().cameraMatrix();
       EXPECT_LT(
-          (centreOfShadow(fluoroscope.render({wire}), 15000) - (k * (optical * (0.5 * ball))).hnormalized()).norm(),
+          (centreOfShadow(fluoroscope.render({wire}), 15000) - (k * (optical * (0.5 * bead))).hnormalized()).norm(),
           0.5);
-      fluoroscope.setVessel(sphere(ball, 0.004, 30, 60));
-      EXPECT_LT((centreOfShadow(fluoroscope.render({}), 22000) - (k * (optical * ball)).hnormalized()).norm(), 0.5);
+      fluoroscope.setVessel(sphere(bead, 0.004, 30, 60));
+      EXPECT_LT((centreOfShadow(fluoroscope.render({}), 22000) - (k * (optical * bead)).hnormalized()).norm(), 0.5);
     }
 }
 
-TEST(Fluoroscope, DarkensOnlyWhereTheWireIs)
+TEST(Fluoroscope, DarkensOnlyThePixelsOfTheWire)
 {
   Fluoroscope fluoroscope(CArmPose{}, scene());
   fluoroscope.setVessel(cylinder({0.0, 0.0, -0.05}, {0.0, 0.0, 0.05}, 0.004, 60));
@@ -108,7 +108,7 @@ TEST(Fluoroscope, DarkensOnlyWhereTheWireIs)
   EXPECT_EQ(fluoroscope.render({}).raw, before.raw);
 }
 
-TEST(Fluoroscope, RendersMovesAndNewVesselsAsAFreshOneWould)
+TEST(Fluoroscope, EqualsANewInstanceAfterMovesAndNewVessels)
 {
   CArmPose lao;
   lao.primary_angle = 0.7;
@@ -128,13 +128,13 @@ TEST(Fluoroscope, RendersMovesAndNewVesselsAsAFreshOneWould)
   EXPECT_NE(used.render({}).raw, moved.render({}).raw);
 }
 
-TEST(Fluoroscope, KeepsPoseAndVesselWhenItRefusesNewOnes)
+TEST(Fluoroscope, RetainsPoseAndVesselAfterARejection)
 {
   Fluoroscope fluoroscope(CArmPose{}, scene());
   fluoroscope.setVessel(sphere({0.0, 0.0, 0.0}, 0.01, 20, 20));
   const Frame before = fluoroscope.render({});
   CArmPose bad;
-  bad.isocentre = {0.0, -0.75, 0.0};  // the source inside the vessel
+  bad.isocentre = {0.0, -0.75, 0.0};  // source inside the vessel
   EXPECT_THROW(fluoroscope.setPose(bad), InputError);
   EXPECT_THROW(fluoroscope.setVessel(sphere({0.0, 0.75, 0.0}, 0.01, 20, 20)), InputError);
   EXPECT_EQ(fluoroscope.geometry().pose(), CArmPose{});
@@ -142,7 +142,7 @@ TEST(Fluoroscope, KeepsPoseAndVesselWhenItRefusesNewOnes)
   EXPECT_THROW(Fluoroscope(CArmPose{}, XRayScene{-1.0, 0.0, 0.0}), InputError);
 }
 
-TEST(Detector, GetsDarkerWithEveryAbsorber)
+TEST(Detector, DarkensWithEveryAbsorber)
 {
   EXPECT_GT(Detector::grey(1.0, 1.0), Detector::grey(0.64, 1.0) + 30);
   EXPECT_GT(Detector::grey(0.64, 1.0), Detector::grey(0.05, 1.0) + 40);

@@ -23,7 +23,7 @@ std::vector<Pixel> readPng(const std::string& file, png_uint_32 format, png_uint
   return pixels;
 }
 
-TEST(WritePng, ComesBackAsItWasIn8Bits)
+TEST(WritePng, RoundTripsWith8Bits)
 {
   const std::vector<std::uint8_t> grey = {0, 1, 127, 128, 254, 255};
   const std::string file = testing::TempDir() + "grey8.png";
@@ -33,7 +33,7 @@ TEST(WritePng, ComesBackAsItWasIn8Bits)
   EXPECT_EQ(width, 3U);
 }
 
-TEST(WritePng, ComesBackAsItWasIn16Bits)
+TEST(WritePng, RoundTripsWith16Bits)
 {
   const std::vector<std::uint16_t> grey = {0, 1, 256, 32768, 65534, 65535};
   const std::string file = testing::TempDir() + "grey16.png";
@@ -43,7 +43,7 @@ TEST(WritePng, ComesBackAsItWasIn16Bits)
   EXPECT_EQ(width, 2U);
 }
 
-TEST(WritePng, RefusesWrongSizesAndUnwritablePlaces)
+TEST(WritePng, RejectsInconsistentSizesAndUnwritablePaths)
 {
   EXPECT_THROW(writePng("/nowhere/a.png", 1, 1, std::vector<std::uint8_t>{0}), InputError);
   EXPECT_THROW(writePng(testing::TempDir() + "a.png", 2, 2, std::vector<std::uint8_t>{0}), InputError);

@@ -23,7 +23,7 @@ CArmPose smallPose(int pixels)
   return pose;
 }
 
-/** Length of a ray inside a mesh by testing every triangle (Möller–Trumbore). */
+/** Path length of a ray inside a mesh by brute force (Möller–Trumbore). */
 double castRay(const Eigen::Vector3d& s, const Eigen::Vector3d& d, const geometry::TriangleMesh& mesh)
 {
   double sum = 0.0;
@@ -47,8 +47,8 @@ double at(const std::vector<double>& map, int pixels, int row, int column)
   return map[static_cast<std::size_t>(row * pixels + column)];
 }
 
-/** The rounding of the corners to 1/4096 pixel (here 0.1 µm at the isocentre) is magnified where facets graze the ray:
- * a bound on the worst pixel, and a tight one on the mean. */
+/** Compares the projection with brute force: a loose bound of every pixel, and a tight bound of the mean. Grazing
+ *  facets amplify the rounding of vertices to 1/4096 pixel (0.1 µm at the isocentre). */
 void expectBruteForce(const geometry::TriangleMesh& mesh, const CArmPose& pose)
 {
   const XRayGeometry geometry(pose);
@@ -68,7 +68,7 @@ void expectBruteForce(const geometry::TriangleMesh& mesh, const CArmPose& pose)
 
 TEST(VesselPathLength, EqualsBruteForceRayCastingOnASphere)
 {
-  // Off the pixels' symmetry, so that no central ray meets an edge, where the brute force has no rule.
+  // Asymmetric position: no central ray intersects an edge, for which the brute force has no fill rule.
   expectBruteForce(sphere({1.234e-3, -2.3e-3, 0.7e-3}, 0.02, 13, 17), smallPose(64));
 }
 
@@ -94,7 +94,7 @@ TEST(VesselPathLength, EqualsTheChordOfASphere)
     {
       const double exact = chordInSphere(geometry.source(), geometry.axes() * geometry.ray(column, row), centre, 0.02);
       if (exact > 0.0 && exact <= 0.01)
-        continue;  // there the facets' sagitta decides
+        continue;  // dominated by the sagitta of the facets
       EXPECT_NEAR(at(map, pose.pixels, row, column), exact, 2e-5) << row << " " << column;
     }
 }
@@ -102,7 +102,7 @@ TEST(VesselPathLength, EqualsTheChordOfASphere)
 TEST(VesselPathLength, EqualsTheDiameterAcrossACylinderOnItsAxis)
 {
   CArmPose pose;
-  pose.pixels = 65;  // the centre of a pixel is the centre of the image
+  pose.pixels = 65;  // the image centre is a pixel centre
   const XRayGeometry geometry(pose);
   const auto map = vesselPathLength(geometry, cylinder({0.0, 0.0, -0.05}, {0.0, 0.0, 0.05}, 0.004, 360));
   EXPECT_NEAR(at(map, 65, 32, 32), 0.008, 1e-6);
@@ -113,10 +113,10 @@ TEST(VesselPathLength, EqualsTheDiameterAcrossACylinderOnItsAxis)
   }
 }
 
-TEST(VesselPathLength, CountsNoPixelTwiceOrNeverWhenCornersAndEdgesLieOnPixelCentres)
+TEST(VesselPathLength, CountsEveryPixelOnceWithEdgesAndVerticesOnPixelCentres)
 {
-  // A box at the isocentre whose far side's diagonals and corners project onto centres of pixels: a gap or a double
-  // count would change a length by the distance to the source.
+  // Diagonals and vertices of the far side of a box at the isocentre project onto pixel centres. A missed or double
+  // intersection would change a path length by the distance to the source.
   CArmPose pose;
   pose.pixels = 65;
   const XRayGeometry geometry(pose);
@@ -147,10 +147,10 @@ TEST(VesselPathLength, CountsNoPixelTwiceOrNeverWhenCornersAndEdgesLieOnPixelCen
       ++inside;
       EXPECT_NEAR(length, (far - near) * geometry.ray(column, row).norm(), 1e-9);
     }
-  EXPECT_EQ(inside, 16 * 16);  // two of four sides own their pixels
+  EXPECT_EQ(inside, 16 * 16);  // the fill rule includes the pixels on two of the four sides
 }
 
-TEST(VesselPathLength, KeepsItsTotalForAnyPlaceOfTheMeshBetweenThePixels)
+TEST(VesselPathLength, PreservesItsTotalAtAnySubPixelShift)
 {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> shift(-1e-3, 1e-3);
@@ -160,7 +160,7 @@ TEST(VesselPathLength, KeepsItsTotalForAnyPlaceOfTheMeshBetweenThePixels)
     const XRayGeometry geometry(pose);
     const Eigen::Vector3d centre(shift(random), shift(random), shift(random));
     const auto map = vesselPathLength(geometry, sphere(centre, 0.015, 40, 80));
-    // A leak anywhere would add about ±0.75 m to one pixel.
+    // A leak would change one pixel by about ±0.75 m.
     for (const double length : map)
       ASSERT_LT(length, 0.0301);
     double volume = 0.0;
@@ -182,12 +182,12 @@ TEST(VesselPathLength, EndsAtTheDetector)
   EXPECT_NEAR(at(map, 65, 32, 32), 0.05, 1e-9);
 }
 
-TEST(VesselPathLength, RefusesAVesselAroundTheSource)
+TEST(VesselPathLength, RejectsAVesselAroundTheSource)
 {
   const CArmPose pose;
   EXPECT_THROW(vesselPathLength(XRayGeometry(pose), sphere({0.0, 0.75, 0.0}, 0.02, 10, 10)), InputError);
-  EXPECT_THROW(requireVesselBeforeSource(XRayGeometry(pose), sphere({0.0, 0.9, 0.0}, 0.02, 10, 10)), InputError);
-  EXPECT_NO_THROW(requireVesselBeforeSource(XRayGeometry(pose), sphere({0.0, 0.0, 0.0}, 0.02, 10, 10)));
+  EXPECT_THROW(requireVesselInFrontOfSource(XRayGeometry(pose), sphere({0.0, 0.9, 0.0}, 0.02, 10, 10)), InputError);
+  EXPECT_NO_THROW(requireVesselInFrontOfSource(XRayGeometry(pose), sphere({0.0, 0.0, 0.0}, 0.02, 10, 10)));
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ double totalLoss(const XRayGeometry& geometry, const XRayWire& wire)
   return sum;
 }
 
-/** ∫ (1 − exp(−μ·chord)) over the image of a wire of given length, parallel to the detector at depth SOD [pixel²]. */
+/** Integral of 1 − exp(−μ·chord) over the image of a wire of given length, parallel to the detector at depth SOD
+ *  [pixel²]. */
 double exactLoss(const XRayGeometry& geometry, double length, double radius, double attenuation)
 {
   constexpr int kSteps = 200000;
@@ -54,7 +55,7 @@ double exactLoss(const XRayGeometry& geometry, double length, double radius, dou
   return 2.0 * radius * sum * length * scale * scale;
 }
 
-TEST(WireProjection, KeepsTheIntegratedAttenuationForAnyShiftAndAngleBetweenThePixels)
+TEST(WireProjection, PreservesTheIntegratedAttenuationAtAnySubPixelShiftAndAngle)
 {
   const XRayGeometry geometry{CArmPose{}};
   const double pixel = 0.75 / geometry.focalLength();
@@ -78,7 +79,7 @@ TEST(WireProjection, EqualsTheProjectionOfAFineMeshOfTheSameCylinder)
   CArmPose pose;
   pose.primary_angle = 0.4;
   pose.pixels = 128;
-  pose.detector_width = 0.03;  // fine pixels: the average over a pixel is near its centre's value
+  pose.detector_width = 0.03;  // small pixels: the average over a pixel is close to the value at its centre
   const XRayGeometry geometry(pose);
   const Eigen::Vector3d a(-0.004, -0.003, -0.005), b(0.005, 0.004, 0.006);
   const auto exact = vesselPathLength(geometry, cylinder(a, b, 1.5e-3, 720));
@@ -95,9 +96,9 @@ TEST(WireProjection, EqualsTheProjectionOfAFineMeshOfTheSameCylinder)
   EXPECT_GT(compared, 1000U);
 }
 
-TEST(WireProjection, DoesNotCountTheJointsOfABentWireTwiceNorMissThem)
+TEST(WireProjection, CoversTheJointsOfABentWireExactlyOnce)
 {
-  // An arc of 20 mm radius in few and in many edges: the same volume of wire, so the same faint shadow.
+  // Coarse and fine discretisations of an arc of 20 mm radius have the same volume, and thus the same weak shadow.
   const XRayGeometry geometry{CArmPose{}};
   const auto arc = [](int edges)
   {
@@ -113,7 +114,7 @@ TEST(WireProjection, DoesNotCountTheJointsOfABentWireTwiceNorMissThem)
   EXPECT_NEAR(totalLoss(geometry, arc(40)), exact, 0.005 * exact);
 }
 
-/** A bent wire from the isocentre. */
+/** Bent wire that begins at the isocentre. */
 XRayWire randomWire(std::mt19937& random, double radius, double step, double bend)
 {
   std::normal_distribution<double> normal;
@@ -132,7 +133,7 @@ XRayWire randomWire(std::mt19937& random, double radius, double step, double ben
   return wire;
 }
 
-/** A point of the body round one edge, between the planes that bisect the angles to its neighbours; or none. */
+/** Random point of one edge's cylinder between its bisecting planes; empty if the sample lies outside. */
 std::optional<Eigen::Vector3d> randomPoint(const XRayWire& wire, std::size_t edge, std::mt19937& random)
 {
   const auto axis = [&wire](std::size_t j)
@@ -152,7 +153,7 @@ std::optional<Eigen::Vector3d> randomPoint(const XRayWire& wire, std::size_t edg
   return point;
 }
 
-TEST(WireProjection, SeesAStraightEvenWireAsOneEdgeHoweverManyItHas)
+TEST(WireProjection, MergesTheEdgesOfAStraightUniformWire)
 {
   const XRayGeometry geometry{CArmPose{}};
   const Eigen::Vector3d a(-0.01, 0.002, 0.003), b(0.012, -0.001, 0.007);
@@ -164,20 +165,20 @@ TEST(WireProjection, SeesAStraightEvenWireAsOneEdgeHoweverManyItHas)
   EXPECT_EQ(one.transmission, many.transmission);
 }
 
-TEST(WireProjection, LeavesNothingOutOfAWireThatTurnsThickensOrChangesItsMaterial)
+TEST(WireProjection, DoesNotMergeAcrossBendsOrChangesOfRadiusAndMaterial)
 {
   const XRayGeometry geometry{CArmPose{}};
   const Eigen::Vector3d a(-0.01, 0.0, 0.0), b(0.01, 0.0, 0.0), aside(0.0, 0.0, 5e-6);
   const XRayWire straight = straightWire(a, b, 4, 0.2e-3, 1.0);
   const double whole = totalLoss(geometry, straight);
-  XRayWire back = straight;  // thin enough that losses add up
+  XRayWire back = straight;  // weak attenuation: losses add up linearly
   for (std::size_t k = 4; k-- > 0;)
     back.nodes.push_back(straight.nodes[k]);
   back.radius.resize(back.nodes.size(), 0.2e-3);
   back.attenuation.resize(back.nodes.size() - 1, 1.0);
   EXPECT_NEAR(totalLoss(geometry, back), 2.0 * whole, 2e-3 * whole);
   XRayWire thicker = straight;
-  thicker.radius[2] = 0.4e-3;  // two of four edges are half as wide again: 2.25 times the metal
+  thicker.radius[2] = 0.4e-3;  // two of four edges with 1.5 times the radius have 2.25 times the volume
   EXPECT_NEAR(totalLoss(geometry, thicker), (0.5 + 0.5 * 2.25) * whole, 5e-3 * whole);
   XRayWire mixed = straight;
   mixed.attenuation[1] = 2.0;
@@ -191,7 +192,7 @@ TEST(WireProjection, LeavesNothingOutOfAWireThatTurnsThickensOrChangesItsMateria
   EXPECT_NE(seen.transmission, seen_straight.transmission);
 }
 
-TEST(WireProjection, TouchesEveryPixelInWhichAPointOfTheWireAppears)
+TEST(WireProjection, AffectsEveryPixelThatContainsAPointOfTheWire)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> angle(-1.0, 1.0);
@@ -201,7 +202,7 @@ TEST(WireProjection, TouchesEveryPixelInWhichAPointOfTheWireAppears)
     CArmPose pose;
     pose.primary_angle = angle(random);
     pose.secondary_angle = 0.5 * angle(random);
-    pose.source_to_patient = trial % 2 == 0 ? 0.75 : 0.15;  // a wide cone
+    pose.source_to_patient = trial % 2 == 0 ? 0.75 : 0.15;  // wide cone beam
     const XRayGeometry geometry(pose);
     const XRayWire wire = randomWire(random, trial % 3 == 0 ? 0.2e-3 : 3e-3, trial % 4 < 2 ? 1e-3 : 4e-3, 0.3);
     WireProjection projection;
@@ -227,7 +228,7 @@ TEST(WireProjection, TouchesEveryPixelInWhichAPointOfTheWireAppears)
   EXPECT_GT(seen, 50000);
 }
 
-TEST(WireProjection, SeesTheWholeLengthOfAWireAlongTheRay)
+TEST(WireProjection, IntegratesAWireParallelToTheRay)
 {
   CArmPose pose;
   pose.pixels = 65;
@@ -246,7 +247,7 @@ TEST(WireProjection, SeesTheWholeLengthOfAWireAlongTheRay)
   EXPECT_TRUE(found);
 }
 
-TEST(WireProjection, MultipliesTheShadowsOfCrossingParts)
+TEST(WireProjection, MultipliesTheTransmissionsOfCrossingWires)
 {
   const XRayGeometry geometry{CArmPose{}};
   WireProjection projection;
@@ -263,7 +264,7 @@ TEST(WireProjection, MultipliesTheShadowsOfCrossingParts)
   EXPECT_LT(darkest, std::exp(-100.0 * 7.8e-3));
 }
 
-TEST(WireProjection, GivesTheSameBitsForTheSameWireWhateverCameBefore)
+TEST(WireProjection, IsBitwiseIndependentOfEarlierFrames)
 {
   const XRayGeometry geometry{CArmPose{}};
   const XRayWire wire = straightWire({-0.01, 0.001, 0.0}, {0.02, 0.0, 0.03}, 11, kRadius, 700.0);
@@ -276,7 +277,7 @@ TEST(WireProjection, GivesTheSameBitsForTheSameWireWhateverCameBefore)
   EXPECT_EQ(shadow.transmission, expected.transmission);
 }
 
-TEST(WireProjection, IgnoresWhatIsOutsideTheFieldOrBehindTheSourceAndDoubledNodes)
+TEST(WireProjection, IgnoresInvisibleEdgesAndDuplicateNodes)
 {
   const XRayGeometry geometry{CArmPose{}};
   EXPECT_EQ(totalLoss(geometry, straightWire({1.0, 0.0, 0.0}, {1.0, 0.0, 0.1}, 3, kRadius, 700.0)), 0.0);
@@ -285,7 +286,7 @@ TEST(WireProjection, IgnoresWhatIsOutsideTheFieldOrBehindTheSourceAndDoubledNode
   EXPECT_EQ(totalLoss(geometry, XRayWire{}), 0.0);
 }
 
-TEST(WireProjection, RefusesArraysThatDoNotFitTogether)
+TEST(WireProjection, RejectsArraysOfInconsistentSize)
 {
   const XRayGeometry geometry{CArmPose{}};
   XRayWire wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);

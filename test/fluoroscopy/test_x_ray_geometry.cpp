@@ -40,7 +40,7 @@ TEST(XRayGeometry, ShowsThePatientsLeftOnTheRightAndTheHeadUpInAp)
   EXPECT_NEAR(onScreen(pose(0, 0), kHead).x(), 0.0, 1e-9);
 }
 
-TEST(XRayGeometry, PutsTheSourceBehindTheBackInAp)
+TEST(XRayGeometry, HasThePosteriorSourceInAp)
 {
   const CArmPose ap = pose(0, 0);
   EXPECT_TRUE(XRayGeometry(ap).source().isApprox(ap.isocentre + ap.source_to_patient * kPosterior));
@@ -63,12 +63,12 @@ TEST(XRayGeometry, MovesTheDetectorToTheHeadWithCranialAngulation)
 {
   const CArmPose cranial = pose(0, 30);
   EXPECT_LT(XRayGeometry(cranial).source().z(), cranial.isocentre.z());
-  // Seen from head and chest, what lies behind the isocentre moves up on the screen.
+  // With cranial angulation, points posterior of the isocentre move up on the screen.
   EXPECT_GT(onScreen(cranial, kPosterior).y(), 20.0);
   EXPECT_LT(onScreen(pose(0, -30), kPosterior).y(), -20.0);
 }
 
-TEST(XRayGeometry, HasRightHandedAxesWithTheIsocentreOnTheCentralRayAtAllAngles)
+TEST(XRayGeometry, HasRightHandedAxesAndTheIsocentreOnTheCentralRayAtAllAngles)
 {
   for (double lao = -180; lao <= 180; lao += 30)
     for (double cranial = -90; cranial <= 90; cranial += 30)
@@ -80,7 +80,7 @@ TEST(XRayGeometry, HasRightHandedAxesWithTheIsocentreOnTheCentralRayAtAllAngles)
     }
 }
 
-TEST(XRayGeometry, ProjectsWithCameraMatrixAndTransformAsItProjectsItself)
+TEST(XRayGeometry, ProjectionEqualsCameraMatrixTimesTransform)
 {
   const XRayGeometry geometry(pose(37, -21));
   const Eigen::Vector3d point = geometry.pose().isocentre + Eigen::Vector3d(0.03, -0.05, 0.02);
@@ -96,33 +96,33 @@ TEST(XRayGeometry, HasAFocalLengthOfSourceToDetectorOverPixelSize)
   EXPECT_DOUBLE_EQ(XRayGeometry(pose(0, 0)).focalLength(), 1.2 / (0.3 / 512));
 }
 
-TEST(XRayGeometry, RefusesImpossiblePoses)
+TEST(XRayGeometry, RejectsInvalidPoses)
 {
-  const auto refused = [](auto change)
+  const auto rejected = [](auto change)
   {
     CArmPose bad = pose(0, 0);
     change(bad);
     EXPECT_THROW(XRayGeometry{bad}, InputError);
   };
-  refused([](CArmPose& p) { p.primary_angle = 4.0; });
-  refused([](CArmPose& p) { p.secondary_angle = std::numeric_limits<double>::quiet_NaN(); });
-  refused([](CArmPose& p) { p.source_to_patient = 0.0; });
-  refused([](CArmPose& p) { p.source_to_detector = 0.7; });
-  refused([](CArmPose& p) { p.detector_width = -0.3; });
-  refused([](CArmPose& p) { p.pixels = 0; });
-  refused([](CArmPose& p) { p.isocentre.x() = std::numeric_limits<double>::infinity(); });
+  rejected([](CArmPose& p) { p.primary_angle = 4.0; });
+  rejected([](CArmPose& p) { p.secondary_angle = std::numeric_limits<double>::quiet_NaN(); });
+  rejected([](CArmPose& p) { p.source_to_patient = 0.0; });
+  rejected([](CArmPose& p) { p.source_to_detector = 0.7; });
+  rejected([](CArmPose& p) { p.detector_width = -0.3; });
+  rejected([](CArmPose& p) { p.pixels = 0; });
+  rejected([](CArmPose& p) { p.isocentre.x() = std::numeric_limits<double>::infinity(); });
 }
 
-TEST(FollowTip, LeavesTheTableWhileTheTipIsInTheCentralHalf)
+TEST(PanToTip, DoesNotMoveWhileTheTipIsInTheCentralHalf)
 {
   const CArmPose start = pose(30, 10);
   const XRayGeometry geometry(start);
-  const double quarter = 0.25 * 0.3 * 0.75 / 1.2;  // of the field, at the isocentre
-  EXPECT_EQ(followTip(start, start.isocentre + 0.99 * quarter * geometry.axes().col(0)), start);
-  EXPECT_EQ(followTip(start, start.isocentre + 0.99 * quarter * geometry.axes().col(1)), start);
+  const double quarter = 0.25 * 0.3 * 0.75 / 1.2;  // quarter of the field of view at the isocentre [m]
+  EXPECT_EQ(panToTip(start, start.isocentre + 0.99 * quarter * geometry.axes().col(0)), start);
+  EXPECT_EQ(panToTip(start, start.isocentre + 0.99 * quarter * geometry.axes().col(1)), start);
 }
 
-TEST(FollowTip, BringsATipOutsideTheCentralHalfToTheIsocentre)
+TEST(PanToTip, MovesTheIsocentreToATipOutsideTheCentralHalf)
 {
   const CArmPose start = pose(30, 10);
   const double quarter = 0.25 * 0.3 * 0.75 / 1.2;
@@ -131,7 +131,7 @@ TEST(FollowTip, BringsATipOutsideTheCentralHalfToTheIsocentre)
     const Eigen::Vector3d tip = start.isocentre - 1.01 * quarter * XRayGeometry(start).axes().col(axis);
     CArmPose expected = start;
     expected.isocentre = tip;
-    EXPECT_EQ(followTip(start, tip), expected);
+    EXPECT_EQ(panToTip(start, tip), expected);
   }
 }
 

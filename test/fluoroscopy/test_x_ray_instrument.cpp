@@ -9,15 +9,15 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kEnergy = 60.0;     // keV
-constexpr double kDisplaced = 20.0;  // 1/m
+constexpr double kEnergy = 60.0;     // [keV]
+constexpr double kDisplaced = 20.0;  // [1/m]
 
 AttenuationTable table()
 {
   return AttenuationTable::load(PROJECT_DIR "/config/xray/attenuation.yaml");
 }
 
-/** 40 edges of 1 mm along z. */
+/** Straight centreline of 40 edges of 1 mm along z. */
 std::vector<Eigen::Vector3d> centreline()
 {
   std::vector<Eigen::Vector3d> nodes;
@@ -41,7 +41,7 @@ instrument::Instrument wire()
   return instrument;
 }
 
-TEST(XRayInstrument, GivesEachEdgeTheMaterialAndTheRadiusAtItsDistanceFromTheTip)
+TEST(XRayInstrument, AssignsMaterialAndRadiusByDistanceFromTheTip)
 {
   const instrument::Instrument instrument = wire();
   std::vector<XRayWire> wires;
@@ -57,7 +57,7 @@ TEST(XRayInstrument, GivesEachEdgeTheMaterialAndTheRadiusAtItsDistanceFromTheTip
   }
 }
 
-TEST(XRayInstrument, EndsWhereItsTipIsBehindTheOthers)
+TEST(XRayInstrument, EndsAtItsTipBehindTheLastNode)
 {
   const instrument::Instrument instrument = wire();
   std::vector<XRayWire> wires;
@@ -66,10 +66,10 @@ TEST(XRayInstrument, EndsWhereItsTipIsBehindTheOthers)
   ASSERT_EQ(wires.size(), 1U);
   EXPECT_NEAR(wires[0].nodes.back().z(), 34.5e-3, 1e-12);
   seen.append(centreline(), 50e-3, wires);
-  EXPECT_EQ(wires.size(), 1U) << "nothing of it is inside";
+  EXPECT_EQ(wires.size(), 1U) << "the instrument is outside of the patient";
 }
 
-TEST(XRayInstrument, TakesTheLumenAwayAndAddsMarkers)
+TEST(XRayInstrument, SubtractsTheLumenAndAddsMarkers)
 {
   instrument::Instrument instrument = wire();
   instrument.kind = instrument::Kind::kCatheter;

@@ -20,7 +20,7 @@ protected:
   std::mt19937 random_{11};
 };
 
-TEST_F(TrianglePointTest, OnATriangleIsNeverBeatenByAGridOfItsPoints)
+TEST_F(TrianglePointTest, IsNotFartherThanAnyPointOfAGrid)
 {
   for (int trial = 0; trial < 200; ++trial)
   {
@@ -36,7 +36,7 @@ TEST_F(TrianglePointTest, OnATriangleIsNeverBeatenByAGridOfItsPoints)
   }
 }
 
-TEST_F(TrianglePointTest, NamesTheFeatureItLiesOn)
+TEST_F(TrianglePointTest, ReportsTheFeatureOfTheClosestPoint)
 {
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_EQ(closestPointOnTriangle({-1, -1, 1}, a, b, c).vertex, 0);

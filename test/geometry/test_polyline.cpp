@@ -9,13 +9,13 @@ namespace endovascular_sim::geometry
 namespace
 {
 
-/** An L of 3 m and 4 m with a corner that is there twice. */
+/** L-shaped polyline of 3 m and 4 m with a duplicate corner. */
 Polyline corner()
 {
   return Polyline({{0, 0, 0}, {3, 0, 0}, {3, 0, 0}, {3, 4, 0}});
 }
 
-TEST(Polyline, IsMeasuredByItsArcLengthAndEndsAtItsEnds)
+TEST(Polyline, EvaluatesByArcLengthAndClampsToItsEnds)
 {
   const Polyline line = corner();
   EXPECT_EQ(line.length(), 7.0);
@@ -28,7 +28,7 @@ TEST(Polyline, IsMeasuredByItsArcLengthAndEndsAtItsEnds)
   EXPECT_EQ(line.interpolate({1.0, 4.0, 8.0}, 5.0), 6.0);
 }
 
-TEST(Polyline, FindsItsNearestPoint)
+TEST(Polyline, FindsTheClosestPoint)
 {
   const Polyline::Foot foot = corner().nearest({2.0, 3.0, 0.5});
   EXPECT_EQ(foot.point, Eigen::Vector3d(3, 3, 0));
@@ -36,25 +36,25 @@ TEST(Polyline, FindsItsNearestPoint)
   EXPECT_NEAR(foot.distance, std::sqrt(1.25), 1e-15);
 }
 
-TEST(Polyline, SectionsTurnEvenlyBesideABendWhereNearestPointsJump)
+TEST(Polyline, NormalPlaneFootIsContinuousBesideABend)
 {
   std::vector<Eigen::Vector3d> points;
   for (int k = 0; k <= 10; ++k)
     points.emplace_back(1.0 - std::cos(0.1 * k), std::sin(0.1 * k), 0.0);
   const Polyline arc(points);
-  // Along circles inside and outside of it: sections belong to the angle.
+  // On concentric circles inside and outside, the arc length of the foot equals the angle.
   for (double radius : {0.5, 1.5})
     for (int k = 30; k <= 170; ++k)
     {
       const double angle = 0.005 * k;
-      const Polyline::Foot foot = arc.section({1.0 - radius * std::cos(angle), radius * std::sin(angle), 0.0});
+      const Polyline::Foot foot = arc.normalPlaneFoot({1.0 - radius * std::cos(angle), radius * std::sin(angle), 0.0});
       EXPECT_NEAR(foot.arc, angle, 1e-3);
       EXPECT_NEAR(foot.distance, 0.5, 2e-3);
       EXPECT_NEAR(foot.tangent.x(), std::sin(angle), 0.06);
     }
 }
 
-TEST(Polyline, PartKeepsThePointsBetween)
+TEST(Polyline, PartRetainsThePointsInBetween)
 {
   const Polyline part = corner().part(1.0, 5.0);
   EXPECT_EQ(part.length(), 4.0);

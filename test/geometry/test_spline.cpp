@@ -14,7 +14,7 @@ std::vector<Eigen::Vector3d> points()
   return {{0, 0, 0}, {1, 0.2, 0}, {2, 1, 0.5}, {2.5, 2, 1}, {2.2, 3.4, 1.2}};
 }
 
-TEST(Spline, PassesThroughItsPoints)
+TEST(Spline, InterpolatesItsPoints)
 {
   const Spline3 spline(points());
   for (std::size_t k = 0; k < points().size(); ++k)
@@ -45,13 +45,13 @@ TEST(Spline, HasContinuousCurvatureAtItsKnots)
   }
 }
 
-TEST(Spline, OfTwoPointsIsTheSegment)
+TEST(Spline, IsASegmentForTwoPoints)
 {
   const Spline3 spline({{0, 0, 0}, {3, 4, 0}});
   EXPECT_LT((spline.position(2.5) - Eigen::Vector3d(1.5, 2, 0)).norm(), 1e-14);
 }
 
-TEST(MonotoneCubic, PassesThroughItsValuesAndNeverOvershoots)
+TEST(MonotoneCubic, InterpolatesItsValuesWithoutOvershoot)
 {
   const MonotoneCubic f({0, 1, 2, 5}, {3, 3, 1, 0.5});
   EXPECT_EQ(f(-1), 3);

@@ -16,7 +16,7 @@ Balloon balloon()
   return result;
 }
 
-TEST(Balloon, TakesTheChartsDiametersAtItsPressures)
+TEST(Balloon, InterpolatesTheComplianceChart)
 {
   EXPECT_DOUBLE_EQ(balloon().diameterAt(2e5), 2.2e-3);
   EXPECT_DOUBLE_EQ(balloon().diameterAt(5e5), 2.35e-3);
@@ -31,7 +31,7 @@ TEST(Balloon, IsFoldedWithoutPressureAndUnfoldsTowardsTheFirstRow)
   EXPECT_DOUBLE_EQ(balloon().diameterAt(1e5), 1.55e-3);
 }
 
-TEST(Balloon, GoesOnWithTheLastSlopeBeyondTheChart)
+TEST(Balloon, ExtrapolatesBeyondTheChart)
 {
   EXPECT_DOUBLE_EQ(balloon().diameterAt(20e5), 2.9e-3);
 }

@@ -17,7 +17,7 @@ Instrument tube(double radius, double inner_radius)
   return instrument;
 }
 
-TEST(Instrument, FitsWhereItsThickestPartIsThinnerThanTheLumen)
+TEST(Instrument, FitsIfItsLargestRadiusIsBelowTheLumenRadius)
 {
   const Instrument catheter = tube(1.0e-3, 0.6e-3);
   EXPECT_TRUE(fitsInside(tube(0.59e-3, 0.0), catheter));
@@ -25,7 +25,7 @@ TEST(Instrument, FitsWhereItsThickestPartIsThinnerThanTheLumen)
   EXPECT_FALSE(fitsInside(tube(0.1e-3, 0.0), tube(1.0e-3, 0.0)));
 }
 
-TEST(Instrument, WithFoldedBalloonOrCrimpedStentFitsByTheLargerOfBoth)
+TEST(Instrument, IncludesBalloonAndStentInTheCrossingProfile)
 {
   Instrument balloon = tube(0.4e-3, 0.2e-3);
   EXPECT_EQ(crossingRadius(balloon), 0.4e-3);

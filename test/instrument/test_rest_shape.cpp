@@ -32,14 +32,14 @@ Eigen::Vector2d straight()
   return Eigen::Vector2d::Zero();
 }
 
-/** The curves of a JL4 with a piece of its shaft. */
+/** Curves of a JL4 catheter with a part of its shaft. */
 rod::Wire hook()
 {
   return {{sectionOf(0.05, straight()), sectionOf(0.015 * M_PI, arcCurvature(0.015, 0.0)), sectionOf(0.04, straight()),
            sectionOf(0.003 * M_PI, arcCurvature(0.006, 0.0)), sectionOf(0.008, straight())}};
 }
 
-TEST(RestShape, OfAStraightWireIsALineAlongZ)
+TEST(RestShape, IsALineAlongZForAStraightWire)
 {
   const auto points = restShape({{sectionOf(0.1, straight()), sectionOf(0.05, straight())}}, 0.01);
   ASSERT_EQ(points.size(), 16U);
@@ -47,16 +47,16 @@ TEST(RestShape, OfAStraightWireIsALineAlongZ)
     EXPECT_LT((point.position - point.arc_length * Eigen::Vector3d::UnitZ()).norm(), 1e-15);
 }
 
-TEST(RestShape, OfAnArcBendsAboutD1AtDirectionZero)
+TEST(RestShape, BendsAboutD1AtDirectionZero)
 {
-  // A quarter turn about x takes z to −y.
+  // A rotation by 90° about x maps z to −y.
   const auto points = restShape({{sectionOf(0.01 * M_PI, arcCurvature(0.02, 0.0))}}, 1e-3);
   EXPECT_LT((points.back().position - Eigen::Vector3d(0.0, -0.02, 0.02)).norm(), 1e-15);
   EXPECT_LT((points.back().tangent - Eigen::Vector3d(0.0, -1.0, 0.0)).norm(), 1e-15);
   EXPECT_LT((points.back().d1 - Eigen::Vector3d::UnitX()).norm(), 1e-15);
 }
 
-TEST(RestShape, DoesNotDependOnTheSpacingOfItsPoints)
+TEST(RestShape, IsIndependentOfTheSpacing)
 {
   rod::Wire wire = hook();
   wire.sections[3].rest_curvature = arcCurvature(0.006, 0.9);
@@ -66,10 +66,9 @@ TEST(RestShape, DoesNotDependOnTheSpacingOfItsPoints)
   EXPECT_LT((coarse.d1 - fine.d1).norm(), 1e-12);
 }
 
-TEST(RestShape, LeavesThePlaneWhereTheDirectionChanges)
+TEST(RestShape, LeavesThePlaneIfTheDirectionChanges)
 {
-  // A quarter turn about d1 = x, then a quarter turn about d2: the tangent is −y, d2 = z after the first, so the second
-  // turns −y about z to +x.
+  // A rotation by 90° about d1 = x gives the tangent −y and d2 = z. A rotation by 90° about d2 then maps −y to +x.
   const auto points = restShape(
       {{sectionOf(0.01 * M_PI, arcCurvature(0.02, 0.0)), sectionOf(0.01 * M_PI, arcCurvature(0.02, M_PI / 2.0))}},
       1e-3);
@@ -80,10 +79,10 @@ TEST(RestShape, LeavesThePlaneWhereTheDirectionChanges)
   EXPECT_NEAR(std::abs(points.back().tangent.x()), 1.0, 1e-12);
 }
 
-TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
+TEST(RestShape, IsTheEquilibriumOfAnUnloadedRod)
 {
-  // Clamped at its hand's end, nothing else acts. The solver starts from the straight wire, the curvature is brought in
-  // by steps. The discrete rod's clamp acts at the middle of its first edge.
+  // The rod is clamped at its proximal end and otherwise unloaded. The solver starts from the straight wire, with a
+  // stepwise increase of the curvature. The clamp of the discrete rod acts at the midpoint of its first edge.
   const rod::Wire wire = hook();
   constexpr int kNodes = 400;
   benchmark::EquilibriumProblem problem;
@@ -95,7 +94,7 @@ TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
     shape.position.push_back(s * Eigen::Vector3d::UnitZ());
   for (int step = 1; step <= 20; ++step)
   {
-    // All arcs lie in one plane, so the binormal stays d1 in space.
+    // All arcs are coplanar, so the binormal d1 is constant in space.
     problem.rest_binormal.clear();
     for (const Eigen::Vector2d& curvature : problem.rod.rest_curvature)
       problem.rest_binormal.push_back(-curvature[1] * step / 20.0 * Eigen::Vector3d::UnitX());
@@ -111,7 +110,7 @@ TEST(RestShape, IsTheEquilibriumOfAFreeRodWithTheseCurvatures)
         nearest = std::min(nearest, (point.position - shape.position[i]).norm());
     distance = std::max(distance, nearest);
   }
-  // Second order in the edge: 0.38 mm here.
+  // The error is of second order in the edge length of 0.38 mm.
   EXPECT_LT(distance, 5e-5);
 }
 

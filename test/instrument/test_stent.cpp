@@ -7,7 +7,7 @@ namespace endovascular_sim::instrument
 namespace
 {
 
-TEST(Stent, ShortensAsItOpensAndKeepsItsLengthBeyondTheTable)
+TEST(Stent, ShortensOnExpansionWithConstantLengthOutsideTheTable)
 {
   Stent stent;
   stent.expansion = {{0.9e-3, 18.2e-3}, {3.0e-3, 18.0e-3}, {3.7e-3, 17.6e-3}};
@@ -20,7 +20,7 @@ TEST(Stent, ShortensAsItOpensAndKeepsItsLengthBeyondTheTable)
   EXPECT_EQ(stent.largestDiameter(), 3.7e-3);
 }
 
-TEST(Stent, LosesItsRecoilWhenTheBalloonIsDeflated)
+TEST(Stent, RecoilsByItsFractionOfTheDiameter)
 {
   Stent stent;
   stent.recoil = 0.045;

@@ -9,9 +9,9 @@ namespace endovascular_sim::instrument
 namespace
 {
 
-TEST(Stiffness, OfASolidSectionIsTheModulusTimesTheIntegralOverTheDisc)
+TEST(Stiffness, EqualsModulusTimesSectionIntegralForASolidSection)
 {
-  // Integrals of y² and r² over the disc by the midpoint rule in polar coordinates.
+  // Integrals of y² and r² over the disc by the midpoint rule in polar coordinates
   const double radius = 0.3;
   double second_moment = 0.0;
   double polar_moment = 0.0;
@@ -33,18 +33,18 @@ TEST(Stiffness, OfASolidSectionIsTheModulusTimesTheIntegralOverTheDisc)
   EXPECT_NEAR(stiffness.axial, 7.0 * area, 1e-5 * stiffness.axial);
 }
 
-TEST(Stiffness, OfAWireBendsByOnePlusPoissonMoreThanItTwists)
+TEST(Stiffness, HasTheRatioOnePlusPoissonOfBendingToTorsion)
 {
   const Stiffness stiffness = solidSection(80e9, shearModulus(80e9, 0.3), 4e-4);
   EXPECT_NEAR(stiffness.bending / stiffness.torsional, 1.3, 1e-12);
 }
 
-TEST(Stiffness, ComesBackFromTheEquivalentModulus)
+TEST(Stiffness, IsRecoveredFromTheEquivalentModulus)
 {
   EXPECT_NEAR(equivalentYoungModulus(solidSection(123e9, 1.0, 2e-4).bending, 2e-4), 123e9, 1.0);
 }
 
-TEST(Stiffness, OfATubeIsTheOuterCylinderLessItsLumen)
+TEST(Stiffness, OfATubeIsOuterCylinderMinusLumen)
 {
   const double e = 1e9;
   const double g = 0.4e9;

@@ -24,7 +24,7 @@ Instrument wireOf(const std::vector<double>& lengths)
   return instrument;
 }
 
-/** The turn of the whole wire: integral of rest curvature over its length. */
+/** Total rotation of the tangent: integral of the rest curvature over the length. */
 double turn(const Instrument& instrument)
 {
   double angle = 0.0;
@@ -33,7 +33,7 @@ double turn(const Instrument& instrument)
   return angle;
 }
 
-TEST(TipShape, KeepsLengthAndTurnsByItsAngleWhereverTheSectionsEnd)
+TEST(TipShape, PreservesLengthAndSubtendsItsAngleForAllSectionBoundaries)
 {
   for (const double last : {0.001, 0.005, 0.0078539816339744831, 0.01, 0.05})
     for (const double straight : {0.0, 0.001, 0.002})
@@ -47,7 +47,7 @@ TEST(TipShape, KeepsLengthAndTurnsByItsAngleWhereverTheSectionsEnd)
     }
 }
 
-TEST(TipShape, KeepsThePropertiesOfTheSectionsThatItCuts)
+TEST(TipShape, PreservesThePropertiesOfSplitSections)
 {
   Instrument instrument = wireOf({0.1, 0.004});
   applyTipShape(instrument, {0.01, 1.0, 0.0, 0.0});
@@ -58,7 +58,7 @@ TEST(TipShape, KeepsThePropertiesOfTheSectionsThatItCuts)
   EXPECT_EQ(instrument.materials[2], Material::kPlatinum);
 }
 
-TEST(TipShape, DirectionIsTheCurvatureVectorInTheMaterialFrame)
+TEST(TipShape, DirectionIsThatOfTheCurvatureVectorInTheMaterialFrame)
 {
   // κb = ω₁ d2 − ω₂ d1.
   for (const double direction : {0.0, 0.7, -2.0})
@@ -69,7 +69,7 @@ TEST(TipShape, DirectionIsTheCurvatureVectorInTheMaterialFrame)
   }
 }
 
-TEST(TipShape, CoversTheWholeWireAndNoMore)
+TEST(TipShape, MayCoverTheWholeWireButNotMore)
 {
   Instrument whole = wireOf({0.01});
   applyTipShape(whole, {0.01, 1.0, 0.0, 0.0});
@@ -78,7 +78,7 @@ TEST(TipShape, CoversTheWholeWireAndNoMore)
   EXPECT_THROW(applyTipShape(shorter, {0.01, 1.0, 0.0, 0.0}), std::invalid_argument);
 }
 
-TEST(TipShape, RefusesASecondBend)
+TEST(TipShape, RejectsASecondBend)
 {
   Instrument instrument = wireOf({0.1});
   applyTipShape(instrument, {0.01, 1.0, 0.0, 0.0});

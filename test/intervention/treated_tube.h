@@ -7,7 +7,7 @@
 
 #include "instrument/instrument.h"
 #include "intervention/shaft_line.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 #include "vessel/anatomy/tube.h"
 #include "vessel/lesion/add_lesions.h"
 #include "vessel/model/vessel.h"
@@ -15,11 +15,11 @@
 namespace endovascular_sim::intervention
 {
 
-constexpr double kTubeRadius = 1.5e-3;  // m
-constexpr double kLesion = 0.03;        // m along the tube
+constexpr double kTubeRadius = 1.5e-3;  // [m]
+constexpr double kLesion = 0.03;        // arc length of the throat [m]
 constexpr double kAtmosphere = 1.01325e5;
 
-/** A straight tube along z of 3 mm diameter with a lesion of 10 mm; its centreline begins at the tube's cap. */
+/** Straight tube of 3 mm diameter along z with a lesion of 10 mm. Its centreline begins at the cap. */
 inline vessel::Vessel tubeWithLesion(double grade, double radius = kTubeRadius)
 {
   vessel::TubeShape shape;
@@ -41,7 +41,7 @@ inline vessel::Vessel tubeWithLesion(double grade, double radius = kTubeRadius)
   return vessel;
 }
 
-/** 3 mm at 8 atm and 3.2 mm at 16 atm, 15 mm long. */
+/** Balloon of 15 mm length with a diameter of 3 mm at 8 atm and 3.2 mm at 16 atm. */
 inline instrument::Balloon balloon()
 {
   instrument::Balloon balloon;
@@ -68,7 +68,7 @@ inline instrument::Stent stent()
   return stent;
 }
 
-/** The shaft along the tube's axis so that the balloon's middle lies at @p middle [m]. */
+/** Shaft on the tube's axis with the centre of the balloon at @p middle [m]. */
 inline ShaftLine shaftAt(double middle, double aside = 0.0)
 {
   std::vector<double> from_tip;
@@ -81,7 +81,7 @@ inline ShaftLine shaftAt(double middle, double aside = 0.0)
   return ShaftLine(from_tip, points);
 }
 
-/** Least and largest distance of the wall from the tube's axis between two places [m]. */
+/** Least and largest distance of the wall from the tube's axis between two positions along it [m]. */
 inline std::pair<double, double> wallBetween(const geometry::TriangleMesh& mesh, double begin, double end)
 {
   std::pair<double, double> radii{1.0, 0.0};

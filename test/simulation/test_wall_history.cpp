@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/archive.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 
 namespace endovascular_sim::simulation
 {

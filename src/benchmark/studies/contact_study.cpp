@@ -151,7 +151,7 @@ Section volumes(const StudyMesh& base, const StudyMesh& big, bool quick, const P
       "cold detector asks. Nearest: the nearest triangle, what signs and free distances ask. Fastest of several runs.";
   std::vector<StudyMesh> meshes;
   StudyMesh fine = base;
-  fine.mesh = geometry::flatSubdivision(base.mesh, 2);
+  fine.mesh = geometry::midpointSubdivision(base.mesh, 2);
   meshes.push_back(fine);
   if (!big.mesh.triangles.empty())
     meshes.push_back(big);
@@ -231,7 +231,7 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
   {
     progress(0.2 + 0.6 * level / (levels + 1), "growth, " + std::to_string(level) + " subdivisions");
     StudyMesh mesh = base;
-    mesh.mesh = geometry::flatSubdivision(base.mesh, level);
+    mesh.mesh = geometry::midpointSubdivision(base.mesh, level);
     add(mesh);
   }
   progress(0.75, "growth, " + big.name);

@@ -34,7 +34,7 @@ void toMessage(const simulation::Simulation& simulation, TreatmentVisual& messag
     const intervention::Treatment* treatment = simulation.treatment(k);
     if (treatment == nullptr)
       continue;
-    const intervention::RoundBody& balloon = treatment->pressing().balloon;
+    const intervention::RoundBody& balloon = treatment->load().balloon;
     if (!balloon.axis.empty())
       message.balloons.push_back(toMessage(balloon, k, 0.0));
     if (treatment->stent() && !treatment->stent()->sleeve().axis.empty())
@@ -75,7 +75,7 @@ std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message, d
   }
   for (const TreatmentBody& body : message.stents)
     for (fluoroscopy::XRayWire& strut :
-         fluoroscopy::strutWires(intervention::strutsOf(fromMessage(body)), body.thickness, metal))
+         fluoroscopy::strutWires(intervention::stentStruts(fromMessage(body)), body.thickness, metal))
       wires.push_back(std::move(strut));
   return wires;
 }

@@ -4,7 +4,7 @@
 
 #include "endovascular_sim/TreatmentVisual.h"
 #include "fluoroscopy/wire_projection.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::nodes

@@ -5,7 +5,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "geometry/triangle_mesh.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 #include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::nodes

@@ -143,7 +143,7 @@ void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
       [&]
       {
         if (settings_.follow_tip && tip_)
-          move(fluoroscopy::followTip(fluoroscope_.geometry().pose(), *tip_));
+          move(fluoroscopy::panToTip(fluoroscope_.geometry().pose(), *tip_));
         publishFrame();
       });
 }

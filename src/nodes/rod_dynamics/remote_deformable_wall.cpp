@@ -32,7 +32,7 @@ bool RemoteDeformableWall::waitForServer() const
   return ros::ok();
 }
 
-std::uint64_t RemoteDeformableWall::press(std::uint64_t step, const intervention::BalloonLoad& load)
+std::uint64_t RemoteDeformableWall::applyLoad(std::uint64_t step, const intervention::BalloonLoad& load)
 {
   toMessage(load, message_);
   message_.header.stamp = ros::Time::now();

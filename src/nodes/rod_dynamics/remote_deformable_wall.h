@@ -27,8 +27,8 @@ public:
   /** Waits for the subscription of vessel_server; earlier loads would be lost. @return false when ROS shut down */
   bool waitForServer() const;
 
-  std::uint64_t press(std::uint64_t step, const intervention::BalloonLoad& load) override;
-  void show(std::uint64_t /*version*/) override {}  // every rod/state requests its version
+  std::uint64_t applyLoad(std::uint64_t step, const intervention::BalloonLoad& load) override;
+  void activate(std::uint64_t /*version*/) override {}  // every rod/state requests its version
   std::uint64_t version() const override { return version_; }
   bool atRisk() const override { return at_risk_; }
   void archive(Archive& archive) override;

@@ -12,7 +12,7 @@ bool WallDeformationServer::press(const BalloonLoad& load, WallDisplacement& dis
 {
   if (load.version != history_.newest() + 1)  // no other thread changes it
     return false;
-  toMessage(opening_.press(loadFromMessage(load), simulation::kMostDisplacedVertices), displacement);
+  toMessage(opening_.applyLoad(loadFromMessage(load), simulation::kMostDisplacedVertices), displacement);
   displacement.step = load.step;
   displacement.version = load.version;
   displacement.at_risk = opening_.atRisk();

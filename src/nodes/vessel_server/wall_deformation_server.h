@@ -5,7 +5,7 @@
 
 #include "endovascular_sim/BalloonLoad.h"
 #include "endovascular_sim/WallDisplacement.h"
-#include "intervention/vessel_opening.h"
+#include "intervention/vessel_dilatation.h"
 #include "nodes/runtime/priority_inheritance_mutex.h"
 #include "simulation/wall_history.h"
 
@@ -18,7 +18,7 @@ class WallDeformationServer
 public:
   /** @param vessel the vessel in version 1 */
   explicit WallDeformationServer(const vessel::Vessel& vessel)
-    : opening_(vessel, intervention::OpeningLaw{}), base_(vessel.mesh)
+    : opening_(vessel, intervention::DilatationLaw{}), base_(vessel.mesh)
   {
   }
 
@@ -40,7 +40,7 @@ public:
   std::uint64_t version() const;  ///< newest version; thread-safe
 
 private:
-  intervention::VesselOpening opening_;     ///< used by the thread of press() only
+  intervention::VesselDilatation opening_;     ///< used by the thread of press() only
   mutable PriorityInheritanceMutex mutex_;  ///< guards the following members
   simulation::WallHistory<WallDisplacement> history_;
   geometry::TriangleMesh base_;  ///< mesh in the history's base version

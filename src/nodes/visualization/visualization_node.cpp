@@ -209,7 +209,7 @@ void VisualizationNode::drawStents(const TreatmentVisual& message)
   stents.color.r = stents.color.g = stents.color.b = 0.75F;
   stents.scale.x = kStrutWidth;
   for (const TreatmentBody& body : message.stents)
-    for (const std::vector<Eigen::Vector3d>& ring : intervention::strutsOf(fromMessage(body)))
+    for (const std::vector<Eigen::Vector3d>& ring : intervention::stentStruts(fromMessage(body)))
       for (std::size_t k = 0; k + 1 < ring.size(); ++k)
       {
         stents.points.push_back(toPoint(ring[k]));

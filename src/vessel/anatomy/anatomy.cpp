@@ -11,9 +11,9 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Samples of the centreline stand this many radii apart. */
+/** Spacing of the centreline's samples, in radii of the lumen. */
 constexpr double kSampleSpacing = 0.25;
-/** The centreline's smallest radius of curvature, in radii of the lumen. */
+/** Smallest radius of curvature of the centreline, in radii of the lumen. */
 constexpr double kTightestBend = 1.15;
 
 const AnatomyBranch& branchAt(const Anatomy& anatomy, int index)
@@ -31,27 +31,27 @@ double smallestRadius(const AnatomyBranch& branch)
   return smallest;
 }
 
-struct Place
+struct NearestSample
 {
   Eigen::Vector3d point;
   double distance = 1e300;
   double radius = 0.0;
 };
 
-/** The point of a branch's sampled centreline nearest to another point. */
-Place nearestOnBranch(const AnatomyChain& chain, int branch, const Eigen::Vector3d& p)
+/** Sample of a branch's centreline that is nearest to a point. */
+NearestSample nearestOnBranch(const AnatomyChain& chain, int branch, const Eigen::Vector3d& p)
 {
   const auto part = static_cast<std::size_t>(std::find(chain.branches.begin(), chain.branches.end(), branch) -
                                              chain.branches.begin());
   const std::size_t end = part + 1 < chain.first_sample.size() ? chain.first_sample[part + 1] : chain.points.size() - 1;
-  Place place;
+  NearestSample nearest;
   for (std::size_t k = chain.first_sample[part]; k <= end; ++k)
-    if ((chain.points[k] - p).norm() < place.distance)
-      place = {chain.points[k], (chain.points[k] - p).norm(), chain.radii[k]};
-  return place;
+    if ((chain.points[k] - p).norm() < nearest.distance)
+      nearest = {chain.points[k], (chain.points[k] - p).norm(), chain.radii[k]};
+  return nearest;
 }
 
-/** Control points of a whole chain, and at which of them each branch begins. */
+/** Control points of a chain, with the index of the first control point of each branch. */
 struct ControlPoints
 {
   std::vector<Eigen::Vector3d> points;
@@ -74,7 +74,8 @@ ControlPoints controlPoints(const Anatomy& anatomy, const AnatomyChain& chain)
   return control;
 }
 
-/** Radius of a branch along its own length, without its stenoses; the first knot joins on to @p inherited. */
+/** Radius of a branch over the fraction of its length, without stenoses.
+ *  @param inherited radius at the end of the branch that this branch continues [m] */
 geometry::MonotoneCubic radiusProfile(const Anatomy& anatomy, const AnatomyBranch& branch, double inherited)
 {
   std::vector<double> fractions;
@@ -93,8 +94,8 @@ geometry::MonotoneCubic radiusProfile(const Anatomy& anatomy, const AnatomyBranc
     }
     else if (std::abs(radii.front() - inherited) > 1e-3 * inherited)
       throw InputError(anatomy.file, "branches[" + branch.name + "].diameters",
-                       "at fraction 0 the diameter must be that at the end of the branch it continues (" +
-                           std::to_string(2e3 * inherited) + " mm); leave that entry out");
+                       "the diameter at fraction 0 must equal the diameter at the end of the continued branch (" +
+                           std::to_string(2e3 * inherited) + " mm); remove that entry");
   }
   return {fractions, radii};
 }
@@ -109,7 +110,7 @@ void applyStenoses(const AnatomyBranch& branch, double length, double along, dou
   }
 }
 
-/** Arc length of the spline from u0 to u1 by Simpson's rule on short pieces. */
+/** Arc length of the spline from u0 to u1 by the composite Simpson rule. */
 double arcLength(const geometry::Spline3& spline, double u0, double u1)
 {
   const int pieces = std::max(4, static_cast<int>(std::ceil((u1 - u0) / 0.5e-3)));
@@ -125,7 +126,7 @@ double arcLength(const geometry::Spline3& spline, double u0, double u1)
   return length;
 }
 
-/** Appends the samples of one branch; all but the first branch skip their first sample, which is there already. */
+/** Appends the samples of one branch to its chain. Continuations share their first sample with the previous branch. */
 void sampleBranch(const Anatomy& anatomy, const AnatomyBranch& branch, const geometry::Spline3& spline, double u0,
                   double u1, AnatomyChain& chain)
 {
@@ -172,9 +173,9 @@ void requireGentleBends(const Anatomy& anatomy, const AnatomyChain& chain)
     while (part > 0 && chain.first_sample[part] >= k)
       --part;
     throw InputError(anatomy.file, "branches[" + branchAt(anatomy, chain.branches[part]).name + "].points",
-                     "bends more tightly than it is wide near [" + std::to_string(chain.points[k].x()) + ", " +
-                         std::to_string(chain.points[k].y()) + ", " + std::to_string(chain.points[k].z()) +
-                         "] m; spread the points or reduce the diameter");
+                     "the radius of curvature is smaller than the lumen's radius near [" +
+                         std::to_string(chain.points[k].x()) + ", " + std::to_string(chain.points[k].y()) + ", " +
+                         std::to_string(chain.points[k].z()) + "] m; spread the points or reduce the diameter");
   }
 }
 
@@ -190,12 +191,12 @@ AnatomyChain sampleChain(const Anatomy& anatomy, std::vector<int> branches, cons
     for (const AnatomyChain& other : earlier)
       if (std::find(other.branches.begin(), other.branches.end(), chain.parent) != other.branches.end())
       {
-        const Place place = nearestOnBranch(other, chain.parent, control.points.front());
-        if (place.distance > place.radius)
+        const NearestSample nearest = nearestOnBranch(other, chain.parent, control.points.front());
+        if (nearest.distance > nearest.radius)
           throw InputError(anatomy.file, "branches[" + first.name + "].points",
-                           "the first point must lie inside of the parent \"" + branchAt(anatomy, chain.parent).name +
-                               "\"; it is " + std::to_string(1e3 * place.distance) + " mm off its centreline");
-        control.points.front() = place.point;
+                           "the first point must lie inside the parent \"" + branchAt(anatomy, chain.parent).name +
+                               "\"; it is " + std::to_string(1e3 * nearest.distance) + " mm from its centreline");
+        control.points.front() = nearest.point;
       }
   }
   const geometry::Spline3 spline(control.points);

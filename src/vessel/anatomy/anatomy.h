@@ -11,26 +11,26 @@
 namespace endovascular_sim::vessel
 {
 
-/** A narrowing of a branch: a cosine-shaped reduction of the diameter. */
+/** Stenosis of a branch with a cosine-shaped reduction of the diameter. */
 struct Stenosis
 {
-  double position = 0.0;   ///< of its throat, as a fraction of the branch's length
-  double length = 0.0;     ///< over which the diameter is reduced [m]
-  double reduction = 0.0;  ///< of the diameter at the throat, 0 to below 1
+  double position = 0.0;   ///< position of the throat as a fraction of the branch's length
+  double length = 0.0;     ///< length of the stenosis [m]
+  double reduction = 0.0;  ///< relative reduction of the diameter at the throat, in [0, 1)
 };
 
-/** One named branch of an anatomy. */
+/** Named branch of an anatomy. */
 struct AnatomyBranch
 {
   std::string name;
-  int parent = -1;         ///< index of the branch it leaves or continues, −1 at the root
-  bool continues = false;  ///< goes on at the parent's end without a junction (common iliac to external iliac)
+  int parent = -1;         ///< index of the parent branch, −1 at the root
+  bool continues = false;  ///< continues the parent at its end without a junction (common iliac to external iliac)
   std::vector<Eigen::Vector3d> points;               ///< control points of the centreline, patient frame [m]
   std::vector<std::pair<double, double>> diameters;  ///< fraction of the branch's length, diameter [m]
   std::vector<Stenosis> stenoses;
 };
 
-/** A spherical widening: a sinus of the aortic root, an aneurysm. */
+/** Spherical bulge: a sinus of the aortic root, an aneurysm. */
 struct Bulge
 {
   std::string name;
@@ -38,40 +38,41 @@ struct Bulge
   double radius = 0.0;                               ///< [m]
 };
 
-/** A vessel tree described by centrelines and diameters: what config/anatomies holds. */
+/** Parametric vessel tree of centrelines and diameters; the content of a file in config/anatomies. */
 struct Anatomy
 {
   std::string name;
   std::string file;
-  double blend = 1.0;                   ///< range of the rounding at a junction, in radii of the smaller branch
-  int facets_around = 20;               ///< of the mesh, around every lumen
-  double longest_facet = 2e-3;          ///< [m]
+  double blend = 1.0;                   ///< blending range at a junction, in radii of the smaller branch
+  int facets_around = 20;               ///< facets of the mesh around every lumen
+  double longest_facet = 2e-3;          ///< longest edge of the mesh [m]
   std::vector<AnatomyBranch> branches;  ///< parents before their children
   std::vector<Bulge> bulges;
-  std::uint64_t content_hash = 0;  ///< of the file's bytes
+  std::uint64_t content_hash = 0;  ///< hash of the file's bytes
 };
 
-/** Reads and checks an anatomy file. Lengths are in metres, or in the file's `unit` [m].
+/** Reads and validates an anatomy file. Lengths are in metres, or in the file's `unit` [m].
  *  @throws InputError naming file, key and remedy */
 Anatomy readAnatomy(const std::string& file);
 
-/** A run of branches that continue each other, sampled along its smooth centreline. */
+/** Sequence of branches that continue each other, sampled along their common spline centreline. */
 struct AnatomyChain
 {
   std::vector<int> branches;              ///< indices into Anatomy::branches, in order
-  std::vector<std::size_t> first_sample;  ///< per branch, where it begins
-  int parent = -1;                        ///< branch that the chain leaves, −1 at the root
+  std::vector<std::size_t> first_sample;  ///< index of the first sample of each branch
+  int parent = -1;                        ///< parent branch of the chain, −1 at the root
   std::vector<Eigen::Vector3d> points;    ///< [m]
   std::vector<Eigen::Vector3d> tangents;  ///< unit
   std::vector<double> arc;                ///< arc length from the chain's start [m]
-  std::vector<double> radii;              ///< with the stenoses [m]
+  std::vector<double> radii;              ///< radius including stenoses [m]
 };
 
-/** The chains of an anatomy. The first point of a chain that leaves another is moved onto the parent's centreline.
- *  @throws InputError when a branch begins outside of its parent, or bends more tightly than it is wide */
+/** Samples the chains of an anatomy. The first point of a child chain is moved onto its parent's centreline.
+ *  @throws InputError if a branch begins outside of its parent, or its radius of curvature is smaller than its radius
+ *           */
 std::vector<AnatomyChain> sampleChains(const Anatomy& anatomy);
 
-/** The exact centreline tree, with the anatomy's names. */
+/** Centreline tree of the sampled chains, one branch per branch of the anatomy. */
 CentrelineTree anatomyCentreline(const Anatomy& anatomy, const std::vector<AnatomyChain>& chains);
 
 }  // namespace endovascular_sim::vessel

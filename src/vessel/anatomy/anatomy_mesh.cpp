@@ -18,7 +18,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** The stenoses that the anatomy was made with, as lesions of the vessel. */
+/** Stenoses of the anatomy as lesions of the vessel. */
 std::vector<PlacedLesion> lesionsOf(const Anatomy& anatomy, const CentrelineTree& centreline)
 {
   std::vector<PlacedLesion> lesions;
@@ -52,7 +52,8 @@ geometry::TriangleMesh generateAnatomyMesh(const Anatomy& anatomy, const std::ve
   requireClean(report, anatomy.file);
   if (report.genus != 0)
     throw InputError(anatomy.file, "branches",
-                     "branches touch that should not, so that the lumen has " + std::to_string(report.genus) +
+                     "branches that are not parent and child overlap, so that the lumen has " +
+                         std::to_string(report.genus) +
                          " loops; move their points apart, reduce their diameters, or reduce blend");
   return mesh;
 }
@@ -85,14 +86,14 @@ Vessel loadAnatomy(const std::string& file, const std::string& cache_folder)
   if (cached)
   {
     vessel.mesh = std::move(*cached);
-    vessel.notes.push_back("mesh of \"" + anatomy.name + "\" taken from " + entry);
+    vessel.notes.push_back("mesh of \"" + anatomy.name + "\" loaded from " + entry);
     return vessel;
   }
   vessel.mesh = generateAnatomyMesh(anatomy, chains);
   vessel.notes.push_back("mesh of \"" + anatomy.name + "\" generated: " + std::to_string(vessel.mesh.triangles.size()) +
                          " triangles");
   if (!entry.empty() && !writeCachedMesh(entry, key.value(), vessel.mesh))
-    vessel.notes.push_back("the mesh could not be kept in " + entry + "; it will be generated again next time");
+    vessel.notes.push_back("the mesh could not be cached in " + entry + "; it will be generated again by the next run");
   return vessel;
 }
 

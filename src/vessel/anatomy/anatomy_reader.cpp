@@ -16,18 +16,18 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A YAML map that knows where it stands, and refuses with file, line and key. */
-class Section
+/** YAML map with its location; errors name file, line and key. */
+class YamlMap
 {
 public:
-  Section(const std::string& file, const YAML::Node& node, std::string path)
+  YamlMap(const std::string& file, const YAML::Node& node, std::string path)
     : file_(file), node_(node), path_(std::move(path))
   {
     if (!node_.IsMap())
-      refuse("", "expected keys and values");
+      reject("", "expected keys and values");
   }
 
-  [[noreturn]] void refuse(const std::string& key, const std::string& remedy) const
+  [[noreturn]] void reject(const std::string& key, const std::string& remedy) const
   {
     std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
     const YAML::Mark mark = !key.empty() && node_.IsMap() && node_[key] ? node_[key].Mark() : node_.Mark();
@@ -36,7 +36,7 @@ public:
     throw InputError(file_, where, remedy);
   }
 
-  /** Refuses keys that are not in the list. */
+  /** Rejects keys that are not in the list. */
   void allow(std::initializer_list<const char*> keys) const
   {
     for (const auto& entry : node_)
@@ -47,7 +47,7 @@ public:
       std::string known;
       for (const char* k : keys)
         known += std::string(known.empty() ? "" : ", ") + k;
-      refuse(key, "unknown key; known here are " + known);
+      reject(key, "unknown key; expected one of " + known);
     }
   }
 
@@ -63,7 +63,7 @@ public:
   {
     requirePresent(key, meaning);
     if (!node_[key].IsScalar() || node_[key].Scalar().empty())
-      refuse(key, "expected " + meaning);
+      reject(key, "expected " + meaning);
     return node_[key].Scalar();
   }
 
@@ -87,16 +87,16 @@ public:
     for (const YAML::Node& item : list(key, meaning))
     {
       if (!item.IsSequence() || item.size() != 2)
-        refuse(key, "expected " + meaning);
+        reject(key, "expected " + meaning);
       out.emplace_back(checked(key, item[0], 0.0, 1.0, "a fraction from 0 to 1"),
                        checked(key, item[1], kTiny, kHuge, "a positive diameter"));
     }
     return out;
   }
 
-  std::vector<Section> sections(const std::string& key) const
+  std::vector<YamlMap> maps(const std::string& key) const
   {
-    std::vector<Section> out;
+    std::vector<YamlMap> out;
     const std::string prefix = path_ + (path_.empty() ? "" : ".") + key;
     int k = 0;
     if (has(key))
@@ -117,14 +117,14 @@ private:
   void requirePresent(const std::string& key, const std::string& meaning) const
   {
     if (!has(key))
-      refuse(key, "missing; give " + meaning);
+      reject(key, "missing; give " + meaning);
   }
 
   YAML::Node list(const std::string& key, const std::string& meaning) const
   {
     requirePresent(key, meaning);
     if (!node_[key].IsSequence())
-      refuse(key, "expected " + meaning);
+      reject(key, "expected " + meaning);
     return node_[key];
   }
 
@@ -133,14 +133,14 @@ private:
   {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !(value >= lowest) || !(value <= highest))
-      refuse(key, (node.IsScalar() ? "\"" + node.Scalar() + "\" is not " : "expected ") + meaning);
+      reject(key, (node.IsScalar() ? "\"" + node.Scalar() + "\" is not " : "expected ") + meaning);
     return value;
   }
 
   Eigen::Vector3d vectorAt(const std::string& key, const YAML::Node& node, const std::string& meaning) const
   {
     if (!node.IsSequence() || node.size() != 3)
-      refuse(key, "expected " + meaning);
+      reject(key, "expected " + meaning);
     Eigen::Vector3d v;
     for (std::size_t i = 0; i < 3; ++i)
       v[static_cast<Eigen::Index>(i)] = checked(key, node[i], -kHuge, kHuge, "a number");
@@ -152,69 +152,70 @@ private:
   std::string path_;
 };
 
-void readDiameters(const Section& section, double unit, AnatomyBranch& branch)
+void readDiameters(const YamlMap& section, double unit, AnatomyBranch& branch)
 {
   branch.diameters = section.pairs("diameters", "a list of [fraction of the branch's length, diameter]");
   if (branch.diameters.empty())
-    section.refuse("diameters", "needs at least one [fraction, diameter]");
+    section.reject("diameters", "needs at least one [fraction, diameter]");
   for (std::size_t k = 0; k < branch.diameters.size(); ++k)
   {
     branch.diameters[k].second *= unit;
     if (k > 0 && !(branch.diameters[k].first > branch.diameters[k - 1].first))
-      section.refuse("diameters", "the fractions must increase from one entry to the next");
+      section.reject("diameters", "the fractions must increase from one entry to the next");
   }
 }
 
-void readStenoses(const Section& section, double unit, AnatomyBranch& branch)
+void readStenoses(const YamlMap& section, double unit, AnatomyBranch& branch)
 {
-  for (const Section& entry : section.sections("stenoses"))
+  for (const YamlMap& entry : section.maps("stenoses"))
   {
     entry.allow({"name", "position", "length", "reduction"});
     Stenosis stenosis;
-    stenosis.position = entry.number("position", 0.0, 1.0, "the throat's place as a fraction of the branch, 0 to 1");
-    stenosis.length = unit * entry.number("length", Section::kTiny, Section::kHuge, "a positive length");
+    stenosis.position =
+        entry.number("position", 0.0, 1.0, "the position of the throat as a fraction of the branch's length, 0 to 1");
+    stenosis.length = unit * entry.number("length", YamlMap::kTiny, YamlMap::kHuge, "a positive length");
     stenosis.reduction =
         entry.number("reduction", 0.0, 0.95, "the reduction of the diameter, 0 to 0.95 (an occlusion has no lumen)");
     branch.stenoses.push_back(stenosis);
   }
 }
 
-int indexOf(const Anatomy& anatomy, const Section& section, const std::string& key)
+int indexOf(const Anatomy& anatomy, const YamlMap& section, const std::string& key)
 {
-  const std::string name = section.text(key, "the name of a branch that stands above");
+  const std::string name = section.text(key, "the name of an earlier branch");
   for (std::size_t k = 0; k < anatomy.branches.size(); ++k)
     if (anatomy.branches[k].name == name)
       return static_cast<int>(k);
-  section.refuse(key, "no branch \"" + name + "\" stands above this one; a parent comes before its children");
+  section.reject(key, "no earlier branch \"" + name + "\"; a parent must precede its children");
 }
 
-AnatomyBranch readBranch(const Section& section, double unit, const Anatomy& anatomy)
+AnatomyBranch readBranch(const YamlMap& section, double unit, const Anatomy& anatomy)
 {
   section.allow({"name", "parent", "continues", "points", "diameters", "stenoses"});
   AnatomyBranch branch;
   branch.name = section.text("name", "the branch's name");
   for (const AnatomyBranch& other : anatomy.branches)
     if (other.name == branch.name)
-      section.refuse("name", "is the name of an earlier branch too; give every branch its own");
+      section.reject("name", "is the name of an earlier branch; names must be unique");
   branch.continues = section.has("continues");
   if (branch.continues && section.has("parent"))
-    section.refuse("continues", "given besides parent; keep one of the two");
+    section.reject("continues", "excludes parent; keep one of the two");
   if (branch.continues || section.has("parent"))
     branch.parent = indexOf(anatomy, section, branch.continues ? "continues" : "parent");
   else if (!anatomy.branches.empty())
-    section.refuse("parent", "missing; only the first branch has no parent");
+    section.reject("parent", "missing; only the first branch has no parent");
   for (const AnatomyBranch& other : anatomy.branches)
     if (branch.continues && other.continues && other.parent == branch.parent)
-      section.refuse("continues", "\"" + other.name + "\" continues that branch already; use parent");
+      section.reject("continues", "\"" + other.name + "\" already continues that branch; use parent");
 
   branch.points = section.vectors("points", "a list of [x, y, z]");
   for (Eigen::Vector3d& point : branch.points)
     point *= unit;
   if (branch.points.size() < (branch.continues ? 1U : 2U))
-    section.refuse("points", "too few; a branch needs two points (one when it continues another)");
+    section.reject("points", "too few; a branch needs two points (one when it continues another)");
   for (std::size_t k = 1; k < branch.points.size(); ++k)
     if ((branch.points[k] - branch.points[k - 1]).norm() < 1e-5)
-      section.refuse("points", "points " + std::to_string(k) + " and " + std::to_string(k + 1) + " coincide");
+      section.reject("points", "points " + std::to_string(k) + " and " + std::to_string(k + 1) + " coincide");
   readDiameters(section, unit, branch);
   readStenoses(section, unit, branch);
   return branch;
@@ -246,7 +247,7 @@ Anatomy readAnatomy(const std::string& file)
   }
   if (!root.IsMap())
     throw InputError(file, "", "is not an anatomy; see config/anatomies/default.yaml");
-  const Section top(file, root, "");
+  const YamlMap top(file, root, "");
   top.allow({"name", "unit", "blend", "facets_around", "longest_facet", "branches", "bulges"});
 
   Anatomy anatomy;
@@ -261,16 +262,16 @@ Anatomy readAnatomy(const std::string& file)
   if (top.has("facets_around"))
     anatomy.facets_around = static_cast<int>(top.number("facets_around", 8.0, 64.0, "a number from 8 to 64"));
   if (top.has("longest_facet"))
-    anatomy.longest_facet = unit * top.number("longest_facet", Section::kTiny, Section::kHuge, "a positive length");
-  for (const Section& section : top.sections("branches"))
+    anatomy.longest_facet = unit * top.number("longest_facet", YamlMap::kTiny, YamlMap::kHuge, "a positive length");
+  for (const YamlMap& section : top.maps("branches"))
     anatomy.branches.push_back(readBranch(section, unit, anatomy));
   if (anatomy.branches.empty())
-    top.refuse("branches", "missing; give at least one branch");
-  for (const Section& section : top.sections("bulges"))
+    top.reject("branches", "missing; give at least one branch");
+  for (const YamlMap& section : top.maps("bulges"))
   {
     section.allow({"name", "centre", "radius"});
     anatomy.bulges.push_back({section.text("name", "the bulge's name"), unit * section.vector("centre", "[x, y, z]"),
-                              unit * section.number("radius", Section::kTiny, Section::kHuge, "a positive radius")});
+                              unit * section.number("radius", YamlMap::kTiny, YamlMap::kHuge, "a positive radius")});
   }
   return anatomy;
 }

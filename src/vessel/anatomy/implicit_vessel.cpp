@@ -9,16 +9,16 @@ namespace
 {
 
 constexpr std::size_t kClusterSize = 12;
-/** How fast facets may grow with the distance from a finer branch. */
-constexpr double kFacetGrowth = 0.25;
+/** Gradation: growth of the edge length per distance from a finer branch. */
+constexpr double kEdgeGrowth = 0.25;
 
-/** a ← smooth minimum of a and b. Differs from the plain one by at most range/6, where a = b. */
+/** Smooth minimum of a and b with its gradient, stored in a. It is at most range/6 below min(a, b), at a = b. */
 void smoothMinimum(double& a, Eigen::Vector3d& a_gradient, double b, const Eigen::Vector3d& b_gradient, double range)
 {
   const double h = std::max(range - std::abs(a - b), 0.0) / range;
-  const double share = 0.5 * h * h;  // of the larger one in the gradient
-  a_gradient = a < b ? Eigen::Vector3d((1.0 - share) * a_gradient + share * b_gradient)
-                     : Eigen::Vector3d((1.0 - share) * b_gradient + share * a_gradient);
+  const double weight = 0.5 * h * h;  // of the larger argument's gradient
+  a_gradient = a < b ? Eigen::Vector3d((1.0 - weight) * a_gradient + weight * b_gradient)
+                     : Eigen::Vector3d((1.0 - weight) * b_gradient + weight * a_gradient);
   a = std::min(a, b) - h * h * h * range / 6.0;
 }
 
@@ -75,7 +75,7 @@ void ImplicitVessel::addTube(AnatomyChain chain)
     tube.widest = std::max(tube.widest, c.radii[k]);
     narrowest = std::min(narrowest, c.radii[k]);
   }
-  tube.finest_facet = facetFor(narrowest);
+  tube.shortest_edge = edgeLengthFor(narrowest);
   for (std::size_t begin = 0; begin + 1 < n; begin += kClusterSize)
   {
     Cluster cluster;
@@ -84,9 +84,9 @@ void ImplicitVessel::addTube(AnatomyChain chain)
     cluster.centre = 0.5 * (c.points[begin] + c.points[cluster.end]);
     for (std::size_t k = begin; k <= cluster.end; ++k)
     {
-      // The axis between two samples bows out a little.
-      const double bow = k > begin ? 0.25 * (c.points[k] - c.points[k - 1]).norm() : 0.0;
-      cluster.reach = std::max(cluster.reach, (c.points[k] - cluster.centre).norm() + bow);
+      // Bound of the distance between the curved axis and its chord.
+      const double sagitta = k > begin ? 0.25 * (c.points[k] - c.points[k - 1]).norm() : 0.0;
+      cluster.reach = std::max(cluster.reach, (c.points[k] - cluster.centre).norm() + sagitta);
       cluster.widest = std::max(cluster.widest, c.radii[k]);
     }
     tube.clusters.push_back(cluster);
@@ -96,7 +96,7 @@ void ImplicitVessel::addTube(AnatomyChain chain)
   tubes_.push_back(std::move(tube));
 }
 
-double ImplicitVessel::facetFor(double radius) const
+double ImplicitVessel::edgeLengthFor(double radius) const
 {
   return std::min(facet_per_radius_ * radius, longest_facet_);
 }
@@ -126,7 +126,7 @@ ImplicitVessel::TubeSample ImplicitVessel::sampleTube(const Tube& tube, const Ei
     }
   }
 
-  // Newton's method on (p − c(t))·c'(t) = 0 along the smooth axis, over into the next segment where that is nearer.
+  // Newton's method on (p − c(t))·c'(t) = 0 along the smooth axis c, with transition into adjacent segments.
   double t = best_t;
   std::size_t k = best;
   Eigen::Vector3d foot;
@@ -165,17 +165,17 @@ FieldSample ImplicitVessel::at(const Eigen::Vector3d& p) const
 {
   FieldSample field;
   field.distance = 1e300;
-  field.facet = longest_facet_;
+  field.edge_length = longest_facet_;
   for (const Tube& tube : tubes_)
   {
-    const double least = tube.axis_box.exteriorDistance(p) - tube.widest;
-    const bool far_from_wall = least >= field.distance + blend_ * tube.widest;
-    const bool far_from_facet = tube.finest_facet + kFacetGrowth * std::max(least, 0.0) >= field.facet;
-    if (far_from_wall && far_from_facet)
+    const double lower_bound = tube.axis_box.exteriorDistance(p) - tube.widest;
+    const bool far_from_wall = lower_bound >= field.distance + blend_ * tube.widest;
+    const bool has_longer_edges = tube.shortest_edge + kEdgeGrowth * std::max(lower_bound, 0.0) >= field.edge_length;
+    if (far_from_wall && has_longer_edges)
       continue;
     const TubeSample sample = sampleTube(tube, p);
-    const double facet = facetFor(sample.radius) + kFacetGrowth * std::max(sample.distance, 0.0);
-    field.facet = std::min(field.facet, facet);
+    const double edge_length = edgeLengthFor(sample.radius) + kEdgeGrowth * std::max(sample.distance, 0.0);
+    field.edge_length = std::min(field.edge_length, edge_length);
     smoothMinimum(field.distance, field.gradient, sample.distance, sample.gradient, blend_ * sample.radius);
   }
   for (const Bulge& bulge : bulges_)

@@ -10,17 +10,17 @@
 namespace endovascular_sim::vessel
 {
 
-/** Value of the implicit vessel at a point. */
+/** Implicit function of the vessel at a point. */
 struct FieldSample
 {
-  double distance = 0.0;  ///< to the wall, negative in the lumen; exact beside a straight even branch [m]
-  Eigen::Vector3d gradient = Eigen::Vector3d::UnitZ();  ///< direction of steepest ascent, length about 1
-  double facet = 0.0;  ///< edge length that the wall's mesh should have near this point [m]
+  double distance = 0.0;  ///< approximate signed distance to the wall, negative in the lumen; exact for a cylinder [m]
+  Eigen::Vector3d gradient = Eigen::Vector3d::UnitZ();  ///< gradient of the distance, of length about 1
+  double edge_length = 0.0;                             ///< target edge length of the mesh near the point [m]
 };
 
-/** The lumen as an implicit surface: every branch is the set of points closer to its centreline than its radius there,
- *  so that a cut across the centreline has exactly the diameter given; branches are joined by a smooth minimum
- *  (I. Quilez's cubic polynomial, C²) whose range is a multiple of the smaller branch's radius. */
+/** Implicit surface of the lumen. A branch is the set of points closer to its centreline than the radius at the foot
+ *  point, so that cross-sections have exactly the specified diameter. Branches are blended by a smooth minimum (cubic
+ *  polynomial by I. Quilez, C²). Its range is a multiple of the smaller branch's radius. */
 class ImplicitVessel
 {
 public:
@@ -28,16 +28,16 @@ public:
 
   FieldSample at(const Eigen::Vector3d& p) const;
 
-  /** Box round the whole wall. */
+  /** Bounding box of the wall. */
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
 private:
-  /** Some neighbouring segments of a chain inside a ball, lumen included. */
+  /** Consecutive segments of a chain with a bounding sphere of their axis. */
   struct Cluster
   {
     Eigen::Vector3d centre;
-    double reach = 0.0;   ///< of the axis from the centre [m]
-    double widest = 0.0;  ///< largest radius [m]
+    double reach = 0.0;   ///< radius of the bounding sphere [m]
+    double widest = 0.0;  ///< largest radius of the lumen [m]
     std::size_t begin = 0;
     std::size_t end = 0;
   };
@@ -49,10 +49,10 @@ private:
     std::vector<Cluster> clusters;
     Eigen::AlignedBox3d axis_box;
     double widest = 0.0;
-    double finest_facet = 0.0;
+    double shortest_edge = 0.0;
   };
 
-  /** A branch seen from a point. */
+  /** Distance function of one tube at a point. */
   struct TubeSample
   {
     double distance = 1e300;
@@ -62,7 +62,7 @@ private:
 
   void addTube(AnatomyChain chain);
   TubeSample sampleTube(const Tube& tube, const Eigen::Vector3d& p) const;
-  double facetFor(double radius) const;
+  double edgeLengthFor(double radius) const;
 
   double blend_;
   double facet_per_radius_;

@@ -10,24 +10,25 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kOnWall = 1e-9;  // [m]
+constexpr double kTolerance = 1e-9;  // distance from the zero level [m]
 
-class FieldWall : public RemeshWall
+/** Remeshing target given by an implicit vessel. */
+class ImplicitTarget : public RemeshTarget
 {
 public:
-  explicit FieldWall(const ImplicitVessel& field) : field_(field) {}
+  explicit ImplicitTarget(const ImplicitVessel& field) : field_(field) {}
 
-  /** Newton's method along the gradient. */
-  WallPoint onWall(const Eigen::Vector3d& start) const override
+  /** Projects by Newton's method along the gradient. */
+  TargetPoint project(const Eigen::Vector3d& start) const override
   {
     Eigen::Vector3d p = start;
     FieldSample sample = field_.at(p);
-    for (int step = 0; step < 6 && std::abs(sample.distance) > kOnWall; ++step)
+    for (int step = 0; step < 6 && std::abs(sample.distance) > kTolerance; ++step)
     {
       p -= sample.distance * sample.gradient / std::max(sample.gradient.squaredNorm(), 0.25);
       sample = field_.at(p);
     }
-    return {p, sample.gradient.normalized(), sample.facet};
+    return {p, sample.gradient.normalized(), sample.edge_length};
   }
 
 private:
@@ -38,7 +39,7 @@ private:
 
 geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const ImplicitVessel& field)
 {
-  return remesh(mesh, FieldWall(field));
+  return remesh(mesh, ImplicitTarget(field));
 }
 
 }  // namespace endovascular_sim::vessel

@@ -6,7 +6,7 @@
 namespace endovascular_sim::vessel
 {
 
-/** Remeshes a closed mesh onto the zero level of an implicit vessel, by Newton projection (vessel/repair/remesh.h). */
+/** Isotropic remeshing of a closed mesh onto the zero level of an implicit vessel (vessel/repair/remesh.h). */
 geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const ImplicitVessel& field);
 
 }  // namespace endovascular_sim::vessel

@@ -13,22 +13,23 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Edge of the cubes to begin with [m]. */
+/** Edge of the initial cubes [m]. */
 constexpr double kCube = 16e-3;
-/** The longest edge of a tetrahedron that the wall passes, in facet lengths. */
+/** Longest edge of a tetrahedron that intersects the wall, in target edge lengths. */
 constexpr double kCoarseness = 2.0;
-/** The field's slope stays below this, so the wall is farther from a point than |distance| divided by it. */
+/** Lipschitz constant of the field: the wall is at least |distance|/kSteepest away from a point. */
 constexpr double kSteepest = 1.3;
-/** Cuts stay away from the corners of the tetrahedra by this fraction of the edge. */
+/** Minimum distance of an intersection from the ends of its edge, as a fraction of the edge. */
 constexpr double kCornerMargin = 0.03;
 
-/** A tetrahedron in Maubach's order: its next cut goes through the edge from corner 0 to corner `tag`. */
+/** Tetrahedron in Maubach's vertex order: its refinement edge joins corner 0 and corner `tag`. */
 struct Tetrahedron
 {
   std::array<int, 4> corner;
   int tag = 3;
 };
 
+/** Adaptive tetrahedral grid around the zero level of a field. */
 class TetrahedralGrid
 {
 public:
@@ -46,7 +47,7 @@ private:
   {
     Eigen::Vector3d position;
     double distance;
-    double facet;
+    double edge_length;
   };
 
   const Vertex& at(int v) const { return vertices_[static_cast<std::size_t>(v)]; }
@@ -54,7 +55,7 @@ private:
   int addVertex(const Eigen::Vector3d& p)
   {
     const FieldSample sample = field_.at(p);
-    vertices_.push_back({p, sample.distance, sample.facet});
+    vertices_.push_back({p, sample.distance, sample.edge_length});
     return static_cast<int>(vertices_.size()) - 1;
   }
 
@@ -76,26 +77,26 @@ private:
     return at(t.corner[static_cast<std::size_t>(i)]).position;
   }
 
-  /** Whether the wall may pass, judged from the corners. */
+  /** False if the values at the corners exclude that the wall intersects the tetrahedron. */
   bool nearWall(const Tetrahedron& t, double longest) const
   {
-    double least = 1e300;
+    double min_distance = 1e300;
     int inside = 0;
     for (int v : t.corner)
     {
-      least = std::min(least, std::abs(at(v).distance));
+      min_distance = std::min(min_distance, std::abs(at(v).distance));
       inside += at(v).distance < 0.0 ? 1 : 0;
     }
-    return (inside > 0 && inside < 4) || least < 0.7 * kSteepest * longest;
+    return (inside > 0 && inside < 4) || min_distance < 0.7 * kSteepest * longest;
   }
 
   bool tooCoarse(const Tetrahedron& t) const
   {
     const double longest = longestEdge(t);
-    double facet = 1e300;
+    double edge_length = 1e300;
     for (int v : t.corner)
-      facet = std::min(facet, at(v).facet);
-    return longest > kCoarseness * facet && nearWall(t, longest);
+      edge_length = std::min(edge_length, at(v).edge_length);
+    return longest > kCoarseness * edge_length && nearWall(t, longest);
   }
 
   bool hasHangingVertex(const Tetrahedron& t) const
@@ -115,7 +116,7 @@ private:
   geometry::EdgeTable midpoints_;
 };
 
-/** Kuhn's six tetrahedra per cube, all cubes alike, as Maubach's bisection wants them. */
+/** Kuhn subdivision of every cube into six tetrahedra: a valid initial mesh of Maubach's bisection. */
 void TetrahedralGrid::seed()
 {
   const Eigen::Vector3d origin = field_.bounds().min() - Eigen::Vector3d::Constant(kCube);
@@ -188,7 +189,7 @@ void TetrahedralGrid::refineNearWall()
   }
 }
 
-/** Bisects on where a neighbour's cut left a vertex on an edge, until there is none near the wall. */
+/** Bisects tetrahedra with hanging vertices until none is left near the wall. */
 void TetrahedralGrid::makeConforming()
 {
   for (bool changed = true; changed;)
@@ -201,7 +202,7 @@ void TetrahedralGrid::makeConforming()
       const Tetrahedron t = open.back();
       open.pop_back();
       if (!nearWall(t, longestEdge(t)))
-        continue;  // it carries no surface, whatever its neighbours do
+        continue;  // contains no part of the surface
       if (!hasHangingVertex(t))
       {
         leaves_.push_back(t);

@@ -6,12 +6,11 @@
 namespace endovascular_sim::vessel
 {
 
-/** Closed two-manifold surface of the field's zero level, outward oriented, of uneven triangles.
+/** Closed, outward oriented two-manifold mesh of the field's zero level, with triangles of uneven quality.
  *
- *  Cubes cut into tetrahedra are bisected near the wall down to the field's facet length (J. M. Maubach, "Local
- * bisection refinement for n-simplicial grids", 1995), then each tetrahedron is cut by the wall (marching tetrahedra).
- * Where the surface passes, the tetrahedra conform, so that it cannot have holes. The libraries at hand sample on an
- * even grid, which would need 0.3 mm everywhere for the coronaries' sake. */
+ *  Marching tetrahedra on an adaptive grid: tetrahedra near the wall are bisected down to the target edge length (J. M.
+ *  Maubach, "Local bisection refinement for n-simplicial grids", 1995). The grid is conforming at the surface, so that
+ *  the surface has no holes. A uniform grid would need a spacing of 0.3 mm everywhere because of the coronaries. */
 geometry::TriangleMesh isoSurface(const ImplicitVessel& field);
 
 }  // namespace endovascular_sim::vessel

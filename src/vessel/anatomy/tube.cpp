@@ -11,7 +11,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A station of the axis: position, tangent and the transported `up`. */
+/** Station of the axis: position, tangent and parallel-transported `up`. */
 struct Station
 {
   Eigen::Vector3d position;
@@ -21,27 +21,27 @@ struct Station
 
 void requireShape(const TubeShape& shape)
 {
-  const auto refuse = [](const std::string& key, const std::string& remedy) { throw InputError("tube", key, remedy); };
+  const auto reject = [](const std::string& key, const std::string& remedy) { throw InputError("tube", key, remedy); };
   if (!(shape.radius > 0.0))
-    refuse("radius", "must be positive [m]");
+    reject("radius", "must be positive [m]");
   if (!(shape.facet_length > 0.0))
-    refuse("facet_length", "must be positive [m]");
+    reject("facet_length", "must be positive [m]");
   if (shape.facets_around < 3)
-    refuse("facets_around", "must be at least 3");
+    reject("facets_around", "must be at least 3");
   if (shape.pieces.empty())
-    refuse("pieces", "needs at least one piece");
+    reject("pieces", "must contain at least one piece");
   for (const TubePiece& piece : shape.pieces)
   {
     if (!(piece.length > 0.0))
-      refuse("pieces", "every length must be positive [m]");
+      reject("pieces", "every length must be positive [m]");
     if (!(std::abs(piece.curvature) * shape.radius < 1.0))
-      refuse("pieces", "a curvature must be less than 1/radius");
+      reject("pieces", "a curvature must be less than 1/radius");
   }
   if (shape.direction.cross(shape.up).norm() < 1e-9)
-    refuse("up", "must not be parallel to the direction");
+    reject("up", "must not be parallel to the direction");
 }
 
-/** The station at arc length s of a piece that begins at @p start. */
+/** Station at arc length s of a piece that begins at @p start. */
 Station advance(const Station& start, const TubePiece& piece, double s)
 {
   const double angle = piece.curvature * s;
@@ -54,7 +54,8 @@ Station advance(const Station& start, const TubePiece& piece, double s)
   return {centre - turn * normal / piece.curvature, turn * start.tangent, turn * start.up};
 }
 
-/** Stations no further apart than facet_length on the outer side of a bend, from the run-in's cap on. */
+/** Stations of the axis from the cap of the run-in to the far cap. Their spacing on the outer side of a bend is at most
+ *  facet_length. */
 std::vector<Station> stations(const TubeShape& shape)
 {
   requireShape(shape);

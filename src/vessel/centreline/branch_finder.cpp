@@ -8,19 +8,19 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr std::size_t kSegments = 12;  // of a piece
-constexpr double kRounding = 1e-9;     // m
+constexpr std::size_t kSegments = 12;  // segments per block
+constexpr double kRounding = 1e-9;     // rounding tolerance of distances [m]
 
-/** Distance from a point to the lumen along one segment of a branch, negative inside [m]. */
+/** Signed distance from a point to the lumen of one segment, negative inside [m]. */
 double distanceToLumen(const Eigen::Vector3d& point, const CentrelineBranch& branch, std::size_t k)
 {
   const std::size_t next = std::min(k + 1, branch.points.size() - 1);
   const Eigen::Vector3d segment = branch.points[next] - branch.points[k];
   const double length2 = segment.squaredNorm();
   const double along = length2 > 0.0 ? segment.dot(point - branch.points[k]) / length2 : 0.0;
-  const double share = std::clamp(along, 0.0, 1.0);
-  const double radius = branch.radii[k] + share * (branch.radii[next] - branch.radii[k]);
-  return (point - branch.points[k] - share * segment).norm() - radius;
+  const double t = std::clamp(along, 0.0, 1.0);
+  const double radius = branch.radii[k] + t * (branch.radii[next] - branch.radii[k]);
+  return (point - branch.points[k] - t * segment).norm() - radius;
 }
 
 }  // namespace
@@ -33,54 +33,54 @@ BranchFinder::BranchFinder(const CentrelineTree& tree) : branches_(tree.branches
     for (std::size_t first = 0; first < branch.points.size(); first += kSegments)
     {
       if (first > 0 && first + 1 == branch.points.size())
-        break;  // the last point ends the piece before
-      Piece piece;
-      piece.branch = static_cast<int>(b);
-      piece.first = first;
-      piece.last = std::min(first + kSegments, branch.points.size() - 1);
-      for (std::size_t k = piece.first; k <= piece.last; ++k)
+        break;  // the last point belongs to the previous block
+      Block block;
+      block.branch = static_cast<int>(b);
+      block.first = first;
+      block.last = std::min(first + kSegments, branch.points.size() - 1);
+      for (std::size_t k = block.first; k <= block.last; ++k)
       {
-        piece.box.extend(branch.points[k]);
-        piece.widest = std::max(piece.widest, branch.radii[k]);
+        block.box.extend(branch.points[k]);
+        block.widest = std::max(block.widest, branch.radii[k]);
       }
-      pieces_.push_back(piece);
+      blocks_.push_back(block);
     }
   }
 }
 
-double BranchFinder::distanceTo(const Piece& piece, const Eigen::Vector3d& point) const
+double BranchFinder::distanceTo(const Block& block, const Eigen::Vector3d& point) const
 {
-  const CentrelineBranch& branch = branches_[static_cast<std::size_t>(piece.branch)];
-  double least = distanceToLumen(point, branch, piece.first);
-  for (std::size_t k = piece.first + 1; k < piece.last; ++k)
+  const CentrelineBranch& branch = branches_[static_cast<std::size_t>(block.branch)];
+  double least = distanceToLumen(point, branch, block.first);
+  for (std::size_t k = block.first + 1; k < block.last; ++k)
     least = std::min(least, distanceToLumen(point, branch, k));
   return least;
 }
 
 int BranchFinder::nearest(const Eigen::Vector3d& point) const
 {
-  const Piece* likely = nullptr;
+  const Block* candidate = nullptr;
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Piece& piece : pieces_)
-    if (const double bound = piece.bound(point); bound < lowest)
+  for (const Block& block : blocks_)
+    if (const double bound = block.bound(point); bound < lowest)
     {
-      likely = &piece;
+      candidate = &block;
       lowest = bound;
     }
-  if (likely == nullptr)
+  if (candidate == nullptr)
     return -1;
-  const double enough = distanceTo(*likely, point);
+  const double upper_bound = distanceTo(*candidate, point);
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (const Piece& piece : pieces_)
+  for (const Block& block : blocks_)
   {
-    if (piece.bound(point) > enough + kRounding)
+    if (block.bound(point) > upper_bound + kRounding)
       continue;
-    const double distance = distanceTo(piece, point);
+    const double distance = distanceTo(block, point);
     if (distance >= least)
       continue;
     least = distance;
-    nearest = piece.branch;
+    nearest = block.branch;
   }
   return nearest;
 }

@@ -10,38 +10,37 @@
 namespace endovascular_sim::vessel
 {
 
-/** Tells to which branch of a centreline a point of the wall belongs. */
+/** Assigns points of the wall to branches of a centreline. */
 class BranchFinder
 {
 public:
   explicit BranchFinder(const CentrelineTree& tree);
 
-  /** The branch whose lumen is nearest: the least distance from the point to the branch's centreline minus the lumen's
-   *  radius there, so that the wall of a wide parent beside an ostium belongs to the parent although the child's
-   *  centreline begins inside it. Of equals the first in the tree.
+  /** Branch with the nearest lumen: the least distance to a branch's centreline minus the lumen's radius at the foot
+   *  point. The radius matters beside an ostium: the parent's wall belongs to the parent, although the child's
+   *  centreline begins inside the parent. Among equals, the first branch of the tree is returned.
    *  @param point patient frame [m]
-   *  @return index into CentrelineTree::branches; −1 when the tree has no points */
+   *  @return index into CentrelineTree::branches; −1 if the tree has no points */
   int nearest(const Eigen::Vector3d& point) const;
 
 private:
-  /** Some segments of a branch, one after the other, and what is needed to pass over them when they are too far away.
-   */
-  struct Piece
+  /** Consecutive segments of a branch with a bounding box for culling. */
+  struct Block
   {
     int branch = 0;
-    std::size_t first = 0;  ///< point at which its first segment begins
-    std::size_t last = 0;   ///< where its last one ends
-    Eigen::AlignedBox3d box;
-    double widest = 0.0;  ///< largest radius [m]
+    std::size_t first = 0;    ///< index of the first point
+    std::size_t last = 0;     ///< index of the last point
+    Eigen::AlignedBox3d box;  ///< bounding box of the points
+    double widest = 0.0;      ///< largest radius [m]
 
-    /** No more than the distance from a point to the lumen [m]. */
+    /** Lower bound of the signed distance from a point to the lumen [m]. */
     double bound(const Eigen::Vector3d& point) const { return box.exteriorDistance(point) - widest; }
   };
 
-  double distanceTo(const Piece& piece, const Eigen::Vector3d& point) const;
+  double distanceTo(const Block& block, const Eigen::Vector3d& point) const;
 
   std::vector<CentrelineBranch> branches_;
-  std::vector<Piece> pieces_;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace endovascular_sim::vessel

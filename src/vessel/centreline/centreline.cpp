@@ -5,7 +5,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Chord over about one radius: the first segment alone would carry the noise of the points. */
+/** Direction of a chord about one radius long; the first segment alone is sensitive to noise of the points. */
 Eigen::Vector3d inwardDirection(const CentrelineBranch& branch, bool at_front)
 {
   const std::size_t n = branch.points.size();
@@ -18,8 +18,8 @@ Eigen::Vector3d inwardDirection(const CentrelineBranch& branch, bool at_front)
   return chord.norm() > 0.0 ? Eigen::Vector3d(chord.normalized()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
 }
 
-/** Whether another branch begins, ends or passes there: then the tip is no end of the vessel. */
-bool continued(const CentrelineTree& tree, std::size_t branch)
+/** True if another branch begins at, ends at or passes the tip of a branch, so that the tip is no end of the vessel. */
+bool tipMeetsBranch(const CentrelineTree& tree, std::size_t branch)
 {
   const Eigen::Vector3d& tip = tree.branches[branch].points.back();
   const double radius = tree.branches[branch].radii.back();
@@ -47,7 +47,7 @@ std::vector<CentrelineEnd> centrelineEnds(const CentrelineTree& tree)
     const int index = static_cast<int>(b);
     if (branch.parent < 0)
       ends.push_back({index, branch.points.front(), inwardDirection(branch, true), branch.radii.front()});
-    if (!continued(tree, b))
+    if (!tipMeetsBranch(tree, b))
       ends.push_back({index, branch.points.back(), inwardDirection(branch, false), branch.radii.back()});
   }
   return ends;

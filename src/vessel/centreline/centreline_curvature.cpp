@@ -9,9 +9,9 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kSpacing = 0.25;  // of the radius: points of the centreline that are nearer to each other are left out
+constexpr double kSpacing = 0.25;  // minimum spacing of evaluated points, in radii of the lumen
 
-/** Curvature of the circle through three points [1/m]. */
+/** Menger curvature: curvature of the circle through three points [1/m]. */
 double circleCurvature(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
 {
   const double sides = (b - a).norm() * (c - b).norm() * (c - a).norm();
@@ -46,13 +46,13 @@ void CentrelineCurvature::addBranch(const CentrelineBranch& branch)
   }
 }
 
-double CentrelineCurvature::at(const Eigen::Vector3d& place) const
+double CentrelineCurvature::at(const Eigen::Vector3d& point) const
 {
   double nearest = std::numeric_limits<double>::infinity();
   double curvature = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    const double distance = (points_[i] - place).squaredNorm();
+    const double distance = (points_[i] - point).squaredNorm();
     if (distance < nearest)
     {
       nearest = distance;

@@ -9,17 +9,17 @@
 namespace endovascular_sim::vessel
 {
 
-/** How strongly a vessel bends at a place: the curvature of its centreline at the nearest point of it. */
+/** Curvature of a vessel's centreline, queried by position. */
 class CentrelineCurvature
 {
 public:
-  /** Curvature is that of the circle through three points of a branch, a lumen's radius apart: shorter bends are noise
-   *  of the centreline. */
+  /** Evaluates the Menger curvature of three points of a branch, spaced by the lumen's radius. Bends on a shorter scale
+   *  are noise of the centreline. */
   explicit CentrelineCurvature(const CentrelineTree& tree);
 
-  /** Curvature at the nearest point of the centreline; the lowest index among equally near ones; 0 without any [1/m].
-   */
-  double at(const Eigen::Vector3d& place) const;
+  /** Curvature at the nearest point of the centreline [1/m]; 0 for an empty centreline. Among equally near points, the
+   *  first one counts. */
+  double at(const Eigen::Vector3d& point) const;
 
 private:
   void addBranch(const CentrelineBranch& branch);

@@ -15,14 +15,15 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Kept balls stand at least this many radii apart: few enough for a graph, close enough to overlap. */
-constexpr double kBallSpacing = 0.6;
-/** Distance of the centreline's points, in mean radii of the branch. */
+/** Minimum spacing of the thinned spheres, in radii: sparse enough for a graph, dense enough to overlap. */
+constexpr double kSphereSpacing = 0.6;
+/** Spacing of the centreline's points, in mean radii of the branch. */
 constexpr double kPointSpacing = 0.35;
 constexpr int kCentringRounds = 4;
-/** Towards the rim of a flat cap the balls shrink by 1/√2 per length; a vessel that tapers does not. */
+/** Minimum decrease of the radius per length towards the rim of a flat cap. It is 1/√2 there, and smaller in a tapering
+ *  vessel. */
 constexpr double kRimSlope = 0.35;
-/** The line ends this fraction of the last stretch before the cap. */
+/** Gap between the line's end and the cap, as a fraction of the extension. */
 constexpr double kCapMargin = 0.05;
 
 using Line = std::vector<Eigen::Vector3d>;
@@ -35,7 +36,7 @@ double lineLength(const Line& line)
   return length;
 }
 
-/** Points at equal distances along the line, its ends kept. */
+/** Resamples a line at equal arc lengths; the ends are retained. */
 Line resample(const Line& line, double spacing)
 {
   const double length = lineLength(line);
@@ -45,21 +46,21 @@ Line resample(const Line& line, double spacing)
   double passed = 0.0;
   for (int i = 1; i < count; ++i)
   {
-    const double wanted = length * i / count;
-    while (k + 1 < line.size() && passed + (line[k] - line[k - 1]).norm() < wanted)
+    const double arc = length * i / count;
+    while (k + 1 < line.size() && passed + (line[k] - line[k - 1]).norm() < arc)
     {
       passed += (line[k] - line[k - 1]).norm();
       ++k;
     }
     const double step = (line[k] - line[k - 1]).norm();
-    const double fraction = step > 0.0 ? std::clamp((wanted - passed) / step, 0.0, 1.0) : 0.0;
+    const double fraction = step > 0.0 ? std::clamp((arc - passed) / step, 0.0, 1.0) : 0.0;
     out.emplace_back(line[k - 1] + fraction * (line[k] - line[k - 1]));
   }
   out.push_back(line.back());
   return out;
 }
 
-/** Climbs to a local maximum of the distance to the wall, across the line only. */
+/** Local maximum of the distance to the wall in the plane normal to the line, by pattern search. */
 Eigen::Vector3d centre(const Eigen::Vector3d& start, const Eigen::Vector3d& tangent,
                        const geometry::MeshDistance& distance)
 {
@@ -70,7 +71,7 @@ Eigen::Vector3d centre(const Eigen::Vector3d& start, const Eigen::Vector3d& tang
   const double first_step = 0.25 * best_distance;
   for (double step = first_step; step > 0.02 * first_step;)
   {
-    bool climbed = false;
+    bool improved = false;
     for (int k = 0; k < 6; ++k)
     {
       const double angle = k * M_PI / 3.0;
@@ -80,16 +81,16 @@ Eigen::Vector3d centre(const Eigen::Vector3d& start, const Eigen::Vector3d& tang
         continue;
       best = trial;
       best_distance = trial_distance;
-      climbed = true;
+      improved = true;
       break;
     }
-    if (!climbed)
+    if (!improved)
       step *= 0.5;
   }
   return best;
 }
 
-/** Moves the line onto the ridge of the distance to the wall and evens it out, its ends kept. */
+/** Moves a line onto the ridge of the distance to the wall and smooths it; the ends are retained. */
 void centreLine(Line& line, const geometry::MeshDistance& distance)
 {
   for (int round = 0; round < kCentringRounds; ++round)
@@ -111,15 +112,16 @@ void centreLine(Line& line, const geometry::MeshDistance& distance)
   }
 }
 
+/** Centreline extraction from medial spheres. */
 class Extractor
 {
 public:
   explicit Extractor(const geometry::TriangleMesh& mesh) : distance_(mesh)
   {
-    balls_ = thinBalls(medialBalls(mesh, distance_), kBallSpacing);
-    std::vector<std::vector<int>> neighbours = overlappingBalls(balls_);
-    joinParts(balls_, distance_, neighbours);
-    skeleton_ = ballSkeleton(balls_, neighbours);
+    spheres_ = thinSpheres(medialSpheres(mesh, distance_), kSphereSpacing);
+    std::vector<std::vector<int>> neighbours = overlappingSpheres(spheres_);
+    connectComponents(spheres_, distance_, neighbours);
+    skeleton_ = medialSkeleton(spheres_, neighbours);
   }
 
   CentrelineTree run()
@@ -138,21 +140,21 @@ public:
 private:
   CentrelineBranch lineOf(const SkeletonBranch& skeleton, int index, bool is_leaf) const
   {
-    std::vector<int> balls = skeleton.balls;
+    std::vector<int> spheres = skeleton.spheres;
     if (is_leaf)
-      trimRim(balls);
+      trimCapRim(spheres);
     if (skeleton.parent < 0)
     {
-      std::reverse(balls.begin(), balls.end());
-      trimRim(balls);
-      std::reverse(balls.begin(), balls.end());
+      std::reverse(spheres.begin(), spheres.end());
+      trimCapRim(spheres);
+      std::reverse(spheres.begin(), spheres.end());
     }
     Line line;
     double mean_radius = 0.0;
-    for (int ball : balls)
+    for (int sphere : spheres)
     {
-      line.push_back(at(ball).centre);
-      mean_radius += at(ball).radius / static_cast<double>(balls.size());
+      line.push_back(at(sphere).centre);
+      mean_radius += at(sphere).radius / static_cast<double>(spheres.size());
     }
     line = resample(line, kPointSpacing * mean_radius);
     centreLine(line, distance_);
@@ -176,22 +178,22 @@ private:
     return branch;
   }
 
-  const MedialSphere& at(int k) const { return balls_[static_cast<std::size_t>(k)]; }
+  const MedialSphere& at(int k) const { return spheres_[static_cast<std::size_t>(k)]; }
 
-  /** Takes off the last balls where they only fill the rim of a flat cap. */
-  void trimRim(std::vector<int>& balls) const
+  /** Removes the last spheres of a branch that lie in the rim of a flat cap. */
+  void trimCapRim(std::vector<int>& spheres) const
   {
-    while (balls.size() > 2)
+    while (spheres.size() > 2)
     {
-      const MedialSphere& tip = at(balls.back());
-      const MedialSphere& inner = at(balls[balls.size() - 2]);
+      const MedialSphere& tip = at(spheres.back());
+      const MedialSphere& inner = at(spheres[spheres.size() - 2]);
       if (inner.radius - tip.radius < kRimSlope * (inner.centre - tip.centre).norm())
         break;
-      balls.pop_back();
+      spheres.pop_back();
     }
   }
 
-  /** Goes straight on from the last point to just before the cap, with the last radius. */
+  /** Extends a branch straight from its last point to the cap, with constant radius. */
   void extend(CentrelineBranch& branch) const
   {
     const Eigen::Vector3d tip = branch.points.back();
@@ -209,7 +211,7 @@ private:
     }
   }
 
-  /** A tip that ends inside of another branch, not at a cap, is where a loop was cut. */
+  /** Connects tips that end inside another branch: a loop of the vessel was cut there. */
   static void closeLoops(CentrelineTree& tree, const std::vector<bool>& forks)
   {
     for (std::size_t b = 0; b < tree.branches.size(); ++b)
@@ -236,7 +238,7 @@ private:
   }
 
   geometry::MeshDistance distance_;
-  std::vector<MedialSphere> balls_;
+  std::vector<MedialSphere> spheres_;
   std::vector<SkeletonBranch> skeleton_;
 };
 
@@ -246,7 +248,7 @@ CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh)
 {
   CentrelineTree tree = Extractor(mesh).run();
   if (tree.branches.empty())
-    throw InputError("vessel", "centreline", "no lumen was found in the mesh; give the entry as a pose");
+    throw InputError("vessel", "centreline", "no lumen was found in the mesh; specify the entry as a pose");
   return tree;
 }
 

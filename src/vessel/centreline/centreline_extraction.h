@@ -6,18 +6,18 @@
 namespace endovascular_sim::vessel
 {
 
-/** Extracts the centreline tree from any closed mesh, without seeds.
+/** Extracts the centreline tree of a closed mesh, without seed points.
  *
- *  Inscribed balls in the middle of the lumen make a graph (balls that overlap belong to one lumen), so that the
- *  resolution follows the vessel's radius. In it, branches are found farthest first: minimal paths of ∫ds/r², each
- *  taking what lies around it out of the search (after M. Sato et al., "TEASAR: tree-structure extraction algorithm for
- *  accurate and robust skeletons", 2000). The lines are then moved onto the ridge of the distance to the wall. The
- *  root is the widest end; ends reach to the wall's cap. Where vessels form a loop (the circle of Willis) the
- *  tree is cut and the cut tip laid onto the other branch.
+ *  1. Overlapping medial spheres form a graph, so that the resolution follows the vessel's radius.
+ *  2. Branches are minimal paths of ∫ds/r² in the graph, traced from the farthest uncovered sphere. Each path covers
+ *     its surroundings (after M. Sato et al., "TEASAR: tree-structure extraction algorithm for accurate and robust
+ *     skeletons", 2000).
+ *  3. The paths are moved onto the ridge of the distance to the wall and extended to the end caps.
  *
- *  The time grows with the number of triangles: about 5 µs each. Deterministic.
+ *  The root is the widest end. A loop of vessels (circle of Willis) is cut, and the cut tip is connected to the other
+ *  branch. The result is deterministic; the cost is linear in the number of triangles.
  *  @pre the mesh has passed checkMesh
- *  @throws InputError when there is no lumen to be found */
+ *  @throws InputError if no lumen is found */
 CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh);
 
 }  // namespace endovascular_sim::vessel

@@ -9,7 +9,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Fractions of the branch's length at its points. */
+/** Arc length at each point as a fraction of the branch's length. */
 std::vector<double> fractions(const CentrelineBranch& branch)
 {
   std::vector<double> arc{0.0};
@@ -43,7 +43,7 @@ void writeCentreline(const CentrelineTree& tree, const std::string& name, const 
   }
   out.close();
   if (!out)
-    throw InputError(path, "", "cannot be written; give --out in an existing folder that can be written");
+    throw InputError(path, "", "cannot be written; specify --out in an existing, writable folder");
 }
 
 }  // namespace endovascular_sim::vessel

@@ -11,7 +11,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kSideBranch = 1.5;  // of the median: a longer ray has left the lumen's section
+constexpr double kSideBranch = 1.5;  // ratio to the median beyond which a ray has entered a side branch
 
 }  // namespace
 
@@ -32,10 +32,10 @@ double lumenDiameter(const geometry::MeshDistance& wall, const Eigen::Vector3d& 
   const double median = sorted[sorted.size() / 2];
   for (double& r : reach)
     r = r > kSideBranch * median ? median : r;
-  double area = 0.0;  // of the polygon of the hits
+  double area = 0.0;  // of the polygon through the hits
   for (std::size_t k = 0; k < reach.size(); ++k)
     area += 0.5 * reach[k] * reach[(k + 1) % reach.size()] * std::sin(step);
-  // The polygon of a circle's hits has this share of its area.
+  // Ratio of the areas of an inscribed regular polygon and its circle.
   const double inscribed = std::sin(step) / step;
   return 2.0 * std::sqrt(area / inscribed / M_PI);
 }

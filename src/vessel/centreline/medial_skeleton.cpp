@@ -9,15 +9,16 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** What lies within this many radii of a path is taken as its own: √2 reaches the rim of a flat cap. */
+/** Distance covered by a path, in radii. The rim of a flat cap is at √2. */
 constexpr double kCover = 1.2;
-/** A branch must leave what its parent covers by this many of its own radii. */
+/** Minimum length of a branch outside of the covered region, in radii of the branch. */
 constexpr double kShortestBranch = 1.0;
-/** From ball to larger ball up a slope of at least this, a groove leads into its lumen; a vessel tapers less. */
+/** Minimum slope of the radius along a groove that leads into a lumen. A tapering vessel has a smaller slope. */
 constexpr double kGrooveSlope = 0.1;
-/** A ball smaller than this fraction of the lumen above its groove is no end of a vessel. */
+/** Minimum radius of a tip relative to the largest sphere that is reachable along a groove. */
 constexpr double kGrooveDepth = 0.5;
-/** Nor is one of that size within this many radii of a larger ball: crevices between vessels that run side by side. */
+/** Range of a sphere, in radii, within which spheres below kGrooveDepth of its radius are no tips. Such spheres fill
+ *  crevices between adjacent vessels. */
 constexpr double kShadow = 2.0;
 constexpr double kUnreached = 1e300;
 
@@ -29,50 +30,51 @@ struct Paths
   std::vector<int> previous;
 };
 
-/** Dijkstra from several sources with starting costs, up to a limit. */
-Paths shortestPaths(const std::vector<MedialSphere>& balls, const Graph& neighbours,
+/** Multi-source Dijkstra with initial costs, up to a cost limit. */
+Paths shortestPaths(const std::vector<MedialSphere>& spheres, const Graph& neighbours,
                     const std::vector<std::pair<double, int>>& sources,
                     const std::function<double(int, int)>& edge_cost, double limit = kUnreached)
 {
-  Paths paths{std::vector<double>(balls.size(), kUnreached), std::vector<int>(balls.size(), -1)};
+  Paths paths{std::vector<double>(spheres.size(), kUnreached), std::vector<int>(spheres.size(), -1)};
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (const auto& [cost, ball] : sources)
-    if (cost < paths.cost[static_cast<std::size_t>(ball)])
+  for (const auto& [cost, sphere] : sources)
+    if (cost < paths.cost[static_cast<std::size_t>(sphere)])
     {
-      paths.cost[static_cast<std::size_t>(ball)] = cost;
-      open.push({cost, ball});
+      paths.cost[static_cast<std::size_t>(sphere)] = cost;
+      open.push({cost, sphere});
     }
   while (!open.empty())
   {
-    const auto [cost, ball] = open.top();
+    const auto [cost, sphere] = open.top();
     open.pop();
-    if (cost > paths.cost[static_cast<std::size_t>(ball)])
+    if (cost > paths.cost[static_cast<std::size_t>(sphere)])
       continue;
-    for (int next : neighbours[static_cast<std::size_t>(ball)])
+    for (int next : neighbours[static_cast<std::size_t>(sphere)])
     {
-      const double through = cost + edge_cost(ball, next);
+      const double through = cost + edge_cost(sphere, next);
       if (through > limit || through >= paths.cost[static_cast<std::size_t>(next)])
         continue;
       paths.cost[static_cast<std::size_t>(next)] = through;
-      paths.previous[static_cast<std::size_t>(next)] = ball;
+      paths.previous[static_cast<std::size_t>(next)] = sphere;
       open.push({through, next});
     }
   }
   return paths;
 }
 
+/** Tree of minimal paths in the graph of medial spheres (TEASAR). */
 class Skeletoniser
 {
 public:
-  Skeletoniser(const std::vector<MedialSphere>& balls, const Graph& neighbours)
-    : balls_(balls), neighbours_(neighbours), covered_(balls.size(), false), tree_(balls.size())
+  Skeletoniser(const std::vector<MedialSphere>& spheres, const Graph& neighbours)
+    : spheres_(spheres), neighbours_(neighbours), covered_(spheres.size(), false), tree_(spheres.size())
   {
-    // Balls come largest first.
+    // Spheres are sorted by decreasing radius.
     std::vector<double> summit;
-    for (std::size_t k = 0; k < balls.size(); ++k)
+    for (std::size_t k = 0; k < spheres.size(); ++k)
     {
-      const double radius = balls[k].radius;
+      const double radius = spheres[k].radius;
       summit.push_back(radius);
       for (int other : neighbours[k])
         if (other < static_cast<int>(k) &&
@@ -85,7 +87,7 @@ public:
 
   std::vector<SkeletonBranch> run()
   {
-    const int seed = farthestFrom(largestBall(), nullptr);
+    const int seed = farthestFrom(largestSphere(), nullptr);
     growTree(seed);
     return branchesFrom(widestEnd());
   }
@@ -94,42 +96,44 @@ private:
   void forbidTipsInShadows()
   {
     std::vector<std::pair<double, int>> sources;
-    for (std::size_t k = 0; k < balls_.size(); ++k)
-      sources.emplace_back(-kShadow * balls_[k].radius, static_cast<int>(k));
+    for (std::size_t k = 0; k < spheres_.size(); ++k)
+      sources.emplace_back(-kShadow * spheres_[k].radius, static_cast<int>(k));
     const Paths shadows = lengths(sources, 0.0);
-    for (std::size_t k = 0; k < balls_.size(); ++k)
+    for (std::size_t k = 0; k < spheres_.size(); ++k)
     {
       int source = static_cast<int>(k);
       while (shadows.previous[static_cast<std::size_t>(source)] >= 0)
         source = shadows.previous[static_cast<std::size_t>(source)];
-      if (balls_[k].radius < kGrooveDepth * at(source).radius)
+      if (spheres_[k].radius < kGrooveDepth * at(source).radius)
         may_be_tip_[k] = false;
     }
   }
 
   double length(int a, int b) const { return (at(a).centre - at(b).centre).norm(); }
 
-  const MedialSphere& at(int k) const { return balls_[static_cast<std::size_t>(k)]; }
+  const MedialSphere& at(int k) const { return spheres_[static_cast<std::size_t>(k)]; }
 
-  int largestBall() const
+  int largestSphere() const
   {
-    const auto largest = std::max_element(
-        balls_.begin(), balls_.end(), [](const MedialSphere& a, const MedialSphere& b) { return a.radius < b.radius; });
-    return static_cast<int>(largest - balls_.begin());
+    const auto largest =
+        std::max_element(spheres_.begin(), spheres_.end(),
+                         [](const MedialSphere& a, const MedialSphere& b) { return a.radius < b.radius; });
+    return static_cast<int>(largest - spheres_.begin());
   }
 
   Paths lengths(const std::vector<std::pair<double, int>>& sources, double limit = kUnreached) const
   {
     return shortestPaths(
-        balls_, neighbours_, sources, [this](int a, int b) { return length(a, b); }, limit);
+        spheres_, neighbours_, sources, [this](int a, int b) { return length(a, b); }, limit);
   }
 
-  /** The farthest ball along the lumen. @param result all distances, when wanted */
+  /** Farthest possible tip along the lumen.
+   *  @param result optional output of all distances */
   int farthestFrom(int source, std::vector<double>* result) const
   {
     Paths paths = lengths({{0.0, source}});
     int farthest = source;
-    for (std::size_t k = 0; k < balls_.size(); ++k)
+    for (std::size_t k = 0; k < spheres_.size(); ++k)
       if (may_be_tip_[k] && paths.cost[k] < kUnreached &&
           paths.cost[k] > paths.cost[static_cast<std::size_t>(farthest)])
         farthest = static_cast<int>(k);
@@ -142,27 +146,28 @@ private:
   {
     std::vector<double> along;
     farthestFrom(root, &along);
-    const Paths centred = shortestPaths(balls_, neighbours_, {{0.0, root}},
+    const Paths centred = shortestPaths(spheres_, neighbours_, {{0.0, root}},
                                         [this](int a, int b)
                                         {
                                           const double narrow = std::min(at(a).radius, at(b).radius);
                                           return length(a, b) / (narrow * narrow);
                                         });
     std::vector<int> order;
-    for (std::size_t k = 0; k < balls_.size(); ++k)
+    for (std::size_t k = 0; k < spheres_.size(); ++k)
       if (may_be_tip_[k] && along[k] < kUnreached)
         order.push_back(static_cast<int>(k));
     std::stable_sort(order.begin(), order.end(),
                      [&along](int a, int b)
                      { return along[static_cast<std::size_t>(a)] > along[static_cast<std::size_t>(b)]; });
-    in_tree_.assign(balls_.size(), false);
+    in_tree_.assign(spheres_.size(), false);
     in_tree_[static_cast<std::size_t>(root)] = true;
     for (int tip : order)
       if (!covered_[static_cast<std::size_t>(tip)])
         addBranch(tip, centred.previous);
   }
 
-  /** Traces back to the tree; what lies around the path is covered whether it is kept or too short. */
+  /** Traces the minimal path from a tip to the tree. A sufficiently long path becomes a branch and covers its
+   *  surroundings; otherwise only the tip is covered. */
   void addBranch(int tip, const std::vector<int>& previous)
   {
     std::vector<int> path{tip};
@@ -192,7 +197,7 @@ private:
         link(path[k - 1], path[k]);
     }
     const Paths around = lengths(sources, 0.0);
-    for (std::size_t k = 0; k < balls_.size(); ++k)
+    for (std::size_t k = 0; k < spheres_.size(); ++k)
       if (around.cost[k] <= 0.0)
         covered_[k] = true;
   }
@@ -203,7 +208,7 @@ private:
     tree_[static_cast<std::size_t>(b)].push_back(a);
   }
 
-  /** The end whose vessel is widest over its first balls. */
+  /** End with the largest radius among its first spheres. */
   int widestEnd() const
   {
     int widest = -1;
@@ -214,16 +219,16 @@ private:
         continue;
       double radius = at(static_cast<int>(k)).radius;
       int from = static_cast<int>(k);
-      int ball = tree_[k].front();
+      int sphere = tree_[k].front();
       for (int step = 0; step < 4; ++step)
       {
-        radius = std::max(radius, at(ball).radius);
-        const std::vector<int>& next = tree_[static_cast<std::size_t>(ball)];
+        radius = std::max(radius, at(sphere).radius);
+        const std::vector<int>& next = tree_[static_cast<std::size_t>(sphere)];
         if (next.size() != 2)
           break;
         const int onward = next[0] == from ? next[1] : next[0];
-        from = ball;
-        ball = onward;
+        from = sphere;
+        sphere = onward;
       }
       if (radius > widest_radius)
       {
@@ -250,13 +255,13 @@ private:
     for (; !open.empty(); open.pop())
     {
       SkeletonBranch branch{open.front().parent, {open.front().from, open.front().to}};
-      while (tree_[static_cast<std::size_t>(branch.balls.back())].size() == 2)
+      while (tree_[static_cast<std::size_t>(branch.spheres.back())].size() == 2)
       {
-        const std::vector<int>& next = tree_[static_cast<std::size_t>(branch.balls.back())];
-        branch.balls.push_back(next[0] == branch.balls[branch.balls.size() - 2] ? next[1] : next[0]);
+        const std::vector<int>& next = tree_[static_cast<std::size_t>(branch.spheres.back())];
+        branch.spheres.push_back(next[0] == branch.spheres[branch.spheres.size() - 2] ? next[1] : next[0]);
       }
-      const int fork = branch.balls.back();
-      const int came_from = branch.balls[branch.balls.size() - 2];
+      const int fork = branch.spheres.back();
+      const int came_from = branch.spheres[branch.spheres.size() - 2];
       const int index = static_cast<int>(branches.size());
       branches.push_back(std::move(branch));
       for (int next : tree_[static_cast<std::size_t>(fork)])
@@ -266,7 +271,7 @@ private:
     return branches;
   }
 
-  const std::vector<MedialSphere>& balls_;
+  const std::vector<MedialSphere>& spheres_;
   const Graph& neighbours_;
   std::vector<bool> may_be_tip_;
   std::vector<bool> covered_;
@@ -276,10 +281,10 @@ private:
 
 }  // namespace
 
-std::vector<SkeletonBranch> ballSkeleton(const std::vector<MedialSphere>& balls,
-                                         const std::vector<std::vector<int>>& neighbours)
+std::vector<SkeletonBranch> medialSkeleton(const std::vector<MedialSphere>& spheres,
+                                           const std::vector<std::vector<int>>& neighbours)
 {
-  return balls.empty() ? std::vector<SkeletonBranch>() : Skeletoniser(balls, neighbours).run();
+  return spheres.empty() ? std::vector<SkeletonBranch>() : Skeletoniser(spheres, neighbours).run();
 }
 
 }  // namespace endovascular_sim::vessel

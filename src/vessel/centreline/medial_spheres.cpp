@@ -15,27 +15,29 @@ namespace
 {
 
 constexpr int kDeepestSplit = 9;
-/** A triangle longer than this many local radii is sampled in parts. */
+/** Longest edge of a sampled triangle, in local radii of the lumen; longer triangles are bisected. */
 constexpr double kSampleSpacing = 0.7;
-/** More triangles than this are sampled by every second, third, … one. */
-constexpr std::size_t kMostTriangles = 40000;
-/** A step away from the nearest wall must gain this fraction of its length: less is the ridge. */
-constexpr double kLeastGain = 0.3;
-/** Cosine of the smallest angle at which a ball in the middle of a lumen sees the walls that hold it (110°). Smaller
- * ones fill grooves between facets and the rims of flat caps. */
+/** Largest number of sampled triangles; larger meshes are sampled with a stride. */
+constexpr std::size_t kMaxTriangles = 40000;
+/** Minimum gain of distance per step length away from the nearest wall. The gain is smaller at the ridge. */
+constexpr double kMinGain = 0.3;
+/** Cosine of the smallest separation angle of a medial sphere in a lumen (110°). Spheres in grooves between facets and
+ *  in the rims of flat caps have smaller angles. */
 constexpr double kWidestGroove = -0.34;
-/** A lumen narrower than this admits no instrument: 0.014" wires have a radius of 0.18 mm [m]. */
+/** Smallest radius of a lumen [m]. It admits no instrument: a 0.014" wire has a radius of 0.18 mm. */
 constexpr double kNarrowestLumen = 0.2e-3;
-/** A triangle whose samples all lie in grooves is not cut more often than this. */
+/** Bisection depth of a triangle without any medial sphere. */
 constexpr int kDeepestBlindSplit = 3;
 
-/** From half-way across the lumen away from the nearest wall, up to the ridge of the distance.
- *  @return a ball of radius 0 where that is in a groove or too narrow */
-MedialSphere climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, const geometry::MeshDistance& distance)
+/** Medial sphere opposite to a point of the wall: ascent of the distance to the wall, from the middle of the chord
+ *  across the lumen to the ridge.
+ *  @return a sphere of radius 0 in a groove or a too narrow lumen */
+MedialSphere ascendToRidge(const Eigen::Vector3d& p, const Eigen::Vector3d& inward,
+                           const geometry::MeshDistance& distance)
 {
-  // Started a hair inside, so that the ray does not hit its own triangle.
-  const double hair = 1e-9;
-  const double across = distance.rayHit(p + hair * inward, inward);
+  // Offset of the ray's origin, so that the ray does not hit its own triangle.
+  const double offset = 1e-9;
+  const double across = distance.rayHit(p + offset * inward, inward);
   if (!(across > 0.0))
     return {};
   Eigen::Vector3d centre = p + 0.5 * across * inward;
@@ -45,7 +47,7 @@ MedialSphere climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, cons
   {
     const Eigen::Vector3d trial = centre + step * (centre - wall.point) / wall.distance;
     const geometry::ClosestPoint trial_wall = distance.closest(trial);
-    if (trial_wall.distance < wall.distance + kLeastGain * step)
+    if (trial_wall.distance < wall.distance + kMinGain * step)
     {
       other_wall = trial_wall.point;
       step *= 0.5;
@@ -60,15 +62,15 @@ MedialSphere climb(const Eigen::Vector3d& p, const Eigen::Vector3d& inward, cons
   return in_groove ? MedialSphere{} : MedialSphere{centre, wall.distance};
 }
 
-/** A triangle or a part of one. */
+/** Triangle of the mesh, or a part of it. */
 struct Facet
 {
   Eigen::Vector3d a, b, c;
   int depth;
-  double radius;  // of the last ball found on a larger part, 0 before the first
+  double radius;  // of the last sphere found on a containing part; 0 if there is none
 };
 
-void sampleFacet(const Facet& whole, const geometry::MeshDistance& distance, std::vector<MedialSphere>& balls)
+void sampleFacet(const Facet& whole, const geometry::MeshDistance& distance, std::vector<MedialSphere>& spheres)
 {
   const Eigen::Vector3d normal = (whole.b - whole.a).cross(whole.c - whole.a);
   if (normal.norm() == 0.0)
@@ -79,18 +81,18 @@ void sampleFacet(const Facet& whole, const geometry::MeshDistance& distance, std
   {
     const Facet f = open.back();
     open.pop_back();
-    const MedialSphere ball = climb((f.a + f.b + f.c) / 3.0, inward, distance);
-    if (ball.radius > 0.0)
-      balls.push_back(ball);
+    const MedialSphere sphere = ascendToRidge((f.a + f.b + f.c) / 3.0, inward, distance);
+    if (sphere.radius > 0.0)
+      spheres.push_back(sphere);
     const double ab = (f.b - f.a).norm();
     const double bc = (f.c - f.b).norm();
     const double ca = (f.a - f.c).norm();
     const double longest = std::max({ab, bc, ca});
-    const double radius = ball.radius > 0.0 ? ball.radius : f.radius;
+    const double radius = sphere.radius > 0.0 ? sphere.radius : f.radius;
     const int deepest = radius > 0.0 ? kDeepestSplit : kDeepestBlindSplit;
     if (f.depth >= deepest || longest <= kSampleSpacing * radius)
       continue;
-    // Across the longest side.
+    // Longest-edge bisection.
     Facet g = f;
     if (bc == longest)
       g = {f.b, f.c, f.a, f.depth, 0.0};
@@ -102,67 +104,68 @@ void sampleFacet(const Facet& whole, const geometry::MeshDistance& distance, std
   }
 }
 
-std::vector<Eigen::Vector3d> centresOf(const std::vector<MedialSphere>& balls)
+std::vector<Eigen::Vector3d> centresOf(const std::vector<MedialSphere>& spheres)
 {
   std::vector<Eigen::Vector3d> centres;
-  centres.reserve(balls.size());
-  for (const MedialSphere& ball : balls)
-    centres.push_back(ball.centre);
+  centres.reserve(spheres.size());
+  for (const MedialSphere& sphere : spheres)
+    centres.push_back(sphere.centre);
   return centres;
 }
 
 }  // namespace
 
-std::vector<MedialSphere> medialBalls(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance)
+std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance)
 {
-  std::vector<MedialSphere> balls;
-  const std::size_t stride = mesh.triangles.size() / kMostTriangles + 1;
+  std::vector<MedialSphere> spheres;
+  const std::size_t stride = mesh.triangles.size() / kMaxTriangles + 1;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += stride)
   {
     const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    sampleFacet({at(0), at(1), at(2), 0, 0.0}, distance, balls);
+    sampleFacet({at(0), at(1), at(2), 0, 0.0}, distance, spheres);
   }
-  return balls;
+  return spheres;
 }
 
-std::vector<MedialSphere> thinBalls(std::vector<MedialSphere> balls, double cover)
+std::vector<MedialSphere> thinSpheres(std::vector<MedialSphere> spheres, double cover)
 {
-  std::stable_sort(balls.begin(), balls.end(),
+  std::stable_sort(spheres.begin(), spheres.end(),
                    [](const MedialSphere& a, const MedialSphere& b) { return a.radius > b.radius; });
-  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
-  const geometry::PointTree tree(centres);
-  std::vector<bool> dropped(balls.size(), false);
+  const std::vector<Eigen::Vector3d> centres = centresOf(spheres);
+  const geometry::KdTree tree(centres);
+  std::vector<bool> dropped(spheres.size(), false);
   std::vector<MedialSphere> kept;
-  for (std::size_t i = 0; i < balls.size(); ++i)
+  for (std::size_t i = 0; i < spheres.size(); ++i)
   {
     if (dropped[i])
       continue;
-    kept.push_back(balls[i]);
-    tree.within(balls[i].centre, balls[i].radius,
+    kept.push_back(spheres[i]);
+    tree.within(spheres[i].centre, spheres[i].radius,
                 [&](int index)
                 {
                   const auto j = static_cast<std::size_t>(index);
-                  const bool much_smaller = balls[j].radius < cover * balls[i].radius;
-                  if (much_smaller || (centres[j] - centres[i]).norm() <= cover * balls[i].radius)
+                  const bool much_smaller = spheres[j].radius < cover * spheres[i].radius;
+                  if (much_smaller || (centres[j] - centres[i]).norm() <= cover * spheres[i].radius)
                     dropped[j] = true;
                 });
   }
   return kept;
 }
 
-std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialSphere>& balls)
+std::vector<std::vector<int>> overlappingSpheres(const std::vector<MedialSphere>& spheres)
 {
-  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
-  const geometry::PointTree tree(centres);
-  std::vector<std::vector<int>> neighbours(balls.size());
-  for (std::size_t i = 0; i < balls.size(); ++i)
-    tree.within(balls[i].centre, 2.0 * balls[i].radius,
+  const std::vector<Eigen::Vector3d> centres = centresOf(spheres);
+  const geometry::KdTree tree(centres);
+  std::vector<std::vector<int>> neighbours(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    tree.within(spheres[i].centre, 2.0 * spheres[i].radius,
                 [&](int index)
                 {
                   const auto j = static_cast<std::size_t>(index);
-                  // Found from the larger one; of equals from the earlier one.
-                  const bool mine = balls[j].radius < balls[i].radius || (balls[j].radius == balls[i].radius && j > i);
-                  if (!mine || (centres[i] - centres[j]).norm() >= balls[i].radius + balls[j].radius)
+                  // Every pair is processed once, from its larger (or earlier) sphere.
+                  const bool is_first =
+                      spheres[j].radius < spheres[i].radius || (spheres[j].radius == spheres[i].radius && j > i);
+                  if (!is_first || (centres[i] - centres[j]).norm() >= spheres[i].radius + spheres[j].radius)
                     return;
                   neighbours[i].push_back(index);
                   neighbours[j].push_back(static_cast<int>(i));
@@ -172,24 +175,24 @@ std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialSphere>& 
   return neighbours;
 }
 
-void joinParts(const std::vector<MedialSphere>& balls, const geometry::MeshDistance& distance,
-               std::vector<std::vector<int>>& neighbours)
+void connectComponents(const std::vector<MedialSphere>& spheres, const geometry::MeshDistance& distance,
+                       std::vector<std::vector<int>>& neighbours)
 {
-  geometry::DisjointSets parts(balls.size());
-  for (std::size_t i = 0; i < balls.size(); ++i)
+  geometry::DisjointSets components(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i)
     for (int j : neighbours[i])
-      parts.join(static_cast<int>(i), j);
-  const std::vector<Eigen::Vector3d> centres = centresOf(balls);
-  const geometry::PointTree tree(centres);
+      components.join(static_cast<int>(i), j);
+  const std::vector<Eigen::Vector3d> centres = centresOf(spheres);
+  const geometry::KdTree tree(centres);
   std::vector<std::tuple<double, int, int>> gaps;
-  for (std::size_t i = 0; i < balls.size(); ++i)
-    tree.within(centres[i], 3.0 * balls[i].radius,
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    tree.within(centres[i], 3.0 * spheres[i].radius,
                 [&](int j)
                 {
-                  const MedialSphere& other = balls[static_cast<std::size_t>(j)];
-                  const double gap = (other.centre - centres[i]).norm() - other.radius - balls[i].radius;
-                  if (other.radius <= balls[i].radius && gap <= balls[i].radius &&
-                      parts.find(j) != parts.find(static_cast<int>(i)))
+                  const MedialSphere& other = spheres[static_cast<std::size_t>(j)];
+                  const double gap = (other.centre - centres[i]).norm() - other.radius - spheres[i].radius;
+                  if (other.radius <= spheres[i].radius && gap <= spheres[i].radius &&
+                      components.find(j) != components.find(static_cast<int>(i)))
                     gaps.emplace_back(gap, static_cast<int>(i), j);
                 });
   std::sort(gaps.begin(), gaps.end());
@@ -197,11 +200,12 @@ void joinParts(const std::vector<MedialSphere>& balls, const geometry::MeshDista
   {
     const auto i = static_cast<std::size_t>(a);
     const auto j = static_cast<std::size_t>(b);
-    const Eigen::Vector3d way = centres[j] - centres[i];
-    const double hit = parts.find(a) == parts.find(b) ? 0.0 : distance.rayHit(centres[i], way.normalized());
-    if (hit >= 0.0 && hit <= way.norm())
+    const Eigen::Vector3d offset = centres[j] - centres[i];
+    const double hit =
+        components.find(a) == components.find(b) ? 0.0 : distance.rayHit(centres[i], offset.normalized());
+    if (hit >= 0.0 && hit <= offset.norm())
       continue;
-    parts.join(a, b);
+    components.join(a, b);
     neighbours[i].insert(std::lower_bound(neighbours[i].begin(), neighbours[i].end(), b), b);
     neighbours[j].insert(std::lower_bound(neighbours[j].begin(), neighbours[j].end(), a), a);
   }

@@ -10,28 +10,28 @@
 namespace endovascular_sim::vessel
 {
 
-/** A largest sphere that fits between the walls at some place. */
+/** Medial sphere: a maximal inscribed sphere of the lumen. */
 struct MedialSphere
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 0.0;                               ///< [m]
 };
 
-/** Balls in the middle of the lumen: from the midpoint of the chord across it at samples of the wall, away from the
- *  nearest wall up to the ridge of the distance (so that the grooves between facets collect no balls). Triangles longer
- *  than the local radius are sampled several times. The order is that of the triangles. */
-std::vector<MedialSphere> medialBalls(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance);
+/** Medial spheres of the lumen. From each sample of the wall, the distance to the wall is maximised from the midpoint
+ *  of the chord across the lumen. Spheres in grooves between facets are discarded. Triangles longer than the local
+ *  radius are sampled several times. The order follows the triangles. */
+std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance);
 
-/** Thins the balls, largest first: a kept ball drops those whose centre lies within @p cover of its radii, and those
- *  smaller than @p cover of its size whose centre it contains. */
-std::vector<MedialSphere> thinBalls(std::vector<MedialSphere> balls, double cover);
+/** Thins spheres by decreasing radius. A retained sphere of radius r removes spheres with a centre within @p cover·r of
+ *  its centre, and spheres with a radius below @p cover·r and a centre inside it. */
+std::vector<MedialSphere> thinSpheres(std::vector<MedialSphere> spheres, double cover);
 
-/** For every ball the indices of those it overlaps, ascending. Overlapping balls belong to the same lumen. */
-std::vector<std::vector<int>> overlappingBalls(const std::vector<MedialSphere>& balls);
+/** Overlap graph: per sphere, the ascending indices of overlapping spheres, which belong to the same lumen. */
+std::vector<std::vector<int>> overlappingSpheres(const std::vector<MedialSphere>& spheres);
 
-/** Makes neighbours of balls that do not overlap where parts of a lumen would else be apart, as at the ostium of a
- * small vessel: the nearest ones first, that see each other and stand apart by no more than the larger one's radius. */
-void joinParts(const std::vector<MedialSphere>& balls, const geometry::MeshDistance& distance,
-               std::vector<std::vector<int>>& neighbours);
+/** Connects components of the overlap graph, for instance at the ostium of a small vessel. Pairs of spheres are
+ *  connected by increasing gap if their line of sight is free and their gap is at most the larger radius. */
+void connectComponents(const std::vector<MedialSphere>& spheres, const geometry::MeshDistance& distance,
+                       std::vector<std::vector<int>>& neighbours);
 
 }  // namespace endovascular_sim::vessel

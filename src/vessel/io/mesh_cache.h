@@ -9,11 +9,11 @@
 namespace endovascular_sim::vessel
 {
 
-/** Reads a mesh kept under a key; nothing when there is none, it is damaged, or belongs to another key. */
+/** Reads a cached mesh; empty if the file is missing, damaged or stored under another key. */
 std::optional<geometry::TriangleMesh> readCachedMesh(const std::string& file, std::uint64_t key);
 
-/** Keeps a mesh under a key. Written beside and renamed, so that readers see all of it or nothing.
- *  @return false when it cannot be written */
+/** Writes a mesh to the cache under a key, atomically by renaming a temporary file.
+ *  @return false if the file cannot be written */
 bool writeCachedMesh(const std::string& file, std::uint64_t key, const geometry::TriangleMesh& mesh);
 
 }  // namespace endovascular_sim::vessel

@@ -44,7 +44,7 @@ void requireReadableFile(const std::string& path, double unit)
     throw InputError(path, "", "is empty");
 }
 
-/** Joins vertices of bitwise equal coordinates while triangles come in. */
+/** Collects triangles and welds vertices with bitwise equal coordinates. */
 class WeldingCollector
 {
 public:
@@ -52,7 +52,7 @@ public:
 
   int vertex(const aiVector3D& v)
   {
-    // Adding zero makes −0 into +0, which compare equal but have other bytes in the mesh's hash.
+    // Adding zero maps −0 to +0: both compare equal, but differ in the mesh's hash.
     const std::array<float, 3> key{v.x + 0.0F, v.y + 0.0F, v.z + 0.0F};
     const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(mesh.vertices.size()));
     if (is_new)

@@ -7,17 +7,17 @@
 namespace endovascular_sim::vessel
 {
 
-/** Reads the triangles of an OBJ, STL (ASCII or binary) or PLY file; polygons are cut into triangles.
+/** Reads the triangles of an OBJ, STL (ASCII or binary) or PLY file; polygons are triangulated.
  *
- *  Vertices with equal coordinates are joined, in the order in which the file names them. Coordinates pass through
- *  single precision (a relative 6e-8). Nothing else is changed: the result may have holes or faces turned inward.
- *  @param path file; its extension tells the format
+ *  Vertices with equal coordinates are welded, in file order. Coordinates pass through single precision (a relative
+ *  error of 6e-8). There is no repair: the mesh may have holes or inverted faces.
+ *  @param path file; its extension determines the format
  *  @param unit metres per unit of the file (0.001 for millimetres)
- *  @throws InputError when the file is missing, of another format, damaged, or without triangles */
+ *  @throws InputError if the file is missing, of another format, damaged, or without triangles */
 geometry::TriangleMesh readMesh(const std::string& path, double unit);
 
-/** Writes an OBJ file in metres, for a look at it in other programs.
- *  @throws InputError when the file cannot be written */
+/** Writes a mesh as an OBJ file in metres.
+ *  @throws InputError if the file cannot be written */
 void writeObj(const geometry::TriangleMesh& mesh, const std::string& path);
 
 }  // namespace endovascular_sim::vessel

@@ -24,8 +24,8 @@ namespace
 {
 
 constexpr double kHighestGrade = 0.99;
-constexpr double kGradeTolerance = 0.05;  // of the measured grade: more, and the place is not a lumen of its own
-constexpr int kCentrelinePoints = 24;     // over a lesion, at least
+constexpr double kGradeTolerance = 0.05;  // largest deviation of the measured grade in a separate lumen
+constexpr int kCentrelinePoints = 24;     // minimum number of centreline segments over a lesion
 
 std::string branchNames(const CentrelineTree& tree)
 {
@@ -42,8 +42,8 @@ std::string inMillimetres(double length)
   return text;
 }
 
-/** Branch and place along it of a point in the lumen, instead of the point. */
-Lesion onBranch(Lesion lesion, const CentrelineTree& tree, const std::string& origin, const std::string& key)
+/** Replaces a point in the lumen by its branch and arc length. */
+Lesion resolvePoint(Lesion lesion, const CentrelineTree& tree, const std::string& origin, const std::string& key)
 {
   if (!lesion.at)
     return lesion;
@@ -57,17 +57,17 @@ Lesion onBranch(Lesion lesion, const CentrelineTree& tree, const std::string& or
   if (foot.distance > radius)
     throw InputError(origin, key + ".at",
                      "lies " + inMillimetres(foot.distance - radius) + " outside of the nearest lumen, \"" +
-                         branch.name + "\"; give a point in the vessel, patient frame, in m");
+                         branch.name + "\"; specify a point in the vessel in the patient frame [m]");
   lesion.branch = branch.name;
   lesion.from_start = foot.arc;
   return lesion;
 }
 
-/** Index of a lesion's branch and the place of its middle, checked. */
-PlacedLesion place(const Lesion& wanted, const CentrelineTree& tree, const std::string& source,
-                   const std::string& origin, const std::string& key)
+/** Validates a lesion and locates it on its branch. */
+PlacedLesion locate(const Lesion& specified, const CentrelineTree& tree, const std::string& source,
+                    const std::string& origin, const std::string& key)
 {
-  const Lesion lesion = onBranch(wanted, tree, origin, key);
+  const Lesion lesion = resolvePoint(specified, tree, origin, key);
   PlacedLesion placed;
   placed.lesion = lesion;
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
@@ -77,11 +77,11 @@ PlacedLesion place(const Lesion& wanted, const CentrelineTree& tree, const std::
     throw InputError(origin, key + ".branch",
                      "no branch \"" + lesion.branch + "\" in " + source + "; it has " + branchNames(tree));
   if (!(lesion.grade >= 0.0 && lesion.grade <= kHighestGrade))
-    throw InputError(origin, key + ".grade", "must be a share of the diameter between 0 and 0.99");
+    throw InputError(origin, key + ".grade", "must be a diameter stenosis between 0 and 0.99");
   if (!(lesion.eccentricity >= 0.0 && lesion.eccentricity <= 1.0))
     throw InputError(origin, key + ".eccentricity", "must be between 0 (concentric) and 1 (plaque on one side)");
   if (!(lesion.length > 0.0))
-    throw InputError(origin, key + ".length", "must be positive, in m");
+    throw InputError(origin, key + ".length", "must be positive [m]");
   const double length = geometry::Polyline(tree.branches[static_cast<std::size_t>(placed.branch)].points).length();
   placed.middle = std::isnan(lesion.from_start) ? lesion.fraction * length : lesion.from_start;
   placed.begin = placed.middle - 0.5 * lesion.length;
@@ -94,15 +94,15 @@ PlacedLesion place(const Lesion& wanted, const CentrelineTree& tree, const std::
                      key + (lesion.at                       ? ".at"
                             : std::isnan(lesion.from_start) ? ".fraction"
                                                             : ".from_start"),
-                     "the lesion reaches beyond its branch: its middle must be between " +
+                     "the lesion extends beyond its branch: its centre must be between " +
                          inMillimetres(0.5 * lesion.length) + " and " + inMillimetres(length - 0.5 * lesion.length) +
                          " from the start of \"" + lesion.branch + "\"");
   return placed;
 }
 
-/** Where a branch leaves the side of a wider one it runs inside of that one first. */
-void requireOwnLumen(const PlacedLesion& placed, const CentrelineTree& tree, const std::string& origin,
-                     const std::string& key)
+/** Rejects a lesion at a location where its branch still runs inside a wider branch. */
+void requireSeparateLumen(const PlacedLesion& placed, const CentrelineTree& tree, const std::string& origin,
+                          const std::string& key)
 {
   const CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(placed.branch)];
   const geometry::Polyline own(branch.points);
@@ -116,14 +116,14 @@ void requireOwnLumen(const PlacedLesion& placed, const CentrelineTree& tree, con
     const double radius = axis.interpolate(other.radii, foot.arc);
     const bool beside = foot.arc > 0.0 && foot.arc < axis.length();
     if (beside && foot.distance < radius && radius > own.interpolate(branch.radii, placed.middle))
-      throw InputError(
-          origin, key,
-          "\"" + branch.name + "\" still runs inside of \"" + other.name + "\" there; move the lesion along it");
+      throw InputError(origin, key,
+                       "\"" + branch.name + "\" still runs inside of \"" + other.name +
+                           "\" there; move the lesion along the branch");
   }
 }
 
-/** The tree without points that repeat their neighbour. */
-CentrelineTree withoutRepeats(CentrelineTree tree)
+/** Removes consecutive duplicate points. */
+CentrelineTree dropDuplicatePoints(CentrelineTree tree)
 {
   for (CentrelineBranch& branch : tree.branches)
     for (std::size_t k = branch.points.size(); k-- > 1;)
@@ -135,7 +135,7 @@ CentrelineTree withoutRepeats(CentrelineTree tree)
   return tree;
 }
 
-/** Points of the branch so close within the lesion that they show its shape. */
+/** Inserts centreline points within the lesion to resolve its shape. */
 void refineCentreline(CentrelineBranch& branch, const PlacedLesion& placed)
 {
   const double longest = placed.lesion.length / kCentrelinePoints;
@@ -161,21 +161,21 @@ void refineCentreline(CentrelineBranch& branch, const PlacedLesion& placed)
   branch = std::move(fine);
 }
 
-/** Lets the centreline follow; other branches that begin or end on a point that moves stay on it. */
+/** Maps the centreline and its radii. Ends of other branches stay attached to moved points. */
 void narrowCentreline(CentrelineTree& tree, const PlacedLesion& placed, const LesionShape& shape)
 {
   CentrelineBranch& branch = tree.branches[static_cast<std::size_t>(placed.branch)];
   for (std::size_t k = 0; k < branch.points.size(); ++k)
   {
-    const LesionShape::Image image = shape.at(branch.points[k]);
-    if (image.lost <= 0.0)
+    const LesionShape::Image image = shape.map(branch.points[k]);
+    if (image.narrowing <= 0.0)
       continue;
     for (CentrelineBranch& other : tree.branches)
       for (Eigen::Vector3d* end : {&other.points.front(), &other.points.back()})
         if (&other != &branch && *end == branch.points[k])
           *end = image.position;
     branch.points[k] = image.position;
-    branch.radii[k] *= 1.0 - image.lost;
+    branch.radii[k] *= 1.0 - image.narrowing;
   }
 }
 
@@ -185,9 +185,9 @@ void requireGrade(const PlacedLesion& placed, const std::string& origin, const s
   if (std::abs(grade - placed.lesion.grade) <= kGradeTolerance)
     return;
   std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << "\"" << placed.lesion.branch
-       << "\" has no lumen of its own there (grade " << placed.lesion.grade << " asked for, " << grade
-       << " measured): it runs inside of another branch or through a junction; move the lesion along it";
+  text << std::fixed << std::setprecision(2) << "\"" << placed.lesion.branch << "\" has no separate lumen there (grade "
+       << placed.lesion.grade << " specified, " << grade
+       << " measured): it runs inside of another branch or through a junction; move the lesion along the branch";
   throw InputError(origin, key, text.str());
 }
 
@@ -195,7 +195,7 @@ std::string noteOf(const PlacedLesion& placed)
 {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << "lesion on " << placed.lesion.branch << ": "
-       << 1e3 * placed.narrowed_diameter << " mm of " << 1e3 * placed.healthy_diameter << " mm are left";
+       << 1e3 * placed.narrowed_diameter << " mm of " << 1e3 * placed.healthy_diameter << " mm remain";
   return text.str();
 }
 
@@ -205,14 +205,14 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
 {
   if (lesions.empty())
     return;
-  const CentrelineTree healthy = withoutRepeats(vessel.centreline);
+  const CentrelineTree healthy = dropDuplicatePoints(vessel.centreline);
   vessel.centreline = healthy;
   std::vector<PlacedLesion> all;
   for (std::size_t k = 0; k < lesions.size(); ++k)
   {
     const std::string key = "vessel.lesions." + std::to_string(k);
-    all.push_back(place(lesions[k], healthy, vessel.source, origin, key));
-    requireOwnLumen(all.back(), healthy, origin, key);
+    all.push_back(locate(lesions[k], healthy, vessel.source, origin, key));
+    requireSeparateLumen(all.back(), healthy, origin, key);
   }
   for (std::size_t k = 0; k < all.size(); ++k)
   {
@@ -223,12 +223,12 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
     const geometry::MeshDistance healthy_distance(vessel.mesh);
     placed.healthy_diameter = lumenDiameter(healthy_distance, shape.middle(), shape.direction());
     geometry::TriangleMesh narrowed = narrowedMesh(vessel.mesh, branch, placed.lesion, placed.middle);
-    if (wallFolds(narrowed, vessel.mesh, shape))
-      throw InputError(
-          origin, key,
-          "the wall would fold there; move it away from the junction, or give a longer lesion or a lower grade");
+    if (hasFoldedFaces(narrowed, vessel.mesh, shape))
+      throw InputError(origin, key,
+                       "the wall would fold there; move the lesion away from the junction, increase its length, or "
+                       "reduce its grade");
     const geometry::MeshDistance narrowed_distance(narrowed);
-    placed.narrowed_diameter = lumenDiameter(narrowed_distance, shape.at(shape.middle()).position, shape.direction());
+    placed.narrowed_diameter = lumenDiameter(narrowed_distance, shape.map(shape.middle()).position, shape.direction());
     requireGrade(placed, origin, key);
     vessel.mesh = std::move(narrowed);
     refineCentreline(vessel.centreline.branches[static_cast<std::size_t>(placed.branch)], placed);
@@ -236,13 +236,13 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
     vessel.notes.push_back(noteOf(placed));
   }
   requireClean(checkMesh(vessel.mesh), origin);
-  // Eccentric lesions make a branch a little longer: places are told along the centreline as it is now.
+  // Eccentric lesions lengthen a branch: arc lengths are converted to the narrowed centreline.
   for (PlacedLesion& placed : all)
   {
     const geometry::Polyline before(healthy.branches[static_cast<std::size_t>(placed.branch)].points);
     const LesionShape shape(healthy.branches[static_cast<std::size_t>(placed.branch)], placed.lesion, placed.middle);
     const geometry::Polyline now(vessel.centreline.branches[static_cast<std::size_t>(placed.branch)].points);
-    const Eigen::Vector3d middle = shape.at(shape.middle()).position;
+    const Eigen::Vector3d middle = shape.map(shape.middle()).position;
     const Eigen::Vector3d ends[2] = {before.at(placed.begin), before.at(placed.end)};
     placed.begin = now.nearest(ends[0]).arc;
     placed.middle = now.nearest(middle).arc;

@@ -17,11 +17,11 @@ namespace
 {
 
 constexpr int kRemeshRounds = 4;
-constexpr double kDifference = 0.05;    // of a facet, for the tangents of the narrowed wall
-constexpr double kLongestFacet = 0.25;  // of the lesion's length, before it is narrowed
-constexpr double kStage = 0.35;         // of the diameter is left by one stage of narrowing
+constexpr double kDifference = 0.05;    // step of the finite differences, in edge lengths
+constexpr double kLongestFacet = 0.25;  // longest edge before narrowing, relative to the lesion's length
+constexpr double kStage = 0.35;         // remaining fraction of the diameter per stage of narrowing
 
-/** Number of a triangle's longest side. */
+/** Index of a triangle's longest edge. */
 int longestSide(const EditableMesh& mesh, int triangle, double& length)
 {
   const Eigen::Vector3i& c = mesh.triangle(triangle);
@@ -36,8 +36,8 @@ int longestSide(const EditableMesh& mesh, int triangle, double& length)
   return longest;
 }
 
-/** Halves the edge that is the longest of both its triangles at the end of the path over ever longer edges: triangles
- *  do not become thin (M. C. Rivara, "New longest-edge algorithms for the refinement of triangulations", 1997). */
+/** Splits the terminal edge of a triangle's longest-edge propagation path; avoids slivers (M. C. Rivara, "New
+ *  longest-edge algorithms for the refinement and/or improvement of unstructured triangulations", 1997). */
 void splitTowards(EditableMesh& mesh, int triangle)
 {
   double length = 0.0;
@@ -58,8 +58,8 @@ void splitTowards(EditableMesh& mesh, int triangle)
   }
 }
 
-/** Cuts the facets near a lesion that are long against it; the surface stays as it is. */
-geometry::TriangleMesh withShortFacets(const geometry::TriangleMesh& mesh, const LesionShape& shape, double length)
+/** Refines facets near a lesion that are long relative to it. The surface is unchanged. */
+geometry::TriangleMesh refineLongFacets(const geometry::TriangleMesh& mesh, const LesionShape& shape, double length)
 {
   EditableMesh edit(mesh);
   for (bool any = true; any;)
@@ -72,7 +72,7 @@ geometry::TriangleMesh withShortFacets(const geometry::TriangleMesh& mesh, const
       const int k = longestSide(edit, t, side);
       const Eigen::Vector3i& c = edit.triangle(t);
       if (side <= kLongestFacet * length ||
-          !shape.isNear(0.5 * (edit.position(c[k]) + edit.position(c[(k + 1) % 3])), side))
+          !shape.affects(0.5 * (edit.position(c[k]) + edit.position(c[(k + 1) % 3])), side))
         continue;
       splitTowards(edit, t);
       any = true;
@@ -81,9 +81,9 @@ geometry::TriangleMesh withShortFacets(const geometry::TriangleMesh& mesh, const
   return edit.compact();
 }
 
-/** The vertices that a lesion moves: those within it that hang together with the one nearest to the axis, so that a
- *  vessel that only runs by is left alone.
- *  @param healthy per vertex, its place on the healthy wall */
+/** Vertices that a lesion moves: the vertices within it that are connected to the one nearest to the axis. Adjacent
+ *  vessels are thereby excluded.
+ *  @param healthy position of each vertex on the healthy wall [m] */
 std::vector<char> verticesWithin(const geometry::TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& healthy,
                                  const LesionShape& shape)
 {
@@ -93,12 +93,12 @@ std::vector<char> verticesWithin(const geometry::TriangleMesh& mesh, const std::
   double nearest = 1e300;
   for (std::size_t v = 0; v < n; ++v)
   {
-    within[v] = shape.at(healthy[v]).lost > 0.0 ? 1 : 0;
+    within[v] = shape.map(healthy[v]).narrowing > 0.0 ? 1 : 0;
     const double radii = within[v] != 0 ? shape.foot(mesh.vertices[v]).radii : nearest;
     if (radii < nearest)
       nearest = radii, first = v;
   }
-  std::vector<char> taken(n, 0);
+  std::vector<char> selected(n, 0);
   const EditableMesh topology(mesh);
   std::vector<int> open;
   if (first < n)
@@ -107,20 +107,19 @@ std::vector<char> verticesWithin(const geometry::TriangleMesh& mesh, const std::
   {
     const int v = open.back();
     open.pop_back();
-    if (taken[static_cast<std::size_t>(v)] != 0)
+    if (selected[static_cast<std::size_t>(v)] != 0)
       continue;
-    taken[static_cast<std::size_t>(v)] = 1;
+    selected[static_cast<std::size_t>(v)] = 1;
     for (int next : topology.neighbours(v))
       if (within[static_cast<std::size_t>(next)] != 0)
         open.push_back(next);
   }
-  return taken;
+  return selected;
 }
 
-/** The triangles that have such a vertex and their neighbours, so that all of a lesion's wall lies on them; all
- * vertices.
- */
-geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::vector<char>& taken)
+/** Mesh of the triangles with a selected vertex and of their neighbours. It contains the whole wall of the lesion and
+ *  retains all vertices. */
+geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::vector<char>& selected)
 {
   geometry::TriangleMesh patch;
   patch.vertices = mesh.vertices;
@@ -129,9 +128,9 @@ geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::ve
     return marked[static_cast<std::size_t>(t[0])] != 0 || marked[static_cast<std::size_t>(t[1])] != 0 ||
            marked[static_cast<std::size_t>(t[2])] != 0;
   };
-  std::vector<char> wide = taken;
+  std::vector<char> wide = selected;
   for (const Eigen::Vector3i& t : mesh.triangles)
-    if (touches(taken, t))
+    if (touches(selected, t))
       for (int k = 0; k < 3; ++k)
         wide[static_cast<std::size_t>(t[k])] = 1;
   for (const Eigen::Vector3i& t : mesh.triangles)
@@ -140,35 +139,35 @@ geometry::TriangleMesh patchOf(const geometry::TriangleMesh& mesh, const std::ve
   return patch;
 }
 
-/** The wall after narrowing, from the wall before it and the map between them. */
-class NarrowedWall : public RemeshWall
+/** Remeshing target given by the healthy wall and the map of the lesion. */
+class LesionTarget : public RemeshTarget
 {
 public:
-  NarrowedWall(const geometry::TriangleMesh& healthy, const LesionShape& shape)
+  LesionTarget(const geometry::TriangleMesh& healthy, const LesionShape& shape)
     : healthy_(healthy), distance_(healthy), normals_(geometry::vertexNormals(healthy)), shape_(shape)
   {
   }
 
-  /** Facet length 0 outside the lesion. */
-  WallPoint onWall(const Eigen::Vector3d& p) const override
+  /** The edge length is 0 outside the lesion. */
+  TargetPoint project(const Eigen::Vector3d& p) const override
   {
-    const geometry::ClosestPoint at = healthyPoint(shape_.before(p));
-    const LesionShape::Image image = shape_.at(at.point);
+    const geometry::ClosestPoint at = healthyPoint(shape_.inverse(p));
+    const LesionShape::Image image = shape_.map(at.point);
     const Eigen::Vector3d normal = geometry::normalAt(healthy_, normals_, at).normalized();
-    if (!(image.lost > 0.0))
+    if (!(image.narrowing > 0.0))
       return {p, normal, 0.0};
-    // Tangents go with the map; their cross product is the normal.
-    const double h = kDifference * image.facet;
+    // The normal is the cross product of the mapped tangents.
+    const double h = kDifference * image.edge_length;
     const Eigen::Vector3d u = normal.unitOrthogonal();
     const Eigen::Vector3d v = normal.cross(u);
     const auto along = [&](const Eigen::Vector3d& d)
-    { return Eigen::Vector3d(shape_.at(at.point + h * d).position - shape_.at(at.point - h * d).position); };
-    return {image.position, along(u).cross(along(v)).normalized(), image.facet};
+    { return Eigen::Vector3d(shape_.map(at.point + h * d).position - shape_.map(at.point - h * d).position); };
+    return {image.position, along(u).cross(along(v)).normalized(), image.edge_length};
   }
 
 private:
-  /** Straight out from the axis, so that a mesh of the lumen stays one to one whatever the wall's creases; the closest
-   *  point where the wall is that of a side branch. */
+  /** Radial projection from the axis onto the healthy wall; injective in spite of creases. At a side branch, the
+   *  closest point is used instead. */
   geometry::ClosestPoint healthyPoint(const Eigen::Vector3d& p) const
   {
     const LesionShape::Foot foot = shape_.foot(p);
@@ -192,10 +191,10 @@ geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const Centrelin
                                     double middle)
 {
   Lesion stage = lesion;
-  mesh = withShortFacets(mesh, LesionShape(branch, lesion, middle), lesion.length);
+  mesh = refineLongFacets(mesh, LesionShape(branch, lesion, middle), lesion.length);
   std::vector<Eigen::Vector3d> healthy = mesh.vertices;
-  std::vector<char> taken = verticesWithin(mesh, healthy, LesionShape(branch, lesion, middle));
-  const geometry::TriangleMesh patch = patchOf(mesh, taken);
+  std::vector<char> selected = verticesWithin(mesh, healthy, LesionShape(branch, lesion, middle));
+  const geometry::TriangleMesh patch = patchOf(mesh, selected);
   double left = 1.0;
   for (bool last = !(lesion.grade > 0.0); !last;)
   {
@@ -204,31 +203,31 @@ geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const Centrelin
     stage.grade = last ? lesion.grade : 1.0 - left;
     const LesionShape shape(branch, stage, middle);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (taken[v] != 0)
-        mesh.vertices[v] = shape.at(healthy[v]).position;
-    mesh = remeshPart(mesh, NarrowedWall(patch, shape), taken, kRemeshRounds);
+      if (selected[v] != 0)
+        mesh.vertices[v] = shape.map(healthy[v]).position;
+    mesh = remeshRegion(mesh, LesionTarget(patch, shape), selected, kRemeshRounds);
     if (last)
       break;
     healthy.clear();
     for (const Eigen::Vector3d& p : mesh.vertices)
-      healthy.push_back(shape.before(p));
-    taken = verticesWithin(mesh, healthy, shape);
+      healthy.push_back(shape.inverse(p));
+    selected = verticesWithin(mesh, healthy, shape);
   }
   return mesh;
 }
 
-bool wallFolds(const geometry::TriangleMesh& mesh, const geometry::TriangleMesh& healthy, const LesionShape& shape)
+bool hasFoldedFaces(const geometry::TriangleMesh& mesh, const geometry::TriangleMesh& healthy, const LesionShape& shape)
 {
-  const NarrowedWall wall(healthy, shape);
+  const LesionTarget wall(healthy, shape);
   for (const Eigen::Vector3i& t : mesh.triangles)
   {
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
     const Eigen::Vector3d middle = (a + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
     const LesionShape::Foot foot = shape.foot(middle);
-    if (shape.lostAt(foot.from_middle) <= 0.0 || foot.radii > 1.0)
+    if (shape.narrowingAt(foot.from_middle) <= 0.0 || foot.radii > 1.0)
       continue;
     const Eigen::Vector3d normal = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
-    if (normal.dot(wall.onWall(middle).normal) <= 0.0)
+    if (normal.dot(wall.project(middle).normal) <= 0.0)
       return true;
   }
   return false;

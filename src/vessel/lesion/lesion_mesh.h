@@ -7,16 +7,17 @@
 namespace endovascular_sim::vessel
 {
 
-/** The mesh with a lesion: the wall is moved inwards and meshed anew there, in stages between which facets do not
- *  stretch too far. Vertices outside the lesion stay as they are.
- *  @param branch before any lesion
- *  @param middle of the lesion along it [m] */
+/** Mesh with a lesion. The wall is narrowed and remeshed in stages that limit the distortion of facets. Vertices
+ *  outside the lesion are unchanged.
+ *  @param branch healthy branch
+ *  @param middle arc length of the throat on the branch [m] */
 geometry::TriangleMesh narrowedMesh(geometry::TriangleMesh mesh, const CentrelineBranch& branch, const Lesion& lesion,
                                     double middle);
 
-/** Whether some face within a lesion looks into the lumen.
- *  @param mesh with the lesion
- *  @param healthy without it */
-bool wallFolds(const geometry::TriangleMesh& mesh, const geometry::TriangleMesh& healthy, const LesionShape& shape);
+/** True if a face within a lesion is inverted.
+ *  @param mesh mesh with the lesion
+ *  @param healthy mesh without the lesion */
+bool hasFoldedFaces(const geometry::TriangleMesh& mesh, const geometry::TriangleMesh& healthy,
+                    const LesionShape& shape);
 
 }  // namespace endovascular_sim::vessel

@@ -10,20 +10,20 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr int kFacetsAround = 24;  // of the narrowed lumen
-constexpr int kFacetsAlong = 32;   // of the lesion
-constexpr double kNoReach = 2.6;   // radii from the axis from which the wall takes no part: side branches
-constexpr int kHalvings = 40;
-constexpr double kMarginRadii = 4.0;  // of the axis before and after the lesion
+constexpr int kFacetsAround = 24;  // facets around the narrowed lumen
+constexpr int kFacetsAlong = 32;   // facets along the lesion
+constexpr double kNoReach = 2.6;   // distance from the axis, in radii, of unaffected walls (side branches)
+constexpr int kBisections = 40;
+constexpr double kMarginRadii = 4.0;  // length of the axis on both sides of the lesion, in radii
 
-/** 1 up to the full reach, 0 from kNoReach, C¹ between. */
-double participation(double radii)
+/** Weight of the map: 1 up to kFullReach, 0 from kNoReach, C¹ in between. */
+double mapWeight(double radii)
 {
   const double t = std::clamp((radii - LesionShape::kFullReach) / (kNoReach - LesionShape::kFullReach), 0.0, 1.0);
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
-/** Start of the piece of the branch that a lesion needs [m]. */
+/** Arc length on the branch at which the axis of a lesion begins [m]. */
 double marginBegin(const CentrelineBranch& branch, const Lesion& lesion, double middle)
 {
   const double widest = *std::max_element(branch.radii.begin(), branch.radii.end());
@@ -38,7 +38,7 @@ geometry::Polyline axisAround(const CentrelineBranch& branch, const Lesion& lesi
   return geometry::Polyline(part.points(), whole.interpolate(branch.radii, middle));
 }
 
-/** The reference direction across an axis, turned about it. */
+/** Reference direction normal to an axis, rotated about the axis. */
 Eigen::Vector3d sideOf(const Eigen::Vector3d& axis, double angle)
 {
   const Eigen::Vector3d reference = std::abs(axis.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
@@ -57,7 +57,7 @@ LesionShape::LesionShape(const CentrelineBranch& branch, const Lesion& lesion, d
   away_ = -sideOf(direction(), lesion.angle);
 }
 
-double LesionShape::lostAt(double from_middle) const
+double LesionShape::narrowingAt(double from_middle) const
 {
   const double x = std::abs(from_middle) / lesion_.length;
   return x < 0.5 ? 0.5 * lesion_.grade * (1.0 + std::cos(2.0 * M_PI * x)) : 0.0;
@@ -65,30 +65,31 @@ double LesionShape::lostAt(double from_middle) const
 
 LesionShape::Foot LesionShape::foot(const Eigen::Vector3d& p) const
 {
-  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(p);
   const double radius = axis_.interpolate(radii_, on_axis.arc);
   return {on_axis.point, on_axis.distance, on_axis.distance / radius, on_axis.arc - middle_};
 }
 
-bool LesionShape::isNear(const Eigen::Vector3d& p, double distance) const
+bool LesionShape::affects(const Eigen::Vector3d& p, double distance) const
 {
-  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(p);
   return std::abs(on_axis.arc - middle_) < 0.5 * lesion_.length + distance &&
          on_axis.distance - distance < kNoReach * axis_.interpolate(radii_, on_axis.arc);
 }
 
-LesionShape::Image LesionShape::at(const Eigen::Vector3d& p) const
+LesionShape::Image LesionShape::map(const Eigen::Vector3d& p) const
 {
-  const geometry::Polyline::Foot on_axis = axis_.section(p);
+  const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(p);
   const double radius = axis_.interpolate(radii_, on_axis.arc);
   Image image;
-  image.lost = lostAt(on_axis.arc - middle_) * participation(on_axis.distance / radius);
-  image.facet = std::min(2.0 * M_PI * radius * (1.0 - image.lost) / kFacetsAround, lesion_.length / kFacetsAlong);
-  image.position = p - image.lost * (p - fixedPoint(on_axis, radius));
+  image.narrowing = narrowingAt(on_axis.arc - middle_) * mapWeight(on_axis.distance / radius);
+  image.edge_length =
+      std::min(2.0 * M_PI * radius * (1.0 - image.narrowing) / kFacetsAround, lesion_.length / kFacetsAlong);
+  image.position = p - image.narrowing * (p - fixedPoint(on_axis, radius));
   return image;
 }
 
-/** On the axis, or beside it; on the healthy wall where e = 1. */
+/** On the axis for a concentric lesion; on the healthy wall for eccentricity 1. */
 Eigen::Vector3d LesionShape::fixedPoint(const geometry::Polyline::Foot& on_axis, double radius) const
 {
   if (lesion_.eccentricity == 0.0)
@@ -97,26 +98,26 @@ Eigen::Vector3d LesionShape::fixedPoint(const geometry::Polyline::Foot& on_axis,
   return on_axis.point + lesion_.eccentricity * radius * across.normalized();
 }
 
-Eigen::Vector3d LesionShape::before(const Eigen::Vector3d& image) const
+Eigen::Vector3d LesionShape::inverse(const Eigen::Vector3d& image) const
 {
-  const geometry::Polyline::Foot on_axis = axis_.section(image);
-  const double most = lostAt(on_axis.arc - middle_);
-  if (most <= 0.0)
+  const geometry::Polyline::Foot on_axis = axis_.normalPlaneFoot(image);
+  const double narrowing = narrowingAt(on_axis.arc - middle_);
+  if (narrowing <= 0.0)
     return image;
   const Eigen::Vector3d fixed = fixedPoint(on_axis, axis_.interpolate(radii_, on_axis.arc));
-  const Eigen::Vector3d way = image - fixed;
-  double high = 1.0 / (1.0 - most);
-  if (foot(fixed + high * way).radii <= kFullReach)
-    return fixed + high * way;
-  // Where the wall takes part less and less: distances from the fixed point grow with those of their images.
+  const Eigen::Vector3d offset = image - fixed;
+  double high = 1.0 / (1.0 - narrowing);
+  if (foot(fixed + high * offset).radii <= kFullReach)
+    return fixed + high * offset;
+  // Bisection in the transition of the weight: the map is monotonic along a ray from the fixed point.
   double low = 1.0;
-  for (int k = 0; k < kHalvings; ++k)
+  for (int k = 0; k < kBisections; ++k)
   {
     const double middle = 0.5 * (low + high);
-    const bool beyond = (at(fixed + middle * way).position - fixed).dot(way) > way.squaredNorm();
+    const bool beyond = (map(fixed + middle * offset).position - fixed).dot(offset) > offset.squaredNorm();
     (beyond ? high : low) = middle;
   }
-  return fixed + low * way;
+  return fixed + low * offset;
 }
 
 }  // namespace endovascular_sim::vessel

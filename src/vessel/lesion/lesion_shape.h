@@ -11,56 +11,57 @@
 namespace endovascular_sim::vessel
 {
 
-/** The map of space by which a lesion narrows its branch. One to one: walls do not fold. */
+/** Injective map of space that narrows a branch to the shape of a lesion. */
 class LesionShape
 {
 public:
-  /** Radii from the axis up to which the wall takes part wholly, so that oval lumens do. */
+  /** Distance from the axis, in radii, up to which the map has full effect; it includes oval lumens. */
   static constexpr double kFullReach = 1.6;
 
-  /** @param branch before any lesion, without repeated points @param middle of the lesion along it [m] */
+  /** @param branch healthy branch without duplicate points
+   *  @param middle arc length of the throat on the branch [m] */
   LesionShape(const CentrelineBranch& branch, const Lesion& lesion, double middle);
 
-  /** Where a point of the wall or the lumen goes, and what it meets there. */
+  /** Image of a point of the wall or the lumen. */
   struct Image
   {
     Eigen::Vector3d position;  ///< [m]
-    double lost = 0.0;         ///< share of the distances across the axis; 0 outside the lesion
-    double facet = 0.0;        ///< edge length that the mesh should have there [m]
+    double narrowing = 0.0;    ///< relative reduction of the distance from the fixed point; 0 outside the lesion
+    double edge_length = 0.0;  ///< target edge length of the mesh [m]
   };
-  Image at(const Eigen::Vector3d& p) const;
+  Image map(const Eigen::Vector3d& p) const;
 
-  /** The point of which at() makes @p image. */
-  Eigen::Vector3d before(const Eigen::Vector3d& image) const;
+  /** Inverse map: the point whose image is @p image. */
+  Eigen::Vector3d inverse(const Eigen::Vector3d& image) const;
 
-  /** Foot of a point on the healthy branch's axis, as a point and a distance in radii of the healthy lumen. */
+  /** Foot point on the axis of the healthy branch. */
   struct Foot
   {
-    Eigen::Vector3d point;
-    double distance = 0.0;  ///< [m]
-    double radii = 0.0;
-    double from_middle = 0.0;  ///< along the axis [m]
+    Eigen::Vector3d point;     ///< [m]
+    double distance = 0.0;     ///< from the axis [m]
+    double radii = 0.0;        ///< distance in radii of the healthy lumen
+    double from_middle = 0.0;  ///< signed arc length from the throat [m]
   };
   Foot foot(const Eigen::Vector3d& p) const;
 
-  /** Share of the diameter that is lost at a distance along the axis from the lesion's middle. */
-  double lostAt(double from_middle) const;
+  /** Relative loss of diameter at an arc length from the throat. */
+  double narrowingAt(double from_middle) const;
 
-  /** Whether the lesion moves something within a distance [m] of a point. */
-  bool isNear(const Eigen::Vector3d& p, double distance) const;
+  /** True if the lesion affects points within a distance [m] of a point. */
+  bool affects(const Eigen::Vector3d& p, double distance) const;
 
-  Eigen::Vector3d middle() const { return axis_.at(middle_); }                   ///< of the healthy axis [m]
-  Eigen::Vector3d direction() const { return axis_.section(middle()).tangent; }  ///< of the axis there
+  Eigen::Vector3d middle() const { return axis_.at(middle_); }  ///< throat on the healthy axis [m]
+  Eigen::Vector3d direction() const { return axis_.normalPlaneFoot(middle()).tangent; }  ///< tangent at the throat
 
 private:
-  /** The point of its section towards which a section shrinks. */
+  /** Fixed point of the map in a cross-section. */
   Eigen::Vector3d fixedPoint(const geometry::Polyline::Foot& on_axis, double radius) const;
 
   Lesion lesion_;
-  geometry::Polyline axis_;    ///< the lesion and some radii more
-  double middle_;              ///< along axis_ [m]
-  std::vector<double> radii_;  ///< per point of axis_ [m]
-  Eigen::Vector3d away_;       ///< unit, from the plaque across the axis in the lesion's middle
+  geometry::Polyline axis_;    ///< axis of the lesion with a margin
+  double middle_;              ///< arc length of the throat on axis_ [m]
+  std::vector<double> radii_;  ///< radius at each point of axis_ [m]
+  Eigen::Vector3d away_;       ///< unit vector at the throat, opposite to the plaque
 };
 
 }  // namespace endovascular_sim::vessel

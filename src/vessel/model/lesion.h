@@ -9,34 +9,34 @@
 namespace endovascular_sim::vessel
 {
 
-/** A stenosis of one branch, as a scene asks for it. */
+/** Stenosis of one branch, as specified in a scene. */
 struct Lesion
 {
   std::string branch;  ///< name of a branch of the centreline
-  /** Instead of a branch and a place along it: a point near the centreline in its middle, patient frame [m]. */
+  /** Centre of the lesion as a point in the patient frame [m]; replaces branch and arc length. */
   std::optional<Eigen::Vector3d> at;
-  /** Of its middle along the branch's centreline [m]; NaN: `fraction` of the branch's length instead. */
+  /** Arc length of the centre from the start of the branch [m]; NaN selects `fraction`. */
   double from_start = std::numeric_limits<double>::quiet_NaN();
-  double fraction = 0.5;
-  double length = 0.0;  ///< of the whole narrowing along the centreline [m]
-  double grade = 0.0;   ///< share of the diameter that is lost in its middle, 0 to 0.99
-  /** 0: the lumen stays in the middle; 1: all plaque is on one side, and the wall opposite stays as it was. */
+  double fraction = 0.5;  ///< position of the centre as a fraction of the branch's length
+  double length = 0.0;    ///< length of the stenosis along the centreline [m]
+  double grade = 0.0;     ///< diameter stenosis at the throat, 0 to 0.99
+  /** 0: concentric; 1: plaque on one side only, so that the opposite wall is unchanged. */
   double eccentricity = 0.0;
-  /** Of the plaque's side about the branch's direction [rad]; 0 is the patient's left (x), or posterior (y) where the
-   *  branch runs along x. */
+  /** Direction of the plaque about the branch's tangent [rad]. 0 is the patient's left (x), or posterior (y) for a
+   *  branch along x. */
   double angle = 0.0;
 };
 
-/** A lesion that a vessel has. */
+/** Lesion in the wall of a vessel. */
 struct PlacedLesion
 {
-  Lesion lesion;
+  Lesion lesion;                   ///< specification
   int branch = -1;                 ///< index into the vessel's centreline
-  double begin = 0.0;              ///< along that branch's centreline [m]
-  double middle = 0.0;             ///< [m]
-  double end = 0.0;                ///< [m]
-  double healthy_diameter = 0.0;   ///< of the lumen in the lesion's middle before it was made (equal area) [m]
-  double narrowed_diameter = 0.0;  ///< and after [m]
+  double begin = 0.0;              ///< arc length of the proximal end on the branch [m]
+  double middle = 0.0;             ///< arc length of the throat [m]
+  double end = 0.0;                ///< arc length of the distal end [m]
+  double healthy_diameter = 0.0;   ///< equal-area diameter at the throat without the lesion [m]
+  double narrowed_diameter = 0.0;  ///< equal-area diameter at the throat with the lesion [m]
 };
 
 }  // namespace endovascular_sim::vessel

@@ -10,14 +10,14 @@
 namespace endovascular_sim::vessel
 {
 
-/** A vessel ready for use: a checked mesh, its centreline, and where both came from. */
+/** Vessel ready for simulation: checked mesh, centreline and provenance. */
 struct Vessel
 {
   geometry::TriangleMesh mesh;        ///< patient frame [m]
-  CentrelineTree centreline;          ///< patient frame [m]; empty when it was not asked for
+  CentrelineTree centreline;          ///< patient frame [m]; empty if not requested
   std::string source;                 ///< file or generator
-  std::vector<std::string> notes;     ///< what was repaired or changed, for people
-  std::vector<PlacedLesion> lesions;  ///< of the anatomy, then those that were put on it
+  std::vector<std::string> notes;     ///< repairs and modifications, as text
+  std::vector<PlacedLesion> lesions;  ///< lesions of the anatomy, then added ones
 };
 
 }  // namespace endovascular_sim::vessel

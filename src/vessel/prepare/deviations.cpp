@@ -15,43 +15,44 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Samples of the surfaces stand this many voxels apart. */
+/** Spacing of the surface samples, in voxels. */
 constexpr double kSampleSpacing = 2.0;
-/** A wall deeper than this inside the united input, or farther outside of a hollow, is not the lumen's, in voxels: more
- *  than the grid's error, which rounds a right-angled crease by half a voxel's diagonal. */
+/** Depth below the union's surface, in voxels, beyond which a wall of the input is not the wall of the lumen. It
+ *  exceeds the error of the grid, which rounds a right-angled crease by half a voxel diagonal. */
 constexpr double kBuried = 0.75;
-/** Winding numbers look at every triangle: no more than this many points are asked for. */
-constexpr int kMostWindings = 3000;
-/** How far beside a wall its two sides are looked at, in voxels. */
-constexpr double kBeside = 0.05;
-/** Walls face each other when their normals are this close to parallel: cosine. */
+/** Largest number of winding number queries; each costs a pass over all triangles. */
+constexpr int kMaxWindingQueries = 3000;
+/** Offset from a wall of the queries on its two sides, in voxels. */
+constexpr double kSideOffset = 0.05;
+/** Minimum absolute cosine between the normals of walls that face each other. */
 constexpr double kFacing = 0.8;
 
-/** The pieces of a soup, for asking whether a point lies in any of them. */
-class Pieces
+/** Components of a triangle soup as solids, for point containment. */
+class ComponentSolids
 {
 public:
-  explicit Pieces(const geometry::TriangleMesh& soup) : pieces_(separatePieces(soup))
+  explicit ComponentSolids(const geometry::TriangleMesh& soup) : components_(splitComponents(soup))
   {
-    for (geometry::TriangleMesh& piece : pieces_)
-      alignFaces(piece);
+    for (geometry::TriangleMesh& component : components_)
+      alignFaces(component);
   }
 
+  /** True if any component contains the point. */
   bool contain(const Eigen::Vector3d& p) const
   {
-    return std::any_of(pieces_.begin(), pieces_.end(),
-                       [&p](const geometry::TriangleMesh& piece)
-                       { return std::abs(geometry::windingNumber(piece, p)) > 0.5; });
+    return std::any_of(components_.begin(), components_.end(),
+                       [&p](const geometry::TriangleMesh& component)
+                       { return std::abs(geometry::windingNumber(component, p)) > 0.5; });
   }
 
 private:
-  std::vector<geometry::TriangleMesh> pieces_;
+  std::vector<geometry::TriangleMesh> components_;
 };
 
-/** Distances of the input's outer wall from the result, and their samples. */
-void fromInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
+/** Measures the distances from the input's outer wall to the result, and the area of inner walls. */
+void measureInputToResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
-  const geometry::SidedMesh united(input.united);
+  const geometry::SignedMeshDistance united(input.united);
   const geometry::MeshDistance wall(result);
   std::vector<geometry::SurfaceSample> outer;
   std::vector<double> distances;
@@ -65,20 +66,21 @@ void fromInput(const InputSurfaces& input, const geometry::TriangleMesh& result,
       distances.push_back(wall.closest(sample.point).distance);
     }
 
-  // The far ones may be walls buried by less than that, beside a seam of two pieces. Found out from the farthest on.
-  const Pieces pieces(input.soup);
+  // Samples with large distances may be inner walls above kBuried, near the seam of two components. They are tested by
+  // winding numbers, in the order of decreasing distance.
+  const ComponentSolids solids(input.soup);
   std::vector<std::size_t> order(outer.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b)
             { return distances[a] > distances[b] || (distances[a] == distances[b] && a < b); });
-  const double beside = kBeside * input.voxel;
+  const double offset = kSideOffset * input.voxel;
   std::vector<bool> buried(outer.size(), false);
-  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kMostWindings); ++k)
+  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kMaxWindingQueries); ++k)
   {
     const geometry::SurfaceSample& sample = outer[order[k]];
-    if (!pieces.contain(sample.point + beside * sample.normal) ||
-        !pieces.contain(sample.point - beside * sample.normal))
+    if (!solids.contain(sample.point + offset * sample.normal) ||
+        !solids.contain(sample.point - offset * sample.normal))
       break;
     buried[order[k]] = true;
   }
@@ -95,7 +97,8 @@ void fromInput(const InputSurfaces& input, const geometry::TriangleMesh& result,
   report.input_to_result = geometry::deviationOf(kept, kept_distances, report.max_distance);
 }
 
-void fromResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
+/** Measures the distances from the result to the input, without lids and bridges. */
+void measureResultToInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
   const geometry::MeshDistance soup(input.soup);
   std::vector<geometry::SurfaceSample> own;
@@ -114,28 +117,29 @@ void fromResult(const InputSurfaces& input, const geometry::TriangleMesh& result
   report.result_to_input = geometry::deviationOf(own, distances, report.max_distance);
 }
 
-/** A narrow space seen from one of its walls. */
-struct Look
+/** Sample of a narrow gap between two walls. */
+struct GapSample
 {
   Eigen::Vector3d middle;
   double width;
 };
 
-/** Where the ray to one side of a wall meets another wall that faces it. */
-bool lookAcross(const geometry::SurfaceSample& sample, const Eigen::Vector3d& direction,
-                const geometry::MeshDistance& soup, double widest, const geometry::TriangleMesh& mesh, Look& look)
+/** Measures the gap on one side of a wall by a ray.
+ *  @return false without a facing wall within @p widest */
+bool measureGap(const geometry::SurfaceSample& sample, const Eigen::Vector3d& direction,
+                const geometry::MeshDistance& soup, double widest, const geometry::TriangleMesh& mesh, GapSample& gap)
 {
-  const double hair = 1e-7;
-  const double hit = soup.rayHit(sample.point + hair * direction, direction);
+  const double offset = 1e-7;
+  const double hit = soup.rayHit(sample.point + offset * direction, direction);
   if (!(hit > 0.0) || hit > widest)
     return false;
-  const geometry::ClosestPoint other = soup.closest(sample.point + (hit + hair) * direction);
+  const geometry::ClosestPoint other = soup.closest(sample.point + (hit + offset) * direction);
   const Eigen::Vector3i& t = mesh.triangles[static_cast<std::size_t>(other.triangle)];
   const auto at = [&](int k) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
   const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
   if (std::abs(normal.dot(direction)) < kFacing * normal.norm())
     return false;
-  look = {sample.point + (0.5 * hit + hair) * direction, hit};
+  gap = {sample.point + (0.5 * hit + offset) * direction, hit};
   return true;
 }
 
@@ -143,38 +147,38 @@ bool lookAcross(const geometry::SurfaceSample& sample, const Eigen::Vector3d& di
 
 void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
-  fromInput(input, result, report);
-  fromResult(input, result, report);
+  measureInputToResult(input, result, report);
+  measureResultToInput(input, result, report);
 }
 
 NarrowGaps measureGaps(const InputSurfaces& input, const geometry::TriangleMesh& result)
 {
   const geometry::MeshDistance soup(input.soup);
-  std::vector<Look> looks;
+  std::vector<GapSample> samples;
   for (const geometry::SurfaceSample& sample :
        geometry::sampleSurface(input.soup, kSampleSpacing * input.voxel, 0, input.own_triangles))
     for (double side : {1.0, -1.0})
     {
-      Look look;
-      if (lookAcross(sample, side * sample.normal, soup, 2.0 * input.voxel, input.soup, look))
-        looks.push_back(look);
+      GapSample gap;
+      if (measureGap(sample, side * sample.normal, soup, 2.0 * input.voxel, input.soup, gap))
+        samples.push_back(gap);
     }
-  const Pieces pieces(input.soup);
-  const geometry::SidedMesh wall(result);
+  const ComponentSolids solids(input.soup);
+  const geometry::SignedMeshDistance wall(result);
   NarrowGaps gaps;
-  const std::size_t stride = looks.size() / kMostWindings + 1;
-  for (std::size_t k = 0; k < looks.size(); k += stride)
+  const std::size_t stride = samples.size() / kMaxWindingQueries + 1;
+  for (std::size_t k = 0; k < samples.size(); k += stride)
   {
-    if (pieces.contain(looks[k].middle))
+    if (solids.contain(samples[k].middle))
       continue;
-    const bool kept = wall.at(looks[k].middle) > 0.0;
+    const bool kept = wall.at(samples[k].middle) > 0.0;
     ++(kept ? gaps.kept : gaps.closed);
-    if (kept && (gaps.narrowest_kept == 0.0 || looks[k].width < gaps.narrowest_kept))
-      gaps.narrowest_kept = looks[k].width;
-    if (!kept && looks[k].width > gaps.widest_closed)
+    if (kept && (gaps.narrowest_kept == 0.0 || samples[k].width < gaps.narrowest_kept))
+      gaps.narrowest_kept = samples[k].width;
+    if (!kept && samples[k].width > gaps.widest_closed)
     {
-      gaps.widest_closed = looks[k].width;
-      gaps.closed_place = looks[k].middle;
+      gaps.widest_closed = samples[k].width;
+      gaps.closed_location = samples[k].middle;
     }
   }
   return gaps;

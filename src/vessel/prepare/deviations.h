@@ -7,21 +7,21 @@
 namespace endovascular_sim::vessel
 {
 
-/** The input in the forms in which it is compared with the result. */
+/** Input surfaces for the comparison with the result. */
 struct InputSurfaces
 {
-  const geometry::TriangleMesh& soup;    ///< the input, then the lids of its holes, then bridges
-  std::size_t own_triangles;             ///< of the input: the first ones of the soup
-  const geometry::TriangleMesh& united;  ///< its outer wall, as fine as a voxel
-  double voxel;                          ///< [m]
+  const geometry::TriangleMesh& soup;    ///< triangles of the input, then lids of holes, then bridges
+  std::size_t own_triangles;             ///< number of triangles of the input, at the front of the soup
+  const geometry::TriangleMesh& united;  ///< outer wall at the resolution of the grid
+  double voxel;                          ///< edge of a voxel [m]
 };
 
-/** Fills in the distances both ways and the areas left out of them. The input's walls that lie inside of another of its
- *  pieces, or of its outer wall, are left out one way, lids and bridges the other way. */
+/** Measures the distances between input and result in both directions. Inner walls of the input are excluded in one
+ *  direction, lids and bridges in the other. The report receives the excluded areas. */
 void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report);
 
-/** Looks across every space outside of the input's walls that is narrower than two voxels, and whether the result has
- *  it still. */
+/** Samples gaps between walls of the input that are narrower than two voxels, and counts those that the result retains.
+ *  */
 NarrowGaps measureGaps(const InputSurfaces& input, const geometry::TriangleMesh& result);
 
 }  // namespace endovascular_sim::vessel

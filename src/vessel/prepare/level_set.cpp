@@ -14,14 +14,13 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Half-width of the band in which distances are kept, in voxels. */
+/** Half-width of the narrow band, in voxels. */
 constexpr float kBand = 3.0F;
-/** Sheets that touch are parted in this many rounds at most. */
-constexpr int kPartingRounds = 20;
-/** What the grid's points at a place where sheets touch are set to, in voxels outside. */
-constexpr float kCleared = 0.25F;
+constexpr int kMaxSeparationRounds = 20;
+/** Signed distance assigned to grid points between touching sheets, in voxels. */
+constexpr float kOutside = 0.25F;
 
-/** Distances in voxels, negative inside. */
+/** Signed distance grid in voxels, negative inside. */
 openvdb::FloatGrid::Ptr signedDistance(const geometry::TriangleMesh& mesh, double voxel)
 {
   std::vector<openvdb::Vec3s> points;
@@ -38,7 +37,7 @@ openvdb::FloatGrid::Ptr signedDistance(const geometry::TriangleMesh& mesh, doubl
   return openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, identity, kBand, kBand);
 }
 
-/** The grid's zero level, quads cut along their shorter diagonal. */
+/** Triangulated zero level of the grid; quads are split along their shorter diagonal. */
 geometry::TriangleMesh zeroLevel(const openvdb::FloatGrid& grid, double voxel)
 {
   std::vector<openvdb::Vec3s> points;
@@ -51,7 +50,7 @@ geometry::TriangleMesh zeroLevel(const openvdb::FloatGrid& grid, double voxel)
     mesh.vertices.emplace_back(voxel * Eigen::Vector3d(p.x(), p.y(), p.z()));
   const auto add = [&mesh](openvdb::Index32 a, openvdb::Index32 b, openvdb::Index32 c)
   { mesh.triangles.emplace_back(static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)); };
-  // OpenVDB's faces are clockwise seen from the outside.
+  // OpenVDB orients faces clockwise seen from outside.
   for (const openvdb::Vec3I& t : triangles)
     add(t[0], t[2], t[1]);
   for (const openvdb::Vec4I& q : quads)
@@ -69,26 +68,26 @@ geometry::TriangleMesh zeroLevel(const openvdb::FloatGrid& grid, double voxel)
   return mesh;
 }
 
-/** Where more than two faces meet in an edge, or separate sheets in a vertex. */
-std::vector<Eigen::Vector3d> touchingPlaces(const geometry::TriangleMesh& mesh)
+/** Midpoints of edges with more than two faces, and vertices shared by separate sheets. */
+std::vector<Eigen::Vector3d> nonManifoldLocations(const geometry::TriangleMesh& mesh)
 {
-  std::vector<Eigen::Vector3d> places;
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  std::vector<Eigen::Vector3d> locations;
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
   geometry::DisjointSets corners(3 * mesh.triangles.size());
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
   {
-    const std::size_t end = geometry::endOfEdge(uses, begin);
-    const auto corner = [&](const geometry::EdgeUse& use, int vertex)
+    const std::size_t end = geometry::endOfEdge(half_edges, begin);
+    const auto corner = [&](const geometry::HalfEdge& half_edge, int vertex)
     {
-      const bool first = mesh.triangles[static_cast<std::size_t>(use.triangle)][use.side] == vertex;
-      return 3 * use.triangle + (first ? use.side : (use.side + 1) % 3);
+      const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
+      return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
     };
     if (end - begin != 2)
-      places.emplace_back(0.5 * (mesh.vertices[static_cast<std::size_t>(uses[begin].low)] +
-                                 mesh.vertices[static_cast<std::size_t>(uses[begin].high)]));
+      locations.emplace_back(0.5 * (mesh.vertices[static_cast<std::size_t>(half_edges[begin].low)] +
+                                    mesh.vertices[static_cast<std::size_t>(half_edges[begin].high)]));
     for (std::size_t k = begin + 1; k < end; ++k)
-      for (int vertex : {uses[begin].low, uses[begin].high})
-        corners.join(corner(uses[begin], vertex), corner(uses[k], vertex));
+      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
+        corners.join(corner(half_edges[begin], vertex), corner(half_edges[k], vertex));
   }
   std::vector<int> fan(mesh.vertices.size(), -1);
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
@@ -98,23 +97,23 @@ std::vector<Eigen::Vector3d> touchingPlaces(const geometry::TriangleMesh& mesh)
     if (fan[v] < 0)
       fan[v] = set;
     else if (fan[v] != set)
-      places.push_back(mesh.vertices[v]);
+      locations.push_back(mesh.vertices[v]);
   }
-  return places;
+  return locations;
 }
 
-/** Puts the corners of the cells at these places outside, so that the sheets on both sides do not touch. */
-void clear(openvdb::FloatGrid& grid, const std::vector<Eigen::Vector3d>& places, double voxel)
+/** Separates touching sheets: the corners of the cells at these locations are set to outside. */
+void separateSheets(openvdb::FloatGrid& grid, const std::vector<Eigen::Vector3d>& locations, double voxel)
 {
   auto accessor = grid.getAccessor();
-  for (const Eigen::Vector3d& place : places)
+  for (const Eigen::Vector3d& location : locations)
     for (int k = 0; k < 8; ++k)
     {
-      const openvdb::Coord at(static_cast<int>(std::floor(place.x() / voxel)) + (k & 1),
-                              static_cast<int>(std::floor(place.y() / voxel)) + (k >> 1 & 1),
-                              static_cast<int>(std::floor(place.z() / voxel)) + (k >> 2 & 1));
-      if (accessor.getValue(at) < kCleared)
-        accessor.setValue(at, kCleared);
+      const openvdb::Coord at(static_cast<int>(std::floor(location.x() / voxel)) + (k & 1),
+                              static_cast<int>(std::floor(location.y() / voxel)) + (k >> 1 & 1),
+                              static_cast<int>(std::floor(location.z() / voxel)) + (k >> 2 & 1));
+      if (accessor.getValue(at) < kOutside)
+        accessor.setValue(at, kOutside);
     }
 }
 
@@ -125,19 +124,18 @@ UnitedSurface unite(const geometry::TriangleMesh& triangles, double voxel)
   openvdb::initialize();
   const openvdb::FloatGrid::Ptr grid = signedDistance(triangles, voxel);
   UnitedSurface united;
-  for (int round = 0; round < kPartingRounds; ++round)
+  for (int round = 0; round < kMaxSeparationRounds; ++round)
   {
     united.mesh = zeroLevel(*grid, voxel);
     if (united.mesh.triangles.empty())
-      throw InputError("mesh", "",
-                       "its triangles shut nothing off from the outside; close its holes, or check its unit");
-    const std::vector<Eigen::Vector3d> places = touchingPlaces(united.mesh);
-    if (places.empty())
+      throw InputError("mesh", "", "the triangles enclose no volume; close the holes, or check the unit");
+    const std::vector<Eigen::Vector3d> locations = nonManifoldLocations(united.mesh);
+    if (locations.empty())
       return united;
-    clear(*grid, places, voxel);
-    united.cleared.insert(united.cleared.end(), places.begin(), places.end());
+    separateSheets(*grid, locations, voxel);
+    united.separated.insert(united.separated.end(), locations.begin(), locations.end());
   }
-  throw InputError("mesh", "", "sheets of the wall touch at this voxel size; give another --voxel");
+  throw InputError("mesh", "", "sheets of the wall touch at this voxel size; specify another --voxel");
 }
 
 }  // namespace endovascular_sim::vessel

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,20 +9,19 @@
 namespace endovascular_sim::vessel
 {
 
-/** Surface of the space that a set of triangles shuts off from the outside. */
+/** Boundary of the volume that a set of triangles encloses. */
 struct UnitedSurface
 {
-  geometry::TriangleMesh mesh;           ///< closed, two-manifold, outward; triangles as long as a voxel
-  std::vector<Eigen::Vector3d> cleared;  ///< places where sheets that touched were parted by a voxel [m]
+  geometry::TriangleMesh mesh;             ///< closed, two-manifold, outward oriented; edges about one voxel long
+  std::vector<Eigen::Vector3d> separated;  ///< locations where touching sheets were separated by one voxel [m]
 };
 
-/** Unites pieces that overlap, however their faces are turned: the signed distance on a grid, whose inside is what a
- *  flood from the outside does not reach (OpenVDB, tools::meshToVolume), and its zero level (tools::volumeToMesh).
- *  Walls inside of other pieces vanish, gaps narrower than a voxel close.
- * Every piece that is left is in the mesh.
- *  @param triangles no holes wider than a voxel (closeHoles); they need not fit together, nor be turned alike
- *  @param voxel edge of the grid's cells [m]; what is thinner than twice that may be lost
- *  @throws InputError when nothing is shut off, or sheets cannot be parted */
+/** Union of overlapping components of any orientation, by the zero level of a signed distance grid. A flood fill from
+ *  outside determines the sign (OpenVDB tools::meshToVolume and tools::volumeToMesh). Walls inside other components
+ *  disappear, and gaps narrower than a voxel close. The mesh contains all resulting components.
+ *  @param triangles triangle soup of any orientation, without holes wider than a voxel (closeHoles)
+ *  @param voxel edge of the grid's cells [m]; features thinner than two voxels may be lost
+ *  @throws InputError if no volume is enclosed, or touching sheets cannot be separated */
 UnitedSurface unite(const geometry::TriangleMesh& triangles, double voxel);
 
 }  // namespace endovascular_sim::vessel

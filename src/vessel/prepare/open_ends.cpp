@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/error.h"
-#include "vessel/repair/end_cut.h"
+#include "vessel/repair/end_clipping.h"
 #include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::vessel
@@ -14,7 +14,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A cut may take away what lies within this many radii of its place, and the tip. */
+/** Largest distance from a cut of removed vertices, in radii, in addition to the distance of the tip. */
 constexpr double kReach = 4.0;
 
 const std::string& nameOf(const CentrelineTree& tree, const CentrelineEnd& end)
@@ -22,18 +22,18 @@ const std::string& nameOf(const CentrelineTree& tree, const CentrelineEnd& end)
   return tree.branches[static_cast<std::size_t>(end.branch)].name;
 }
 
-[[noreturn]] void refuse(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends, const std::string& wish,
-                         const std::string& source)
+[[noreturn]] void reject(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends,
+                         const std::string& selector, const std::string& source)
 {
   std::string list;
   for (const CentrelineEnd& end : ends)
-    list += (list.empty() ? "" : ", ") + nameOf(tree, end) + " near " + formatPlace(end.position);
-  throw InputError(source, "--open " + wish,
-                   "names no end; give all, largest, a count up to " + std::to_string(ends.size()) +
+    list += (list.empty() ? "" : ", ") + nameOf(tree, end) + " near " + formatLocation(end.position);
+  throw InputError(source, "--open " + selector,
+                   "matches no end; specify all, largest, a count up to " + std::to_string(ends.size()) +
                        ", x,y,z in metres, or a branch: " + list);
 }
 
-/** Indices of the ends, the widest first. */
+/** Indices of the ends by decreasing radius. */
 std::vector<std::size_t> byRadius(const std::vector<CentrelineEnd>& ends)
 {
   std::vector<std::size_t> order(ends.size());
@@ -43,53 +43,55 @@ std::vector<std::size_t> byRadius(const std::vector<CentrelineEnd>& ends)
   return order;
 }
 
-/** Adds the ends of one wish. @return false when there are none */
-bool choose(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends, const std::string& wish,
-            std::set<std::size_t>& chosen)
+/** Adds the ends that match a selector.
+ *  @return false if there are none */
+bool select(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends, const std::string& selector,
+            std::set<std::size_t>& selected)
 {
   const std::vector<std::size_t> order = byRadius(ends);
-  const bool is_count = !wish.empty() && wish.size() < 6 && wish.find_first_not_of("0123456789") == std::string::npos;
+  const bool is_count =
+      !selector.empty() && selector.size() < 6 && selector.find_first_not_of("0123456789") == std::string::npos;
   std::size_t count = 0;
-  if (wish == "all")
+  if (selector == "all")
     count = ends.size();
-  else if (wish == "largest")
+  else if (selector == "largest")
     count = 1;
   else if (is_count)
-    count = static_cast<std::size_t>(std::stoul(wish));
+    count = static_cast<std::size_t>(std::stoul(selector));
   if (count > 0 && count <= ends.size())
   {
-    chosen.insert(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+    selected.insert(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
     return true;
   }
-  Eigen::Vector3d place;
+  Eigen::Vector3d location;
   char rest = 0;
-  if (std::sscanf(wish.c_str(), "%lf,%lf,%lf%c", &place.x(), &place.y(), &place.z(), &rest) == 3)
+  if (std::sscanf(selector.c_str(), "%lf,%lf,%lf%c", &location.x(), &location.y(), &location.z(), &rest) == 3)
   {
     const auto nearest = std::min_element(ends.begin(), ends.end(),
-                                          [&place](const CentrelineEnd& a, const CentrelineEnd& b)
-                                          { return (a.position - place).norm() < (b.position - place).norm(); });
-    chosen.insert(static_cast<std::size_t>(nearest - ends.begin()));
+                                          [&location](const CentrelineEnd& a, const CentrelineEnd& b)
+                                          { return (a.position - location).norm() < (b.position - location).norm(); });
+    selected.insert(static_cast<std::size_t>(nearest - ends.begin()));
     return true;
   }
-  const std::size_t before = chosen.size();
+  const std::size_t before = selected.size();
   for (std::size_t k = 0; k < ends.size(); ++k)
-    if (nameOf(tree, ends[k]) == wish)
-      chosen.insert(k);
-  return chosen.size() > before;
+    if (nameOf(tree, ends[k]) == selector)
+      selected.insert(k);
+  return selected.size() > before;
 }
 
 }  // namespace
 
-std::vector<CentrelineEnd> chooseEnds(const CentrelineTree& tree, const std::vector<std::string>& wishes,
+std::vector<CentrelineEnd> selectEnds(const CentrelineTree& tree, const std::vector<std::string>& selectors,
                                       const std::string& source)
 {
   const std::vector<CentrelineEnd> ends = centrelineEnds(tree);
-  std::set<std::size_t> chosen;
-  for (const std::string& wish : wishes)
-    if (!choose(tree, ends, wish, chosen))
-      refuse(tree, ends, wish, source);
+  std::set<std::size_t> selected;
+  for (const std::string& selector : selectors)
+    if (!select(tree, ends, selector, selected))
+      reject(tree, ends, selector, source);
   std::vector<CentrelineEnd> result;
-  for (std::size_t k : chosen)
+  for (std::size_t k : selected)
     result.push_back(ends[k]);
   return result;
 }
@@ -107,16 +109,16 @@ Opening openEnd(geometry::TriangleMesh& mesh, const CentrelineTree& tree, const 
     left -= (branch.points[index(k + 1)] - branch.points[index(k)]).norm(), ++k;
   if (k + 1 >= n)
     throw InputError(source, "--open",
-                     "the branch " + branch.name + " is too short to be cut; give a smaller --cut-back");
+                     "the branch " + branch.name + " is too short to be clipped; specify a smaller --cut-back");
   const Eigen::Vector3d& a = branch.points[index(k)];
   const Eigen::Vector3d inward = (branch.points[index(k + 1)] - a).normalized();
   Opening opening;
   opening.end = branch.name;
-  opening.place = a + left * inward;
+  opening.location = a + left * inward;
   opening.outward = -inward;
   opening.radius = branch.radii[index(k)];
-  const double reach = kReach * opening.radius + (opening.place - end.position).norm();
-  mesh = cutEnd(mesh, {opening.place, opening.outward, reach}, source);
+  const double reach = kReach * opening.radius + (opening.location - end.position).norm();
+  mesh = clipEnd(mesh, {opening.location, opening.outward, reach}, source);
   return opening;
 }
 

@@ -10,14 +10,18 @@
 namespace endovascular_sim::vessel
 {
 
-/** The ends that a list of wishes names, each once, in the order of the tree: "all", "largest", a count (that many of
- *  the widest), the name of a branch, or "x,y,z" [m] (the end nearest to it).
- *  @throws InputError with the ends that there are, when a wish names none */
-std::vector<CentrelineEnd> chooseEnds(const CentrelineTree& tree, const std::vector<std::string>& wishes,
+/** Selects ends of a vessel, each once, in the order of the tree.
+ *  @param selectors "all", "largest", a count (that many of the widest), the name of a branch, or "x,y,z" [m] (the
+ *         nearest end)
+ *  @param source name of the mesh in errors
+ *  @throws InputError listing the ends, if a selector matches none */
+std::vector<CentrelineEnd> selectEnds(const CentrelineTree& tree, const std::vector<std::string>& selectors,
                                       const std::string& source);
 
-/** Cuts a closed vessel across its centreline near the end, @p cut_back radii of the lumen before the tip.
- *  @throws InputError when the branch is too short, or the plane would cut off more than the end */
+/** Opens an end of a closed vessel by a cut normal to its centreline.
+ *  @param cut_back distance from the tip to the cut, in radii of the lumen
+ *  @param source name of the mesh in errors
+ *  @throws InputError if the branch is too short, or the plane would remove more than the end */
 Opening openEnd(geometry::TriangleMesh& mesh, const CentrelineTree& tree, const CentrelineEnd& end, double cut_back,
                 const std::string& source);
 

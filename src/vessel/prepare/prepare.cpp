@@ -9,34 +9,34 @@
 #include "vessel/prepare/level_set.h"
 #include "vessel/prepare/open_ends.h"
 #include "vessel/repair/fairing.h"
-#include "vessel/repair/mesh_sizing.h"
+#include "vessel/repair/mesh_target.h"
 
 namespace endovascular_sim::vessel
 {
 namespace
 {
 
-/** Grids beyond this many voxels of wall do not fit into memory. */
-constexpr double kMostWallVoxels = 4e7;
-/** A loose piece below this fraction of the vessel's volume is a crumb. */
+/** Largest number of voxels on the wall; bounds the memory of the grid. */
+constexpr double kMaxWallVoxels = 4e7;
+/** Volume of a crumb relative to the vessel; loose components below it are dropped. */
 constexpr double kCrumb = 1e-4;
 constexpr int kBridgingRounds = 5;
-/** Of the stated distance: the grid cuts right-angled edges by half a voxel. */
+/** Default voxel relative to the distance tolerance. The grid rounds right-angled edges by half a voxel. */
 constexpr double kVoxelShare = 2.0 / 3.0;
-/** A wall is told from the outside when it lies this many voxels inside. */
+/** Depth below the outer surface of an inner wall, in voxels. */
 constexpr double kHollowDepth = 1.5;
-/** Facets may leave the fine surface by this share of the stated distance; smoothing has the rest. */
+/** Fraction of the distance tolerance for the deviation of facets; smoothing uses the rest. */
 constexpr double kFacetShare = 0.5;
-/** Smoothing moves no vertex by more than this fraction of the lumen's radius, so that narrow lumens stay. */
+/** Largest displacement by smoothing, relative to the lumen's radius; preserves narrow lumens. */
 constexpr double kRadiusShare = 0.1;
 constexpr int kRefinements = 4;
 constexpr int kRefinementRounds = 2;
 
-void requireSane(const PrepareOptions& options, const std::string& source)
+void requireValid(const PrepareOptions& options, const std::string& source)
 {
-  const auto positive = [&](double value, const char* option, bool zero_too)
+  const auto positive = [&](double value, const char* option, bool zero_allowed)
   {
-    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_too))
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
       throw InputError(source, option, "must be a positive length in metres, e.g. 0.0002");
   };
   positive(options.max_distance, "--max-distance", false);
@@ -47,13 +47,15 @@ void requireSane(const PrepareOptions& options, const std::string& source)
   for (const Plug& plug : options.plugs)
     positive(plug.radius, "--plug", false);
   if (options.hollow && options.bridge > 0.0)
-    throw InputError(source, "--bridge", "joins pieces of a vessel, not hollows; leave it or --hollow out");
+    throw InputError(source, "--bridge",
+                     "excludes --hollow: bridges join components of a solid vessel; remove one of the two");
   if (options.facets_around < 8 || options.facets_around > 200)
     throw InputError(source, "--facets-around", "must be between 8 and 200");
   if (options.smoothing_rounds < 0 || options.smoothing_rounds > 10000)
     throw InputError(source, "--smoothing-rounds", "must be between 0 and 10000");
 }
 
+/** Pipeline of the mesh preparation. */
 class Preparation
 {
 public:
@@ -61,7 +63,7 @@ public:
               const Progress& progress)
     : input_(input), source_(source), options_(options), progress_(progress)
   {
-    requireSane(options, source);
+    requireValid(options, source);
     voxel_ = options.voxel > 0.0 ? options.voxel : kVoxelShare * options.max_distance;
   }
 
@@ -69,7 +71,7 @@ public:
   {
     check();
     unitePieces();
-    makeFacets();
+    remeshWall();
     smooth();
     findCentreline();
     openEnds();
@@ -95,33 +97,33 @@ private:
     report().hollow = options_.hollow;
     report().before = numbersOf(input_);
     if (input_.triangles.empty() || report().before.defects.invalid_faces.count > 0)
-      throw InputError(source_, "", "has no triangles, or vertices that are not finite; export it again");
-    if (report().before.area > kMostWallVoxels * voxel_ * voxel_)
-      throw InputError(source_, "--voxel", "is too small for a wall of this area; give a larger one, or check --unit");
+      throw InputError(source_, "", "has no triangles, or vertices that are not finite; export the mesh again");
+    if (report().before.area > kMaxWallVoxels * voxel_ * voxel_)
+      throw InputError(source_, "--voxel", "is too small for a wall of this area; increase it, or check --unit");
     ClosedMesh closed = closeHoles(input_);
     report().holes = std::move(closed.holes);
     soup_ = std::move(closed.mesh);
     const geometry::MeshDistance walls(input_);
     for (const Plug& plug : options_.plugs)
-      discs_.push_back(discOver(plug, walls, 0.5 * voxel_, source_));
+      discs_.push_back(fitDisc(plug, walls, 0.5 * voxel_, source_));
     own_triangles_ = input_.triangles.size();
     appendDiscs();
     if (options_.hollow)
-      takeHollow();
+      extractInnerWall();
   }
 
-  /** Unites, and joins loose pieces by bridges while that brings new ones into reach. */
+  /** Computes the union of the components. Bridges to loose components are added as long as new ones are found. */
   void unitePieces()
   {
     for (int round = 0; round < kBridgingRounds; ++round)
     {
-      begin(round == 0 ? "uniting the pieces" : "uniting the pieces and bridges");
+      begin(round == 0 ? "computing the union" : "computing the union with bridges");
       UnitedSurface united = unite(soup_, voxel_);
-      report().parted = std::move(united.cleared);
-      std::vector<geometry::TriangleMesh> pieces = separatePieces(united.mesh);
+      report().separated_sheets = std::move(united.separated);
+      std::vector<geometry::TriangleMesh> pieces = splitComponents(united.mesh);
       united_ = std::move(pieces.front());
-      if (united_.signedVolume() < least_volume_)
-        throw InputError(source_, "--hollow", "finds no hollow inside of the wall; stop every opening up by a --plug");
+      if (united_.signedVolume() < min_volume_)
+        throw InputError(source_, "--hollow", "finds no cavity inside the wall; close every opening with a --plug");
       pieces.erase(pieces.begin());
       if (!addBridges(pieces))
         return;
@@ -134,19 +136,20 @@ private:
       append(soup_, disc.mesh);
   }
 
-  /** Leaves the walls of the hollow only in the soup, and the discs that stop it up. */
-  void takeHollow()
+  /** Reduces the soup to the inner wall and the discs of its openings. */
+  void extractInnerWall()
   {
-    begin("telling the hollow's walls from the outside");
+    begin("extracting the inner wall");
     const geometry::TriangleMesh outside = unite(soup_, voxel_).mesh;
-    geometry::TriangleMesh walls = hollowWalls(soup_, outside, kHollowDepth * voxel_, discs_);
+    geometry::TriangleMesh walls = innerWall(soup_, outside, kHollowDepth * voxel_, discs_);
     own_triangles_ = walls.triangles.size();
-    least_volume_ = kCrumb * outside.signedVolume();
+    min_volume_ = kCrumb * outside.signedVolume();
     soup_ = std::move(walls);
     appendDiscs();
   }
 
-  /** Sorts the loose pieces. @return whether a bridge was added to the soup */
+  /** Classifies loose components as crumbs, cavities, bridged or dropped.
+   *  @return true if a bridge was added to the soup */
   bool addBridges(const std::vector<geometry::TriangleMesh>& loose)
   {
     const double volume = united_.signedVolume();
@@ -163,12 +166,12 @@ private:
         report().crumb_volume += piece_volume;
         continue;
       }
-      if (piece_volume < 0.0)  // a hollow inside of the vessel
+      if (piece_volume < 0.0)  // a cavity inside the vessel
         continue;
       const Gap gap = findGap(piece, united_);
       if (gap.radius > 0.0 && gap.width <= options_.bridge)
       {
-        append(soup_, bridgeOver(gap));
+        append(soup_, bridgeMesh(gap));
         report().bridges.push_back(gap);
         added = true;
       }
@@ -178,20 +181,20 @@ private:
     return added;
   }
 
-  void makeFacets()
+  void remeshWall()
   {
-    begin("measuring the lumen");
+    begin("computing the target edge lengths");
     SizingRule rule;
     rule.facets_around = options_.facets_around;
     rule.deviation = 0.5 * kFacetShare * options_.max_distance;
     rule.shortest = std::min(0.75 * voxel_, options_.longest_facet);
     rule.longest = options_.longest_facet;
-    MeshSizing wall(united_, rule);
-    begin("making even facets");
+    MeshTarget wall(united_, rule);
+    begin("remeshing");
     result_.mesh = remesh(united_, wall);
     for (int round = 0; round < kRefinements; ++round)
     {
-      begin("refining where the facets leave the wall");
+      begin("refining facets beyond the tolerance");
       if (wall.refine(geometry::MeshDistance(result_.mesh), kFacetShare * options_.max_distance) == 0)
         break;
       result_.mesh = remesh(result_.mesh, wall, kRefinementRounds);
@@ -216,13 +219,13 @@ private:
     begin("measuring the distances");
     const InputSurfaces input{soup_, own_triangles_, united_, voxel_};
     measureDeviations(input, result_.mesh, report());
-    if (!options_.hollow)  // of a wall with a thickness, narrow spaces outside are of no interest
+    if (!options_.hollow)  // gaps outside of a thick wall are irrelevant
       report().gaps = measureGaps(input, result_.mesh);
   }
 
   void findCentreline()
   {
-    begin("finding the centreline");
+    begin("extracting the centreline");
     result_.centreline = extractCentreline(result_.mesh);
     const geometry::MeshDistance before(united_);
     const geometry::MeshDistance after(result_.mesh);
@@ -242,7 +245,7 @@ private:
 
   void openEnds()
   {
-    const std::vector<CentrelineEnd> ends = chooseEnds(result_.centreline, options_.open, source_);
+    const std::vector<CentrelineEnd> ends = selectEnds(result_.centreline, options_.open, source_);
     if (!ends.empty())
       begin("opening ends");
     for (const CentrelineEnd& end : ends)
@@ -250,7 +253,7 @@ private:
     const std::vector<ClosedHole> rims = closeHoles(result_.mesh).holes;
     report().rims = static_cast<int>(rims.size());
     if (rims.size() != ends.size() || !std::all_of(rims.begin(), rims.end(), isFlatEnd))
-      throw InputError(source_, "--open", "an end could not be cut flat; give another --cut-back, or leave it out");
+      throw InputError(source_, "--open", "an end has no planar rim; specify another --cut-back, or omit the end");
   }
 
   const geometry::TriangleMesh& input_;
@@ -258,12 +261,12 @@ private:
   PrepareOptions options_;
   Progress progress_;
   double voxel_ = 0.0;
-  std::vector<Disc> discs_;  ///< that stop openings up
-  std::size_t own_triangles_ = 0;
-  double least_volume_ = 0.0;      ///< [m³]
-  geometry::TriangleMesh soup_;    ///< the input, lids, bridges
-  geometry::TriangleMesh united_;  ///< the outer wall, fine
-  std::vector<double> limits_;
+  std::vector<Disc> discs_;        ///< discs of the plugged openings
+  std::size_t own_triangles_ = 0;  ///< number of triangles of the input in soup_
+  double min_volume_ = 0.0;        ///< smallest volume of a vessel [m³]
+  geometry::TriangleMesh soup_;    ///< input, lids, discs, bridges
+  geometry::TriangleMesh united_;  ///< outer wall at the resolution of the grid
+  std::vector<double> limits_;     ///< largest displacement by smoothing, per vertex [m]
   PreparedVessel result_;
 };
 

@@ -14,8 +14,8 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/** More ends than this are not told one by one. */
-constexpr std::size_t kMostEnds = 40;
+/** Largest number of listed ends. */
+constexpr std::size_t kMaxEnds = 40;
 
 template <typename... Values>
 std::string line(const char* format, Values... values)
@@ -52,7 +52,7 @@ Json deviation(const geometry::Deviation& d)
   return {{"largest", d.largest},
           {"p99", d.p99},
           {"rms", d.rms},
-          {"place", point(d.place)},
+          {"place", point(d.location)},
           {"area_beyond_stated", d.beyond}};
 }
 
@@ -106,7 +106,8 @@ std::string table(const MeshNumbers& before, const MeshNumbers& after)
 std::string deviationLine(const char* name, const geometry::Deviation& d, double stated)
 {
   return line("%-24s largest %.3f mm at %s, 99 %% within %.3f, rms %.4f; beyond %.3g mm: %.3g mm2", name,
-              1e3 * d.largest, formatPlace(d.place).c_str(), 1e3 * d.p99, 1e3 * d.rms, 1e3 * stated, 1e6 * d.beyond);
+              1e3 * d.largest, formatLocation(d.location).c_str(), 1e3 * d.p99, 1e3 * d.rms, 1e3 * stated,
+              1e6 * d.beyond);
 }
 
 std::string changesText(const PrepareReport& r)
@@ -119,18 +120,18 @@ std::string changesText(const PrepareReport& r)
     text += line("closed %zu holes with lids of %.3g mm2", r.holes.size(), 1e6 * lids);
   for (const Gap& gap : r.bridges)
     text += line("bridge of %.2f mm, radius %.2f mm, from %s", 1e3 * gap.width, 1e3 * gap.radius,
-                 formatPlace(gap.from).c_str());
+                 formatLocation(gap.from).c_str());
   for (const LoosePiece& piece : r.dropped)
-    text += line("DROPPED a loose piece of %.3g ml, %.2f mm from the vessel at %s; --bridge %.4f joins it",
-                 1e6 * piece.volume, 1e3 * piece.gap, formatPlace(piece.place).c_str(), 1.1 * piece.gap + 1e-4);
+    text += line("DROPPED a loose component of %.3g ml, %.2f mm from the vessel at %s; --bridge %.4f joins it",
+                 1e6 * piece.volume, 1e3 * piece.gap, formatLocation(piece.location).c_str(), 1.1 * piece.gap + 1e-4);
   if (r.crumbs > 0)
-    text += line("dropped %d crumbs of %.2g ml altogether", r.crumbs, 1e6 * r.crumb_volume);
-  if (!r.parted.empty())
-    text += line("parted touching sheets at %zu places, the first near %s", r.parted.size(),
-                 formatPlace(r.parted.front()).c_str());
+    text += line("dropped %d crumbs of %.2g ml in total", r.crumbs, 1e6 * r.crumb_volume);
+  if (!r.separated_sheets.empty())
+    text += line("separated touching sheets at %zu locations, the first near %s", r.separated_sheets.size(),
+                 formatLocation(r.separated_sheets.front()).c_str());
   if (r.inner_area > 0.0)
-    text += line("removed walls %s: %.1f mm2", r.hollow ? "beside the hollow lumen" : "inside of the vessel",
-                 1e6 * r.inner_area);
+    text +=
+        line("removed walls %s: %.1f mm2", r.hollow ? "outside of the lumen" : "inside the vessel", 1e6 * r.inner_area);
   return text;
 }
 
@@ -140,11 +141,11 @@ std::string gapText(const PrepareReport& r)
     return "";
   const NarrowGaps& g = r.gaps;
   if (g.kept + g.closed == 0)
-    return line("no space between walls is narrower than two voxels");
-  std::string text = line("spaces between walls below two voxels: %d of %d samples kept", g.kept, g.kept + g.closed);
+    return line("no gap between walls is narrower than two voxels");
+  std::string text = line("gaps between walls below two voxels: %d of %d samples retained", g.kept, g.kept + g.closed);
   if (g.closed > 0)
-    text += line("  the widest that closed was %.3f mm, near %s: a septum there needs --voxel %.2g",
-                 1e3 * g.widest_closed, formatPlace(g.closed_place).c_str(), 0.5 * g.widest_closed);
+    text += line("  the widest closed gap was %.3f mm, near %s: a septum there requires --voxel %.2g",
+                 1e3 * g.widest_closed, formatLocation(g.closed_location).c_str(), 0.5 * g.widest_closed);
   return text;
 }
 
@@ -165,19 +166,18 @@ std::string endsText(const CentrelineTree& tree, const std::vector<Opening>& ope
   std::vector<CentrelineEnd> ends = centrelineEnds(tree);
   std::stable_sort(ends.begin(), ends.end(),
                    [](const CentrelineEnd& a, const CentrelineEnd& b) { return a.radius > b.radius; });
-  std::string text = "ends, the widest first:\n";
-  for (std::size_t k = 0; k < std::min(ends.size(), kMostEnds); ++k)
+  std::string text = "ends by decreasing radius:\n";
+  for (std::size_t k = 0; k < std::min(ends.size(), kMaxEnds); ++k)
   {
     const std::string& name = tree.branches[static_cast<std::size_t>(ends[k].branch)].name;
     const bool opened =
         std::any_of(openings.begin(), openings.end(),
                     [&](const Opening& o) { return o.end == name && o.outward.dot(ends[k].inward) < 0.0; });
     text += line("  %-12s radius %6.2f mm at %s%s", name.c_str(), 1e3 * ends[k].radius,
-                 formatPlace(ends[k].position).c_str(), opened ? ", opened" : "");
+                 formatLocation(ends[k].position).c_str(), opened ? ", opened" : "");
   }
-  if (ends.size() > kMostEnds)
-    text += line("  and %zu narrower ones: so many ends are mostly those of a hollow wall; see --plug",
-                 ends.size() - kMostEnds);
+  if (ends.size() > kMaxEnds)
+    text += line("  and %zu narrower ends: many ends indicate a thick wall; see --plug", ends.size() - kMaxEnds);
   return text;
 }
 
@@ -209,7 +209,7 @@ std::string PrepareReport::text(const CentrelineTree& tree) const
   std::string text = source + ": voxel " + line("%.3g mm", 1e3 * voxel) + table(before, after) + changesText(*this);
   text += deviationLine("input to result", input_to_result, max_distance) +
           deviationLine("result to input", result_to_input, max_distance);
-  text += line("%s the stated distance of %.3g mm", withinDistance() ? "within" : "BEYOND", 1e3 * max_distance);
+  text += line("%s the tolerance of %.3g mm", withinDistance() ? "within" : "BEYOND", 1e3 * max_distance);
   text += gapText(*this) + radiiText(*this);
   text += endsText(tree, openings);
   return text;
@@ -234,7 +234,7 @@ std::string PrepareReport::json(const CentrelineTree& tree) const
             {{"kept", gaps.kept},
              {"closed", gaps.closed},
              {"widest_closed", gaps.widest_closed},
-             {"widest_closed_place", point(gaps.closed_place)},
+             {"widest_closed_place", point(gaps.closed_location)},
              {"narrowest_kept", gaps.narrowest_kept}}}};
   for (const char* list : {"holes", "bridges", "dropped", "parted", "openings", "radii"})
     out[list] = Json::array();
@@ -243,16 +243,16 @@ std::string PrepareReport::json(const CentrelineTree& tree) const
                             {"perimeter", h.perimeter},
                             {"area", h.area},
                             {"unevenness", h.unevenness},
-                            {"place", point(h.place)}});
+                            {"place", point(h.location)}});
   for (const Gap& g : bridges)
     out["bridges"].push_back({{"from", point(g.from)}, {"to", point(g.to)}, {"width", g.width}, {"radius", g.radius}});
   for (const LoosePiece& p : dropped)
-    out["dropped"].push_back({{"volume", p.volume}, {"gap", p.gap}, {"place", point(p.place)}});
-  for (const Eigen::Vector3d& place : parted)
-    out["parted"].push_back(point(place));
+    out["dropped"].push_back({{"volume", p.volume}, {"gap", p.gap}, {"place", point(p.location)}});
+  for (const Eigen::Vector3d& location : separated_sheets)
+    out["parted"].push_back(point(location));
   for (const Opening& o : openings)
     out["openings"].push_back(
-        {{"branch", o.end}, {"place", point(o.place)}, {"outward", point(o.outward)}, {"radius", o.radius}});
+        {{"branch", o.end}, {"place", point(o.location)}, {"outward", point(o.outward)}, {"radius", o.radius}});
   for (const RadiusChange& r : radii)
     out["radii"].push_back({{"branch", r.branch}, {"arc", r.arc}, {"before", r.before}, {"after", r.after}});
   out["ends"] = ends(tree);

@@ -97,7 +97,7 @@ bool EditableMesh::canCollapse(int a, int b) const
   std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
   if (common.size() != 2)
     return false;
-  // A corner of degree three would be left with two triangles back to back.
+  // A vertex of valence three would be left with two coincident triangles.
   return degree(common[0]) > 3 && degree(common[1]) > 3 && degree(a) > 3 && degree(b) > 3;
 }
 

@@ -10,14 +10,14 @@
 namespace endovascular_sim::vessel
 {
 
-/** A closed two-manifold mesh whose edges can be split, collapsed and flipped. Every operation refuses what would break
- *  the manifold, so the topology stays as it was. */
+/** Closed two-manifold mesh with edge splits, collapses and flips. Operations that would violate manifoldness are
+ *  rejected, so the topology is preserved. */
 class EditableMesh
 {
 public:
   explicit EditableMesh(const geometry::TriangleMesh& mesh);
 
-  /** The mesh without the removed triangles and vertices. */
+  /** Copy of the mesh without removed triangles and vertices. */
   geometry::TriangleMesh compact() const;
 
   int vertexCount() const { return static_cast<int>(positions_.size()); }
@@ -28,32 +28,35 @@ public:
   const Eigen::Vector3d& position(int v) const { return positions_[static_cast<std::size_t>(v)]; }
   void move(int v, const Eigen::Vector3d& p) { positions_[static_cast<std::size_t>(v)] = p; }
 
-  /** Triangles round a vertex. */
+  /** Triangles adjacent to a vertex. */
   const std::vector<int>& around(int v) const { return around_[static_cast<std::size_t>(v)]; }
   int degree(int v) const { return static_cast<int>(around(v).size()); }
 
-  /** Neighbours of a vertex, ascending. */
+  /** Adjacent vertices, ascending. */
   std::vector<int> neighbours(int v) const;
 
-  /** The two triangles at an edge. @pre the edge exists */
+  /** Triangles adjacent to an edge, −1 for a missing one. */
   std::array<int, 2> trianglesAt(int a, int b) const;
 
-  /** The corner of a triangle that is neither a nor b. */
+  /** Corner of a triangle opposite to the edge (a, b). */
   int opposite(int t, int a, int b) const;
 
-  /** Puts a vertex on the edge. @return the new vertex */
+  /** Splits an edge by a vertex at p.
+   *  @return index of the new vertex */
   int split(int a, int b, const Eigen::Vector3d& p);
 
-  /** Whether a and b can become one: they share exactly the two neighbours opposite of their edge. */
+  /** Link condition of an edge collapse: a and b have exactly two common neighbours. */
   bool canCollapse(int a, int b) const;
 
-  /** Moves b onto p and makes a into b. @pre canCollapse */
+  /** Collapses the edge (a, b) into vertex b at p.
+   *  @pre canCollapse(a, b) */
   void collapse(int a, int b, const Eigen::Vector3d& p);
 
-  /** Replaces the edge by the one between the opposite corners; false where that edge exists already. */
+  /** Flips an edge.
+   *  @return false if the flip would violate manifoldness, for instance because the flipped edge exists */
   bool flip(int a, int b);
 
-  /** Normal of a triangle, of twice its area's length; @p moved stands at @p p instead. */
+  /** Area vector of a triangle times two, with vertex @p moved at @p p. */
   Eigen::Vector3d areaNormal(int t, int moved = -1, const Eigen::Vector3d& p = Eigen::Vector3d::Zero()) const;
 
 private:
@@ -62,8 +65,8 @@ private:
   void removeTriangle(int t);
 
   std::vector<Eigen::Vector3d> positions_;
-  std::vector<Eigen::Vector3i> triangles_;  ///< −1 in the first corner: removed
-  std::vector<std::vector<int>> around_;
+  std::vector<Eigen::Vector3i> triangles_;  ///< first index −1 for a removed triangle
+  std::vector<std::vector<int>> around_;    ///< adjacent triangles of each vertex
 };
 
 }  // namespace endovascular_sim::vessel

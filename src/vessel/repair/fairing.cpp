@@ -7,12 +7,12 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Factors of a step forth and of the one back; 1/kForth + 1/kBack is the pass band. */
-constexpr double kForth = 0.6307;
-constexpr double kBack = -0.6732;
+/** Taubin's factors λ and μ; the pass-band frequency is 1/λ + 1/μ. */
+constexpr double kLambda = 0.6307;
+constexpr double kMu = -0.6732;
 
-/** Moves every vertex by a factor of the way to the middle of its neighbours. */
-void step(geometry::TriangleMesh& mesh, double factor)
+/** Laplacian smoothing step with uniform weights (umbrella operator). */
+void laplacianStep(geometry::TriangleMesh& mesh, double factor)
 {
   std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
   std::vector<int> count(mesh.vertices.size(), 0);
@@ -34,13 +34,13 @@ void fair(geometry::TriangleMesh& mesh, const std::vector<double>& limits, int r
   const std::vector<Eigen::Vector3d> start = mesh.vertices;
   for (int round = 0; round < rounds; ++round)
   {
-    step(mesh, kForth);
-    step(mesh, kBack);
+    laplacianStep(mesh, kLambda);
+    laplacianStep(mesh, kMu);
     for (std::size_t v = 0; v < start.size(); ++v)
     {
-      const Eigen::Vector3d moved = mesh.vertices[v] - start[v];
-      if (moved.norm() > limits[v])
-        mesh.vertices[v] = start[v] + limits[v] / moved.norm() * moved;
+      const Eigen::Vector3d displacement = mesh.vertices[v] - start[v];
+      if (displacement.norm() > limits[v])
+        mesh.vertices[v] = start[v] + limits[v] / displacement.norm() * displacement;
     }
   }
 }

@@ -7,11 +7,11 @@
 namespace endovascular_sim::vessel
 {
 
-/** Takes the facets' edges out of a closed mesh of even triangles: a low-pass filter over its edges that keeps waves
- *  longer than about ten edges, so that lumens do not shrink. G. Taubin, "A signal processing approach to fair surface
- *  design", 1995, pass band 0.1. No vertex ends farther than its limit from where it stood.
- *  @param limits largest movement per vertex [m]
- *  @param rounds 0 leaves the mesh as it is; 30 take out most of what can be */
+/** Taubin λ|μ smoothing of a closed mesh of isotropic triangles. The low-pass filter retains wavelengths above about
+ *  ten edges, so that lumens do not shrink. G. Taubin, "A signal processing approach to fair surface design", 1995,
+ *  pass band 0.1.
+ *  @param limits largest displacement per vertex [m]
+ *  @param rounds number of λ|μ steps; 0 leaves the mesh unchanged */
 void fair(geometry::TriangleMesh& mesh, const std::vector<double>& limits, int rounds);
 
 }  // namespace endovascular_sim::vessel

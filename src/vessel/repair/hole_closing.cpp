@@ -13,36 +13,38 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A rim is flat when it leaves its plane by less than this fraction of its perimeter. */
+/** Largest unevenness of a planar rim, relative to its perimeter. */
 constexpr double kFlat = 1e-3;
-/** Fewer edges are a hole in a wall rather than the round end of a vessel. */
-constexpr int kFewestEdges = 8;
+/** Minimum number of edges of a vessel's end; holes with fewer edges are defects. */
+constexpr int kMinEdges = 8;
 
+/** Boundary edge in the direction of its face. */
 struct RimEdge
 {
-  int from;  ///< as the face at the rim runs
+  int from;
   int to;
 };
 
-/** Rims by their smallest vertex, each with its edges in the order of the mesh's edges. */
+/** Connected boundaries, keyed by their smallest vertex, with sorted edges. */
 std::map<int, std::vector<RimEdge>> findRims(const geometry::TriangleMesh& mesh)
 {
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
-  std::vector<geometry::EdgeUse> rim_edges;
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
+  std::vector<geometry::HalfEdge> rim_edges;
   geometry::DisjointSets sets(mesh.vertices.size());
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
-    if (geometry::endOfEdge(uses, begin) - begin == 1)
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
+    if (geometry::endOfEdge(half_edges, begin) - begin == 1)
     {
-      rim_edges.push_back(uses[begin]);
-      sets.join(uses[begin].low, uses[begin].high);
+      rim_edges.push_back(half_edges[begin]);
+      sets.join(half_edges[begin].low, half_edges[begin].high);
     }
   std::map<int, std::vector<RimEdge>> rims;
-  for (const geometry::EdgeUse& use : rim_edges)
-    rims[sets.find(use.low)].push_back(use.forward ? RimEdge{use.low, use.high} : RimEdge{use.high, use.low});
+  for (const geometry::HalfEdge& half_edge : rim_edges)
+    rims[sets.find(half_edge.low)].push_back(half_edge.forward ? RimEdge{half_edge.low, half_edge.high}
+                                                               : RimEdge{half_edge.high, half_edge.low});
   return rims;
 }
 
-/** Every vertex is left once and reached once: one loop, as its edges are connected. */
+/** True if every vertex of a connected rim has one incoming and one outgoing edge. */
 bool isLoop(const std::vector<RimEdge>& rim)
 {
   std::map<int, std::pair<int, int>> degree;
@@ -55,7 +57,7 @@ bool isLoop(const std::vector<RimEdge>& rim)
                      [](const auto& entry) { return entry.second == std::pair<int, int>(1, 1); });
 }
 
-/** Appends the fan over a rim to the mesh. */
+/** Closes a rim by a triangle fan. */
 ClosedHole addLid(geometry::TriangleMesh& mesh, const std::vector<RimEdge>& rim)
 {
   const auto at = [&mesh](int v) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(v)]; };
@@ -65,23 +67,23 @@ ClosedHole addLid(geometry::TriangleMesh& mesh, const std::vector<RimEdge>& rim)
   {
     const double length = (at(edge.to) - at(edge.from)).norm();
     hole.perimeter += length;
-    hole.place += 0.5 * length * (at(edge.from) + at(edge.to));
+    hole.location += 0.5 * length * (at(edge.from) + at(edge.to));
   }
-  hole.place = hole.perimeter > 0.0 ? Eigen::Vector3d(hole.place / hole.perimeter) : at(rim.front().from);
+  hole.location = hole.perimeter > 0.0 ? Eigen::Vector3d(hole.location / hole.perimeter) : at(rim.front().from);
 
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   for (const RimEdge& edge : rim)
-    area += 0.5 * (at(edge.to) - hole.place).cross(at(edge.from) - hole.place);
+    area += 0.5 * (at(edge.to) - hole.location).cross(at(edge.from) - hole.location);
   const Eigen::Vector3d normal = area.norm() > 0.0 ? Eigen::Vector3d(area.normalized()) : Eigen::Vector3d::UnitZ();
   hole.simple = isLoop(rim);
   const int centre = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.push_back(hole.place);
+  mesh.vertices.push_back(hole.location);
   for (const RimEdge& edge : rim)
   {
-    const Eigen::Vector3d face = 0.5 * (at(edge.to) - hole.place).cross(at(edge.from) - hole.place);
+    const Eigen::Vector3d face = 0.5 * (at(edge.to) - hole.location).cross(at(edge.from) - hole.location);
     hole.area += face.norm();
     hole.simple = hole.simple && face.dot(normal) > 0.0;
-    hole.unevenness = std::max(hole.unevenness, std::abs((at(edge.from) - hole.place).dot(normal)));
+    hole.unevenness = std::max(hole.unevenness, std::abs((at(edge.from) - hole.location).dot(normal)));
     mesh.triangles.emplace_back(centre, edge.to, edge.from);
   }
   return hole;
@@ -102,7 +104,7 @@ ClosedMesh closeHoles(geometry::TriangleMesh mesh)
 
 bool isFlatEnd(const ClosedHole& hole)
 {
-  return hole.simple && hole.edges >= kFewestEdges && hole.unevenness <= kFlat * hole.perimeter;
+  return hole.simple && hole.edges >= kMinEdges && hole.unevenness <= kFlat * hole.perimeter;
 }
 
 }  // namespace endovascular_sim::vessel

@@ -60,38 +60,40 @@ void checkFaces(const geometry::TriangleMesh& mesh, MeshReport& report)
       report.unused_vertices.add(mesh.vertices[v]);
 }
 
-void checkEdges(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+void checkEdges(const geometry::TriangleMesh& mesh, const std::vector<geometry::HalfEdge>& half_edges,
+                MeshReport& report)
 {
-  for (std::size_t begin = 0; begin < uses.size();)
+  for (std::size_t begin = 0; begin < half_edges.size();)
   {
-    const std::size_t end = geometry::endOfEdge(uses, begin);
-    const Eigen::Vector3d place = 0.5 * (mesh.vertices[static_cast<std::size_t>(uses[begin].low)] +
-                                         mesh.vertices[static_cast<std::size_t>(uses[begin].high)]);
+    const std::size_t end = geometry::endOfEdge(half_edges, begin);
+    const Eigen::Vector3d location = 0.5 * (mesh.vertices[static_cast<std::size_t>(half_edges[begin].low)] +
+                                            mesh.vertices[static_cast<std::size_t>(half_edges[begin].high)]);
     if (end - begin == 1)
-      report.boundary_edges.add(place);
+      report.boundary_edges.add(location);
     else if (end - begin > 2)
-      report.non_manifold_edges.add(place);
-    else if (uses[begin].forward == uses[begin + 1].forward)
-      report.misoriented_edges.add(place);
+      report.non_manifold_edges.add(location);
+    else if (half_edges[begin].forward == half_edges[begin + 1].forward)
+      report.misoriented_edges.add(location);
     begin = end;
   }
 }
 
-/** A vertex is manifold when its faces, joined over the edges that meet in it, form one fan. */
-void checkVertices(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+/** Finds non-manifold vertices: the faces of a manifold vertex, connected over its edges, form one fan. */
+void checkVertices(const geometry::TriangleMesh& mesh, const std::vector<geometry::HalfEdge>& half_edges,
+                   MeshReport& report)
 {
   geometry::DisjointSets corners(3 * mesh.triangles.size());
-  const auto cornerAt = [&mesh](const geometry::EdgeUse& use, int vertex)
+  const auto cornerAt = [&mesh](const geometry::HalfEdge& half_edge, int vertex)
   {
-    const bool first = mesh.triangles[static_cast<std::size_t>(use.triangle)][use.side] == vertex;
-    return 3 * use.triangle + (first ? use.side : (use.side + 1) % 3);
+    const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
+    return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
   };
-  for (std::size_t begin = 0; begin < uses.size();)
+  for (std::size_t begin = 0; begin < half_edges.size();)
   {
-    const std::size_t end = geometry::endOfEdge(uses, begin);
+    const std::size_t end = geometry::endOfEdge(half_edges, begin);
     for (std::size_t k = begin + 1; k < end; ++k)
-      for (int vertex : {uses[begin].low, uses[begin].high})
-        corners.join(cornerAt(uses[begin], vertex), cornerAt(uses[k], vertex));
+      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
+        corners.join(cornerAt(half_edges[begin], vertex), cornerAt(half_edges[k], vertex));
     begin = end;
   }
   std::vector<int> fan(mesh.vertices.size(), -1);
@@ -110,9 +112,10 @@ void checkVertices(const geometry::TriangleMesh& mesh, const std::vector<geometr
   }
 }
 
-void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geometry::EdgeUse>& uses, MeshReport& report)
+void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geometry::HalfEdge>& half_edges,
+                     MeshReport& report)
 {
-  const std::vector<int> component = geometry::triangleComponents(mesh, uses);
+  const std::vector<int> component = geometry::triangleComponents(mesh, half_edges);
   std::map<int, MeshComponent> by_representative;
   const Eigen::Vector3d origin = mesh.vertices.front();
   for (std::size_t t = 0; t < component.size(); ++t)
@@ -120,7 +123,7 @@ void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geome
     const int index = static_cast<int>(t);
     MeshComponent& piece = by_representative[component[t]];
     if (piece.triangles++ == 0)
-      piece.place = corner(mesh, index, 0);
+      piece.location = corner(mesh, index, 0);
     piece.volume += (corner(mesh, index, 0) - origin)
                         .dot((corner(mesh, index, 1) - origin).cross(corner(mesh, index, 2) - origin)) /
                     6.0;
@@ -146,15 +149,15 @@ void append(std::string& text, const MeshDefect& defect, const std::string& what
   if (defect.count == 0)
     return;
   text += (text.empty() ? "" : "; ") + std::to_string(defect.count) + " " + what + ", the first near " +
-          formatPlace(defect.place);
+          formatLocation(defect.location);
 }
 
 }  // namespace
 
-std::string formatPlace(const Eigen::Vector3d& place)
+std::string formatLocation(const Eigen::Vector3d& location)
 {
   char text[96];
-  std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g) mm", 1e3 * place.x(), 1e3 * place.y(), 1e3 * place.z());
+  std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g) mm", 1e3 * location.x(), 1e3 * location.y(), 1e3 * location.z());
   return text;
 }
 
@@ -166,11 +169,11 @@ bool MeshReport::clean() const
 std::string MeshReport::summary() const
 {
   std::string text;
-  append(text, invalid_faces, "faces or vertices with an impossible index or coordinate");
+  append(text, invalid_faces, "faces or vertices with an invalid index or coordinate");
   append(text, boundary_edges, "boundary edges (holes)");
   append(text, non_manifold_edges, "non-manifold edges (three or more faces meet)");
   append(text, non_manifold_vertices, "vertices where separate sheets touch");
-  append(text, misoriented_edges, "edges whose faces turn opposite ways");
+  append(text, misoriented_edges, "edges with inconsistently oriented faces");
   append(text, degenerate_faces, "faces without area");
   append(text, duplicate_faces, "duplicate faces");
   append(text, unused_vertices, "unused vertices");
@@ -194,15 +197,15 @@ MeshReport checkMesh(const geometry::TriangleMesh& mesh)
     report.lower = report.lower.cwiseMin(v);
     report.upper = report.upper.cwiseMax(v);
   }
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
   checkFaces(mesh, report);
-  checkEdges(mesh, uses, report);
-  checkVertices(mesh, uses, report);
-  checkComponents(mesh, uses, report);
+  checkEdges(mesh, half_edges, report);
+  checkVertices(mesh, half_edges, report);
+  checkComponents(mesh, half_edges, report);
   report.signed_volume = mesh.signedVolume();
 
   int edges = 0;
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
     ++edges;
   const int vertices = static_cast<int>(mesh.vertices.size()) - report.unused_vertices.count;
   const int euler = vertices - edges + static_cast<int>(mesh.triangles.size());
@@ -215,7 +218,7 @@ void requirePlausibleSize(const MeshReport& report, double unit, const std::stri
   const double size = (report.upper - report.lower).maxCoeff();
   if (size >= kSmallestVessel && size <= kLargestVessel)
     return;
-  std::string remedy = "its bounding box is " + formatLength(size) + " long; a vessel is between " +
+  std::string remedy = "its bounding box is " + formatLength(size) + " long; the size of a vessel is between " +
                        formatLength(kSmallestVessel) + " and " + formatLength(kLargestVessel);
   const std::array<std::pair<double, const char*>, 5> units{
       {{1.0, "metres"}, {1e-3, "millimetres"}, {1e-2, "centimetres"}, {0.0254, "inches"}, {1e-6, "micrometres"}}};

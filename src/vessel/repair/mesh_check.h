@@ -10,64 +10,66 @@
 namespace endovascular_sim::vessel
 {
 
-/** How often a defect occurs, and where the first one is. */
+/** Number of occurrences of a defect, with the location of the first one. */
 struct MeshDefect
 {
   int count = 0;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the first one [m]
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();  ///< location of the first occurrence [m]
 
-  /** Counts one more. */
+  /** Adds an occurrence. */
   void add(const Eigen::Vector3d& where)
   {
     if (count++ == 0)
-      place = where;
+      location = where;
   }
 };
 
-/** A connected piece of a mesh (joined over edges). */
+/** Connected component of a mesh (connected over edges). */
 struct MeshComponent
 {
   int triangles = 0;
-  double volume = 0.0;                              ///< signed [m³]
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< a corner of its first triangle [m]
+  double volume = 0.0;                                 ///< signed volume [m³]
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();  ///< corner of the first triangle [m]
 };
 
-/** What is right and wrong with a mesh. */
+/** Defects and global properties of a mesh. */
 struct MeshReport
 {
-  MeshDefect boundary_edges;         ///< edges of one face: the rim of a hole
-  MeshDefect non_manifold_edges;     ///< edges of three or more faces
-  MeshDefect misoriented_edges;      ///< edges whose two faces turn opposite ways
-  MeshDefect non_manifold_vertices;  ///< vertices where separate fans of faces touch
-  MeshDefect degenerate_faces;       ///< a repeated vertex, or no area
-  MeshDefect duplicate_faces;        ///< the same three vertices as an earlier face
-  MeshDefect unused_vertices;
-  MeshDefect invalid_faces;               ///< an index that does not exist, or a coordinate that is not finite
-  std::vector<MeshComponent> components;  ///< largest number of triangles first
-  double signed_volume = 0.0;             ///< [m³]; negative: faces point inward
-  int genus = 0;                          ///< handles, all components together; meaningful without the defects above
+  MeshDefect boundary_edges;              ///< edges of one face
+  MeshDefect non_manifold_edges;          ///< edges of three or more faces
+  MeshDefect misoriented_edges;           ///< edges with two inconsistently oriented faces
+  MeshDefect non_manifold_vertices;       ///< vertices shared by several fans of faces
+  MeshDefect degenerate_faces;            ///< faces with a repeated vertex or without area
+  MeshDefect duplicate_faces;             ///< faces with the same three vertices as an earlier face
+  MeshDefect unused_vertices;             ///< vertices without faces
+  MeshDefect invalid_faces;               ///< faces with an invalid index, vertices with a non-finite coordinate
+  std::vector<MeshComponent> components;  ///< by decreasing number of triangles
+  double signed_volume = 0.0;             ///< [m³]; negative if faces point inward
+  int genus = 0;                          ///< total genus of all components; valid only without the defects above
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();  ///< bounding box [m]
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
 
-  /** Watertight, two-manifold, oriented outwards, in one piece, without faces or vertices that do nothing. */
+  /** True for a watertight, outward oriented two-manifold of one component, without degenerate, duplicate or unused
+   *  elements. */
   bool clean() const;
 
-  /** All defects as one text for people; empty when clean. */
+  /** Human-readable list of all defects; empty for a clean mesh. */
   std::string summary() const;
 };
 
-/** Looks at everything above. Time grows with n log n. */
+/** Checks a mesh. The cost is O(n log n) in the number of triangles. */
 MeshReport checkMesh(const geometry::TriangleMesh& mesh);
 
-/** Refuses a bounding box whose longest side is outside of 5 mm to 3 m, and suggests the unit it seems to be in.
- *  @param unit metres per unit of the file with which the mesh was read
- *  @throws InputError naming @p source */
+/** Requires the longest side of the bounding box to be between 5 mm and 3 m.
+ *  @param unit metres per unit with which the file was read
+ *  @throws InputError naming @p source and the presumed unit */
 void requirePlausibleSize(const MeshReport& report, double unit, const std::string& source);
 
-/** @throws InputError naming @p source and all defects, unless the mesh is clean */
+/** Requires a clean mesh.
+ *  @throws InputError naming @p source and all defects */
 void requireClean(const MeshReport& report, const std::string& source);
 
-/** "(12.3, −4, 5.6) mm" */
-std::string formatPlace(const Eigen::Vector3d& place);
+/** Formats a position as "(12.3, −4, 5.6) mm". */
+std::string formatLocation(const Eigen::Vector3d& location);
 
 }  // namespace endovascular_sim::vessel

@@ -12,7 +12,7 @@
 
 #include "common/error.h"
 #include "geometry/mesh_topology.h"
-#include "vessel/repair/cap_flipping.h"
+#include "vessel/repair/cap_removal.h"
 #include "vessel/repair/hole_closing.h"
 #include "vessel/repair/mesh_check.h"
 
@@ -21,7 +21,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A closed crumb that encloses less than this fraction of the vessel's volume is dropped. */
+/** Volume of a crumb relative to the vessel; closed components below it are dropped. */
 constexpr double kCrumbVolume = 1e-6;
 
 std::string counted(int count, const std::string& singular, const std::string& plural)
@@ -29,7 +29,7 @@ std::string counted(int count, const std::string& singular, const std::string& p
   return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }
 
-/** Joins each vertex to the earliest one within kWeldDistance. */
+/** Welds each vertex to the earliest one within kWeldDistance. */
 int weld(geometry::TriangleMesh& mesh)
 {
   using Cell = std::array<std::int64_t, 3>;
@@ -122,7 +122,7 @@ int dropUnused(geometry::TriangleMesh& mesh)
   return dropped;
 }
 
-/** Closed components that enclose next to nothing beside the largest one. */
+/** Drops closed components of negligible volume relative to the largest one. */
 int dropCrumbs(geometry::TriangleMesh& mesh)
 {
   struct Piece
@@ -130,12 +130,12 @@ int dropCrumbs(geometry::TriangleMesh& mesh)
     bool closed = true;
     double volume = 0.0;
   };
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
-  const std::vector<int> component = geometry::triangleComponents(mesh, uses);
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
+  const std::vector<int> component = geometry::triangleComponents(mesh, half_edges);
   std::map<int, Piece> pieces;
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
-    if (geometry::endOfEdge(uses, begin) - begin != 2)
-      pieces[component[static_cast<std::size_t>(uses[begin].triangle)]].closed = false;
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
+    if (geometry::endOfEdge(half_edges, begin) - begin != 2)
+      pieces[component[static_cast<std::size_t>(half_edges[begin].triangle)]].closed = false;
   for (std::size_t t = 0; t < component.size(); ++t)
   {
     const auto at = [&](int k)
@@ -154,25 +154,25 @@ int dropCrumbs(geometry::TriangleMesh& mesh)
                        });
 }
 
-/** Gives every further fan of faces around a vertex a vertex of its own. */
-int partTouchingSheets(geometry::TriangleMesh& mesh)
+/** Splits non-manifold vertices: every fan of faces receives a vertex of its own. */
+int separateTouchingSheets(geometry::TriangleMesh& mesh)
 {
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
   geometry::DisjointSets corners(3 * mesh.triangles.size());
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
-    for (std::size_t k = begin + 1; k < geometry::endOfEdge(uses, begin); ++k)
-      for (int vertex : {uses[begin].low, uses[begin].high})
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
+    for (std::size_t k = begin + 1; k < geometry::endOfEdge(half_edges, begin); ++k)
+      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
       {
-        const auto cornerAt = [&](const geometry::EdgeUse& use)
+        const auto cornerAt = [&](const geometry::HalfEdge& half_edge)
         {
-          const bool first = mesh.triangles[static_cast<std::size_t>(use.triangle)][use.side] == vertex;
-          return 3 * use.triangle + (first ? use.side : (use.side + 1) % 3);
+          const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
+          return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
         };
-        corners.join(cornerAt(uses[begin]), cornerAt(uses[k]));
+        corners.join(cornerAt(half_edges[begin]), cornerAt(half_edges[k]));
       }
   std::map<std::pair<int, int>, int> vertex_of_fan;
   std::vector<bool> taken(mesh.vertices.size(), false);
-  int parted = 0;
+  int split = 0;
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
   {
     int& corner = mesh.triangles[c / 3][static_cast<int>(c % 3)];
@@ -181,16 +181,16 @@ int partTouchingSheets(geometry::TriangleMesh& mesh)
     {
       entry->second = static_cast<int>(mesh.vertices.size());
       mesh.vertices.push_back(Eigen::Vector3d(mesh.vertices[static_cast<std::size_t>(corner)]));
-      ++parted;
+      ++split;
     }
     else if (is_new)
       taken[static_cast<std::size_t>(corner)] = true;
     corner = entry->second;
   }
-  return parted;
+  return split;
 }
 
-void turn(Eigen::Vector3i& triangle)
+void invert(Eigen::Vector3i& triangle)
 {
   std::swap(triangle[1], triangle[2]);
 }
@@ -199,19 +199,19 @@ void turn(Eigen::Vector3i& triangle)
 
 int alignFaces(geometry::TriangleMesh& mesh)
 {
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
   struct Neighbour
   {
     int triangle;
     bool agrees;
   };
   std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
   {
-    if (geometry::endOfEdge(uses, begin) - begin != 2)
+    if (geometry::endOfEdge(half_edges, begin) - begin != 2)
       continue;
-    const geometry::EdgeUse& a = uses[begin];
-    const geometry::EdgeUse& b = uses[begin + 1];
+    const geometry::HalfEdge& a = half_edges[begin];
+    const geometry::HalfEdge& b = half_edges[begin + 1];
     neighbours[static_cast<std::size_t>(a.triangle)].push_back({b.triangle, a.forward != b.forward});
     neighbours[static_cast<std::size_t>(b.triangle)].push_back({a.triangle, a.forward != b.forward});
   }
@@ -219,7 +219,7 @@ int alignFaces(geometry::TriangleMesh& mesh)
   {
     kUnseen,
     kKeep,
-    kTurn
+    kInvert
   };
   std::vector<char> state(mesh.triangles.size(), kUnseen);
   for (std::size_t seed = 0; seed < state.size(); ++seed)
@@ -231,33 +231,33 @@ int alignFaces(geometry::TriangleMesh& mesh)
     for (open.push(seed); !open.empty(); open.pop())
       for (const Neighbour& next : neighbours[open.front()])
       {
-        const char wanted = next.agrees == (state[open.front()] == kKeep) ? kKeep : kTurn;
+        const char required = next.agrees == (state[open.front()] == kKeep) ? kKeep : kInvert;
         char& known = state[static_cast<std::size_t>(next.triangle)];
-        if (known != kUnseen && known != wanted)
+        if (known != kUnseen && known != required)
           return -1;
         if (known == kUnseen)
         {
-          known = wanted;
+          known = required;
           open.push(static_cast<std::size_t>(next.triangle));
         }
       }
   }
-  int turned = 0;
+  int inverted = 0;
   for (std::size_t t = 0; t < state.size(); ++t)
-    if (state[t] == kTurn)
+    if (state[t] == kInvert)
     {
-      turn(mesh.triangles[t]);
-      ++turned;
+      invert(mesh.triangles[t]);
+      ++inverted;
     }
-  // The minority is what was wrong.
-  return std::min(turned, static_cast<int>(state.size()) - turned);
+  // The minority was misoriented.
+  return std::min(inverted, static_cast<int>(state.size()) - inverted);
 }
 
 namespace
 {
 
-/** Puts lids on the open ends of a vessel cut across; does nothing when there are other holes.
- *  @return the number of lids */
+/** Closes the planar ends of a vessel by lids. No effect if there are other holes.
+ *  @return number of lids */
 int closeFlatEnds(geometry::TriangleMesh& mesh)
 {
   ClosedMesh closed = closeHoles(mesh);
@@ -267,24 +267,24 @@ int closeFlatEnds(geometry::TriangleMesh& mesh)
   return static_cast<int>(closed.holes.size());
 }
 
-/** Refuses what no safe repair can mend. */
+/** Rejects meshes with defects that have no safe repair. */
 void requireRepairable(const MeshReport& report, const std::string& source)
 {
-  MeshReport hopeless;
-  hopeless.boundary_edges = report.boundary_edges;
-  hopeless.non_manifold_edges = report.non_manifold_edges;
-  hopeless.components.resize(1);
-  hopeless.signed_volume = 1.0;
-  std::string reason = hopeless.summary();
+  MeshReport irreparable;
+  irreparable.boundary_edges = report.boundary_edges;
+  irreparable.non_manifold_edges = report.non_manifold_edges;
+  irreparable.components.resize(1);
+  irreparable.signed_volume = 1.0;
+  std::string reason = irreparable.summary();
   if (report.components.size() > 1)
     reason += (reason.empty() ? "" : "; ") + std::to_string(report.components.size()) +
               " separate components (the two largest have " + std::to_string(report.components[0].triangles) + " and " +
               std::to_string(report.components[1].triangles) + " triangles, the second near " +
-              formatPlace(report.components[1].place) + ")";
+              formatLocation(report.components[1].location) + ")";
   if (!reason.empty())
     throw InputError(source, "",
                      "the mesh is not a closed surface of one lumen and cannot be repaired safely: " + reason +
-                         ". vessel_prepare closes holes, unites parts and re-meshes: docs/VESSELS.md");
+                         ". vessel_prepare closes holes, unites components and remeshes: docs/VESSELS.md");
 }
 
 }  // namespace
@@ -297,31 +297,30 @@ RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source)
     if (count > 0)
       result.notes.push_back(counted(count, singular, plural));
   };
-  note(weld(mesh), "vertex joined to an equal one", "vertices joined to equal ones");
-  // Before edges are turned, because they would be those of more than two faces.
+  note(weld(mesh), "vertex welded", "vertices welded");
+  // Before edges are flipped: collapsed and duplicate faces would make their edges non-manifold.
   int without_area = dropCollapsed(mesh);
   const int duplicates = dropDuplicates(mesh);
-  note(flipCaps(mesh, kWeldDistance), "edge turned beside a face without height",
-       "edges turned beside faces without height");
+  note(removeCaps(mesh, kWeldDistance), "edge of a cap triangle flipped", "edges of cap triangles flipped");
   without_area += dropDegenerate(mesh);
-  note(without_area, "face without area dropped", "faces without area dropped");
+  note(without_area, "degenerate face dropped", "degenerate faces dropped");
   note(duplicates, "duplicate face dropped", "duplicate faces dropped");
-  note(dropCrumbs(mesh), "stray face that encloses nothing dropped", "stray faces that enclose nothing dropped");
+  note(dropCrumbs(mesh), "face of a component without volume dropped", "faces of components without volume dropped");
   dropUnused(mesh);
   if (mesh.triangles.empty())
-    throw InputError(source, "", "has no triangle with an area");
-  note(closeFlatEnds(mesh), "open end closed by a flat lid", "open ends closed by flat lids");
+    throw InputError(source, "", "has only degenerate triangles");
+  note(closeFlatEnds(mesh), "planar end closed by a lid", "planar ends closed by lids");
   requireRepairable(checkMesh(mesh), source);
 
-  note(partTouchingSheets(mesh), "vertex parted where two sheets touched", "vertices parted where two sheets touched");
-  const int turned = alignFaces(mesh);
-  if (turned < 0)
+  note(separateTouchingSheets(mesh), "vertex shared by two sheets split", "vertices shared by two sheets split");
+  const int inverted = alignFaces(mesh);
+  if (inverted < 0)
     throw InputError(source, "", "the surface is one-sided (like a Möbius strip): it encloses no lumen");
-  note(turned, "face turned to agree with its neighbours", "faces turned to agree with their neighbours");
+  note(inverted, "misoriented face inverted", "misoriented faces inverted");
   if (mesh.signedVolume() < 0.0)
   {
-    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), turn);
-    result.notes.emplace_back("all faces turned: they pointed into the lumen");
+    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), invert);
+    result.notes.emplace_back("all faces inverted: they pointed into the lumen");
   }
   requireClean(checkMesh(mesh), source);
   result.mesh = std::move(mesh);

@@ -8,26 +8,31 @@
 namespace endovascular_sim::vessel
 {
 
-/** A mesh that is fit for use, and what was done to it. */
+/** Repaired mesh with the log of its repairs. */
 struct RepairedMesh
 {
   geometry::TriangleMesh mesh;
-  std::vector<std::string> notes;  ///< one sentence per repair; empty when nothing was wrong
+  std::vector<std::string> notes;  ///< one per kind of repair; empty for a clean mesh
 };
 
-/** Vertices closer than this are one [m]. */
+/** Distance below which vertices are welded [m]. */
 constexpr double kWeldDistance = 1e-7;
 
-/** Repairs what is safe: joins vertices closer than kWeldDistance, turns edges of faces lower than that, drops faces
- * without area, duplicate faces and unused vertices, parts sheets that touch in a vertex, turns faces so that all point
- * out of the lumen, drops crumbs that enclose less than a millionth of the vessel, closes ends that are cut across flat
- * by lids. Shapes are never invented: other holes, non-manifold edges and several lumens are refused.
- *  @param source names the mesh in errors
- *  @throws InputError with the count and place of every defect that stays */
+/** Applies safe repairs:
+ *  - welds vertices closer than kWeldDistance;
+ *  - flips the edges of caps lower than kWeldDistance;
+ *  - drops degenerate faces, duplicate faces, unused vertices and crumbs below a millionth of the vessel's volume;
+ *  - splits vertices that are shared by two sheets;
+ *  - orients all faces out of the lumen;
+ *  - closes planar ends by lids.
+ *
+ *  Other holes, non-manifold edges and several lumens are rejected, because their repair would invent geometry.
+ *  @param source name of the mesh in errors
+ *  @throws InputError with number and location of every remaining defect */
 RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source);
 
-/** Turns faces to agree with the first one of their component. @return how many (of the minority), or −1 for a
- * one-sided surface, some of whose faces are then unturned */
+/** Orients the faces of each component like its first face.
+ *  @return number of misoriented faces (the minority); −1 for a one-sided surface, which is unchanged */
 int alignFaces(geometry::TriangleMesh& mesh);
 
 }  // namespace endovascular_sim::vessel

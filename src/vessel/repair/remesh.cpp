@@ -12,32 +12,33 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** Edges longer or shorter than these multiples of the facet length are split or collapsed. */
+/** Ratios to the target edge length above and below which edges are split or collapsed. */
 constexpr double kLongest = 4.0 / 3.0;
 constexpr double kShortest = 4.0 / 5.0;
-/** A collapse may turn a face by this much: cosine. */
-constexpr double kLargestTurn = 0.5;
-/** Guards beside the spikes of a coarse wall, where several points may be projected to one: a face may become this much
- *  smaller, and this is the least piece of an edge that is split. Smooth walls need none. */
-constexpr double kLeastArea = 1e-7;
-constexpr double kLeastPiece = 0.05;
+/** Cosine of the largest rotation of a face normal by a collapse or flip. */
+constexpr double kMaxRotation = 0.5;
+/** Guards at the creases of a coarse wall, where several points may have the same projection: minimum ratio of a face's
+ *  new area to the old one, and minimum relative length of the parts of a split edge. Smooth targets need no guards. */
+constexpr double kMinAreaRatio = 1e-7;
+constexpr double kMinSplitRatio = 0.05;
 
+/** Incremental isotropic remeshing. */
 class Remesher
 {
 public:
-  /** @param takes_part per vertex; empty: all do */
-  Remesher(const geometry::TriangleMesh& mesh, const RemeshWall& wall, const std::vector<char>& takes_part)
+  /** @param is_free per vertex, nonzero if it may move; empty if all vertices may move */
+  Remesher(const geometry::TriangleMesh& mesh, const RemeshTarget& target, const std::vector<char>& is_free)
     : mesh_(mesh),
-      wall_(wall),
-      least_area_(takes_part.empty() ? 0.0 : kLeastArea),
-      least_piece_(takes_part.empty() ? 0.0 : kLeastPiece)
+      target_(target),
+      min_area_ratio_(is_free.empty() ? 0.0 : kMinAreaRatio),
+      min_split_ratio_(is_free.empty() ? 0.0 : kMinSplitRatio)
   {
     for (int v = 0; v < mesh_.vertexCount(); ++v)
     {
-      facet_.push_back(0.0);
+      edge_length_.push_back(0.0);
       normal_.emplace_back(Eigen::Vector3d::Zero());
-      if (takes_part.empty() || takes_part[static_cast<std::size_t>(v)] != 0)
-        project(v, mesh_.position(v));
+      if (is_free.empty() || is_free[static_cast<std::size_t>(v)] != 0)
+        place(v, target_.project(mesh_.position(v)));
     }
   }
 
@@ -55,30 +56,26 @@ public:
   }
 
 private:
-  /** Whether a vertex may be moved: those that stay have no facet length. */
-  bool isFree(int v) const { return facet_[static_cast<std::size_t>(v)] > 0.0; }
+  /** True if a vertex may move; fixed vertices have no edge length. */
+  bool isFree(int v) const { return edge_length_[static_cast<std::size_t>(v)] > 0.0; }
 
-  double facet(int a, int b) const
+  double targetLength(int a, int b) const
   {
     if (!isFree(a) || !isFree(b))
-      return std::max(facet_[static_cast<std::size_t>(a)], facet_[static_cast<std::size_t>(b)]);
-    return 0.5 * (facet_[static_cast<std::size_t>(a)] + facet_[static_cast<std::size_t>(b)]);
+      return std::max(edge_length_[static_cast<std::size_t>(a)], edge_length_[static_cast<std::size_t>(b)]);
+    return 0.5 * (edge_length_[static_cast<std::size_t>(a)] + edge_length_[static_cast<std::size_t>(b)]);
   }
 
   double length(int a, int b) const { return (mesh_.position(a) - mesh_.position(b)).norm(); }
 
-  WallPoint onWall(const Eigen::Vector3d& p) const { return wall_.onWall(p); }
-
-  void put(int v, const WallPoint& place)
+  void place(int v, const TargetPoint& target)
   {
-    mesh_.move(v, place.position);
-    facet_[static_cast<std::size_t>(v)] = place.facet;
-    normal_[static_cast<std::size_t>(v)] = place.normal;
+    mesh_.move(v, target.position);
+    edge_length_[static_cast<std::size_t>(v)] = target.edge_length;
+    normal_[static_cast<std::size_t>(v)] = target.normal;
   }
 
-  void project(int v, const Eigen::Vector3d& p) { put(v, onWall(p)); }
-
-  /** Calls edit(a, b) for the edges of all triangles that exist at the beginning, while they exist. */
+  /** Calls edit(a, b) for every edge of the triangles that exist at the time of the call. */
   template <typename Edit>
   void forEdges(Edit edit)
   {
@@ -98,21 +95,21 @@ private:
     forEdges(
         [this](int a, int b)
         {
-          if ((!isFree(a) && !isFree(b)) || length(a, b) <= kLongest * facet(a, b))
+          if ((!isFree(a) && !isFree(b)) || length(a, b) <= kLongest * targetLength(a, b))
             return;
-          const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
-          // Beside a spike of the wall the middle may be the spike itself.
+          const TargetPoint middle = target_.project(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          // At a crease, the projected midpoint may coincide with a corner.
           const auto sides = mesh_.trianglesAt(a, b);
           for (int near : {a, b, mesh_.opposite(sides[0], a, b), mesh_.opposite(sides[1], a, b)})
-            if ((middle.position - mesh_.position(near)).norm() < least_piece_ * length(a, b))
+            if ((middle.position - mesh_.position(near)).norm() < min_split_ratio_ * length(a, b))
               return;
           mesh_.split(a, b, middle.position);
-          facet_.push_back(middle.facet);
+          edge_length_.push_back(middle.edge_length);
           normal_.push_back(middle.normal);
         });
   }
 
-  bool collapseIsGood(int a, int b, const WallPoint& middle) const
+  bool collapseIsValid(int a, int b, const TargetPoint& middle) const
   {
     for (const auto& [moved, other] : {std::pair<int, int>{a, b}, std::pair<int, int>{b, a}})
     {
@@ -122,14 +119,14 @@ private:
           continue;
         const Eigen::Vector3d before = mesh_.areaNormal(t);
         const Eigen::Vector3d after = mesh_.areaNormal(t, moved, middle.position);
-        const bool was_sliver = before.norm() < 1e-3 * middle.facet * middle.facet;
-        if (!was_sliver && before.dot(after) < kLargestTurn * before.norm() * after.norm())
+        const bool was_sliver = before.norm() < 1e-3 * middle.edge_length * middle.edge_length;
+        if (!was_sliver && before.dot(after) < kMaxRotation * before.norm() * after.norm())
           return false;
-        if (after.dot(middle.normal) < kLargestTurn * after.norm() || after.norm() < least_area_ * before.norm())
+        if (after.dot(middle.normal) < kMaxRotation * after.norm() || after.norm() < min_area_ratio_ * before.norm())
           return false;
       }
       for (int v : mesh_.neighbours(moved))
-        if (v != other && (mesh_.position(v) - middle.position).norm() > kLongest * middle.facet)
+        if (v != other && (mesh_.position(v) - middle.position).norm() > kLongest * middle.edge_length)
           return false;
     }
     return true;
@@ -140,13 +137,13 @@ private:
     forEdges(
         [this](int a, int b)
         {
-          if (!isFree(a) || !isFree(b) || length(a, b) >= kShortest * facet(a, b) || !mesh_.canCollapse(a, b))
+          if (!isFree(a) || !isFree(b) || length(a, b) >= kShortest * targetLength(a, b) || !mesh_.canCollapse(a, b))
             return;
-          const WallPoint middle = onWall(0.5 * (mesh_.position(a) + mesh_.position(b)));
-          if (!(middle.facet > 0.0) || !collapseIsGood(a, b, middle))
+          const TargetPoint middle = target_.project(0.5 * (mesh_.position(a) + mesh_.position(b)));
+          if (!(middle.edge_length > 0.0) || !collapseIsValid(a, b, middle))
             return;
           mesh_.collapse(a, b, middle.position);
-          put(b, middle);
+          place(b, middle);
         });
   }
 
@@ -157,7 +154,7 @@ private:
     return std::atan2(u.cross(v).norm(), u.dot(v));
   }
 
-  /** Delaunay's criterion, where the new pair of faces agrees with the wall's normals. */
+  /** Delaunay flips whose new faces agree with the target's normals. */
   void flipEdges()
   {
     for (int sweep = 0; sweep < 3; ++sweep)
@@ -178,7 +175,8 @@ private:
             for (int t : sides)
             {
               const Eigen::Vector3d face = mesh_.areaNormal(t);
-              if (face.dot(normal) < kLargestTurn * face.norm() * normal.norm() || face.norm() < least_area_ * whole)
+              if (face.dot(normal) < kMaxRotation * face.norm() * normal.norm() ||
+                  face.norm() < min_area_ratio_ * whole)
               {
                 mesh_.flip(c, d);
                 return;
@@ -189,7 +187,7 @@ private:
 
   const Eigen::Vector3d& normalAt(int v) const { return normal_[static_cast<std::size_t>(v)]; }
 
-  /** Moves every vertex along the wall towards the middle of its triangles, weighted by their size in facets. */
+  /** Tangential smoothing towards the centroid of the adjacent triangles, weighted by area over squared edge length. */
   void relax()
   {
     const int count = mesh_.vertexCount();
@@ -202,7 +200,7 @@ private:
       for (int t : mesh_.around(v))
       {
         const Eigen::Vector3i& c = mesh_.triangle(t);
-        const double local = (facet(c[0], c[1]) + facet(c[1], c[2]) + facet(c[2], c[0])) / 3.0;
+        const double local = (targetLength(c[0], c[1]) + targetLength(c[1], c[2]) + targetLength(c[2], c[0])) / 3.0;
         const double weight = mesh_.areaNormal(t).norm() / (local * local);
         middle += weight / 3.0 * (mesh_.position(c[0]) + mesh_.position(c[1]) + mesh_.position(c[2]));
         weights += weight;
@@ -211,44 +209,44 @@ private:
         continue;
       const Eigen::Vector3d shift = middle / weights - mesh_.position(v);
       const Eigen::Vector3d& n = normalAt(v);
-      const WallPoint place = onWall(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
-      if (place.facet > 0.0 && keepsFacesUpright(v, place))
-        put(v, place);
+      const TargetPoint target = target_.project(mesh_.position(v) + 0.7 * (shift - shift.dot(n) * n));
+      if (target.edge_length > 0.0 && preservesOrientation(v, target))
+        place(v, target);
     }
   }
 
-  bool keepsFacesUpright(int v, const WallPoint& place) const
+  bool preservesOrientation(int v, const TargetPoint& target) const
   {
     for (int t : mesh_.around(v))
     {
       const Eigen::Vector3d before = mesh_.areaNormal(t);
-      const Eigen::Vector3d after = mesh_.areaNormal(t, v, place.position);
-      if (after.norm() < least_area_ * before.norm())
+      const Eigen::Vector3d after = mesh_.areaNormal(t, v, target.position);
+      if (after.norm() < min_area_ratio_ * before.norm())
         return false;
-      if (after.dot(place.normal) < 0.2 * after.norm() && after.dot(place.normal) < before.dot(normalAt(v)))
+      if (after.dot(target.normal) < 0.2 * after.norm() && after.dot(target.normal) < before.dot(normalAt(v)))
         return false;
     }
     return true;
   }
 
   EditableMesh mesh_;
-  const RemeshWall& wall_;
-  double least_area_, least_piece_;
-  std::vector<double> facet_;
+  const RemeshTarget& target_;
+  double min_area_ratio_, min_split_ratio_;
+  std::vector<double> edge_length_;
   std::vector<Eigen::Vector3d> normal_;
 };
 
 }  // namespace
 
-geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const RemeshWall& wall, int rounds)
+geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const RemeshTarget& target, int rounds)
 {
-  return Remesher(mesh, wall, {}).run(rounds);
+  return Remesher(mesh, target, {}).run(rounds);
 }
 
-geometry::TriangleMesh remeshPart(const geometry::TriangleMesh& mesh, const RemeshWall& wall,
-                                  const std::vector<char>& takes_part, int rounds)
+geometry::TriangleMesh remeshRegion(const geometry::TriangleMesh& mesh, const RemeshTarget& target,
+                                    const std::vector<char>& is_free, int rounds)
 {
-  return Remesher(mesh, wall, takes_part).run(rounds);
+  return Remesher(mesh, target, is_free).run(rounds);
 }
 
 }  // namespace endovascular_sim::vessel

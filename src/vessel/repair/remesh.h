@@ -9,33 +9,35 @@
 namespace endovascular_sim::vessel
 {
 
-/** A place on the wall. */
-struct WallPoint
+/** Point of a remeshing target. */
+struct TargetPoint
 {
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d normal;    ///< unit, out of the lumen
-  double facet;              ///< edge length that the mesh should have there [m]
+  double edge_length;        ///< target edge length of the mesh [m]; 0 for a fixed region
 };
 
-/** A surface that points near it can be laid onto. */
-class RemeshWall
+/** Interface to a remeshing target: projection surface with a sizing field. */
+class RemeshTarget
 {
 public:
-  virtual ~RemeshWall() = default;
-  virtual WallPoint onWall(const Eigen::Vector3d& p) const = 0;
+  virtual ~RemeshTarget() = default;
+
+  /** Projects a nearby point onto the surface. */
+  virtual TargetPoint project(const Eigen::Vector3d& p) const = 0;
 };
 
-/** Makes the triangles of a closed two-manifold mesh even, at the wall's facet length, with every vertex on the wall.
+/** Isotropic remeshing of a closed two-manifold mesh onto a target surface with a sizing field.
  *
- *  Splits, collapses and flips of edges that keep the topology, tangential smoothing, and projection on the wall
- *  (M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004, with lengths that vary).
- *  @param rounds of all that; fewer suffice for a mesh that is nearly even */
-geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const RemeshWall& wall, int rounds = 6);
+ *  Edge splits, collapses and flips that preserve the topology, tangential smoothing, and projection (M. Botsch,
+ *  L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004).
+ *  @param rounds number of iterations; a nearly isotropic mesh needs fewer */
+geometry::TriangleMesh remesh(const geometry::TriangleMesh& mesh, const RemeshTarget& target, int rounds = 6);
 
-/** The same for a part of a mesh: vertices that do not take part stay where they are, and so do all triangles between
- *  them.
- *  @param takes_part per vertex, 1 or 0; new vertices take part where the wall's facet length is positive */
-geometry::TriangleMesh remeshPart(const geometry::TriangleMesh& mesh, const RemeshWall& wall,
-                                  const std::vector<char>& takes_part, int rounds = 6);
+/** Remeshes a region. Fixed vertices and the triangles between them are unchanged.
+ *  @param is_free per vertex, 1 if it may move, else 0; new vertices may move where the target's edge length is
+ *           positive */
+geometry::TriangleMesh remeshRegion(const geometry::TriangleMesh& mesh, const RemeshTarget& target,
+                                    const std::vector<char>& is_free, int rounds = 6);
 
 }  // namespace endovascular_sim::vessel

@@ -24,7 +24,7 @@ std::string forkText()
   return text.str();
 }
 
-/** The fork with one place of its text replaced, and what becomes of it. */
+/** Fork with one replaced text fragment, and the expected error. */
 struct Change
 {
   const char* name;
@@ -39,11 +39,11 @@ void PrintTo(const Change& change, std::ostream* out)
   *out << change.name;
 }
 
-class RefusedAnatomy : public testing::TestWithParam<Change>
+class RejectedAnatomy : public testing::TestWithParam<Change>
 {
 };
 
-TEST_P(RefusedAnatomy, NamesFileKeyAndRemedy)
+TEST_P(RejectedAnatomy, ReportsFileKeyAndRemedy)
 {
   std::string text = forkText();
   const std::size_t at = text.find(GetParam().from);
@@ -69,7 +69,7 @@ TEST_P(RefusedAnatomy, NamesFileKeyAndRemedy)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Anatomy, RefusedAnatomy,
+    Anatomy, RejectedAnatomy,
     testing::Values(
         Change{"unknown_key", "diameters: [[0, 8]", "diametres: [[0, 8]", "branches[trunk].diametres (line",
                "unknown key"},
@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"both_parents", "parent: trunk", "parent: trunk\n    continues: trunk", "branches[right].continues",
                "keep one of the two"},
         Change{"continued_twice", "parent: trunk", "continues: trunk", "branches[right].continues",
-               "continues that branch"},
-        Change{"same_name", "name: right", "name: left", "branches[left].name", "an earlier branch too"},
+               "already continues that branch"},
+        Change{"same_name", "name: right", "name: left", "branches[left].name", "the name of an earlier branch"},
         Change{"two_coordinates", "[0, 2, 25]", "[0, 2]", "branches[trunk].points", "[x, y, z]"},
         Change{"coinciding_points", "[0, 2, 25]", "[0, 0, 0]", "branches[trunk].points", "points 1 and 2 coincide"},
         Change{"one_point", "[[0, 0, 49], [-12, 0, 66], [-20, 5, 90]]", "[[0, 0, 49]]", "branches[right].points",
@@ -99,17 +99,17 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"stenosis_without_length", "length: 12", "length: 0", "stenoses[throat].length", "a positive length"},
         Change{"flat_bulge", "radius: 4", "radius: 0", "bulges[sinus].radius", "a positive radius"},
         Change{"begins_outside", "[0, 0, 49], [-12", "[9, 0, 49], [-12", "branches[right].points",
-               "must lie inside of the parent"},
+               "must lie inside the parent"},
         Change{"too_tight", "[-12, 0, 66], [-20, 5, 90]", "[-12, 0, 66], [-10, 1, 64], [-12, 2, 62]",
-               "branches[right].points", "bends more tightly than it is wide"},
+               "branches[right].points", "radius of curvature is smaller than"},
         Change{"step_at_the_joint", "diameters: [[1, 6]]", "diameters: [[0, 5], [1, 6]]", "branches[left].diameters",
-               "leave that entry out"},
+               "remove that entry"},
         Change{"not_yaml", "name: fork", "name: [fork", "line", "is not valid YAML"},
         Change{"branches_as_text", "branches:\n  - name: trunk", "branches: none\nx:\n  - name: trunk", "x",
                "unknown key"}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(Anatomy, RefusesAFileThatDoesNotExist)
+TEST(Anatomy, RejectsAMissingFile)
 {
   EXPECT_THROW(readAnatomy("/nowhere/anatomy.yaml"), InputError);
 }
@@ -125,14 +125,14 @@ TEST(Anatomy, ReadsTheForkInMetres)
   EXPECT_NEAR(anatomy.bulges[0].radius, 0.004, 1e-15);
 }
 
-TEST(Anatomy, GivesTheExactCentrelineWithItsNames)
+TEST(Anatomy, HasTheExactCentrelineWithBranchNames)
 {
   const Anatomy anatomy = readAnatomy(kFork);
   const CentrelineTree tree = anatomyCentreline(anatomy, sampleChains(anatomy));
   ASSERT_EQ(tree.branches.size(), 3U);
   EXPECT_EQ(tree.branches[2].name, "right");
   EXPECT_EQ(tree.branches[1].parent, 0);
-  // Continuations share a point and a radius; the right arm begins on the trunk's centreline.
+  // Continuations share a point and a radius; the right branch begins on the trunk's centreline.
   EXPECT_EQ(tree.branches[1].points.front(), tree.branches[0].points.back());
   EXPECT_EQ(tree.branches[1].radii.front(), tree.branches[0].radii.back());
   EXPECT_LT((tree.branches[0].points.back() - Eigen::Vector3d(0, 0, 0.05)).norm(), 1e-12);

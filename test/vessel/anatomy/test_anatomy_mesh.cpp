@@ -25,7 +25,7 @@ namespace
 const std::string kFork = std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml";
 const std::string kDefault = std::string(PROJECT_DIR) + "/config/anatomies/default.yaml";
 
-/** A folder that goes away with the test. */
+/** Temporary folder that is removed after the test. */
 class CacheFolder
 {
 public:
@@ -52,7 +52,7 @@ private:
   std::string path_;
 };
 
-/** Mean distance from the axis to the wall across it, at rays all round. */
+/** Mean distance from the axis to the wall along rays normal to the axis. */
 double meanRadius(const geometry::MeshDistance& wall, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis)
 {
   const Eigen::Vector3d u = axis.unitOrthogonal();
@@ -67,7 +67,7 @@ double meanRadius(const geometry::MeshDistance& wall, const Eigen::Vector3d& cen
   return sum / count;
 }
 
-/** Whether no other branch, and no bulge, widens the lumen near a point. */
+/** True if no other branch and no bulge affects the lumen near a point. */
 bool onItsOwn(const CentrelineTree& tree, const Anatomy& anatomy, std::size_t branch, const Eigen::Vector3d& p,
               double radius)
 {
@@ -89,7 +89,8 @@ bool onItsOwn(const CentrelineTree& tree, const Anatomy& anatomy, std::size_t br
   return true;
 }
 
-/** Compares mesh and file all along every branch; @return how many places were compared. */
+/** Compares the radii of mesh and file along every branch.
+ *  @return number of compared points */
 int compareDiameters(const Anatomy& anatomy, const Vessel& vessel, double tolerance)
 {
   const geometry::MeshDistance wall(vessel.mesh);
@@ -110,7 +111,7 @@ int compareDiameters(const Anatomy& anatomy, const Vessel& vessel, double tolera
   return compared;
 }
 
-TEST(ImplicitVessel, IsTheDistanceToAnEvenTube)
+TEST(ImplicitVessel, IsTheDistanceToACylinder)
 {
   Anatomy anatomy = readAnatomy(kFork);
   anatomy.bulges.clear();
@@ -129,7 +130,7 @@ TEST(ImplicitVessel, IsTheDistanceToAnEvenTube)
 TEST(ImplicitVessel, GradientAgreesWithFiniteDifferences)
 {
   Anatomy anatomy = readAnatomy(kFork);
-  // Where the radius changes along the branch the gradient leaves its slope out; an even one is exact.
+  // The gradient omits the slope of the radius along the branch; it is exact for a constant radius.
   anatomy.branches[0].diameters = {{0.0, 7e-3}};
   anatomy.branches[1].diameters = {{1.0, 7e-3}};
   anatomy.branches[2].diameters = {{0.0, 5e-3}};
@@ -141,18 +142,18 @@ TEST(ImplicitVessel, GradientAgreesWithFiniteDifferences)
     const Eigen::Vector3d p(0.006 * std::sin(1.1 * k), 0.005 * std::cos(2.3 * k), 0.045 + 0.03 * std::sin(0.3 * k));
     const FieldSample sample = field.at(p);
     if (std::abs(sample.distance) > 1.5e-3)
-      continue;  // near the wall only: on the axis there is no gradient
+      continue;  // the gradient is undefined on the axis
     Eigen::Vector3d difference;
     for (int i = 0; i < 3; ++i)
       difference[i] =
           (field.at(p + h * Eigen::Vector3d::Unit(i)).distance - field.at(p - h * Eigen::Vector3d::Unit(i)).distance) /
           (2.0 * h);
-    // The range of the blend follows the radius, and the axis is a spline: small terms that are left out.
+    // The gradient omits the small terms from the blending range and from the curvature of the spline.
     EXPECT_LT((difference - sample.gradient).norm(), 0.02) << p.transpose();
   }
 }
 
-TEST(AnatomyMesh, OfTheForkIsOneWatertightSurface)
+TEST(AnatomyMesh, IsOneWatertightSurface)
 {
   const Anatomy anatomy = readAnatomy(kFork);
   const Vessel vessel = loadAnatomy(kFork, "");
@@ -163,12 +164,12 @@ TEST(AnatomyMesh, OfTheForkIsOneWatertightSurface)
   EXPECT_GT(compareDiameters(anatomy, vessel, 0.02), 20);
 }
 
-TEST(AnatomyMesh, IsTheSameBitForBit)
+TEST(AnatomyMesh, IsReproducibleBitForBit)
 {
   EXPECT_EQ(loadAnatomy(kFork, "").mesh.hash(), loadAnatomy(kFork, "").mesh.hash());
 }
 
-TEST(AnatomyMesh, HasItsVerticesOnTheImplicitWall)
+TEST(AnatomyMesh, HasItsVerticesOnTheImplicitSurface)
 {
   const Anatomy anatomy = readAnatomy(kFork);
   const std::vector<AnatomyChain> chains = sampleChains(anatomy);
@@ -177,10 +178,10 @@ TEST(AnatomyMesh, HasItsVerticesOnTheImplicitWall)
     ASSERT_LT(std::abs(field.at(v).distance), 1e-7);
 }
 
-TEST(AnatomyMesh, RefusesBranchesThatMeetAgain)
+TEST(AnatomyMesh, RejectsBranchesThatFormALoop)
 {
   Anatomy anatomy = readAnatomy(kFork);
-  anatomy.branches[2].points.back() = {0.022, 0.0, 0.082};  // into the tip of the left arm
+  anatomy.branches[2].points.back() = {0.022, 0.0, 0.082};  // into the tip of the left branch
   anatomy.branches[2].points[1] = {-0.004, 0.0, 0.078};
   anatomy.branches[2].stenoses.clear();
   try
@@ -190,11 +191,12 @@ TEST(AnatomyMesh, RefusesBranchesThatMeetAgain)
   }
   catch (const InputError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("branches touch that should not"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("branches that are not parent and child overlap"), std::string::npos)
+        << error.what();
   }
 }
 
-TEST(AnatomyCache, GivesTheSameMeshAndSurvivesDamage)
+TEST(AnatomyCache, ReturnsTheSameMeshAndRebuildsDamagedEntries)
 {
   const CacheFolder folder;
   const std::uint64_t hash = loadAnatomy(kFork, folder.path()).mesh.hash();
@@ -202,7 +204,7 @@ TEST(AnatomyCache, GivesTheSameMeshAndSurvivesDamage)
   ASSERT_FALSE(file.empty());
   const Vessel cached = loadAnatomy(kFork, folder.path());
   EXPECT_EQ(cached.mesh.hash(), hash);
-  EXPECT_NE(cached.notes.at(0).find("taken from"), std::string::npos);
+  EXPECT_NE(cached.notes.at(0).find("loaded from"), std::string::npos);
 
   {
     std::fstream damage(file, std::ios::in | std::ios::out | std::ios::binary);
@@ -212,14 +214,14 @@ TEST(AnatomyCache, GivesTheSameMeshAndSurvivesDamage)
   const Vessel repaired = loadAnatomy(kFork, folder.path());
   EXPECT_EQ(repaired.mesh.hash(), hash);
   EXPECT_NE(repaired.notes.at(0).find("generated"), std::string::npos);
-  EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("taken from"), std::string::npos);
+  EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("loaded from"), std::string::npos);
 
   std::filesystem::resize_file(file, 1000);
   EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("generated"), std::string::npos);
-  EXPECT_EQ(folder.onlyFile(), file) << "no temporary file stays behind";
+  EXPECT_EQ(folder.onlyFile(), file) << "no temporary file remains";
 }
 
-TEST(AnatomyCache, ReadsNothingUnderAnotherKey)
+TEST(AnatomyCache, ReturnsNothingUnderAnotherKey)
 {
   const CacheFolder folder;
   geometry::TriangleMesh mesh;
@@ -233,15 +235,15 @@ TEST(AnatomyCache, ReadsNothingUnderAnotherKey)
   EXPECT_FALSE(readCachedMesh(folder.path() + "/absent.mesh", 7).has_value());
 }
 
-TEST(AnatomyCache, ThatCannotBeWrittenOnlyCostsTime)
+TEST(AnatomyCache, ToleratesAReadOnlyFolder)
 {
   const Vessel vessel = loadAnatomy(kFork, "/proc/no_such_folder");
   EXPECT_EQ(checkMesh(vessel.mesh).summary(), "");
   ASSERT_EQ(vessel.notes.size(), 2U);
-  EXPECT_NE(vessel.notes[1].find("could not be kept"), std::string::npos);
+  EXPECT_NE(vessel.notes[1].find("could not be cached"), std::string::npos);
 }
 
-/** The anatomy that is shipped; generated once for all its tests. */
+/** Default anatomy, generated once for all tests. */
 class DefaultAnatomy : public testing::Test
 {
 protected:
@@ -295,7 +297,7 @@ TEST_F(DefaultAnatomy, NarrowsTheLeftAnteriorDescending)
               0.04);
 }
 
-TEST_F(DefaultAnatomy, HasTheVesselsAndEndsOfTheIntervention)
+TEST_F(DefaultAnatomy, HasTheBranchesAndEndsOfTheIntervention)
 {
   std::vector<std::string> ends;
   for (const CentrelineEnd& end : centrelineEnds(vessel_->centreline))
@@ -307,7 +309,7 @@ TEST_F(DefaultAnatomy, HasTheVesselsAndEndsOfTheIntervention)
   EXPECT_EQ(ends, expected);
 }
 
-TEST_F(DefaultAnatomy, HasASmoothWallOfEvenFacets)
+TEST_F(DefaultAnatomy, HasASmoothWallOfIsotropicFacets)
 {
   const geometry::TriangleMesh& mesh = vessel_->mesh;
   const auto normal = [&mesh](int t)
@@ -316,16 +318,16 @@ TEST_F(DefaultAnatomy, HasASmoothWallOfEvenFacets)
     { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])]; };
     return Eigen::Vector3d((at(1) - at(0)).cross(at(2) - at(0)).normalized());
   };
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
+  const std::vector<geometry::HalfEdge> uses = geometry::sortedHalfEdges(mesh);
   std::vector<double> angles;
   for (std::size_t begin = 0; begin < uses.size(); begin += 2)
     angles.push_back(
         std::acos(std::clamp(normal(uses[begin].triangle).dot(normal(uses[begin + 1].triangle)), -1.0, 1.0)));
   std::sort(angles.begin(), angles.end());
-  // 20 facets around turn by 18° at an edge along the vessel.
+  // 20 facets around the lumen: dihedral angle of 18° at an edge along the vessel
   EXPECT_LT(angles[angles.size() / 2], 12.0 * M_PI / 180.0);
   EXPECT_LT(angles[angles.size() * 999 / 1000], 25.0 * M_PI / 180.0);
-  // At the sharpest carina.
+  // At the sharpest carina
   EXPECT_LT(angles.back(), 75.0 * M_PI / 180.0);
 
   double worst = 1e300;

@@ -27,23 +27,23 @@ TubeShape bentTube()
   return shape;
 }
 
-TEST(Tube, IsWatertightAndWithoutHandles)
+TEST(Tube, IsWatertightAndOfGenusZero)
 {
   const MeshReport report = checkMesh(tubeMesh(bentTube()));
   EXPECT_EQ(report.summary(), "");
   EXPECT_EQ(report.genus, 0);
 }
 
-TEST(Tube, EnclosesThePolygonTimesTheAxis)
+TEST(Tube, HasTheVolumeOfASweptPolygon)
 {
-  // Pappus: the volume is the cross-section's area times the way of its centroid, less the sagitta of the arc's rings.
+  // Pappus: the volume is the area of the cross-section times the path of its centroid, minus the sagitta of the rings.
   const TubeShape shape = bentTube();
   const double area = 0.5 * 32 * std::sin(2.0 * M_PI / 32) * 9e-6;
   const double length = 4.0 * 3e-3 + 0.1 + 0.5 * M_PI * 0.03;
   EXPECT_NEAR(tubeMesh(shape).signedVolume() / (area * length), 1.0, 1e-4);
 }
 
-TEST(Tube, EndsWhereTheBendLeads)
+TEST(Tube, EndsAtTheEndOfTheBend)
 {
   const CentrelineTree tree = tubeCentreline(bentTube());
   const Eigen::Vector3d end = tree.branches[0].points.back();
@@ -52,7 +52,7 @@ TEST(Tube, EndsWhereTheBendLeads)
   EXPECT_NEAR((start - Eigen::Vector3d(0.0, 0.0, -kTubeRunIn * 3e-3)).norm(), 0.0, 1e-12);
 }
 
-TEST(Tube, BendsInThePlaneGiven)
+TEST(Tube, BendsInTheSpecifiedPlane)
 {
   TubeShape shape = bentTube();
   shape.pieces[1].plane_angle = 0.5 * M_PI;
@@ -60,23 +60,23 @@ TEST(Tube, BendsInThePlaneGiven)
   EXPECT_NEAR((end - Eigen::Vector3d(0.0, 0.08, 0.08)).norm(), 0.0, 1e-12);
 }
 
-TEST(Tube, StandsInThePoseGiven)
+TEST(Tube, HasTheSpecifiedPose)
 {
   TubeShape shape = bentTube();
   const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1, 2, 3).normalized());
-  const Eigen::Vector3d place(0.1, -0.2, 0.3);
+  const Eigen::Vector3d position(0.1, -0.2, 0.3);
   TubeShape moved = shape;
-  moved.position = place;
+  moved.position = position;
   moved.direction = turn * shape.direction;
   moved.up = turn * (shape.up + 0.4 * shape.direction);
   const geometry::TriangleMesh a = tubeMesh(shape);
   const geometry::TriangleMesh b = tubeMesh(moved);
   ASSERT_EQ(a.vertices.size(), b.vertices.size());
   for (std::size_t v = 0; v < a.vertices.size(); ++v)
-    EXPECT_LT((turn * a.vertices[v] + place - b.vertices[v]).norm(), 1e-12);
+    EXPECT_LT((turn * a.vertices[v] + position - b.vertices[v]).norm(), 1e-12);
 }
 
-TEST(Tube, HasItsVerticesOnTheWallAndItsAxisInTheMiddle)
+TEST(Tube, HasItsVerticesOnTheWallAroundItsAxis)
 {
   const TubeShape shape = bentTube();
   const geometry::TriangleMesh mesh = tubeMesh(shape);
@@ -90,7 +90,7 @@ TEST(Tube, HasItsVerticesOnTheWallAndItsAxisInTheMiddle)
   }
 }
 
-TEST(Tube, KeepsFacetsShorterThanAsked)
+TEST(Tube, LimitsTheFacetLength)
 {
   const TubeShape shape = bentTube();
   const geometry::TriangleMesh mesh = tubeMesh(shape);
@@ -103,7 +103,7 @@ TEST(Tube, KeepsFacetsShorterThanAsked)
                 std::hypot(1e-3, around) + 1e-9);
 }
 
-TEST(Tube, RefusesImpossibleShapes)
+TEST(Tube, RejectsInvalidShapes)
 {
   TubeShape shape = bentTube();
   shape.pieces[1].curvature = 1.0 / 2e-3;
@@ -119,10 +119,10 @@ TEST(Tube, RefusesImpossibleShapes)
   EXPECT_THROW(tubeMesh(shape), InputError);
 }
 
-TEST(Subdivision, FlatKeepsTheSurfaceExactly)
+TEST(Subdivision, MidpointSubdivisionPreservesTheSurface)
 {
   const geometry::TriangleMesh mesh = tubeMesh(bentTube());
-  const geometry::TriangleMesh fine = geometry::flatSubdivision(mesh, 2);
+  const geometry::TriangleMesh fine = geometry::midpointSubdivision(mesh, 2);
   EXPECT_EQ(fine.triangles.size(), 16 * mesh.triangles.size());
   EXPECT_EQ(checkMesh(fine).summary(), "");
   EXPECT_NEAR(fine.signedVolume() / mesh.signedVolume(), 1.0, 1e-12);
@@ -131,7 +131,7 @@ TEST(Subdivision, FlatKeepsTheSurfaceExactly)
     EXPECT_LT(distance.closest(fine.vertices[v]).distance, 1e-15);
 }
 
-/** Largest angle between neighbouring faces of a stretch of the tube without caps. */
+/** Largest dihedral angle between adjacent faces in a section of the tube without caps. */
 double largestAngle(const geometry::TriangleMesh& mesh)
 {
   double largest = 0.0;
@@ -157,7 +157,7 @@ double largestAngle(const geometry::TriangleMesh& mesh)
   return largest;
 }
 
-TEST(Subdivision, LoopSmoothsAndStaysWatertight)
+TEST(Subdivision, LoopSubdivisionSmoothsAndStaysWatertight)
 {
   const geometry::TriangleMesh mesh = tubeMesh(bentTube());
   const geometry::TriangleMesh smooth = geometry::loopSubdivision(mesh, 1);
@@ -167,7 +167,7 @@ TEST(Subdivision, LoopSmoothsAndStaysWatertight)
   EXPECT_NEAR(smooth.signedVolume() / mesh.signedVolume(), 1.0, 0.02);
 }
 
-TEST(geometry::MeshDistance, AgreesWithBruteForce)
+TEST(MeshDistance, AgreesWithBruteForce)
 {
   const geometry::TriangleMesh mesh = tubeMesh(bentTube());
   const geometry::MeshDistance distance(mesh);
@@ -187,14 +187,14 @@ TEST(geometry::MeshDistance, AgreesWithBruteForce)
   }
 }
 
-TEST(geometry::MeshDistance, WindsOnceRoundPointsInside)
+TEST(MeshDistance, HasWindingNumberOneInside)
 {
   const geometry::TriangleMesh mesh = tubeMesh(bentTube());
   EXPECT_NEAR(geometry::windingNumber(mesh, {0, 0, 0.02}), 1.0, 1e-9);
   EXPECT_NEAR(geometry::windingNumber(mesh, {0.0, 0.004, 0.02}), 0.0, 1e-9);
 }
 
-TEST(geometry::MeshDistance, RayMeetsTheWallAcrossTheTube)
+TEST(MeshDistance, RayHitsTheOppositeWallOfTheTube)
 {
   const geometry::TriangleMesh mesh = tubeMesh(bentTube());
   const geometry::MeshDistance distance(mesh);

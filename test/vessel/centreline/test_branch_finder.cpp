@@ -10,7 +10,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A wide trunk along z, and a narrow branch that leaves it sideways at half height and begins on its centreline. */
+/** Wide trunk along z, and a narrow lateral branch that begins on the trunk's centreline at half height. */
 CentrelineTree trunkWithBranch()
 {
   CentrelineTree tree;
@@ -25,7 +25,7 @@ CentrelineTree trunkWithBranch()
   return tree;
 }
 
-TEST(BranchFinder, GivesTheWallBesideAnOstiumToTheParent)
+TEST(BranchFinder, AssignsTheWallBesideAnOstiumToTheParent)
 {
   const BranchFinder finder(trunkWithBranch());
   EXPECT_EQ(finder.nearest({10e-3, 0.0, 54e-3}), 0);  // 4 mm beside the ostium, 10 mm from the trunk's centreline
@@ -35,7 +35,7 @@ TEST(BranchFinder, GivesTheWallBesideAnOstiumToTheParent)
   EXPECT_EQ(finder.nearest({0.0, 0.0, 200e-3}), 0);    // beyond the trunk's end
 }
 
-TEST(BranchFinder, EqualsASearchOfAllSegments)
+TEST(BranchFinder, EqualsABruteForceSearch)
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-0.1, 0.1);
@@ -77,14 +77,14 @@ TEST(BranchFinder, EqualsASearchOfAllSegments)
   }
 }
 
-TEST(BranchFinder, KnowsNothingWithoutACentreline)
+TEST(BranchFinder, ReturnsNoBranchWithoutACentreline)
 {
   EXPECT_EQ(BranchFinder(CentrelineTree()).nearest({1.0, 2.0, 3.0}), -1);
   CentrelineTree tree;
   tree.branches.resize(2);
   tree.branches[1].points.emplace_back(0.0, 0.0, 0.0);
   tree.branches[1].radii.push_back(1e-3);
-  EXPECT_EQ(BranchFinder(tree).nearest({1.0, 2.0, 3.0}), 1);  // a branch of one point is one
+  EXPECT_EQ(BranchFinder(tree).nearest({1.0, 2.0, 3.0}), 1);  // a branch may consist of one point
 }
 
 }  // namespace

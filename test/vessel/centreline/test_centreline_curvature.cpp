@@ -9,7 +9,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A straight piece of 50 mm along x, then a quarter circle of 30 mm radius; points jittered by 1 µm. */
+/** Straight segment of 50 mm along x, then a quarter circle of 30 mm radius, with points perturbed by 1 µm. */
 CentrelineTree bentCentreline()
 {
   CentrelineBranch branch;
@@ -26,7 +26,7 @@ CentrelineTree bentCentreline()
   return tree;
 }
 
-TEST(CentrelineCurvature, IsThatOfTheNearestPlaceOfTheCentreline)
+TEST(CentrelineCurvature, EqualsThatOfTheNearestPointOfTheCentreline)
 {
   const CentrelineCurvature curvature(bentCentreline());
   EXPECT_NEAR(curvature.at({0.020, 2e-3, 0.0}), 0.0, 0.5);

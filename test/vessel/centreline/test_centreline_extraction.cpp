@@ -50,7 +50,7 @@ class CentrelineOfTube : public testing::TestWithParam<Channel>
 {
 };
 
-TEST_P(CentrelineOfTube, IsItsAxisFromCapToCap)
+TEST_P(CentrelineOfTube, EqualsTheAxisFromCapToCap)
 {
   TubeShape shape;
   shape.radius = 3e-3;
@@ -102,7 +102,7 @@ TEST(CentrelineExtraction, FindsTheBranchesOfAFork)
     EXPECT_LT(found.branches[b].parent, static_cast<int>(b));
 }
 
-TEST(CentrelineExtraction, IsTheSameBitForBit)
+TEST(CentrelineExtraction, IsReproducibleBitForBit)
 {
   const Vessel fork = loadAnatomy(std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml", "");
   const CentrelineTree a = extractCentreline(fork.mesh);
@@ -115,12 +115,12 @@ TEST(CentrelineExtraction, IsTheSameBitForBit)
   }
 }
 
-TEST(CentrelineExtraction, RunsInTheMiddleOfARealArchAlongTheLinesPublishedWithIt)
+TEST(CentrelineExtraction, AgreesWithThePublishedCentrelinesOfAnArch)
 {
   const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
   const std::string file = folder == nullptr ? "" : std::string(folder) + "/aortic_arch_tree.obj";
   if (file.empty() || !std::filesystem::exists(file))
-    GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+    GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR is not set to the folder of the segmented vessels";
   const geometry::TriangleMesh mesh = repairMesh(readMesh(file, 1e-3), file).mesh;
   const geometry::MeshDistance wall(mesh);
   const CentrelineTree found = extractCentreline(mesh);
@@ -128,8 +128,8 @@ TEST(CentrelineExtraction, RunsInTheMiddleOfARealArchAlongTheLinesPublishedWithI
     for (std::size_t k = 0; k < branch.points.size(); k += 5)
       EXPECT_GT(geometry::windingNumber(mesh, branch.points[k]), 0.5);
 
-  // The published lines belong to another version of this geometry: some of their points lie outside of the mesh, and
-  // the rest off its middle. Some of them, on the way from the root of the aorta to a carotid and an iliac artery:
+  // The published centrelines belong to another version of this geometry: some of their points lie outside of the mesh,
+  // others off its centre. Selected points from the aortic root to a carotid and an iliac artery:
   const std::vector<Eigen::Vector3d> way{{-371.756, 10.922, -10.498}, {-384.7, 23.205, -15.747},
                                          {-391.955, 46.664, -33.907}, {-416.223, -0.352, -24.138},
                                          {-430.112, 47.537, -34.466}, {-572.004, 14.836, -12.526}};

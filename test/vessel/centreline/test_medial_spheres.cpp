@@ -11,7 +11,7 @@ namespace
 
 using Neighbours = std::vector<std::vector<int>>;
 
-geometry::TriangleMesh channel()
+geometry::TriangleMesh tube()
 {
   TubeShape shape;
   shape.radius = 5e-3;
@@ -20,39 +20,39 @@ geometry::TriangleMesh channel()
   return tubeMesh(shape);
 }
 
-Neighbours joined(const std::vector<MedialSphere>& balls)
+Neighbours connected(const std::vector<MedialSphere>& spheres)
 {
-  const geometry::TriangleMesh mesh = channel();
-  Neighbours neighbours = overlappingBalls(balls);
-  joinParts(balls, geometry::MeshDistance(mesh), neighbours);
+  const geometry::TriangleMesh mesh = tube();
+  Neighbours neighbours = overlappingSpheres(spheres);
+  connectComponents(spheres, geometry::MeshDistance(mesh), neighbours);
   return neighbours;
 }
 
-TEST(JoinParts, LinksTheNearestBallsOfPartsThatSeeEachOther)
+TEST(ConnectComponents, ConnectsTheNearestSpheresWithFreeLineOfSight)
 {
-  // A chain of two, and a chain of two smaller ones 0.2 mm further on.
-  const std::vector<MedialSphere> balls{
+  // Two overlapping spheres, and two smaller overlapping ones beyond a gap of 0.2 mm.
+  const std::vector<MedialSphere> spheres{
       {{0, 0, 0}, 3e-3}, {{0, 0, 4e-3}, 3e-3}, {{0, 0, 7.7e-3}, 5e-4}, {{0, 0, 8.4e-3}, 5e-4}};
-  EXPECT_EQ(joined(balls), (Neighbours{{1}, {0, 2}, {1, 3}, {2}}));
+  EXPECT_EQ(connected(spheres), (Neighbours{{1}, {0, 2}, {1, 3}, {2}}));
 }
 
-TEST(JoinParts, LeavesApartWhatIsFartherThanTheLargerRadius)
+TEST(ConnectComponents, SkipsGapsAboveTheLargerRadius)
 {
-  const std::vector<MedialSphere> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 6.6e-3}, 5e-4}};
-  EXPECT_EQ(joined(balls), (Neighbours{{}, {}}));
+  const std::vector<MedialSphere> spheres{{{0, 0, 0}, 3e-3}, {{0, 0, 6.6e-3}, 5e-4}};
+  EXPECT_EQ(connected(spheres), (Neighbours{{}, {}}));
 }
 
-TEST(JoinParts, LeavesApartWhatAWallParts)
+TEST(ConnectComponents, SkipsPairsSeparatedByAWall)
 {
-  // The second one stands outside of the channel, next to it.
-  const std::vector<MedialSphere> balls{{{0, 0, 0}, 4.9e-3}, {{5.9e-3, 0, 0}, 8e-4}};
-  EXPECT_EQ(joined(balls), (Neighbours{{}, {}}));
+  // The second sphere lies outside of the tube, next to it.
+  const std::vector<MedialSphere> spheres{{{0, 0, 0}, 4.9e-3}, {{5.9e-3, 0, 0}, 8e-4}};
+  EXPECT_EQ(connected(spheres), (Neighbours{{}, {}}));
 }
 
-TEST(JoinParts, LeavesConnectedPartsAsTheyAre)
+TEST(ConnectComponents, PreservesConnectedComponents)
 {
-  const std::vector<MedialSphere> balls{{{0, 0, 0}, 3e-3}, {{0, 0, 4e-3}, 3e-3}, {{0, 0, 9e-3}, 3e-3}};
-  EXPECT_EQ(joined(balls), overlappingBalls(balls));
+  const std::vector<MedialSphere> spheres{{{0, 0, 0}, 3e-3}, {{0, 0, 4e-3}, 3e-3}, {{0, 0, 9e-3}, 3e-3}};
+  EXPECT_EQ(connected(spheres), overlappingSpheres(spheres));
 }
 
 }  // namespace

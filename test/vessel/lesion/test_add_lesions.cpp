@@ -27,7 +27,7 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kTubeRadius = 1.5e-3;  // m
+constexpr double kTubeRadius = 1.5e-3;  // [m]
 
 Vessel tube(int facets_around = 48, double curvature = 0.0)
 {
@@ -53,10 +53,10 @@ Lesion lesionOf(double grade, double length = 0.01)
   return lesion;
 }
 
-/** Largest share of the diameter that is lost along the lesion, against the vessel before. */
+/** Largest relative loss of diameter along the lesion. */
 double measuredGrade(const Vessel& before, const Vessel& after)
 {
-  const PlacedLesion& placed = after.lesions.back();  // an anatomy may have some of its own before it
+  const PlacedLesion& placed = after.lesions.back();  // lesions of the anatomy precede added ones
   const auto b = static_cast<std::size_t>(placed.branch);
   const geometry::Polyline now(after.centreline.branches[b].points);
   const geometry::Polyline healthy(before.centreline.branches[b].points);
@@ -86,7 +86,7 @@ double widestAngle(const geometry::TriangleMesh& mesh)
   return widest;
 }
 
-TEST(Lesion, TakesItsShareOfATubesDiameterWithTheShapeOfACosine)
+TEST(Lesion, NarrowsATubeByItsGradeWithACosineProfile)
 {
   for (double grade : {0.2, 0.65, 0.9})
   {
@@ -110,7 +110,7 @@ TEST(Lesion, TakesItsShareOfATubesDiameterWithTheShapeOfACosine)
   }
 }
 
-TEST(Lesion, LeavesACleanMeshWhoseFacetsAreSmallAgainstTheNarrowedLumen)
+TEST(Lesion, HasACleanMeshWithFacetsSmallRelativeToTheLumen)
 {
   for (double curvature : {0.0, 60.0})
     for (double grade : {0.5, 0.9, 0.99})
@@ -138,14 +138,14 @@ TEST(Lesion, LeavesACleanMeshWhoseFacetsAreSmallAgainstTheNarrowedLumen)
     }
 }
 
-TEST(Lesion, LeavesTheWallElsewhereAsItWasBitForBit)
+TEST(Lesion, PreservesTheWallElsewhereBitForBit)
 {
   const Vessel before = tube();
   Vessel after = before;
   addLesions(after, {lesionOf(0.6)}, "scene");
-  std::set<std::array<double, 3>> places;
+  std::set<std::array<double, 3>> positions;
   for (const Eigen::Vector3d& p : after.mesh.vertices)
-    places.insert({p.x(), p.y(), p.z()});
+    positions.insert({p.x(), p.y(), p.z()});
   int kept = 0;
   for (std::size_t v = 0; v < before.mesh.vertices.size(); ++v)
   {
@@ -153,19 +153,19 @@ TEST(Lesion, LeavesTheWallElsewhereAsItWasBitForBit)
     if (std::abs(arc - 0.03) < 0.005 + 1e-9)
       continue;
     const Eigen::Vector3d& p = before.mesh.vertices[v];
-    EXPECT_EQ(places.count({p.x(), p.y(), p.z()}), 1U);
+    EXPECT_EQ(positions.count({p.x(), p.y(), p.z()}), 1U);
     ++kept;
   }
   EXPECT_GT(kept, 100);
 }
 
-TEST(Lesion, OnOneSideLeavesTheWallOppositeWhereItWas)
+TEST(Lesion, PreservesTheWallOppositeToEccentricPlaque)
 {
   const Vessel before = tube();
   Vessel after = before;
   Lesion lesion = lesionOf(0.6);
   lesion.eccentricity = 1.0;
-  lesion.angle = 0.5 * M_PI;  // from x towards y, about z
+  lesion.angle = 0.5 * M_PI;  // direction y
   addLesions(after, {lesion}, "scene");
   EXPECT_NEAR(measuredGrade(before, after), 0.6, 0.01);
   const geometry::MeshDistance wall(after.mesh);
@@ -195,7 +195,7 @@ TEST(Lesion, NarrowsTheLeftAnteriorDescendingArteryByItsGrade)
   }
 }
 
-/** A line through the middle of the lumen's sections, from a point in it in steps of 2 mm. */
+/** Polyline through the centres of cross-sections of the lumen, from a point in steps of 2 mm. */
 CentrelineBranch lumenAxis(const geometry::TriangleMesh& mesh, Eigen::Vector3d p, Eigen::Vector3d direction, int steps)
 {
   const geometry::MeshDistance wall(mesh);
@@ -221,12 +221,12 @@ CentrelineBranch lumenAxis(const geometry::TriangleMesh& mesh, Eigen::Vector3d p
   return branch;
 }
 
-TEST(Lesion, StandsInARealAortaToo)
+TEST(Lesion, CanBeAddedToASegmentedAorta)
 {
   const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
   const std::string file = folder == nullptr ? "" : std::string(folder) + "/aortic_arch_tree.obj";
   if (file.empty() || !std::filesystem::exists(file))
-    GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+    GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR is not set to the folder of the segmented vessels";
   Vessel before;
   before.source = file;
   before.mesh = repairMesh(readMesh(file, 1e-3), file).mesh;
@@ -246,7 +246,7 @@ TEST(Lesion, StandsInARealAortaToo)
   }
 }
 
-TEST(Lesion, OfNoGradeAtAllLeavesTheLumenAsItWas)
+TEST(Lesion, PreservesTheLumenAtGradeZero)
 {
   const Vessel before = tube();
   Vessel after = before;
@@ -254,7 +254,7 @@ TEST(Lesion, OfNoGradeAtAllLeavesTheLumenAsItWas)
   EXPECT_NEAR(after.mesh.signedVolume(), before.mesh.signedVolume(), 1e-12 * before.mesh.signedVolume());
 }
 
-TEST(Lesion, IsMadeTheSameBitForBit)
+TEST(Lesion, IsReproducibleBitForBit)
 {
   Vessel a = tube();
   Vessel b = tube();
@@ -263,7 +263,7 @@ TEST(Lesion, IsMadeTheSameBitForBit)
   EXPECT_EQ(a.mesh.hash(), b.mesh.hash());
 }
 
-TEST(Lesion, SecondOneStandsBesideTheFirst)
+TEST(Lesion, CanBeAddedBesideAnotherOne)
 {
   Vessel vessel = tube();
   Lesion second = lesionOf(0.5);
@@ -276,7 +276,7 @@ TEST(Lesion, SecondOneStandsBesideTheFirst)
   EXPECT_NEAR(lumenDiameter(wall, axis.at(0.045), axis.tangentAt(0.045)), 0.5 * 2.0 * kTubeRadius, 3e-5);
 }
 
-std::string refusal(const Lesion& lesion)
+std::string errorMessage(const Lesion& lesion)
 {
   Vessel vessel = tube();
   try
@@ -290,37 +290,37 @@ std::string refusal(const Lesion& lesion)
   return "";
 }
 
-TEST(Lesion, CanBePlacedByAPointInTheLumen)
+TEST(Lesion, CanBeSpecifiedByAPointInTheLumen)
 {
   Vessel by_name = tube();
   addLesions(by_name, {lesionOf(0.5)}, "scene.yaml");
   Lesion lesion = lesionOf(0.5);
   lesion.branch.clear();
   lesion.from_start = std::numeric_limits<double>::quiet_NaN();
-  lesion.at = Eigen::Vector3d(0.0005, -0.0004, 0.024);  // the centreline begins 6 mm in front
+  lesion.at = Eigen::Vector3d(0.0005, -0.0004, 0.024);  // the centreline begins 6 mm proximally
   Vessel by_point = tube();
   addLesions(by_point, {lesion}, "scene.yaml");
   EXPECT_EQ(by_point.lesions.back().lesion.branch, "tube");
   EXPECT_NEAR(by_point.lesions.back().middle, 0.03, 1e-9);
   EXPECT_NEAR(by_point.lesions.back().narrowed_diameter, by_name.lesions.back().narrowed_diameter, 1e-7);
   lesion.at = Eigen::Vector3d(0.0, 0.004, 0.024);
-  EXPECT_NE(refusal(lesion).find("vessel.lesions.0.at: lies 2.5 mm outside of the nearest lumen, \"tube\""),
+  EXPECT_NE(errorMessage(lesion).find("vessel.lesions.0.at: lies 2.5 mm outside of the nearest lumen, \"tube\""),
             std::string::npos);
 }
 
-TEST(Lesion, IsRefusedWithTheNamesOrTheRoomThatThereIs)
+TEST(Lesion, IsRejectedWithTheAvailableBranchesOrRange)
 {
   Lesion lesion = lesionOf(0.5);
   lesion.branch = "lad";
-  EXPECT_EQ(refusal(lesion), "scene.yaml: vessel.lesions.0.branch: no branch \"lad\" in tube; it has tube");
-  EXPECT_NE(refusal(lesionOf(1.0)).find("vessel.lesions.0.grade: must be a share"), std::string::npos);
-  EXPECT_NE(refusal(lesionOf(0.5, 0.2)).find("is longer than the branch \"tube\", 66 mm"), std::string::npos);
+  EXPECT_EQ(errorMessage(lesion), "scene.yaml: vessel.lesions.0.branch: no branch \"lad\" in tube; it has tube");
+  EXPECT_NE(errorMessage(lesionOf(1.0)).find("vessel.lesions.0.grade: must be a diameter stenosis"), std::string::npos);
+  EXPECT_NE(errorMessage(lesionOf(0.5, 0.2)).find("is longer than the branch \"tube\", 66 mm"), std::string::npos);
   lesion = lesionOf(0.5);
   lesion.from_start = 0.064;
-  EXPECT_NE(refusal(lesion).find("between 5 mm and 61 mm from the start of \"tube\""), std::string::npos);
+  EXPECT_NE(errorMessage(lesion).find("between 5 mm and 61 mm from the start of \"tube\""), std::string::npos);
 }
 
-TEST(Lesion, IsRefusedWhereTheBranchStillRunsInsideOfItsParent)
+TEST(Lesion, IsRejectedWhereTheBranchRunsInsideItsParent)
 {
   Vessel vessel = loadAnatomy(std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml");
   Lesion lesion = lesionOf(0.5, 0.004);

@@ -12,7 +12,7 @@
 namespace endovascular_sim::vessel
 {
 
-/** A cylinder with flat caps. */
+/** Cylinder with flat caps. */
 struct Cylinder
 {
   Eigen::Vector3d from;  ///< [m]
@@ -30,7 +30,7 @@ struct Cylinder
     return outside + std::min(std::max(side, cap), 0.0);
   }
 
-  /** Closed mesh with outward faces, vertices on the cylinder. */
+  /** Closed, outward oriented mesh with vertices on the cylinder. */
   geometry::TriangleMesh mesh(int around, int rows) const
   {
     const Eigen::Vector3d along = (to - from).normalized();
@@ -60,7 +60,7 @@ struct Cylinder
   }
 };
 
-/** Distance to the union: exact outside, a bound inside. */
+/** Signed distance to the union: exact outside, a bound inside. */
 inline double unionDistance(const std::vector<Cylinder>& parts, const Eigen::Vector3d& p)
 {
   double distance = 1e300;
@@ -69,7 +69,7 @@ inline double unionDistance(const std::vector<Cylinder>& parts, const Eigen::Vec
   return distance;
 }
 
-/** Largest |distance| of the vertices and triangles' centres from the union. */
+/** Largest unsigned distance of vertices and triangle centroids from the surface of the union. */
 inline double largestDistance(const geometry::TriangleMesh& mesh, const std::vector<Cylinder>& parts)
 {
   double largest = 0.0;

@@ -13,7 +13,7 @@
 #include "test/vessel/prepare/dirty_meshes.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/io/mesh_reader.h"
-#include "vessel/prepare/pieces.h"
+#include "vessel/prepare/component_bridges.h"
 #include "vessel/repair/mesh_check.h"
 #include "vessel/repair/mesh_repair.h"
 
@@ -24,45 +24,45 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kStated = 3e-4;
+constexpr double kTolerance = 3e-4;  // [m]
 
 PreparedVessel prepare(const geometry::TriangleMesh& mesh, PrepareOptions options = {})
 {
-  options.max_distance = kStated;
+  options.max_distance = kTolerance;
   options.facets_around = 16;
   return prepareVessel(mesh, "test", options);
 }
 
-void expectSound(const PreparedVessel& made)
+void expectCleanWithinTolerance(const PreparedVessel& prepared)
 {
-  EXPECT_EQ(checkMesh(made.mesh).summary(), "");
-  EXPECT_LE(made.report.input_to_result.largest, kStated) << made.report.text(made.centreline);
-  EXPECT_LE(made.report.result_to_input.largest, kStated) << made.report.text(made.centreline);
+  EXPECT_EQ(checkMesh(prepared.mesh).summary(), "");
+  EXPECT_LE(prepared.report.input_to_result.largest, kTolerance) << prepared.report.text(prepared.centreline);
+  EXPECT_LE(prepared.report.result_to_input.largest, kTolerance) << prepared.report.text(prepared.centreline);
 }
 
 const Cylinder kTrunk{{0, 0, 0}, {0, 0, 0.016}, 3e-3};
 const Cylinder kSide{{0, 0, 0.008}, {8e-3, 0, 9e-3}, 1.5e-3};
 
-TEST(Prepare, UnitesOverlappingTubesWithinTheStatedDistanceOfTheirUnion)
+TEST(Prepare, UnitesOverlappingTubesWithinTheTolerance)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   append(soup, kSide.mesh(64, 20));
-  const PreparedVessel made = prepare(soup);
-  expectSound(made);
-  EXPECT_LE(largestDistance(made.mesh, {kTrunk, kSide}), kStated);
-  EXPECT_EQ(made.report.before.defects.components.size(), 2U);
-  EXPECT_EQ(made.report.after.defects.genus, 0);
-  EXPECT_GT(made.report.inner_area, 0.0);
+  const PreparedVessel prepared = prepare(soup);
+  expectCleanWithinTolerance(prepared);
+  EXPECT_LE(largestDistance(prepared.mesh, {kTrunk, kSide}), kTolerance);
+  EXPECT_EQ(prepared.report.before.defects.components.size(), 2U);
+  EXPECT_EQ(prepared.report.after.defects.genus, 0);
+  EXPECT_GT(prepared.report.inner_area, 0.0);
 }
 
-TEST(Prepare, ReportsTheDistancesThatBruteForceFinds)
+TEST(Prepare, ReportsTheDistancesOfABruteForceSearch)
 {
   const geometry::TriangleMesh input = kSide.mesh(16, 6);
-  const PreparedVessel made = prepare(input);
+  const PreparedVessel prepared = prepare(input);
   const auto largest = [](const geometry::TriangleMesh& from, const geometry::TriangleMesh& to)
   {
     double distance = 0.0;
-    for (const geometry::SurfaceSample& sample : geometry::sampleSurface(from, 2.0 * 2.0 / 3.0 * kStated))
+    for (const geometry::SurfaceSample& sample : geometry::sampleSurface(from, 2.0 * 2.0 / 3.0 * kTolerance))
     {
       double nearest = 1e300;
       for (const Eigen::Vector3i& t : to.triangles)
@@ -77,12 +77,12 @@ TEST(Prepare, ReportsTheDistancesThatBruteForceFinds)
     }
     return distance;
   };
-  EXPECT_NEAR(made.report.input_to_result.largest, largest(input, made.mesh), 1e-12);
-  EXPECT_NEAR(made.report.result_to_input.largest, largest(made.mesh, input), 1e-12);
-  EXPECT_GT(made.report.input_to_result.largest, 2e-5);
+  EXPECT_NEAR(prepared.report.input_to_result.largest, largest(input, prepared.mesh), 1e-12);
+  EXPECT_NEAR(prepared.report.result_to_input.largest, largest(prepared.mesh, input), 1e-12);
+  EXPECT_GT(prepared.report.input_to_result.largest, 2e-5);
 }
 
-TEST(Prepare, DoesNotCareHowThePiecesAreTurned)
+TEST(Prepare, IsIndependentOfTheOrientationOfComponents)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   geometry::TriangleMesh side = kSide.mesh(64, 20);
@@ -91,9 +91,9 @@ TEST(Prepare, DoesNotCareHowThePiecesAreTurned)
   append(soup, side);
   for (std::size_t t = 0; t < soup.triangles.size(); t += 7)
     std::swap(soup.triangles[t][0], soup.triangles[t][1]);
-  const PreparedVessel made = prepare(soup);
-  expectSound(made);
-  EXPECT_LE(largestDistance(made.mesh, {kTrunk, kSide}), kStated);
+  const PreparedVessel prepared = prepare(soup);
+  expectCleanWithinTolerance(prepared);
+  EXPECT_LE(largestDistance(prepared.mesh, {kTrunk, kSide}), kTolerance);
 }
 
 TEST(Prepare, ClosesAHoleByALid)
@@ -106,13 +106,13 @@ TEST(Prepare, ClosesAHoleByALid)
     if ((centreOf(mesh, t) - hole).norm() > 1.2e-3)
       holed.triangles.push_back(t);
   ASSERT_LT(holed.triangles.size(), mesh.triangles.size());
-  const PreparedVessel made = prepare(holed);
-  expectSound(made);
-  ASSERT_EQ(made.report.holes.size(), 1U);
-  EXPECT_LT((made.report.holes[0].place - hole).norm(), 5e-4);
-  // The lid is a chord: at most the sagitta of 1.2 mm on 3 mm below the cylinder.
-  EXPECT_LE(largestDistance(made.mesh, {kTrunk}), kStated + 1.3e-3 * 1.3e-3 / (2 * 3e-3));
-  EXPECT_GT(made.report.lid_area, 1e-6);
+  const PreparedVessel prepared = prepare(holed);
+  expectCleanWithinTolerance(prepared);
+  ASSERT_EQ(prepared.report.holes.size(), 1U);
+  EXPECT_LT((prepared.report.holes[0].location - hole).norm(), 5e-4);
+  // The lid is planar: its largest depth is the sagitta of a 1.2 mm chord at a radius of 3 mm.
+  EXPECT_LE(largestDistance(prepared.mesh, {kTrunk}), kTolerance + 1.3e-3 * 1.3e-3 / (2 * 3e-3));
+  EXPECT_GT(prepared.report.lid_area, 1e-6);
 }
 
 TEST(Prepare, DropsFinsDuplicatesAndSlivers)
@@ -130,15 +130,15 @@ TEST(Prepare, DropsFinsDuplicatesAndSlivers)
   const Vector3d a = mesh.vertices[static_cast<std::size_t>(cut[0])];
   const Vector3d b = mesh.vertices[static_cast<std::size_t>(cut[1])];
   const int on_edge = add(a + 0.5 * (b - a) + Vector3d(0, 0, 1e-9));
-  mesh.triangles.emplace_back(cut[0], on_edge, cut[1]);  // a sliver, a non-manifold edge
+  mesh.triangles.emplace_back(cut[0], on_edge, cut[1]);  // sliver with a non-manifold edge
   EXPECT_GT(checkMesh(mesh).non_manifold_edges.count, 0);
   EXPECT_GT(checkMesh(mesh).duplicate_faces.count, 0);
-  const PreparedVessel made = prepare(mesh);
-  EXPECT_EQ(checkMesh(made.mesh).summary(), "");
-  EXPECT_LE(largestDistance(made.mesh, {kTrunk}), kStated);
+  const PreparedVessel prepared = prepare(mesh);
+  EXPECT_EQ(checkMesh(prepared.mesh).summary(), "");
+  EXPECT_LE(largestDistance(prepared.mesh, {kTrunk}), kTolerance);
 }
 
-/** Two legs side by side, joined by a crossbar. */
+/** Two parallel tubes, connected by a crossbar. */
 std::vector<Cylinder> fork(double septum)
 {
   const double x = 2e-3 + 0.5 * septum;
@@ -153,26 +153,26 @@ geometry::TriangleMesh soupOf(const std::vector<Cylinder>& parts)
   return soup;
 }
 
-TEST(Prepare, KeepsASeptumOfThreeVoxels)
+TEST(Prepare, RetainsASeptumOfThreeVoxels)
 {
   const std::vector<Cylinder> parts = fork(6e-4);
-  const PreparedVessel made = prepare(soupOf(parts));
-  expectSound(made);
-  EXPECT_LE(largestDistance(made.mesh, parts), kStated);
-  EXPECT_EQ(made.report.after.defects.genus, 0);
+  const PreparedVessel prepared = prepare(soupOf(parts));
+  expectCleanWithinTolerance(prepared);
+  EXPECT_LE(largestDistance(prepared.mesh, parts), kTolerance);
+  EXPECT_EQ(prepared.report.after.defects.genus, 0);
 }
 
-TEST(Prepare, ReportsASeptumThatTheVoxelsLose)
+TEST(Prepare, ReportsASeptumLostByTheGrid)
 {
   PrepareOptions options;
   options.voxel = 6e-4;
-  const PreparedVessel made = prepare(soupOf(fork(2.5e-4)), options);
-  EXPECT_GT(made.report.gaps.closed, 0);
-  EXPECT_GE(made.report.gaps.widest_closed, 2.4e-4);
-  EXPECT_NE(made.report.text(made.centreline).find("a septum there needs --voxel"), std::string::npos);
+  const PreparedVessel prepared = prepare(soupOf(fork(2.5e-4)), options);
+  EXPECT_GT(prepared.report.gaps.closed, 0);
+  EXPECT_GE(prepared.report.gaps.widest_closed, 2.4e-4);
+  EXPECT_NE(prepared.report.text(prepared.centreline).find("a septum there requires --voxel"), std::string::npos);
 }
 
-TEST(Prepare, ReportsLoosePiecesAndBridgesThemWhenAsked)
+TEST(Prepare, ReportsLooseComponentsAndBridgesThemOnRequest)
 {
   const Cylinder above{{0, 0, 0.017}, {0, 0, 0.024}, 2e-3};
   geometry::TriangleMesh soup = kTrunk.mesh(64, 20);
@@ -196,7 +196,7 @@ TEST(Prepare, ReportsLoosePiecesAndBridgesThemWhenAsked)
 
 constexpr double kBore = 1.8e-3;
 
-/** The trunk with a bore of 1.8 mm radius through it: outer and inner wall, joined by ring-shaped ends. */
+/** Trunk with a bore of 1.8 mm radius: outer and inner wall, connected by annular ends. */
 geometry::TriangleMesh pipe()
 {
   geometry::TriangleMesh outer = kTrunk.mesh(48, 12);
@@ -222,36 +222,36 @@ const std::vector<Plug> kPipePlugs{{{1e-4, 0, 5e-4}, 2.4e-3}, {{0, 1e-4, 0.0155}
 const double kPipeVolume = M_PI * 9e-6 * 0.016;
 const double kBoreVolume = M_PI * kBore * kBore * 0.016;
 
-TEST(Prepare, FillsAThickWallWhoseOpeningsAreStoppedUp)
+TEST(Prepare, FillsAThickWallWithPluggedOpenings)
 {
   PrepareOptions options;
   options.plugs = kPipePlugs;
-  const PreparedVessel made = prepare(pipe(), options);
-  EXPECT_NEAR(made.mesh.signedVolume(), kPipeVolume, 0.05 * kPipeVolume);
-  EXPECT_EQ(checkMesh(made.mesh).summary(), "");
-  EXPECT_NEAR(made.report.inner_area, 2.0 * M_PI * kBore * 0.015, 0.05 * 2.0 * M_PI * kBore * 0.016);
+  const PreparedVessel prepared = prepare(pipe(), options);
+  EXPECT_NEAR(prepared.mesh.signedVolume(), kPipeVolume, 0.05 * kPipeVolume);
+  EXPECT_EQ(checkMesh(prepared.mesh).summary(), "");
+  EXPECT_NEAR(prepared.report.inner_area, 2.0 * M_PI * kBore * 0.015, 0.05 * 2.0 * M_PI * kBore * 0.016);
 }
 
-TEST(Prepare, TakesTheHollowInsideOfAThickWallAsTheLumen)
+TEST(Prepare, ExtractsTheLumenInsideAThickWall)
 {
   PrepareOptions options;
   options.plugs = kPipePlugs;
   options.hollow = true;
   options.open = {"all"};
-  const PreparedVessel made = prepare(pipe(), options);
-  EXPECT_NEAR(repairMesh(made.mesh, "bore").mesh.signedVolume(), kBoreVolume * (1.0 - 2.0 * 2.4 / 16.0),
+  const PreparedVessel prepared = prepare(pipe(), options);
+  EXPECT_NEAR(repairMesh(prepared.mesh, "bore").mesh.signedVolume(), kBoreVolume * (1.0 - 2.0 * 2.4 / 16.0),
               0.08 * kBoreVolume);
-  EXPECT_LE(made.report.result_to_input.largest, kStated) << made.report.text(made.centreline);
-  EXPECT_GT(made.report.lid_area, M_PI * kBore * kBore);
-  ASSERT_EQ(made.report.openings.size(), 2U);
-  for (const Opening& opening : made.report.openings)
+  EXPECT_LE(prepared.report.result_to_input.largest, kTolerance) << prepared.report.text(prepared.centreline);
+  EXPECT_GT(prepared.report.lid_area, M_PI * kBore * kBore);
+  ASSERT_EQ(prepared.report.openings.size(), 2U);
+  for (const Opening& opening : prepared.report.openings)
   {
-    EXPECT_NEAR(opening.radius, kBore, kStated);
+    EXPECT_NEAR(opening.radius, kBore, kTolerance);
     EXPECT_GT(std::abs(opening.outward.z()), 0.99);
   }
 }
 
-TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugWithoutWallsAround)
+TEST(Prepare, RejectsAnOpenCavityAndAPlugWithoutWalls)
 {
   PrepareOptions options;
   options.hollow = true;
@@ -261,29 +261,29 @@ TEST(Prepare, RefusesAHollowThatIsNotStoppedUpAndAPlugWithoutWallsAround)
   EXPECT_THROW(prepare(pipe(), options), InputError);
 }
 
-TEST(Prepare, OpensTheEndsAskedForWithFlatRimsThatASceneCloses)
+TEST(Prepare, OpensSelectedEndsWithPlanarRimsThatASceneCloses)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(96, 20);
   append(soup, kSide.mesh(64, 20));
   PrepareOptions options;
   options.open = {"2", "0.008,0,0.009"};
-  const PreparedVessel made = prepare(soup, options);
-  ASSERT_EQ(made.report.openings.size(), 3U);
-  EXPECT_EQ(made.report.rims, 3);
-  MeshReport report = checkMesh(made.mesh);
+  const PreparedVessel prepared = prepare(soup, options);
+  ASSERT_EQ(prepared.report.openings.size(), 3U);
+  EXPECT_EQ(prepared.report.rims, 3);
+  MeshReport report = checkMesh(prepared.mesh);
   EXPECT_GT(report.boundary_edges.count, 30);
   report.boundary_edges = {};
   EXPECT_EQ(report.summary(), "");
 
-  const RepairedMesh closed = repairMesh(made.mesh, "opened");
+  const RepairedMesh closed = repairMesh(prepared.mesh, "opened");
   EXPECT_EQ(checkMesh(closed.mesh).summary(), "");
   ASSERT_FALSE(closed.notes.empty());
-  EXPECT_NE(closed.notes[0].find("3 open ends"), std::string::npos) << closed.notes[0];
-  for (const Opening& opening : made.report.openings)
-    EXPECT_LT(std::min(std::abs(opening.radius - 3e-3), std::abs(opening.radius - 1.5e-3)), kStated);
+  EXPECT_NE(closed.notes[0].find("3 planar ends"), std::string::npos) << closed.notes[0];
+  for (const Opening& opening : prepared.report.openings)
+    EXPECT_LT(std::min(std::abs(opening.radius - 3e-3), std::abs(opening.radius - 1.5e-3)), kTolerance);
 }
 
-TEST(Prepare, RefusesAnEndThatIsNotThereAndNamesThoseThatAre)
+TEST(Prepare, RejectsAnUnknownEndAndListsTheKnownOnes)
 {
   PrepareOptions options;
   options.open = {"aorta"};
@@ -300,7 +300,7 @@ TEST(Prepare, RefusesAnEndThatIsNotThereAndNamesThoseThatAre)
   }
 }
 
-TEST(Prepare, RefusesATubeWithoutWallsAndOptionsOutOfRange)
+TEST(Prepare, RejectsAnOpenSurfaceAndInvalidOptions)
 {
   geometry::TriangleMesh flat;
   flat.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}};
@@ -314,7 +314,7 @@ TEST(Prepare, RefusesATubeWithoutWallsAndOptionsOutOfRange)
   EXPECT_THROW(prepare(kTrunk.mesh(48, 10), options), InputError);
 }
 
-/** Root mean square of the turn between neighbouring faces along the mesh's edges, away from the caps [rad]. */
+/** Root mean square of the dihedral angles, without the caps [rad]. */
 double roughness(const geometry::TriangleMesh& mesh)
 {
   double sum = 0.0;
@@ -342,49 +342,49 @@ double roughness(const geometry::TriangleMesh& mesh)
   return std::sqrt(sum / count);
 }
 
-TEST(Prepare, SmoothsAFacettedTubeWithinTheStatedDistance)
+TEST(Prepare, SmoothsACoarseTubeWithinTheTolerance)
 {
-  // Ten facets: their middles lie 0.15 mm inside of the cylinder.
+  // Ten facets: their centres lie 0.15 mm inside the cylinder.
   const geometry::TriangleMesh coarse = kTrunk.mesh(10, 4);
   const PreparedVessel as_is = prepare(coarse);
   PrepareOptions options;
   options.smooth = true;
   const PreparedVessel smooth = prepare(coarse, options);
-  expectSound(smooth);
+  expectCleanWithinTolerance(smooth);
   EXPECT_LT(roughness(smooth.mesh), 0.9 * roughness(as_is.mesh));
-  // The lumen goes from the facets' prism towards the cylinder around it, and not beyond.
+  // Smoothing moves the wall from the prism towards the circumscribed cylinder, but not beyond it.
   EXPECT_GT(smooth.mesh.signedVolume(), 0.99 * as_is.mesh.signedVolume());
   EXPECT_LT(smooth.mesh.signedVolume(), M_PI * 9e-6 * 0.016);
   EXPECT_GT(smooth.report.largest_move, 1e-5);
-  EXPECT_LE(smooth.report.largest_move, 0.5 * kStated + 1e-12);
+  EXPECT_LE(smooth.report.largest_move, 0.5 * kTolerance + 1e-12);
 }
 
-TEST(Prepare, FindsTheCentrelineWithItsRadii)
+TEST(Prepare, ExtractsTheCentrelineWithRadii)
 {
-  const PreparedVessel made = prepare(kTrunk.mesh(96, 20));
-  ASSERT_EQ(made.centreline.branches.size(), 1U);
+  const PreparedVessel prepared = prepare(kTrunk.mesh(96, 20));
+  ASSERT_EQ(prepared.centreline.branches.size(), 1U);
   int looked_at = 0;
-  for (std::size_t k = 0; k < made.report.radii.size(); ++k)
+  for (std::size_t k = 0; k < prepared.report.radii.size(); ++k)
   {
-    const Vector3d& p = made.centreline.branches[0].points[k];
+    const Vector3d& p = prepared.centreline.branches[0].points[k];
     if (p.z() < 4e-3 || p.z() > 0.012)
       continue;
     ++looked_at;
-    EXPECT_LT(std::hypot(p.x(), p.y()), kStated);
-    EXPECT_NEAR(made.report.radii[k].after, 3e-3, kStated);
-    EXPECT_NEAR(made.report.radii[k].before, 3e-3, kStated);
+    EXPECT_LT(std::hypot(p.x(), p.y()), kTolerance);
+    EXPECT_NEAR(prepared.report.radii[k].after, 3e-3, kTolerance);
+    EXPECT_NEAR(prepared.report.radii[k].before, 3e-3, kTolerance);
   }
   EXPECT_GT(looked_at, 2);
 }
 
-TEST(Prepare, IsTheSameBitForBit)
+TEST(Prepare, IsReproducibleBitForBit)
 {
   geometry::TriangleMesh soup = kTrunk.mesh(48, 10);
   append(soup, kSide.mesh(32, 10));
   EXPECT_EQ(prepare(soup).mesh.hash(), prepare(soup).mesh.hash());
 }
 
-/** Meshes of real vessels, which are kept beside the project; coarse voxels, for the tests' time. */
+/** Meshes of segmented vessels, which are not part of the repository. Large voxels reduce the run time. */
 class DirtyVessels : public testing::Test
 {
 protected:
@@ -392,7 +392,7 @@ protected:
   {
     const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
     if (folder == nullptr || !std::filesystem::exists(std::string(folder) + "/aortic_arch_tree.obj"))
-      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR is not set to the folder of the segmented vessels";
     folder_ = std::string(folder) + "/";
     options_.max_distance = 1.2e-3;
     options_.longest_facet = 4e-3;
@@ -402,7 +402,7 @@ protected:
   PrepareOptions options_;
 };
 
-TEST_F(DirtyVessels, ThePhantomBecomesOneClosedSurface)
+TEST_F(DirtyVessels, PreparesThePhantomAsOneClosedSurface)
 {
   const geometry::TriangleMesh mesh = readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0);
   options_.max_distance = 1e-3;
@@ -410,25 +410,25 @@ TEST_F(DirtyVessels, ThePhantomBecomesOneClosedSurface)
   options_.plugs = {{{0.0008, -0.083, 0.004}, 0.017},  {{-0.052, 0.134, 0.004}, 0.0095},
                     {{0.053, 0.130, 0.004}, 0.0095},   {{-0.051, -0.0336, 0.0012}, 0.005},
                     {{0.0748, -0.0105, 0.006}, 0.005}, {{0.036, -0.020, -0.042}, 0.006}};
-  const PreparedVessel made = prepareVessel(mesh, "phantom", options_);
-  EXPECT_EQ(checkMesh(made.mesh).summary(), "");
-  EXPECT_EQ(made.report.before.defects.boundary_edges.count, 18);
-  EXPECT_EQ(made.report.after.defects.genus, 0);
-  EXPECT_NEAR(made.mesh.signedVolume(), 89.9e-6, 1e-6);
-  EXPECT_EQ(centrelineEnds(made.centreline).size(), 5U);
-  EXPECT_LT(made.report.input_to_result.p99, options_.max_distance);
+  const PreparedVessel prepared = prepareVessel(mesh, "phantom", options_);
+  EXPECT_EQ(checkMesh(prepared.mesh).summary(), "");
+  EXPECT_EQ(prepared.report.before.defects.boundary_edges.count, 18);
+  EXPECT_EQ(prepared.report.after.defects.genus, 0);
+  EXPECT_NEAR(prepared.mesh.signedVolume(), 89.9e-6, 1e-6);
+  EXPECT_EQ(centrelineEnds(prepared.centreline).size(), 5U);
+  EXPECT_LT(prepared.report.input_to_result.p99, options_.max_distance);
 }
 
-double distanceToEnd(const CentrelineTree& tree, const Vector3d& place)
+double distanceToEnd(const CentrelineTree& tree, const Vector3d& point)
 {
   double nearest = 1e300;
   for (const CentrelineEnd& end : centrelineEnds(tree))
-    nearest = std::min(nearest, (end.position - place).norm());
+    nearest = std::min(nearest, (end.position - point).norm());
   return nearest;
 }
 
-/** The commands of docs/VESSELS.md with a coarser grid. */
-TEST_F(DirtyVessels, TheAortaWithIliacsIsOpenFromTheFemoralArteriesToTheCoronaries)
+/** Commands of docs/VESSELS.md with a coarser grid. */
+TEST_F(DirtyVessels, ConnectsTheFemoralArteriesWithTheCoronaries)
 {
   geometry::TriangleMesh mesh = readMesh(folder_ + "aorta_coronary_female.obj", 1e-3);
   append(mesh, loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/aorta_coronary_female_iliacs.yaml", "").mesh);
@@ -437,15 +437,16 @@ TEST_F(DirtyVessels, TheAortaWithIliacsIsOpenFromTheFemoralArteriesToTheCoronari
       {{0.0287, 0.5445, -0.0157}, 8e-3},   {{0.0233, 0.5514, -0.0150}, 5e-3},   {{-0.0270, 0.5320, -0.0024}, 5e-3},
       {{-0.0330, 0.5670, 0.0086}, 3e-3},   {{0.0185, 0.5660, 0.0200}, 4e-3},    {{0.0744, 0.2145, -0.0262}, 2.5e-3},
       {{0.0706, 0.2222, -0.0309}, 2.5e-3}, {{0.0600, 0.2332, -0.0362}, 2.5e-3}, {{0.0636, 0.2526, -0.0499}, 2.5e-3}};
-  const PreparedVessel made = prepareVessel(mesh, "aorta", options_);
-  EXPECT_EQ(checkMesh(made.mesh).summary(), "");
-  EXPECT_EQ(made.report.bridges.size(), 2U);
-  EXPECT_TRUE(made.report.dropped.empty()) << made.report.text(made.centreline);
-  EXPECT_LT(made.report.input_to_result.p99, options_.max_distance);
-  // Both femoral arteries, left anterior descending, diagonal; this grid is too coarse for the right coronary's waist.
+  const PreparedVessel prepared = prepareVessel(mesh, "aorta", options_);
+  EXPECT_EQ(checkMesh(prepared.mesh).summary(), "");
+  EXPECT_EQ(prepared.report.bridges.size(), 2U);
+  EXPECT_TRUE(prepared.report.dropped.empty()) << prepared.report.text(prepared.centreline);
+  EXPECT_LT(prepared.report.input_to_result.p99, options_.max_distance);
+  // Both femoral arteries, left anterior descending and diagonal artery. The grid is too coarse for the narrowest part
+  // of the right coronary artery.
   for (const Vector3d& end : {Vector3d(0.091, -0.060, 0.021), Vector3d(-0.074, -0.060, 0.023),
                               Vector3d(0.103, 0.381, 0.036), Vector3d(0.108, 0.427, -0.017)})
-    EXPECT_LT(distanceToEnd(made.centreline, end), 0.010) << end.transpose();
+    EXPECT_LT(distanceToEnd(prepared.centreline, end), 0.010) << end.transpose();
 }
 
 }  // namespace

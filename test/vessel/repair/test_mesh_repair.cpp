@@ -21,7 +21,7 @@ geometry::TriangleMesh load(const std::string& name)
   return readMesh(std::string(TEST_DATA_DIR) + "/meshes/" + name, 1e-3);
 }
 
-std::string refusal(const geometry::TriangleMesh& mesh)
+std::string errorMessage(const geometry::TriangleMesh& mesh)
 {
   try
   {
@@ -37,15 +37,15 @@ std::string refusal(const geometry::TriangleMesh& mesh)
 struct Defect
 {
   const char* file;
-  const char* summary;  ///< what the check calls it
-  const char* outcome;  ///< in the repair's note, or in its refusal
+  const char* summary;  ///< expected text in the summary of the check
+  const char* outcome;  ///< expected text in the note of the repair, or in its error
 };
 
 class RepairableMesh : public testing::TestWithParam<Defect>
 {
 };
 
-TEST_P(RepairableMesh, IsReportedRepairedAndTold)
+TEST_P(RepairableMesh, IsCheckedRepairedAndLogged)
 {
   const geometry::TriangleMesh mesh = load(GetParam().file);
   EXPECT_NE(checkMesh(mesh).summary().find(GetParam().summary), std::string::npos) << checkMesh(mesh).summary();
@@ -59,26 +59,27 @@ TEST_P(RepairableMesh, IsReportedRepairedAndTold)
 INSTANTIATE_TEST_SUITE_P(
     MeshRepair, RepairableMesh,
     testing::Values(Defect{"box_inward.obj", "faces point inward", "pointed into the lumen"},
-                    Defect{"box_flipped_face.obj", "3 edges whose faces turn opposite ways", "1 face turned"},
+                    Defect{"box_flipped_face.obj", "3 edges with inconsistently oriented faces",
+                           "1 misoriented face inverted"},
                     Defect{"box_duplicate_face.obj", "1 duplicate faces", "1 duplicate face dropped"},
-                    Defect{"box_degenerate_face.obj", "1 faces without area", "1 face without area dropped"},
-                    Defect{"box_and_crumb.obj", "2 separate components", "4 stray faces"}));
+                    Defect{"box_degenerate_face.obj", "1 faces without area", "1 degenerate face dropped"},
+                    Defect{"box_and_crumb.obj", "2 separate components", "4 faces of components without volume"}));
 
-class HopelessMesh : public testing::TestWithParam<Defect>
+class IrreparableMesh : public testing::TestWithParam<Defect>
 {
 };
 
-TEST_P(HopelessMesh, IsRefusedWithCountAndPlace)
+TEST_P(IrreparableMesh, IsRejectedWithCountAndLocation)
 {
   const geometry::TriangleMesh mesh = load(GetParam().file);
   EXPECT_NE(checkMesh(mesh).summary().find(GetParam().summary), std::string::npos) << checkMesh(mesh).summary();
-  const std::string text = refusal(mesh);
+  const std::string text = errorMessage(mesh);
   EXPECT_NE(text.find("vessel.obj"), std::string::npos) << text;
   EXPECT_NE(text.find(GetParam().outcome), std::string::npos) << text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    MeshRepair, HopelessMesh,
+    MeshRepair, IrreparableMesh,
     testing::Values(Defect{"box_with_hole.obj", "3 boundary edges", "3 boundary edges (holes), the first near ("},
                     Defect{"box_fin.obj", "1 non-manifold edges", "non-manifold edges (three or more faces meet)"},
                     Defect{"two_boxes.obj", "2 separate components", "two largest have 12 and 12 triangles"},
@@ -86,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
                            "2 separate components"},
                     Defect{"moebius.obj", "boundary edges", "boundary edges"}));
 
-TEST(MeshRepair, LeavesASoundMeshBitForBit)
+TEST(MeshRepair, PreservesACleanMeshBitForBit)
 {
   const geometry::TriangleMesh mesh = load("box_mm.obj");
   const RepairedMesh repaired = repairMesh(mesh, "box_mm.obj");
@@ -94,7 +95,7 @@ TEST(MeshRepair, LeavesASoundMeshBitForBit)
   EXPECT_EQ(repaired.mesh.hash(), mesh.hash());
 }
 
-TEST(MeshRepair, JoinsVerticesThatAreATenthOfAMicrometreApart)
+TEST(MeshRepair, WeldsVerticesWithinATenthOfAMicrometre)
 {
   geometry::TriangleMesh mesh = load("box_mm.obj");
   mesh.vertices.emplace_back(mesh.vertices[0] + Eigen::Vector3d(5e-8, 0, 0));
@@ -110,8 +111,8 @@ TEST(MeshRepair, JoinsVerticesThatAreATenthOfAMicrometreApart)
   EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
 }
 
-/** Splits the first face beside its first side at @p count places of that side, and fills what is left with caps.
- *  @param off by which the places are off the side, towards the face's third corner [m] */
+/** Splits the first face at @p count points next to its first edge, and fills the rest with caps.
+ *  @param off distance of the points from the edge, towards the third corner [m] */
 geometry::TriangleMesh withCaps(geometry::TriangleMesh mesh, int count, double off)
 {
   const Eigen::Vector3i face = mesh.triangles.front();
@@ -122,17 +123,17 @@ geometry::TriangleMesh withCaps(geometry::TriangleMesh mesh, int count, double o
   int before = face[0];
   for (int k = 1; k <= count; ++k)
   {
-    const int place = static_cast<int>(mesh.vertices.size());
+    const int point = static_cast<int>(mesh.vertices.size());
     mesh.vertices.emplace_back(a + (b - a) * k / (count + 1) + off * inward);
-    mesh.triangles.emplace_back(before, place, face[2]);
-    mesh.triangles.emplace_back(before, face[1], place);
-    before = place;
+    mesh.triangles.emplace_back(before, point, face[2]);
+    mesh.triangles.emplace_back(before, face[1], point);
+    before = point;
   }
   mesh.triangles.emplace_back(before, face[1], face[2]);
   return mesh;
 }
 
-TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
+TEST(MeshRepair, FlipsTheLongestEdgesOfCaps)
 {
   const geometry::TriangleMesh box = load("box_mm.obj");
   for (const int count : {1, 2, 7, 40})
@@ -144,7 +145,7 @@ TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
       EXPECT_EQ(repaired.mesh.triangles.size(), mesh.triangles.size());
       EXPECT_NEAR(repaired.mesh.signedVolume(), box.signedVolume(), 1e-11);
       ASSERT_EQ(repaired.notes.size(), 1U);
-      EXPECT_NE(repaired.notes[0].find("beside"), std::string::npos) << repaired.notes[0];
+      EXPECT_NE(repaired.notes[0].find("cap triangle"), std::string::npos) << repaired.notes[0];
       for (const Eigen::Vector3i& t : repaired.mesh.triangles)
       {
         const auto at = [&](int k) { return repaired.mesh.vertices[static_cast<std::size_t>(t[k])]; };
@@ -154,7 +155,7 @@ TEST(MeshRepair, TurnsTheLongEdgesOfFacesWithoutHeight)
     }
 }
 
-TEST(MeshRepair, TurnsTheEdgeBesideACapThoughJoinedVerticesAndDoubledFacesCoverIt)
+TEST(MeshRepair, RemovesCapsCoveredByWeldedVerticesAndDuplicateFaces)
 {
   geometry::TriangleMesh mesh = withCaps(load("box_mm.obj"), 1, 0.0);
   const int count = static_cast<int>(mesh.triangles.size());
@@ -167,14 +168,14 @@ TEST(MeshRepair, TurnsTheEdgeBesideACapThoughJoinedVerticesAndDoubledFacesCoverI
   ASSERT_NE(cap, mesh.triangles.end());
   const Eigen::Vector3i face = *cap;
   mesh.vertices.emplace_back(mesh.vertices[static_cast<std::size_t>(face[1])] + Eigen::Vector3d(3e-8, 0.0, 0.0));
-  mesh.triangles.emplace_back(face[0], face[1], static_cast<int>(mesh.vertices.size()) - 1);  // collapses
+  mesh.triangles.emplace_back(face[0], face[1], static_cast<int>(mesh.vertices.size()) - 1);  // collapses by welding
   mesh.triangles.push_back(face);
   const RepairedMesh repaired = repairMesh(mesh, "x");
   EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
   EXPECT_EQ(static_cast<int>(repaired.mesh.triangles.size()), count);
 }
 
-TEST(MeshRepair, LeavesFacesThatAreFlatButHigherThanVerticesAreApart)
+TEST(MeshRepair, RetainsFlatFacesHigherThanTheWeldDistance)
 {
   const geometry::TriangleMesh mesh = withCaps(load("box_mm.obj"), 3, 2e-7 * 4.0);
   const RepairedMesh repaired = repairMesh(mesh, "x");
@@ -192,7 +193,7 @@ TEST(MeshRepair, DropsUnusedVertices)
   EXPECT_EQ(repairMesh(mesh, "x").mesh.vertices.size(), 8U);
 }
 
-TEST(MeshCheck, RefusesAnIndexThatDoesNotExist)
+TEST(MeshCheck, ReportsAnInvalidIndex)
 {
   geometry::TriangleMesh mesh = load("box_mm.obj");
   mesh.triangles[3][1] = 99;
@@ -200,7 +201,7 @@ TEST(MeshCheck, RefusesAnIndexThatDoesNotExist)
   EXPECT_THROW(requireClean(checkMesh(mesh), "x"), InputError);
 }
 
-TEST(MeshCheck, CountsTheHandlesOfATorus)
+TEST(MeshCheck, ReportsTheGenusOfATorus)
 {
   geometry::TriangleMesh torus;
   const int n = 12;
@@ -243,21 +244,21 @@ TEST(MeshCheck, SuggestsTheUnitOfAMeshOfImplausibleSize)
   EXPECT_NE(reason(1e-6).find("vessel.unit: 0.001"), std::string::npos) << reason(1e-6);
 }
 
-/** Meshes of real vessels, which are kept beside the project. */
-class RealVessels : public testing::Test
+/** Meshes of segmented vessels, which are not part of the repository. */
+class SegmentedVessels : public testing::Test
 {
 protected:
   void SetUp() override
   {
     const char* folder = std::getenv("ENDOVASCULAR_DATA_DIR");
     if (folder == nullptr || !std::filesystem::exists(std::string(folder) + "/aortic_arch_tree.obj"))
-      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR does not name the folder of the real vessels";
+      GTEST_SKIP() << "ENDOVASCULAR_DATA_DIR is not set to the folder of the segmented vessels";
     folder_ = std::string(folder) + "/";
   }
   std::string folder_;
 };
 
-TEST_F(RealVessels, TheArchWithItsFacesInwardLoads)
+TEST_F(SegmentedVessels, LoadTheArchWithInvertedFaces)
 {
   const geometry::TriangleMesh mesh = readMesh(folder_ + "aortic_arch_tree.obj", 1e-3);
   EXPECT_LT(mesh.signedVolume(), 0.0);
@@ -267,16 +268,16 @@ TEST_F(RealVessels, TheArchWithItsFacesInwardLoads)
   EXPECT_EQ(checkMesh(repaired.mesh).summary(), "");
 }
 
-TEST_F(RealVessels, TheDirtyPhantomIsRefused)
+TEST_F(SegmentedVessels, RejectTheDirtyPhantom)
 {
-  const std::string text = refusal(readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0));
+  const std::string text = errorMessage(readMesh(folder_ + "abdominal_aorta_phantom.stl", 1.0));
   EXPECT_NE(text.find("18 boundary edges"), std::string::npos) << text;
   EXPECT_NE(text.find("8 non-manifold edges"), std::string::npos) << text;
 }
 
-TEST_F(RealVessels, TheUnconnectedPiecesAreRefused)
+TEST_F(SegmentedVessels, RejectDisconnectedComponents)
 {
-  const std::string text = refusal(readMesh(folder_ + "aorta_coronary_female.obj", 1e-3));
+  const std::string text = errorMessage(readMesh(folder_ + "aorta_coronary_female.obj", 1e-3));
   EXPECT_NE(text.find("6 separate components"), std::string::npos) << text;
 }
 

@@ -1,4 +1,4 @@
-#include "vessel/repair/end_cut.h"
+#include "vessel/repair/end_clipping.h"
 
 #include <algorithm>
 #include <map>
@@ -15,14 +15,15 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** A vertex closer to the plane than this fraction of its shortest edge is moved onto it. */
+/** Snapping distance to the plane, relative to the shortest edge of a vertex. */
 constexpr double kSnap = 0.25;
 
-class Cutter
+/** Clips the end of a vessel at a plane. */
+class Clipper
 {
 public:
-  Cutter(const geometry::TriangleMesh& mesh, const EndCut& cut, const std::string& source)
-    : mesh_(mesh), cut_(cut), source_(source), neighbours_(mesh.vertices.size())
+  Clipper(const geometry::TriangleMesh& mesh, const ClipPlane& plane, const std::string& source)
+    : mesh_(mesh), plane_(plane), source_(source), neighbours_(mesh.vertices.size())
   {
     for (const Eigen::Vector3i& t : mesh.triangles)
       for (int k = 0; k < 3; ++k)
@@ -33,28 +34,28 @@ public:
   geometry::TriangleMesh run()
   {
     for (const Eigen::Vector3d& v : mesh_.vertices)
-      height_.push_back((v - cut_.place).dot(cut_.outward));
+      height_.push_back((v - plane_.point).dot(plane_.outward));
     markBeyond();
     snap();
     geometry::TriangleMesh result;
     result.vertices = mesh_.vertices;
     for (const Eigen::Vector3i& t : mesh_.triangles)
       clip(t, result);
-    return withoutUnused(result);
+    return dropUnusedVertices(result);
   }
 
 private:
   double height(int v) const { return height_[static_cast<std::size_t>(v)]; }
   bool beyond(int v) const { return beyond_[static_cast<std::size_t>(v)]; }
 
-  /** The vertices beyond the plane that hang together with the tip. */
+  /** Marks the vertices beyond the plane that are connected to the tip. */
   void markBeyond()
   {
     int seed = -1;
     double nearest = 1e300;
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
     {
-      const double distance = (mesh_.vertices[v] - cut_.place).norm();
+      const double distance = (mesh_.vertices[v] - plane_.point).norm();
       if (height_[v] > 0.0 && distance < nearest)
       {
         nearest = distance;
@@ -63,14 +64,14 @@ private:
     }
     beyond_.assign(mesh_.vertices.size(), false);
     if (seed < 0)
-      refuse("lies beyond the vessel");
+      reject("lies beyond the vessel");
     std::queue<int> open;
     beyond_[static_cast<std::size_t>(seed)] = true;
     for (open.push(seed); !open.empty(); open.pop())
     {
       const auto v = static_cast<std::size_t>(open.front());
-      if ((mesh_.vertices[v] - cut_.place).norm() > cut_.reach)
-        refuse("would cut off more than this end");
+      if ((mesh_.vertices[v] - plane_.point).norm() > plane_.max_distance)
+        reject("would remove more than this end");
       for (int n : neighbours_[v])
         if (height(n) > 0.0 && !beyond(n))
         {
@@ -80,7 +81,7 @@ private:
     }
   }
 
-  /** Moves what is close to the plane onto it, at the cut only. */
+  /** Snaps vertices next to the cut onto the plane. */
   void snap()
   {
     const std::vector<bool> was_beyond = beyond_;
@@ -95,34 +96,34 @@ private:
       }
       if (!at_cut || std::abs(height_[v]) > kSnap * shortest)
         continue;
-      mesh_.vertices[v] -= height_[v] * cut_.outward;
+      mesh_.vertices[v] -= height_[v] * plane_.outward;
       height_[v] = 0.0;
       beyond_[v] = false;
     }
   }
 
-  [[noreturn]] void refuse(const std::string& reason) const
+  [[noreturn]] void reject(const std::string& reason) const
   {
-    throw InputError(
-        source_, "--open",
-        "the plane at " + formatPlace(cut_.place) + " " + reason + "; give another --cut-back, or leave it out");
+    throw InputError(source_, "--open",
+                     "the plane at " + formatLocation(plane_.point) + " " + reason +
+                         "; specify another --cut-back, or omit the end");
   }
 
-  /** Vertex where the edge from a kept to a cut vertex meets the plane. */
-  int onPlane(int kept, int gone, geometry::TriangleMesh& result)
+  /** Vertex at the intersection of the plane with the edge from a retained to a removed vertex. */
+  int intersection(int kept, int removed, geometry::TriangleMesh& result)
   {
-    const auto [entry, is_new] = cuts_.try_emplace({kept, gone}, static_cast<int>(result.vertices.size()));
+    const auto [entry, is_new] = cuts_.try_emplace({kept, removed}, static_cast<int>(result.vertices.size()));
     if (is_new)
     {
-      const double share = height(kept) / (height(kept) - height(gone));
+      const double t = height(kept) / (height(kept) - height(removed));
       const Eigen::Vector3d& a = mesh_.vertices[static_cast<std::size_t>(kept)];
-      const Eigen::Vector3d& b = mesh_.vertices[static_cast<std::size_t>(gone)];
-      result.vertices.emplace_back(a + share * (b - a));
+      const Eigen::Vector3d& b = mesh_.vertices[static_cast<std::size_t>(removed)];
+      result.vertices.emplace_back(a + t * (b - a));
     }
     return entry->second;
   }
 
-  /** Appends what the plane leaves of a triangle. */
+  /** Appends the part of a triangle on the inner side of the plane. */
   void clip(const Eigen::Vector3i& t, geometry::TriangleMesh& result)
   {
     if (!beyond(t[0]) && !beyond(t[1]) && !beyond(t[2]))
@@ -138,13 +139,13 @@ private:
       if (!beyond(a))
         corners.push_back(a);
       if (beyond(a) != beyond(b) && height(beyond(a) ? b : a) < 0.0)
-        corners.push_back(beyond(a) ? onPlane(b, a, result) : onPlane(a, b, result));
+        corners.push_back(beyond(a) ? intersection(b, a, result) : intersection(a, b, result));
     }
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
       result.triangles.emplace_back(corners[0], corners[k], corners[k + 1]);
   }
 
-  static geometry::TriangleMesh withoutUnused(const geometry::TriangleMesh& mesh)
+  static geometry::TriangleMesh dropUnusedVertices(const geometry::TriangleMesh& mesh)
   {
     geometry::TriangleMesh result;
     std::vector<int> index(mesh.vertices.size(), -1);
@@ -166,7 +167,7 @@ private:
   }
 
   geometry::TriangleMesh mesh_;
-  EndCut cut_;
+  ClipPlane plane_;
   std::string source_;
   std::vector<std::vector<int>> neighbours_;
   std::vector<double> height_;
@@ -176,9 +177,9 @@ private:
 
 }  // namespace
 
-geometry::TriangleMesh cutEnd(const geometry::TriangleMesh& mesh, const EndCut& cut, const std::string& source)
+geometry::TriangleMesh clipEnd(const geometry::TriangleMesh& mesh, const ClipPlane& plane, const std::string& source)
 {
-  return Cutter(mesh, cut, source).run();
+  return Clipper(mesh, plane, source).run();
 }
 
 }  // namespace endovascular_sim::vessel

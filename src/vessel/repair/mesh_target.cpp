@@ -1,4 +1,4 @@
-#include "vessel/repair/mesh_sizing.h"
+#include "vessel/repair/mesh_target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,14 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-/** The lumen is probed at about this many vertices; the others take the radius of the nearest one over the edges. */
+/** Approximate number of vertices at which the radius is measured. Other vertices take the radius of the nearest one
+ *  along edges. */
 constexpr std::size_t kProbes = 60000;
-/** Facets become longer along the wall by at most this fraction of the way. */
-constexpr double kSteepestGrowth = 0.25;
+/** Gradation: largest growth of the edge length per distance along the wall. */
+constexpr double kGradation = 0.25;
 constexpr int kRadiusSweeps = 10;
-/** The probe starts this far below the wall, so that it does not hit its own facets [m]. */
-constexpr double kHair = 1e-6;
+/** Offset of a ray's origin below the wall, so that the ray does not hit its own facets [m]. */
+constexpr double kRayOffset = 1e-6;
 
 std::vector<std::vector<int>> edgeNeighbours(const geometry::TriangleMesh& mesh)
 {
@@ -32,7 +33,7 @@ std::vector<std::vector<int>> edgeNeighbours(const geometry::TriangleMesh& mesh)
 
 }  // namespace
 
-MeshSizing::MeshSizing(const geometry::TriangleMesh& mesh, const SizingRule& rule)
+MeshTarget::MeshTarget(const geometry::TriangleMesh& mesh, const SizingRule& rule)
   : mesh_(mesh),
     rule_(rule),
     distance_(mesh),
@@ -41,64 +42,64 @@ MeshSizing::MeshSizing(const geometry::TriangleMesh& mesh, const SizingRule& rul
     radius_(mesh.vertices.size())
 {
   findRadii();
-  facet_.reserve(radius_.size());
+  edge_length_.reserve(radius_.size());
   for (double radius : radius_)
   {
-    const double round = 2.0 * M_PI * radius / rule.facets_around;
-    const double flat = std::sqrt(8.0 * radius * rule.deviation);
-    facet_.push_back(std::clamp(std::min(round, flat), rule.shortest, rule.longest));
+    const double by_circumference = 2.0 * M_PI * radius / rule.facets_around;
+    const double by_deviation = std::sqrt(8.0 * radius * rule.deviation);
+    edge_length_.push_back(std::clamp(std::min(by_circumference, by_deviation), rule.shortest, rule.longest));
   }
   grade();
 }
 
-void MeshSizing::grade()
+void MeshTarget::grade()
 {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (std::size_t v = 0; v < facet_.size(); ++v)
-    open.emplace(facet_[v], static_cast<int>(v));
+  for (std::size_t v = 0; v < edge_length_.size(); ++v)
+    open.emplace(edge_length_[v], static_cast<int>(v));
   while (!open.empty())
   {
-    const auto [facet, vertex] = open.top();
+    const auto [edge_length, vertex] = open.top();
     open.pop();
     const auto v = static_cast<std::size_t>(vertex);
-    if (facet > facet_[v])
+    if (edge_length > edge_length_[v])
       continue;
     for (int next : neighbours_[v])
     {
       const auto n = static_cast<std::size_t>(next);
-      const double most = facet + kSteepestGrowth * (mesh_.vertices[n] - mesh_.vertices[v]).norm();
-      if (most >= facet_[n])
+      const double bound = edge_length + kGradation * (mesh_.vertices[n] - mesh_.vertices[v]).norm();
+      if (bound >= edge_length_[n])
         continue;
-      facet_[n] = most;
-      open.emplace(most, next);
+      edge_length_[n] = bound;
+      open.emplace(bound, next);
     }
   }
 }
 
-int MeshSizing::refine(const geometry::MeshDistance& made, double limit)
+int MeshTarget::refine(const geometry::MeshDistance& result, double limit)
 {
   std::vector<std::size_t> far;
-  for (std::size_t v = 0; v < facet_.size(); ++v)
-    if (facet_[v] > rule_.shortest && made.closest(mesh_.vertices[v], limit).triangle < 0)
+  for (std::size_t v = 0; v < edge_length_.size(); ++v)
+    if (edge_length_[v] > rule_.shortest && result.closest(mesh_.vertices[v], limit).triangle < 0)
       far.push_back(v);
   for (std::size_t v : far)
-    facet_[v] = std::max(rule_.shortest, 0.5 * facet_[v]);
+    edge_length_[v] = std::max(rule_.shortest, 0.5 * edge_length_[v]);
   grade();
   return static_cast<int>(far.size());
 }
 
-void MeshSizing::findRadii()
+void MeshTarget::findRadii()
 {
   std::vector<bool> known(radius_.size(), false);
   std::queue<int> open;
   const std::size_t stride = radius_.size() / kProbes + 1;
   for (std::size_t v = 0; v < radius_.size(); v += stride)
   {
-    const double chord = distance_.rayHit(mesh_.vertices[v] - kHair * normal_[v], -normal_[v]);
+    const double chord = distance_.rayHit(mesh_.vertices[v] - kRayOffset * normal_[v], -normal_[v]);
     if (!(chord > 0.0))
       continue;
-    radius_[v] = 0.5 * (chord + kHair);
+    radius_[v] = 0.5 * (chord + kRayOffset);
     known[v] = true;
     open.push(static_cast<int>(v));
   }
@@ -123,25 +124,25 @@ void MeshSizing::findRadii()
   }
 }
 
-WallPoint MeshSizing::onWall(const Eigen::Vector3d& p) const
+TargetPoint MeshTarget::project(const Eigen::Vector3d& p) const
 {
   const geometry::ClosestPoint closest = distance_.closest(p);
   const Eigen::Vector3i& t = mesh_.triangles[static_cast<std::size_t>(closest.triangle)];
-  const Eigen::Vector3d share = geometry::barycentric(mesh_, closest);
-  WallPoint result{closest.point, geometry::normalAt(mesh_, normal_, closest), 0.0};
+  const Eigen::Vector3d weights = geometry::barycentric(mesh_, closest);
+  TargetPoint result{closest.point, geometry::normalAt(mesh_, normal_, closest), 0.0};
   for (int k = 0; k < 3; ++k)
-    result.facet += share[k] * facet_[static_cast<std::size_t>(t[k])];
+    result.edge_length += weights[k] * edge_length_[static_cast<std::size_t>(t[k])];
   return result;
 }
 
-double MeshSizing::radiusAt(const Eigen::Vector3d& p) const
+double MeshTarget::radiusAt(const Eigen::Vector3d& p) const
 {
   const geometry::ClosestPoint closest = distance_.closest(p);
   const Eigen::Vector3i& t = mesh_.triangles[static_cast<std::size_t>(closest.triangle)];
-  const Eigen::Vector3d share = geometry::barycentric(mesh_, closest);
+  const Eigen::Vector3d weights = geometry::barycentric(mesh_, closest);
   double radius = 0.0;
   for (int k = 0; k < 3; ++k)
-    radius += share[k] * radius_[static_cast<std::size_t>(t[k])];
+    radius += weights[k] * radius_[static_cast<std::size_t>(t[k])];
   return radius;
 }
 

@@ -1,4 +1,4 @@
-#include "vessel/repair/cap_flipping.h"
+#include "vessel/repair/cap_removal.h"
 
 #include <algorithm>
 #include <set>
@@ -14,20 +14,21 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr int kMostRounds = 200;  // in a row of caps each round turns the outermost
-constexpr double kGain = 1.01;    // of height, that is no rounding
+constexpr int kMaxRounds = 200;  // in a row of caps, each round flips the outermost ones
+constexpr double kGain = 1.01;   // minimum gain of height by a flip, above rounding
 
-/** Twice the area, along the normal [m²]. */
+/** Area vector times two: normal of the triangle [m²]. */
 Eigen::Vector3d areaVector(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& triangle)
 {
   const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(triangle[k])]; };
   return (corner(1) - corner(0)).cross(corner(2) - corner(0));
 }
 
+/** Longest edge of a triangle and the height above it. */
 struct Base
 {
-  int side;       // the triangle's longest; joins corner side and corner (side + 1) % 3
-  double height;  // over it [m]
+  int side;       // index of the longest edge, which joins corner side and corner (side + 1) % 3
+  double height;  // height above the longest edge [m]
 };
 
 Base baseOf(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& triangle)
@@ -47,17 +48,17 @@ Base baseOf(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& triangle)
 
 using Diagonal = std::pair<int, int>;
 
-bool isEdge(const std::vector<geometry::EdgeUse>& uses, const Diagonal& edge)
+bool isEdge(const std::vector<geometry::HalfEdge>& half_edges, const Diagonal& edge)
 {
-  const auto use = std::lower_bound(uses.begin(), uses.end(), edge,
-                                    [](const geometry::EdgeUse& u, const Diagonal& wanted)
-                                    { return std::pair(u.low, u.high) < wanted; });
-  return use != uses.end() && use->low == edge.first && use->high == edge.second;
+  const auto half_edge = std::lower_bound(half_edges.begin(), half_edges.end(), edge,
+                                          [](const geometry::HalfEdge& h, const Diagonal& sought)
+                                          { return std::pair(h.low, h.high) < sought; });
+  return half_edge != half_edges.end() && half_edge->low == edge.first && half_edge->high == edge.second;
 }
 
-/** Turns the edge between two triangles, where both stay on their side and the lower one becomes higher.
- *  @return whether it did */
-bool turnEdge(geometry::TriangleMesh& mesh, const geometry::EdgeUse& of_cap, const geometry::EdgeUse& beside)
+/** Flips the edge between two triangles if both keep their orientation and the smaller height increases.
+ *  @return true if the edge was flipped */
+bool flipEdge(geometry::TriangleMesh& mesh, const geometry::HalfEdge& of_cap, const geometry::HalfEdge& beside)
 {
   Eigen::Vector3i& cap = mesh.triangles[static_cast<std::size_t>(of_cap.triangle)];
   Eigen::Vector3i& other = mesh.triangles[static_cast<std::size_t>(beside.triangle)];
@@ -76,43 +77,44 @@ bool turnEdge(geometry::TriangleMesh& mesh, const geometry::EdgeUse& of_cap, con
   return true;
 }
 
-/** Turns the edges of caps that do not touch each other. */
-int flipOnce(geometry::TriangleMesh& mesh, double least_height)
+/** Flips the longest edges of caps, at most one edge per triangle.
+ *  @return number of flipped edges */
+int removeCapsOnce(geometry::TriangleMesh& mesh, double min_height)
 {
   std::vector<int> base_side(mesh.triangles.size(), -1);
   bool any = false;
   for (std::size_t t = 0; t < base_side.size(); ++t)
   {
     const Base base = baseOf(mesh, mesh.triangles[t]);
-    if (base.height < least_height)
+    if (base.height < min_height)
       base_side[t] = base.side, any = true;
   }
   if (!any)
     return 0;
-  const std::vector<geometry::EdgeUse> uses = geometry::sortedEdgeUses(mesh);
-  std::vector<bool> turned(mesh.triangles.size(), false);
-  std::set<Diagonal> made;
+  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
+  std::vector<bool> flipped(mesh.triangles.size(), false);
+  std::set<Diagonal> new_diagonals;
   int count = 0;
-  for (std::size_t begin = 0; begin < uses.size(); begin = geometry::endOfEdge(uses, begin))
+  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
   {
-    if (geometry::endOfEdge(uses, begin) - begin != 2)
+    if (geometry::endOfEdge(half_edges, begin) - begin != 2)
       continue;
-    const geometry::EdgeUse* cap = &uses[begin];
-    const geometry::EdgeUse* beside = &uses[begin + 1];
-    const auto at = [](const geometry::EdgeUse* use) { return static_cast<std::size_t>(use->triangle); };
+    const geometry::HalfEdge* cap = &half_edges[begin];
+    const geometry::HalfEdge* beside = &half_edges[begin + 1];
+    const auto at = [](const geometry::HalfEdge* half_edge) { return static_cast<std::size_t>(half_edge->triangle); };
     if (base_side[at(cap)] != cap->side)
       std::swap(cap, beside);
-    // Two caps side by side do not tell which way the surface looks; one of them stands beside another triangle.
+    // The orientation at an edge between two caps is unreliable. The outermost caps of a row are flipped first.
     if (base_side[at(cap)] != cap->side || base_side[at(beside)] >= 0 || cap->forward == beside->forward ||
-        turned[at(cap)] || turned[at(beside)])
+        flipped[at(cap)] || flipped[at(beside)])
       continue;
     const int c = mesh.triangles[at(cap)][(cap->side + 2) % 3];
     const int d = mesh.triangles[at(beside)][(beside->side + 2) % 3];
     const Diagonal diagonal = std::minmax(c, d);
-    if (c == d || isEdge(uses, diagonal) || made.count(diagonal) > 0 || !turnEdge(mesh, *cap, *beside))
+    if (c == d || isEdge(half_edges, diagonal) || new_diagonals.count(diagonal) > 0 || !flipEdge(mesh, *cap, *beside))
       continue;
-    made.insert(diagonal);
-    turned[at(cap)] = turned[at(beside)] = true;
+    new_diagonals.insert(diagonal);
+    flipped[at(cap)] = flipped[at(beside)] = true;
     ++count;
   }
   return count;
@@ -120,14 +122,14 @@ int flipOnce(geometry::TriangleMesh& mesh, double least_height)
 
 }  // namespace
 
-int flipCaps(geometry::TriangleMesh& mesh, double least_height)
+int removeCaps(geometry::TriangleMesh& mesh, double min_height)
 {
   int count = 0;
-  for (int round = 0; round < kMostRounds; ++round)
+  for (int round = 0; round < kMaxRounds; ++round)
   {
-    const int turned = flipOnce(mesh, least_height);
-    count += turned;
-    if (turned == 0)
+    const int flipped = removeCapsOnce(mesh, min_height);
+    count += flipped;
+    if (flipped == 0)
       break;
   }
   return count;
