@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/contact/contact_solver_state.h"
+#include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/linear/banded_ldlt.h"
 #include "rod/linear/sparse_solver.h"
