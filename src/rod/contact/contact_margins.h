@@ -4,11 +4,7 @@
 #include <limits>
 
 #include "contact/contract/contact_set.h"
-
-namespace endovascular_sim
-{
-class Archive;
-}
+#include "rod/contact/node_renumbering.h"
 
 namespace endovascular_sim::rod
 {
@@ -30,19 +26,6 @@ inline bool isWide(double radius)
 {
   return marginShare(radius) < 0.5;
 }
-
-/** Nodes from begin to before end, by their indices in the whole wire. */
-struct NodeRange
-{
-  int begin = 0;
-  int end = 0;
-
-  bool empty() const { return begin >= end; }
-  bool contains(int node) const { return node >= begin && node < end; }
-  /** Extends the range to the smallest one that contains both. */
-  void add(const NodeRange& other);
-  void archive(Archive& archive);
-};
 
 /** Rule for the margin of each node of a query. */
 struct MarginRule

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "rod/contact/contact_solver_state.h"
+#include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/kkt_system.h"

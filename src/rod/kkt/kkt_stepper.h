@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "rod/contact/contact_solver_state.h"
+#include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/kkt/active_set_solver.h"
 #include "rod/kkt/concentric_stack.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "rod/boundary/boundary_conditions.h"
-#include "rod/contact/contact_solver_state.h"
+#include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/mixed/mixed_twist.h"
 #include "rod/stepping/step_bisection.h"

@@ -1,4 +1,4 @@
-#include "rod/contact/contact_solver_state.h"
+#include "rod/contact/contact_solver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,12 @@
-// How far a solve may move the wire: src/rod/nodal_contacts_trust_region.cpp.
+#include "rod/contact/contact_trust_region.h"
+
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "rod/contact/contact_solver_state.h"
-#include "rod/kkt/kkt_stepper.h"
-#include "test/rod/plane_wall.h"
-#include "test/rod/rod_fixtures.h"
+#include "test/rod/contact/wire_over_a_floor.h"
 
 namespace endovascular_sim::rod
 {
@@ -18,59 +15,16 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kEi = 4.9469e-5;
-constexpr double kRadius = 1.8e-4;
-constexpr double kFriction = 0.2;
-
-/** Share of random motions that is left, and how often the wall was asked for free distances. */
-class TruncationOverAFloor : public testing::Test
+class TrustRegionOverAFloor : public WireOverAFloor
 {
 protected:
-  /** A wire that rises evenly from the floor. */
-  void place(double lowest, double highest)
-  {
-    for (int i = 0; i < kNodes; ++i)
-      state_.position[i].z() = kRadius + lowest + (highest - lowest) * i / (kNodes - 1);
-    contacts_.beginStep(StepInput(), &floor_, passes_, timer_);
-    contacts_.invalidate();
-    contacts_.refresh(state_, report_);
-    passes_ = 0;
-  }
-
-  /** A step in which nothing moves. */
-  void rest() { contacts_.beginStep(StepInput(), &floor_, passes_, timer_); }
-
-  /** A solve that would take a node of a wire at a height far aside, after which it is fast. */
-  void snap(int node, double height)
-  {
-    place(height, height);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[node] = Vector3d(3e-3, 0.0, 0.0);
-    contacts_.truncation(state_, motion, 1.0, report_);
-    contacts_.detect(state_, report_);
-    ASSERT_GT(contacts_.marginOf(node), settings_.contact_margin);
-  }
-
-  double radius(int node) const { return std::max(kRadius, radii_[node]); }
-  double gap(int node) const { return state_.position[node].z() - radius(node); }
-
-  /** The least margin of a node and of those beside it. */
+  /** Least margin of a node and its neighbours. */
   double margin(int node) const
   {
-    const double widest =
-        std::max({radius(std::max(0, node - 1)), radius(node), radius(std::min(node + 1, kNodes - 1))});
-    return marginOf(widest);
+    return marginOf(std::max({radius(std::max(0, node - 1)), radius(node), radius(std::min(node + 1, kNodes - 1))}));
   }
 
-  /** Margin of a slow node. */
-  double marginOf(double radius) const
-  {
-    MarginRule rule = contacts_.marginRule();
-    rule.snap = {};
-    return rule.at(0, radius);
-  }
-
-  double expected(const ContactSolver::Motion& motion) const
+  double expected(const NodalMotion& motion) const
   {
     double factor = 1.0;
     for (int i = 0; i + 1 < kNodes; ++i)
@@ -86,161 +40,77 @@ protected:
           factor = std::min(factor, margin(k) / motion[k].norm());
     return factor;
   }
-
-  ContactSolver::Motion randomMotion(double size)
-  {
-    std::uniform_real_distribution<double> uniform(-size, size);
-    ContactSolver::Motion motion(kNodes);
-    for (Vector3d& of_node : motion)
-      of_node = Vector3d(uniform(random_), uniform(random_), uniform(random_));
-    return motion;
-  }
-
-  static Boundary free()
-  {
-    Boundary boundary;
-    boundary.introducer = false;
-    return boundary;
-  }
-
-  static constexpr int kNodes = 21;
-  const Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
-  const Boundary boundary_ = free();
-  const StepperSettings settings_;
-  ContactSolver contacts_{rod_, boundary_, settings_};
-  PlaneWall floor_{kFriction};
-  State state_ = KktStepper(rod_, boundary_, Environment(), StepperSettings()).initialState(0.0, 0.0);
-  PhaseTimer timer_;
-  StepReport report_;
-  std::uint32_t passes_ = 0;
-  std::mt19937 random_{3};
-  std::vector<double> radii_ = std::vector<double>(kNodes, 0.0);  // least ones of what the wire carries
 };
 
-TEST_F(TruncationOverAFloor, IsThatOfTheTightestEdgeWhetherItsContactIsListedOrItsFreeDistanceAskedFor)
+TEST_F(TrustRegionOverAFloor, TruncatesForTheTightestEdgeByListedContactsAndByFreeDistances)
 {
-  int asked = 0;
+  int queries = 0;
   for (int trial = 0; trial < 200; ++trial)
   {
-    rest();
+    beginStep();
     place(trial % 2 == 0 ? 0.1e-3 : 0.5e-3, 20e-3);
-    const ContactSolver::Motion motion = randomMotion(1e-3 * (1 + trial % 10));
-    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), expected(motion), 1e-9) << trial;
-    asked += static_cast<int>(passes_);
-    if (trial % 20 == 19)  // something wide elsewhere
+    const NodalMotion motion = randomMotion(1e-3 * (1 + trial % 10));
+    EXPECT_NEAR(truncation(motion), expected(motion), 1e-9) << trial;
+    queries += static_cast<int>(passes_);
+    if (trial % 20 == 19)  // a wide body elsewhere
     {
-      radii_.assign(kNodes, 0.0);
+      least_radius_.assign(kNodes, 0.0);
       for (int i = trial / 20; i < trial / 20 + 5; ++i)
-        radii_[i] = 1.3e-3;
-      contacts_.setRadii(radii_);
+        least_radius_[i] = 1.3e-3;
+      contacts_.setRadii(least_radius_);
     }
   }
-  EXPECT_GT(asked, 0);
+  EXPECT_GT(queries, 0);
 }
 
-TEST_F(TruncationOverAFloor, IsTighterWhereTheWireCarriesAWideBodyAndAtTheNodesBeside)
+TEST_F(TrustRegionOverAFloor, IsTighterAtAWideBodyAndItsNeighbours)
 {
   constexpr int kMiddle = 10;
   constexpr double kWide = 1.5e-3;
-  radii_[kMiddle] = kWide;
-  contacts_.setRadii(radii_);
+  setBalloon(kMiddle, kWide);
   for (int moved = 0; moved < kNodes; ++moved)
   {
-    rest();
+    beginStep();
     place(0.1e-3, 0.1e-3);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[moved] = Vector3d(0.9 * settings_.contact_margin, 0.0, 0.0);
+    const double distance = 0.9 * settings_.contact_margin;
     const double wide_margin = marginOf(kWide);
     ASSERT_LT(wide_margin, 0.5 * settings_.contact_margin);
     const double margin = std::abs(moved - kMiddle) <= 1 ? wide_margin : settings_.contact_margin;
-    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), std::min(1.0, margin / motion[moved].norm()), 1e-12)
-        << moved;
+    EXPECT_NEAR(truncation(motionOf(moved, distance)), std::min(1.0, margin / distance), 1e-12) << moved;
   }
   place(20e-3, 20e-3);
-  EXPECT_EQ(contacts_.truncation(state_, ContactSolver::Motion(kNodes, Vector3d(1e-3, 0.0, 0.0)), 1.0, report_), 1.0);
+  EXPECT_EQ(truncation(NodalMotion(kNodes, Vector3d(1e-3, 0.0, 0.0))), 1.0);
 }
 
-TEST_F(TruncationOverAFloor, CountsTheMotionThatWasMadeOnTheLastSetBeforeTheNextOneFailsToCome)
+TEST_F(TrustRegionOverAFloor, SubtractsMotionOnTheLastFreshSetFromTheStaleBudget)
 {
-  radii_[5] = 1.2e-3;
-  contacts_.setRadii(radii_);
+  setBalloon(5, 1.2e-3);
   for (const double before : {0.0, 0.3, 1.0})
   {
     floor_.stale = false;
     place(0.1e-3, 0.1e-3);
     const double narrow = marginOf(1.2e-3);
     ASSERT_LT(narrow, settings_.contact_margin);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[5] = Vector3d(before * narrow, 0.0, 0.0);
-    EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
+    EXPECT_EQ(truncation(motionOf(5, before * narrow)), 1.0);
     floor_.stale = true;
     contacts_.detect(state_, report_);
-    motion[5] = Vector3d(2.0 * narrow, 0.0, 0.0);
-    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.5 * (1.0 - before), 1e-12) << before;
-    EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.0, 1e-12);  // all is spent
-    contacts_.beginStep(StepInput(), &floor_, passes_, timer_);                   // the next step may ask again
+    EXPECT_NEAR(truncation(motionOf(5, 2.0 * narrow)), 0.5 * (1.0 - before), 1e-12) << before;
+    EXPECT_NEAR(truncation(motionOf(5, 2.0 * narrow)), 0.0, 1e-12);
+    beginStep();  // the next step may query again
   }
 }
 
-TEST_F(TruncationOverAFloor, LeavesAFilledBalloonAsMuchAsItMaySoonMove)
-{
-  const auto moveBalloon = [&](double distance)
-  {
-    place(20e-3, 20e-3);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[5] = Vector3d(distance, 0.0, 0.0);
-    contacts_.truncation(state_, motion, 1.0, report_);
-    place(20e-3, 20e-3);
-    return contacts_.marginRule().widest_margin;
-  };
-  EXPECT_TRUE(std::isinf(moveBalloon(1e-5)));  // nothing wide yet
-  radii_[5] = 1.5e-3;
-  contacts_.setRadii(radii_);
-  const double moving = moveBalloon(1e-5);
-  EXPECT_GT(moving, 2e-5);
-  EXPECT_LT(moving, 1e-4);
-  EXPECT_GT(moveBalloon(0.0), 0.2 * moving);  // it may go on
-  for (int still = 0; still < 20; ++still)
-    moveBalloon(0.0);
-  EXPECT_GT(moveBalloon(0.0), 1e-6);
-  EXPECT_LT(moveBalloon(0.0), 1e-5);
-  EXPECT_GT(moveBalloon(1e-5), 2e-5);
-}
-
-TEST_F(TruncationOverAFloor, AsksFartherOffWhereASnapIsUnderWayAndForgetsItAfterAStepWithoutOne)
-{
-  const auto askedAfter = [&](double distance)
-  {
-    place(0.1e-3, 0.1e-3);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[9] = motion[10] = Vector3d(distance, 0.0, 0.0);
-    contacts_.truncation(state_, motion, 1.0, report_);
-    contacts_.detect(state_, report_);
-    return floor_.margins;
-  };
-  const double usual = settings_.contact_margin;
-  for (const double margin : askedAfter(0.5 * usual))
-    EXPECT_EQ(margin, usual);
-  const std::vector<double> fast = askedAfter(4.0 * usual);
-  for (int i = 0; i < kNodes; ++i)
-    EXPECT_EQ(fast[i], (i >= 7 && i <= 12 ? 3.0 : 1.0) * usual) << i;
-  EXPECT_EQ(askedAfter(0.0)[9], 3.0 * usual);  // the last step's snap may go on
-  EXPECT_EQ(askedAfter(0.0)[9], usual);
-}
-
-TEST_F(TruncationOverAFloor, NoFastNodeMovesFartherThanItsAxisIsFromTheWallNorThanWhatIsListed)
+TEST_F(TrustRegionOverAFloor, BoundsASnapThroughByTheAxisClearanceAndByTheWidenedMargin)
 {
   const double usual = settings_.contact_margin;
   for (const double gap : {-0.05e-3, 0.0, 0.2e-3, 0.6e-3, 2e-3})
     for (const int moved : {3, 8, 10})
     {
-      rest();
+      beginStep();
       place(gap, gap);
-      ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-      motion[moved] = Vector3d(3e-3, 0.0, 0.0);
-      contacts_.truncation(state_, motion, 1.0, report_);
+      truncation(motionOf(moved, 3e-3));
       contacts_.detect(state_, report_);
-      const double free = 3e-3 * contacts_.truncation(state_, motion, 1.0, report_);
+      const double free = 3e-3 * truncation(motionOf(moved, 3e-3));
       EXPECT_LE(free, std::max({usual, std::min(3.0 * usual, kRadius + gap), gap}) + 1e-12) << gap;
       EXPECT_GE(free, std::min(3.0 * usual, 0.9 * (kRadius + gap)) - 1e-12) << gap;
       EXPECT_GE(free, usual - 1e-12) << gap;
@@ -272,7 +142,7 @@ public:
   double gap = 0.0;  ///< [m]
 };
 
-TEST_F(TruncationOverAFloor, ACrossingOnATaperBoundsFastNodesByItsGapAndTheEdgesLeastRadius)
+TEST_F(TrustRegionOverAFloor, BoundsASnapThroughOnATaperByTheGapAndTheLeastRadiusOfTheEdge)
 {
   Discretisation tapered = rod_;
   for (int i = OneCrossing::kEdge + 1; i < kNodes; ++i)
@@ -286,57 +156,29 @@ TEST_F(TruncationOverAFloor, ACrossingOnATaperBoundsFastNodesByItsGapAndTheEdges
     contacts.beginStep(StepInput(), &wall, passes_, timer_);
     contacts.invalidate();
     contacts.refresh(state_, report_);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[OneCrossing::kEdge] = Vector3d(3e-3, 0.0, 0.0);
-    contacts.truncation(state_, motion, 1.0, report_);
+    contacts.truncation(state_, motionOf(OneCrossing::kEdge, 3e-3), 1.0, report_);
     contacts.detect(state_, report_);
-    const double clear = gap + 0.4 * kRadius;
+    const double clearance = gap + 0.4 * kRadius;
     for (const int node : {OneCrossing::kEdge, OneCrossing::kEdge + 1})
     {
-      EXPECT_LE(contacts.marginOf(node), std::max(usual, clear)) << gap;
-      EXPECT_GE(contacts.marginOf(node), std::max(usual, 0.9 * clear) - 1e-12) << gap;
+      EXPECT_LE(contacts.marginOf(node), std::max(usual, clearance)) << gap;
+      EXPECT_GE(contacts.marginOf(node), std::max(usual, 0.9 * clearance) - 1e-12) << gap;
     }
   }
 }
 
-TEST_F(TruncationOverAFloor, WhatIsPressedInAtOneNodeIsNoLeaveForAnother)
-{
-  constexpr double kTolerated = 80e-6;  // m
-  const auto pressIn = [&](double at_three, double at_nine)
-  {
-    place(1e-3, 1e-3);
-    state_.position[3].z() = kRadius - at_three;
-    state_.position[9].z() = kRadius - at_nine;
-    contacts_.detect(state_, report_);
-  };
-  ASSERT_GT(kRadius, 1.3 * kTolerated);
-  pressIn(1.2 * kTolerated, 0.0);
-  contacts_.noteDepths();
-  pressIn(1.2 * kTolerated, 0.9 * kTolerated);
-  EXPECT_FALSE(contacts_.isDeeper());
-  pressIn(1.2 * kTolerated, 1.1 * kTolerated);
-  EXPECT_TRUE(contacts_.isDeeper());
-  pressIn(1.1 * kTolerated, 0.0);
-  EXPECT_FALSE(contacts_.isDeeper());
-  pressIn(1.3 * kTolerated, 0.0);
-  EXPECT_TRUE(contacts_.isDeeper());
-}
-
-TEST_F(TruncationOverAFloor, FastNodesKeepWhatTheyMayMoveWhereTheNextSetFailsToCome)
+TEST_F(TrustRegionOverAFloor, KeepsTheReachOfASnapThroughIfTheNextSetIsStale)
 {
   snap(8, 0.2e-3);
   const double free = contacts_.marginOf(8);
-  ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-  motion[8] = Vector3d(0.25 * free, 0.0, 0.0);
-  EXPECT_EQ(contacts_.truncation(state_, motion, 1.0, report_), 1.0);
+  EXPECT_EQ(truncation(motionOf(8, 0.25 * free)), 1.0);
   floor_.stale = true;
   contacts_.detect(state_, report_);
-  motion[8] = Vector3d(free, 0.0, 0.0);
-  EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.75, 1e-12);
-  EXPECT_NEAR(contacts_.truncation(state_, motion, 1.0, report_), 0.0, 1e-12);
+  EXPECT_NEAR(truncation(motionOf(8, free)), 0.75, 1e-12);
+  EXPECT_NEAR(truncation(motionOf(8, free)), 0.0, 1e-12);
 }
 
-TEST_F(TruncationOverAFloor, FastNodesGoWithTheirNumbersWhenNodesComeBeforeThem)
+TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOnes)
 {
   snap(9, 0.1e-3);
   const double before = contacts_.marginOf(9);
@@ -347,81 +189,58 @@ TEST_F(TruncationOverAFloor, FastNodesGoWithTheirNumbersWhenNodesComeBeforeThem)
   EXPECT_EQ(contacts_.marginOf(11), before);
   EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
   contacts_.resample(discretiseUniformly(uniformWire(0.2, kEi, kRadius, 7900.0), kNodes));
-  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // of another wire nothing is known
+  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // nothing is known of another sampling
 }
 
-TEST_F(TruncationOverAFloor, AsksForNoFreeDistancesWhereListedContactsSettleIt)
+TEST_F(TrustRegionOverAFloor, QueriesNoFreeDistancesWhereListedContactsDecide)
 {
   place(0.0, 0.1e-3);
-  contacts_.truncation(state_, randomMotion(5e-3), 1.0, report_);
+  truncation(randomMotion(5e-3));
   EXPECT_EQ(passes_, 0U);
   place(1e-3, 2e-3);
-  contacts_.truncation(state_, randomMotion(5e-3), 1.0, report_);
+  truncation(randomMotion(5e-3));
   EXPECT_EQ(passes_, 1U);
 }
 
-TEST_F(TruncationOverAFloor, CountsWhatABalloonGrowsAndNotWhatItShrinks)
+TEST_F(TrustRegionOverAFloor, SubtractsTheGrowthOfABalloonAndIgnoresItsShrinking)
 {
-  const auto left = [&](double radius)
-  {
-    place(0.1e-3, 0.1e-3);
-    radii_[5] = radius;
-    contacts_.setRadii(radii_);
-    ContactSolver::Motion motion(kNodes, Vector3d::Zero());
-    motion[5] = Vector3d(1e-3, 0.0, 0.0);
-    return 1e-3 * contacts_.truncation(state_, motion, 1.0, report_);
-  };
   for (int still = 0; still < 40; ++still)
   {
-    radii_[5] = 1.08e-3;
-    contacts_.setRadii(radii_);
+    setBalloon(5, 1.08e-3);
     place(20e-3, 20e-3);
-    contacts_.truncation(state_, ContactSolver::Motion(kNodes, Vector3d::Zero()), 1.0, report_);
+    truncation(NodalMotion(kNodes, Vector3d::Zero()));
   }
   const double listed = marginOf(1.08e-3);
   ASSERT_LT(listed, 20e-6);
   EXPECT_NEAR(contacts_.marginOf(5), listed, 1e-12);
-  EXPECT_LE(left(1.05e-3), listed + 1e-12);  // wires of that radius have more
-  radii_[5] = 1.08e-3;
-  contacts_.setRadii(radii_);
-  const double before = (place(0.1e-3, 0.1e-3), contacts_.marginOf(5));
-  radii_[5] = 1.08e-3 + 0.25 * before;
-  contacts_.setRadii(radii_);
+  place(0.1e-3, 0.1e-3);
+  setBalloon(5, 1.05e-3);
+  EXPECT_LE(1e-3 * truncation(motionOf(5, 1e-3)), listed + 1e-12);  // a slender wire of that radius has more
+  setBalloon(5, 1.08e-3);
+  place(0.1e-3, 0.1e-3);
+  const double before = contacts_.marginOf(5);
+  setBalloon(5, 1.08e-3 + 0.25 * before);
   EXPECT_NEAR(contacts_.marginOf(5), 0.75 * before, 1e-12);
-  radii_[5] += before;
-  contacts_.setRadii(radii_);
+  setBalloon(5, 1.08e-3 + 1.25 * before);
   EXPECT_GT(contacts_.marginOf(5), 0.0);
 }
 
-TEST_F(TruncationOverAFloor, ContactsComeCloserByAsMuchAsABalloonGrowsAsIfTheyWereAskedForAnew)
+/** A trust region without a contact solver. */
+TEST_F(TrustRegionOverAFloor, LeavesFreshMotionWithinTheReachAsItIs)
 {
-  const auto grown = [&](bool anew)
-  {
-    ContactSolver contacts(rod_, boundary_, settings_);
-    std::vector<double> radii(kNodes, 0.0);
-    contacts.beginStep(StepInput(), &floor_, passes_, timer_);
-    contacts.setRadii(radii);
-    for (int i = 0; i < kNodes; ++i)
-      state_.position[i].z() = kRadius + 0.05e-3;
-    contacts.refresh(state_, report_);
-    for (int i = 4; i < 9; ++i)
-      radii[i] = kRadius + 0.03e-3 * (i - 3);
-    contacts.setRadii(radii);
-    if (anew)
-      contacts.invalidate();
-    contacts.refresh(state_, report_);
-    contacts.prepare(state_, 1e-3);
-    std::vector<double> gaps;
-    for (std::size_t c = 0; c < contacts.count(); ++c)
-      gaps.push_back(contacts.spring(c).gap);
-    return gaps;
-  };
-  const std::vector<double> gaps = grown(false);
-  const std::vector<double> anew = grown(true);
-  ASSERT_EQ(gaps.size(), anew.size());
-  EXPECT_GT(gaps.size(), static_cast<std::size_t>(kNodes));  // with what is behind the wall
-  for (std::size_t c = 0; c < gaps.size(); ++c)
-    EXPECT_NEAR(gaps[c], anew[c], 1e-12);
+  const WireSurface surface(rod_);
+  ContactQueryBuilder query(rod_, boundary_, settings_, surface);
+  ContactTrustRegion region(rod_, settings_, surface, query);
+  contact::ContactSet set;
+  query.beginStep(StepInput(), &floor_, passes_, timer_);
+  query.detect(state_, set, report_);
+  region.update(set.features);
+  EXPECT_EQ(region.reach(4), settings_.contact_margin);
+  EXPECT_EQ(region.truncation(state_, motionOf(4, 0.99 * settings_.contact_margin), 1.0, set, report_), 1.0);
+  EXPECT_EQ(region.truncation(state_, motionOf(4, 0.99 * settings_.contact_margin), 0.5, set, report_), 0.5);
+  set.stale = true;
+  region.setStaleBudget(0.25);
+  EXPECT_NEAR(region.truncation(state_, motionOf(4, settings_.contact_margin), 1.0, set, report_), 0.25, 1e-12);
 }
 
 }  // namespace

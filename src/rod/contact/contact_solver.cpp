@@ -1,0 +1,200 @@
+#include "rod/contact/contact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/archive.h"
+#include "contact/contract/contact_set_archive.h"
+
+namespace endovascular_sim::rod
+{
+
+ContactSolver::ContactSolver(const Discretisation& rod, const Boundary& boundary, const StepperSettings& settings)
+  : rod_(rod),
+    settings_(settings),
+    surface_(rod),
+    query_(rod, boundary, settings, surface_),
+    trust_region_(rod, settings, surface_, query_),
+    springs_(rod, settings),
+    penetration_(rod),
+    transfer_(rod)
+{
+}
+
+void ContactSolver::beginStep(const StepInput& input, contact::ContactSource* source, std::uint32_t& pass,
+                              PhaseTimer& timer)
+{
+  query_.beginStep(input, source, pass, timer);
+}
+
+void ContactSolver::setRadii(const std::vector<double>& radii)
+{
+  if (surface_.leastRadius().size() == radii.size())
+  {
+    releaseRetained();
+    removeStiffLayer(current_.set.features);
+    trust_region_.subtractGrowth(radii);
+    for (contact::Feature& feature : current_.set.features)
+    {
+      const int next = std::min(feature.edge + 1, rod_.nodes() - 1);
+      feature.gap -= (1.0 - feature.parameter) * surface_.growthTo(radii[feature.edge], feature.edge) +
+                     feature.parameter * surface_.growthTo(radii[next], next);
+    }
+    addStiffLayers();
+  }
+  surface_.setLeastRadius(radii);
+}
+
+void ContactSolver::addStiffLayers()
+{
+  const auto reach = [this](int node) { return std::max(settings_.contact_margin, trust_region_.reach(node)); };
+  addStiffLayer(rod_, reach, current_.set.features);
+}
+
+void ContactSolver::invalidate()
+{
+  valid_ = false;
+  trust_region_.setStaleBudget(0.0);
+}
+
+void ContactSolver::refresh(const State& state, StepReport& report)
+{
+  if (present() && (!valid_ || current_.set.stale))
+    detect(state, report);
+}
+
+/** A fresh answer gets its stiff layers; a stale one is left as it is. */
+void ContactSolver::query(const State& state, StepReport& report)
+{
+  query_.detect(state, current_.set, report);
+  if (current_.set.stale)
+    return;
+  trust_region_.update(current_.set.features);
+  addStiffLayers();
+}
+
+void ContactSolver::detect(const State& state, StepReport& report)
+{
+  std::swap(current_, previous_);
+  current_.retained = 0;
+  query(state, report);
+  valid_ = solve_precedes_detection_ = true;
+  if (current_.set.stale)
+    reuseEarlierContacts(state);
+  else
+    trust_region_.setStaleBudget(1.0);
+}
+
+void ContactSolver::detectAgain(const State& state, StepReport& report)
+{
+  query(state, report);
+  if (current_.set.stale)
+    trust_region_.setStaleBudget(0.0);  // the set is that of a state unknown by now
+}
+
+void ContactSolver::reuseEarlierContacts(const State& state)
+{
+  std::vector<contact::Feature>& features = current_.set.features;
+  features = previous_.set.features;
+  features.resize(previous_.detected());
+  removeStiffLayer(features);
+  for (contact::Feature& feature : features)
+    feature.gap = surface_.gapTo(feature, state);
+  addStiffLayers();
+}
+
+void ContactSolver::noteDepths()
+{
+  penetration_.store(current_, query_.mouthEdge(), query_.mouth());
+}
+
+void ContactSolver::prepare(const State& state, double dt)
+{
+  solve_precedes_detection_ = false;
+  springs_.prepare(state, dt, current_);
+}
+
+bool ContactSolver::updateActiveSet(const Motion& motion, int pass, bool same_rest)
+{
+  return active_set_.update(current_, motion, pass, same_rest);
+}
+
+double ContactSolver::truncation(const State& state, const Motion& motion, double factor, StepReport& report)
+{
+  return present() ? trust_region_.truncation(state, motion, factor, current_.set, report) : factor;
+}
+
+void ContactSolver::updateWallForces(State& state, const Motion& motion)
+{
+  springs_.exertForces(solve_precedes_detection_ ? previous_ : current_, motion, state);
+}
+
+bool ContactSolver::foundUnknown(const State& state) const
+{
+  for (const contact::Feature& feature : current_.set.features)
+  {
+    if (feature.gap + wallOffset(state, feature) >= -settings_.penetration_tolerance)
+      continue;
+    bool known = false;
+    for (std::size_t c = 0; c < previous_.springs.size() && !known; ++c)
+      known = previous_.springs[c].active && isSameContact(previous_.set.features[c], feature);
+    if (!known)
+      return true;
+  }
+  return false;
+}
+
+void ContactSolver::retainActiveContacts(const State& state)
+{
+  if (current_.set.stale)
+    return;
+  std::vector<contact::Feature>& features = current_.set.features;
+  const std::size_t detected = features.size();
+  for (std::size_t c = 0; c < previous_.springs.size(); ++c)
+  {
+    const contact::Feature& feature = previous_.set.features[c];
+    const bool pressed = feature.gap + wallOffset(state, feature) < 0.0 || previous_.springs[c].active ||
+                         c + previous_.retained >= previous_.springs.size();
+    if (!pressed || isStiffLayer(feature) || !isBetweenNodes(feature))
+      continue;
+    const auto begin = features.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(detected);
+    if (std::any_of(begin, end, [&feature](const contact::Feature& other) { return isSameContact(feature, other); }))
+      continue;
+    features.push_back(feature);
+    features.back().gap = surface_.gapTo(feature, state);
+  }
+  current_.retained = features.size() - detected;
+}
+
+void ContactSolver::releaseRetained()
+{
+  current_.set.features.resize(current_.detected());
+  current_.retained = 0;
+}
+
+void ContactSolver::resample(const Discretisation& to)
+{
+  const NodeRenumbering renumbering(rod_, to, query_.query().first_node);
+  transfer_.moveFeatures(to, renumbering, current_.set.features);
+  valid_ = valid_ && renumbering.isShift();
+  surface_.resample(renumbering);
+  trust_region_.resample(renumbering);
+  query_.resample(renumbering);
+  transfer_.storeForces(previous_);
+}
+
+// The order is that of saved states of format 4.
+void ContactSolver::archive(Archive& archive)
+{
+  archive(current_.set, previous_.set, current_.springs, previous_.springs);
+  transfer_.archive(archive);
+  surface_.archive(archive);
+  archive(valid_, solve_precedes_detection_);
+  query_.archiveStaleness(archive);
+  trust_region_.archive(archive);
+  query_.archive(archive);
+}
+
+}  // namespace endovascular_sim::rod
