@@ -44,8 +44,8 @@ struct TimedEvent
 
 /** Balloons and stents of a scene: the coupling of the rod, which carries them, with the wall, which they deform.
  *
- *  After every kBalloonLoadPeriod-th step the balloon with the highest pressure loads the wall. Contact detection uses the
- *  resulting wall from the next such step on: a lag that leaves time to compute the wall displacement elsewhere. */
+ *  After every kBalloonLoadPeriod-th step the balloon with the highest pressure loads the wall. Contact detection uses
+ * the resulting wall from the next such step on: a lag that leaves time to compute the wall displacement elsewhere. */
 class BalloonTreatments
 {
 public:

@@ -40,7 +40,7 @@ public:
   std::uint64_t version() const;  ///< newest version; thread-safe
 
 private:
-  intervention::VesselDilatation opening_;     ///< used by the thread of press() only
+  intervention::VesselDilatation opening_;  ///< used by the thread of press() only
   mutable PriorityInheritanceMutex mutex_;  ///< guards the following members
   simulation::WallHistory<WallDisplacement> history_;
   geometry::TriangleMesh base_;  ///< mesh in the history's base version

@@ -39,12 +39,12 @@ private:
   void receiveForceMap(const ContactForceMapConstPtr& map);
   void drawHeatMap(const ContactForceMap& map);
 
-  double full_scale_;                              ///< contact force at a node that is drawn red [N]
-  double radius_scale_;                            ///< drawn radius of the wire relative to its radius [1]
-  std::string heat_of_;                            ///< quantity of the heat map
-  double heat_full_scale_;                         ///< value of it that is drawn red [N], [N·s] or [s]
+  double full_scale_;                                 ///< contact force at a node that is drawn red [N]
+  double radius_scale_;                               ///< drawn radius of the wire relative to its radius [1]
+  std::string heat_of_;                               ///< quantity of the heat map
+  double heat_full_scale_;                            ///< value of it that is drawn red [N], [N·s] or [s]
   std::unique_ptr<visualization::WallHeatMap> heat_;  ///< null before the vessel
-  std::uint64_t vessel_hash_ = 0;                  ///< content hash of the initial wall
+  std::uint64_t vessel_hash_ = 0;                     ///< content hash of the initial wall
   ContactForceMapConstPtr newest_map_;
   double last_time_ = -1.0;       ///< simulated time of the drawn wire [s]
   double last_treatment_ = -1.0;  ///< simulated time of the drawn treatment [s]
