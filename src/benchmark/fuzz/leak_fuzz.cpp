@@ -18,9 +18,9 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kInitialInsertion = 4e-3;  // m
-constexpr double kFastestHand = 0.5;        // m/s
-constexpr double kFastestTurn = 59.0;       // rad/s
+constexpr double kInitialInsertion = 4e-3;  // inserted length at the start [m]
+constexpr double kFastestHand = 0.5;        // largest speed of the hand [m/s]
+constexpr double kFastestTurn = 59.0;       // largest angular speed of the hand [rad/s]
 constexpr double kLargestTipMoment =
     0.02;  // largest moment that straightens a pre-curved tip [N·m]; the stiff J of peer_wire requires 0.0165
 constexpr double kSuspicious = 50e-6;    // depth in the solver that triggers a check [m]

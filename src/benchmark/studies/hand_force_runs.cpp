@@ -14,7 +14,7 @@ namespace
 
 constexpr double kTip = 5e-3;          // length of the tip [m]
 constexpr double kOmitted = 0.5;       // omitted time at both ends of a noise measurement [s]
-constexpr double kShaftSpeed = 0.035;  // m/s
+constexpr double kShaftSpeed = 0.035;  // speed of the push [m/s]
 
 double tipForce(const simulation::Simulation& simulation)
 {

@@ -134,7 +134,7 @@ std::vector<HardCase> latinHypercube(int samples)
   return cases;
 }
 
-/** What the factors of a sample are, for the table. */
+/** Label of a sample with its factors. */
 std::string describe(const HardCase& hard)
 {
   return hard.label + ": EI " + number(1e6 * hard.bending_stiffness) + " N·mm², Δt " + number(1e3 * hard.time_step) +
