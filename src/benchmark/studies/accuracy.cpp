@@ -65,12 +65,10 @@ std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& 
 {
   Section section(accuracyTables(), "accuracy");
   section.text =
-      "Distance between the computed and the exact tip over the length of the wire, and the observed order in the edge "
-      "length between consecutive rows. The clamp of `kkt` and `paper` acts at the centre of an edge: the free length "
-      "is "
-      "N − 3/2 edges. That of `mixed` acts at the node: N − 1 edges. The time per step is that of the run to rest, "
-      "with "
-      "long steps of several solves.";
+      "Distance between the computed and the exact tip over the length of the wire, and the observed order in the "
+      "edge length between consecutive rows. The clamp of `kkt` and `paper` acts at the centre of an edge: the free "
+      "length is N − 3/2 edges. That of `mixed` acts at the node: N − 1 edges. The time per step is that of the run "
+      "to rest, with long steps of several solves.";
   const std::vector<StaticCase> problems = staticCases();
   double done = 0.0;
   for (const StaticCase& problem : problems)

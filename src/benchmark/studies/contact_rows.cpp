@@ -65,16 +65,13 @@ void addContactRows(Section& section, const Progress& progress)
   section.text =
       "Walls in closed form with contact at the nodes, which exclude effects of facets.\n\n"
       "- Insertion: a straight wire of EI = 300 N·mm² enters a bend of 90° and 30 mm radius at 50 mm/s; means over 10 "
-      "mm "
-      "of travel. The clearance is a hundredth of the radius; the position within it changes the force by ± 2 %.\n"
+      "mm of travel. The clearance is a hundredth of the radius; the position within it changes the force by ± 2 %.\n"
       "- Capstan: mean over a travel of two edges. In the linear step of `paper`, friction removes at most the "
-      "momentum "
-      "of a node, m v/Δt, so its share is 1/(1 + Δt μ f_n/(m v)).\n"
-      "- Tubes: held ends, shortened by a small lateral amplitude. The force grows with the amplitude, and between the "
-      "clamps of the bent tube by 2.5 % with the finite length; both count as error.\n"
+      "momentum of a node, m v/Δt, so its share is 1/(1 + Δt μ f_n/(m v)).\n"
+      "- Tubes: held ends, shortened by a small lateral amplitude. The force grows with the amplitude, and between "
+      "the clamps of the bent tube by 2.5 % with the finite length; both count as error.\n"
       "- Steps: the wall of `paper` yields by F Δt²/m, so its steps are 1.3 µs in the channel, 1 µs on the peg, 3 µs "
-      "in "
-      "the bent tube, 20 µs in the insertion and 0.1 ms in the straight tube; those of the others are 0.1 to 5 ms.";
+      "in the bent tube, 20 µs in the insertion and 0.1 ms in the straight tube; those of the others are 0.1 to 5 ms.";
   double done = 0.0;
   for (const std::string& scheme : schemes())
   {

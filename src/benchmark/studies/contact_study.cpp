@@ -143,9 +143,9 @@ Section volumes(const StudyMesh& base, const StudyMesh& big, bool quick, const P
 {
   Section section(contactTables(), "contact_volumes");
   section.text =
-      "Hierarchies of FCL over the same triangles, traversed from the root by the same code with the distance bound of "
-      "each volume. Collect: all triangles possibly within 2 mm of a node, the query of a new detector. Nearest: the "
-      "nearest triangle, the query of signs and free distances. Fastest of several runs.";
+      "Hierarchies of FCL over the same triangles, traversed from the root by the same code with the distance bound "
+      "of each volume. Collect: all triangles possibly within 2 mm of a node, the query of a new detector. Nearest: "
+      "the nearest triangle, the query of signs and free distances. Fastest of several runs.";
   std::vector<StudyMesh> meshes;
   StudyMesh fine = base;
   fine.mesh = geometry::flatSubdivision(base.mesh, 2);
@@ -235,8 +235,9 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
   for (double t : triangles)
     doublings.push_back(std::log2(t));
   section.text =
-      "One call of the detector for 380 nodes over 450 mm, all in contact with the wall (the upper bound of the cost). "
-      "Steady: the wire slides along itself by 35 µm per call; median. Cold: first call of a new detector. Each "
+      "One call of the detector for 380 nodes over 450 mm, all in contact with the wall (the upper bound of the "
+      "cost). Steady: the wire slides along itself by 35 µm per call; median. Cold: first call of a new detector. "
+      "Each "
       "refinement divides the triangles into four on the same surface. Fit over the rows of " +
       base.name + ": steady ∝ N^" + number(exponent(triangles, steady), 2) + ", cold ∝ N^" +
       number(exponent(triangles, cold), 2) + ", nearest triangle ∝ N^" + number(exponent(triangles, nearest), 2) +
@@ -246,9 +247,8 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
       " times, cold " + number(cold.back() / cold.front()) + " times, nearest triangle " +
       number(nearest.back() / nearest.front()) +
       " times. The query descends a tree of depth log N; the excess is the cost of cache misses. The sliding wire "
-      "reuses "
-      "its neighbour lists, whose length depends on N only for facets smaller than the skin; a new detector builds all "
-      "lists.";
+      "reuses its neighbour lists, whose length depends on N only for facets smaller than the skin; a new detector "
+      "builds all lists.";
   return section;
 }
 
@@ -275,8 +275,7 @@ Section loop(const StudyOptions& options, const Progress& progress)
   Section section(contactTables(), "contact_loop");
   section.text =
       "The wire of peer_wire.yaml with 380 nodes, pushed 400 mm at 35 mm/s and rotated; Δt 1 ms; last two seconds. "
-      "Cold: "
-      "first call of a new detector at the final shape, fastest of five.";
+      "Cold: first call of a new detector at the final shape, fastest of five.";
   if (options.vessel_mesh.empty())
     return section;
   for (int smoothing = 0; smoothing <= 2; ++smoothing)
@@ -285,9 +284,14 @@ Section loop(const StudyOptions& options, const Progress& progress)
     BenchRun run(
         "vessel: {mesh: '" + options.vessel_mesh +
         "', unit: 0.001, friction: 0.1, smoothing: " + std::to_string(smoothing) +
-        "}\nname: loop\nduration: 10\nentry: {position: [-0.035, 0.065, 0.005], direction: [-1, -1, 0], up: [1, "
-        "-1, 0]}\ninstrument: instruments/peer_j_wire.yaml\ndrive: {source: script, initial_insertion: 0.0042, "
-        "speed: 0.035, travel: 0.4, rotation: {amplitude: 2.0, frequency: 0.159}, force_limit: 8}\nsampling: "
+        "}\n"
+        "name: loop\n"
+        "duration: 10\n"
+        "entry: {position: [-0.035, 0.065, 0.005], direction: [-1, -1, 0], up: [1, -1, 0]}\n"
+        "instrument: instruments/peer_j_wire.yaml\n"
+        "drive: {source: script, initial_insertion: 0.0042, speed: 0.035, travel: 0.4, rotation: {amplitude: 2.0, "
+        "frequency: 0.159}, force_limit: 8}\n"
+        "sampling: "
         "{kind: uniform, nodes: 380}\n");
     run.advance(options.quick ? 0.2 : 9.4);
     const RunSummary summary = run.advance(options.quick ? 0.2 : 2.0);

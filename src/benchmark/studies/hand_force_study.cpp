@@ -112,12 +112,11 @@ Section chartPoints(const std::vector<Curve>& curves)
 {
   Section section(handForceTables(), "hand_force_curves");
   section.text =
-      "A 0.014\" wire (EI 50 N·mm², graded to 1.6 N·mm² at the tip) is pushed 80 mm from a catheter in the left ostium "
-      "into the left coronary artery of the generated anatomy (smoothed once); μ = 0.1, Δt = 1 ms, as in Fig. 10 of Li "
-      "et "
-      "al. A: speed. B: bending modulus. C: shear modulus and final rotation of the hand, with an angled tip; the plot "
-      "shows the torque at the hand. D: shape of the tip; the plot shows the normal force on the last 5 mm. Points are "
-      "means over 0.5 mm.";
+      "A 0.014\" wire (EI 50 N·mm², graded to 1.6 N·mm² at the tip) is pushed 80 mm from a catheter in the left "
+      "ostium into the left coronary artery of the generated anatomy (smoothed once); μ = 0.1, Δt = 1 ms, as in Fig. "
+      "10 of Li et al. A: speed. B: bending modulus. C: shear modulus and final rotation of the hand, with an angled "
+      "tip; the plot shows the torque at the hand. D: shape of the tip; the plot shows the normal force on the last 5 "
+      "mm. Points are means over 0.5 mm.";
   for (const Curve& curve : curves)
   {
     const double end = curve.samples.back().insertion;
@@ -200,22 +199,18 @@ Section orderings(const std::vector<Curve>& curves)
       "assumptions.\n\n"
       "- **A, speed.** The balance along the wire is T′ = −f·t with f = wall friction + ρ_l a + drag. Neither Coulomb "
       "friction nor the bending term ½EIκ² depends on the speed. Inertia is of order ρ_l v² (momentum flux into a "
-      "bend): "
-      "8e-4 kg/m · (0.1 m/s)² = 8 µN, a thousandth of the force. A force that increases with the speed requires "
-      "viscous "
-      "terms (a damped penalty wall, drag, a lubricated coating), which the scene does not have.\n"
+      "bend): 8e-4 kg/m · (0.1 m/s)² = 8 µN, a thousandth of the force. A force that increases with the speed "
+      "requires viscous terms (a damped penalty wall, drag, a lubricated coating), which the scene does not have.\n"
       "- **B, bending modulus.** Bending forces are proportional to EI, and so is friction, through the wall forces "
-      "that "
-      "bend the wire. The force doubles with EI.\n"
+      "that bend the wire. The force doubles with EI.\n"
       "- **C, shear modulus and angle.** A straight isotropic shaft with a free distal end carries no torque. Its "
-      "energy "
-      "½EI∫κ² is independent of GJ, and so is the axial force. GJ acts through the curved tip only: bend and wall hold "
-      "the tip by a torque M(φ), bounded by EI and its rest curvature, and the proximal angle is Θ = φ + M∫ds/GJ. Here "
-      "∫ds/GJ = 3.1e4 rad/(N·m), so 1.6 µN·m twist the wire by 3° of 180°: the tip follows the hand. A larger angle "
-      "rotates the tip to positions of smaller M. A torque GJ·Θ/L requires a tip that cannot rotate.\n"
-      "- **D, tips.** The shaft determines the force at the hand; the tip (EI 1.6 of 50 N·mm²) contributes little. The "
-      "tip force is the normal force on the last 5 mm: the vessel straightens a curved tip, whose rest curvature adds "
-      "lateral forces to those of a straight one. Frontal pushes into a wall, where curved tips yield, are not "
+      "energy ½EI∫κ² is independent of GJ, and so is the axial force. GJ acts through the curved tip only: bend and "
+      "wall hold the tip by a torque M(φ), bounded by EI and its rest curvature, and the proximal angle is Θ = φ + "
+      "M∫ds/GJ. Here ∫ds/GJ = 3.1e4 rad/(N·m), so 1.6 µN·m twist the wire by 3° of 180°: the tip follows the hand. A "
+      "larger angle rotates the tip to positions of smaller M. A torque GJ·Θ/L requires a tip that cannot rotate.\n"
+      "- **D, tips.** The shaft determines the force at the hand; the tip (EI 1.6 of 50 N·mm²) contributes little. "
+      "The tip force is the normal force on the last 5 mm: the vessel straightens a curved tip, whose rest curvature "
+      "adds lateral forces to those of a straight one. Frontal pushes into a wall, where curved tips yield, are not "
       "measured.";
   return section;
 }
@@ -234,9 +229,8 @@ Section overNodes(bool quick, const Progress& progress)
   Section section(handForceTables(), "hand_force_nodes");
   section.text =
       "A plain 0.035\" wire (EI 291 N·mm²) of 0.3 m, pushed 200 mm (quick: 120 mm) at 35 mm/s, μ = 0.1. Channel: 8 mm "
-      "diameter, two bends in different planes, smoothed twice. Anatomy: the generated anatomy from the femoral artery "
-      "to "
-      "below the aortic bifurcation, smoothed once. Criterion: within 3 % of 240 nodes.";
+      "diameter, two bends in different planes, smoothed twice. Anatomy: the generated anatomy from the femoral "
+      "artery to below the aortic bifurcation, smoothed once. Criterion: within 3 % of 240 nodes.";
   double done = 0.0;
   for (const bool anatomy : {false, true})
   {
@@ -305,14 +299,11 @@ Section smoothness(bool quick, const Progress& progress)
   Section section(handForceTables(), "hand_force_noise");
   section.text =
       "The wire of the table above with 480 nodes, sampled at every step of 1 ms. Noise: RMS of the force above 5 Hz "
-      "(7 mm "
-      "of travel at 35 mm/s) over its mean; the first and last half second are omitted. The band includes the physical "
-      "interaction of tip and wall; the remainder decreases with the size of the facets and with the contact "
-      "stiffness. "
-      "Departure: largest distance between the vertices of the smoothed and the original surface and the other "
-      "surface. "
-      "Wall: rigid with `solver.contact_stiffness` (default 100 N/mm; 30 N/mm yield by about 2 µm here), or compliant "
-      "with `vessel.stiffness` per length of wire. Criterion: 3 % on a smoothed wall.";
+      "(7 mm of travel at 35 mm/s) over its mean; the first and last half second are omitted. The band includes the "
+      "physical interaction of tip and wall; the remainder decreases with the size of the facets and with the contact "
+      "stiffness. Departure: largest distance between the vertices of the smoothed and the original surface and the "
+      "other surface. Wall: rigid with `solver.contact_stiffness` (default 100 N/mm; 30 N/mm yield by about 2 µm "
+      "here), or compliant with `vessel.stiffness` per length of wire. Criterion: 3 % on a smoothed wall.";
   const WallCase walls[] = {{false, 0, 1e5},          {false, 1, 1e5}, {false, 2, 1e5}, {true, 0, 1e5},
                             {true, 1, 1e5},           {true, 2, 1e5},  {true, 2, 3e4},  {false, 1, kTissue, false},
                             {true, 1, kTissue, false}};

@@ -109,10 +109,8 @@ void addReferenceRows(Section& section, const StudyOptions& options, const Progr
 {
   section.text =
       "`statics` is an independent solver of the same discrete rod (Newton with the exact Hessian, KLU). `twist` is "
-      "the "
-      "quasi-static twist of `kkt` and `paper` on a prescribed planar centreline. Frequencies are phases per step of "
-      "the "
-      "vibrating tip at ωΔt = 0.1. The exact growth of backward Euler is that at the frequency of the beam.";
+      "the quasi-static twist of `kkt` and `paper` on a prescribed planar centreline. Frequencies are phases per step "
+      "of the vibrating tip at ωΔt = 0.1. The exact growth of backward Euler is that at the frequency of the beam.";
   progress(0.0, "post-buckling");
   addBuckling(section.table, options.quick);
   progress(0.4, "torsional buckling");

@@ -24,10 +24,8 @@ std::vector<Section> samplingSections(const StudyOptions& options, const Progres
   Section runs(samplingTables(), "sampling_runs");
   runs.text =
       "Each wire is pushed, withdrawn and rotated, and compared over the whole motion with uniform edges of 0.125 mm. "
-      "Force "
-      "error: RMS difference of 20 ms means over the peak of the reference. For comparison, Fig. 8 of the paper has "
-      "142 "
-      "nodes at 0.5 mm, 88 at 0.8 mm and about 75 with adaptive sampling.";
+      "Force error: RMS difference of 20 ms means over the peak of the reference. For comparison, Fig. 8 of the paper "
+      "has 142 nodes at 0.5 mm, 88 at 0.8 mm and about 75 with adaptive sampling.";
   Section verdicts(samplingTables(), "sampling_measures");
   const std::vector<SamplingCase> cases = samplingCases(options.vessel_mesh, options.quick);
   int held = 0;

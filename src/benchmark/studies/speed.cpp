@@ -112,13 +112,10 @@ Section paperTable(const StudyOptions& options, const Progress& progress)
   Section section(speedTables(), "speed_table");
   section.text =
       "Medians in µs on one core. The wire lies in a channel with two bends and is pushed and rotated; all nodes are "
-      "in the "
-      "solver. The phases of the paper were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not add up "
-      "to "
-      "its totals, so the comparison is by phase. Inextensibility is part of the solve of `kkt`, and the projection of "
-      "`paper`. A whole frame is one step, the surface mesh of the wire and one fluoroscopy frame of 512² pixels; the "
-      "paper "
-      "reaches 75 frames per second at 380 nodes.";
+      "in the solver. The phases of the paper were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not "
+      "add up to its totals, so the comparison is by phase. Inextensibility is part of the solve of `kkt`, and the "
+      "projection of `paper`. A whole frame is one step, the surface mesh of the wire and one fluoroscopy frame of "
+      "512² pixels; the paper reaches 75 frames per second at 380 nodes.";
   const std::vector<std::pair<int, int>> paper = {
       {100, 680 + 260 + 1020}, {200, 920 + 520 + 2130}, {300, 1160 + 790 + 3140}, {380, 1270 + 990 + 3980}};
   const std::vector<std::string> compared = {"kkt", "paper"};
@@ -147,9 +144,8 @@ Section growth(const StudyOptions& options, const Progress& progress)
   const std::function<std::uint64_t()>& allocations = options.allocations;
   Section section(speedTables(), "speed_growth");
   section.text =
-      "A clamped wire falling under gravity without contact, Δt = 1 ms; medians. The exponent between consecutive rows "
-      "is "
-      "1 for linear growth. Cycles are means of the time stamp counter of the processor.";
+      "A clamped wire falling under gravity without contact, Δt = 1 ms; medians. The exponent between consecutive "
+      "rows is 1 for linear growth. Cycles are means of the time stamp counter of the processor.";
   const std::vector<int> counts =
       options.quick ? std::vector<int>{100, 380, 1000} : std::vector<int>{100, 200, 380, 1000, 2000, 5000};
   const StaticCase problem = heavyCantilever();

@@ -218,11 +218,9 @@ std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress&
   auto counts = run(oneAtATime(options.quick), single.table, max_steps, progress, 0.0, 0.4);
   single.text =
       "Baseline: a J wire (EI 300 N·mm², 150 nodes) pushed 60 mm at 35 mm/s through a 90° bend of 30 mm radius, Δt 1 "
-      "ms, "
-      "half a turn. Each further case changes one factor. Good: no NaN, strain ≤ 1e-3, penetration of the surface ≤ "
-      "0.1 "
-      "mm, no node outside, no more energy than the applied work. Rejected: rejected steps, in which the wire is held, "
-      "or "
+      "ms, half a turn. Each further case changes one factor. Good: no NaN, strain ≤ 1e-3, penetration of the surface "
+      "≤ 0.1 mm, no node outside, no more energy than the applied work. Rejected: rejected steps, in which the wire "
+      "is held, or "
       "a rejected scene. Self-contact of the wire is out of scope. " +
       counted(counts);
   Section cube(stabilityTables(), "stability_samples");

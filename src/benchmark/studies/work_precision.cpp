@@ -65,10 +65,8 @@ Section statics(const StudyOptions& options, const Progress& progress)
   Section section(workPrecisionTables(), "work_precision_static");
   section.text =
       "The time is that of a step of 1 ms of the moving wire; the error is that of its rest shape. Points marked "
-      "`measured` "
-      "belong to other systems with the same wire, measured separately on a similar machine: differences of some "
-      "percent "
-      "are not significant.";
+      "`measured` belong to other systems with the same wire, measured separately on a similar machine: differences "
+      "of some percent are not significant.";
   addPeers(section.table);
   double done = 0.0;
   for (const std::string& scheme : schemes())
@@ -107,8 +105,8 @@ Section dynamics(const StudyOptions& options, const Progress& progress)
   Section section(workPrecisionTables(), "work_precision_dynamic");
   section.text =
       "The heavy cantilever 0.2 s after its release. The reference is `kkt` with 200 nodes, extrapolated to Δt = 0 "
-      "from 20 "
-      "and 10 µs. Backward Euler is of first order in Δt, which limits every scheme at steps of 1 ms and longer.";
+      "from 20 and 10 µs. Backward Euler is of first order in Δt, which limits every scheme at steps of 1 ms and "
+      "longer.";
   progress(0.3, "reference of the motion");
   const double fine = options.quick ? 1e-4 : 2e-5;
   const Fall coarse = fall("kkt", 200, fine, kDuration);
