@@ -50,7 +50,9 @@ public:
     if (option->get_type_size() == 0)
       return "";
     const bool repeated = option->get_expected_max() == CLI::detail::expected_max_vector_size;
-    return (option->nonpositional() ? " " + option->get_type_name() : "") + (repeated ? " ..." : "");
+    const std::string value = option->get_type_name();
+    const std::string name = value.substr(0, value.find(':'));  // without the names of the checks
+    return (option->nonpositional() ? " " + name : "") + (repeated ? " ..." : "");
   }
 
   std::string make_option_desc(const CLI::Option* option) const override

@@ -116,8 +116,7 @@ void addOptions(CommandLine& line, Arguments& arguments)
   line.require([&arguments] { return conflict(arguments); });
 }
 
-/** Hand controlled by the keyboard: each key moves the goal, and the hand follows at human speed.
- */
+/** Hand controlled by the keyboard: each key moves the goal, and the hand follows at limited speed. */
 class KeyboardOperator
 {
 public:
@@ -159,8 +158,8 @@ public:
 
   HandMotion at(double time)
   {
-    constexpr double speed = 50e-3;        // [m/s]
-    constexpr double turning_speed = 6.0;  // [rad/s]
+    constexpr double speed = 50e-3;        // speed of the hand [m/s]
+    constexpr double turning_speed = 6.0;  // angular speed of the hand [rad/s]
     const double step = std::clamp(time - time_, 0.0, 0.02);
     time_ = time;
     hand_.insertion += std::clamp(goal_.insertion - hand_.insertion, -speed * step, speed * step);
@@ -173,8 +172,8 @@ public:
 private:
   void press(char arrow)
   {
-    constexpr double push = 2e-3;  // per key [m]
-    constexpr double twist = 0.1;  // per key [rad]
+    constexpr double push = 2e-3;  // travel per key press [m]
+    constexpr double twist = 0.1;  // rotation per key press [rad]
     goal_.insertion += arrow == 'A' ? push : arrow == 'B' ? -push : 0.0;
     goal_.rotation += arrow == 'C' ? twist : arrow == 'D' ? -twist : 0.0;
   }

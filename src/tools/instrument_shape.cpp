@@ -124,8 +124,8 @@ bool any(const std::vector<Drawn>& all, bool (*has)(const instrument::Instrument
 
 void writeTables(const fs::path& csv, const std::vector<Drawn>& all)
 {
-  const auto beside = [&csv](const std::string& what)
-  { return csv.parent_path() / (csv.stem().string() + "_" + what + ".csv"); };
+  const auto beside = [&csv](const std::string& table)
+  { return csv.parent_path() / (csv.stem().string() + "_" + table + ".csv"); };
   writeShafts(csv, all);
   if (any(all, [](const instrument::Instrument& i) { return !i.markers.empty(); }))
     writeMarkers(beside("markers"), all);

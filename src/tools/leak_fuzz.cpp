@@ -33,7 +33,7 @@ struct Options
   std::uint64_t steps = 1000000;
   FuzzSettings settings;
   bool resume = false;
-  std::optional<std::uint64_t> episode;  ///< the only one to run
+  std::optional<std::uint64_t> episode;  ///< number of a single episode
   std::vector<std::string> meshes;
 };
 
@@ -68,7 +68,7 @@ std::vector<std::string> meshesOfDataFolder()
   return files;
 }
 
-/** Writes a file by way of a temporary one: an interruption leaves the earlier file intact. */
+/** Replaces a file by way of a temporary one, so that an interruption leaves the earlier file intact. */
 void replaceFile(const std::filesystem::path& path, const std::string& text)
 {
   const std::filesystem::path part = path.string() + ".part";
@@ -76,7 +76,7 @@ void replaceFile(const std::filesystem::path& path, const std::string& text)
   std::filesystem::rename(part, path);
 }
 
-/** Command that runs the same episodes again. */
+/** Command that reproduces the episodes. */
 std::string reproduction(const Options& options)
 {
   std::string command = "rosrun endovascular_sim leak_fuzz --seed " + std::to_string(options.settings.seed);

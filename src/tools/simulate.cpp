@@ -138,7 +138,7 @@ public:
       costs_.emplace(options.out + "/costs.csv");
   }
 
-  /** @param duration time of computing the step [s] */
+  /** @param duration computing time of the step [s] */
   void addStep(const simulation::Simulation& simulation, double duration)
   {
     if (costs_)
@@ -397,7 +397,7 @@ int simulate(const Options& options)
   }
   if (result.rejectedSteps() > 0)
   {
-    std::cerr << "simulate: " << result.rejectedSteps() << " steps could not be solved; the wire was held in them\n";
+    std::cerr << "simulate: " << result.rejectedSteps() << " steps were rejected, in which the wire was held\n";
     return 1;
   }
   return surroundings.session && surroundings.session->scriptedOperator() &&

@@ -94,8 +94,8 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--longest-facet", prepare.longest_facet, "M", "longest facet edge of the result [0.0025]");
   line.repeated(
       "--open", prepare.open, "WHICH",
-      "leaves an end open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end), or a "
-      "branch's name from the report. Default: all ends are closed. A scene closes flat open ends itself when it "
+      "leaves an end open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end), or a branch's "
+      "name from the report. Default: all ends are closed. A scene closes flat open ends itself when it "
       "reads the mesh");
   line.option("--cut-back", prepare.cut_back, "R",
               "distance of the cut from the tip of an open end, in radii of the lumen [1]");

@@ -7,7 +7,7 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Random numbers of one episode: the same on every machine, unlike the standard library's distributions. */
+/** Random numbers of one episode, identical on every machine, unlike the distributions of the standard library. */
 class FuzzRandom
 {
 public:
@@ -16,12 +16,12 @@ public:
     engine_.discard(16);
   }
 
-  /** Even in [0, 1). */
+  /** Uniform in [0, 1). */
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
-  /** Even in the logarithm. @param low > 0 */
+  /** Uniform in the logarithm. @param low lower bound > 0 */
   double logBetween(double low, double high) { return low * std::pow(high / low, unit()); }
-  int integer(int low, int high) { return low + static_cast<int>(unit() * (high - low + 1)); }  ///< both included
+  int integer(int low, int high) { return low + static_cast<int>(unit() * (high - low + 1)); }  ///< bounds included
   bool chance(double probability) { return unit() < probability; }
 
 private:

@@ -15,7 +15,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kWorst = 20;  // episodes that are kept
+constexpr std::size_t kWorst = 20;  // number of retained episodes
 
 Json toJson(const FuzzEpisode& e)
 {
@@ -27,7 +27,7 @@ Json toJson(const FuzzEpisode& e)
           {"bad_step", e.bad_step},
           {"escaped", e.escaped},
           {"finite", e.finite},
-          {"refused", e.refused},
+          {"refused", e.rejected},
           {"capped", e.hit_iteration_limit},
           {"depth", e.depth},
           {"depth_step", e.depth_step},
@@ -47,7 +47,7 @@ FuzzEpisode episodeOf(const Json& json)
   e.bad_step = json.at("bad_step");
   e.escaped = json.at("escaped");
   e.finite = json.at("finite");
-  e.refused = json.at("refused");
+  e.rejected = json.at("refused");
   e.hit_iteration_limit = json.at("capped");
   e.depth = json.at("depth");
   e.depth_step = json.at("depth_step");
@@ -64,7 +64,7 @@ Table worstTable(const std::vector<FuzzEpisode>& worst)
   for (const FuzzEpisode& e : worst)
     table.add({std::to_string(e.number), e.vessel, number(1e3 * e.depth), std::to_string(e.depth_step),
                number(1e3 * e.depth_place), e.escaped ? "yes" : "no", e.finite ? "no" : "yes",
-               std::to_string(e.refused), number(e.force), number(e.max_strain, 2), e.description});
+               std::to_string(e.rejected), number(e.force), number(e.max_strain, 2), e.description});
   return table;
 }
 
@@ -89,16 +89,16 @@ void FuzzRecord::add(const FuzzEpisode& episode)
   escapes_ += episode.escaped;
   not_finite_ += !episode.finite;
   too_deep_ += episode.depth > kFuzzDepth;
-  refused_ += static_cast<std::uint64_t>(episode.refused);
+  rejected_ += static_cast<std::uint64_t>(episode.rejected);
   hit_iteration_limit_ += static_cast<std::uint64_t>(episode.hit_iteration_limit);
   VesselTotal& total = vessels_[episode.vessel];
   ++total.episodes;
   total.steps += static_cast<std::uint64_t>(episode.steps);
   total.escapes += episode.escaped;
   total.depth = std::max(total.depth, episode.depth);
-  const auto place = std::upper_bound(worst_.begin(), worst_.end(), episode,
-                                      [this](const FuzzEpisode& a, const FuzzEpisode& b) { return isWorse(a, b); });
-  worst_.insert(place, episode);
+  const auto position = std::upper_bound(worst_.begin(), worst_.end(), episode,
+                                         [this](const FuzzEpisode& a, const FuzzEpisode& b) { return isWorse(a, b); });
+  worst_.insert(position, episode);
   worst_.resize(std::min(worst_.size(), kWorst));
 }
 
@@ -126,7 +126,7 @@ std::string FuzzRecord::json() const
                      {"not_finite", not_finite_},
                      {"too_deep", too_deep_},
                      {"depth", depth()},
-                     {"refused_steps", refused_},
+                     {"refused_steps", rejected_},
                      {"steps_at_solve_limit", hit_iteration_limit_},
                      {"vessels", vessels},
                      {"worst", worst}};
@@ -141,7 +141,7 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
     if (json.at("seed") != settings_.seed || json.at("steps_per_episode") != settings_.steps_per_episode ||
         json.at("overrides") != Json(settings_.overrides) || json.at("kinds") != Json(kinds_))
       throw InputError(origin, "",
-                       "is of another seed, episode length, overrides or list of vessels; give the same "
+                       "belongs to another seed, episode length, overrides or list of vessels; give the same "
                        "ones, or another --out");
     next_ = json.at("next_episode");
     steps_ = json.at("steps");
@@ -149,7 +149,7 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
     escapes_ = json.at("escapes");
     not_finite_ = json.at("not_finite");
     too_deep_ = json.at("too_deep");
-    refused_ = json.at("refused_steps");
+    rejected_ = json.at("refused_steps");
     hit_iteration_limit_ = json.at("steps_at_solve_limit");
     vessels_.clear();
     for (const Json& v : json.at("vessels"))
@@ -160,7 +160,7 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(origin, "", std::string("is damaged (") + error.what() + "); remove it to start anew");
+    throw InputError(origin, "", std::string("is damaged (") + error.what() + "); remove it to restart");
   }
 }
 
@@ -172,20 +172,20 @@ std::string FuzzRecord::csv() const
 std::string FuzzRecord::markdown(const std::string& command, const std::vector<std::string>& skipped) const
 {
   std::string text = "# Leak fuzz\n\n" + std::to_string(steps_) + " steps in " + std::to_string(next_) +
-                     " episodes, the whole wire looked at " + std::to_string(looks_) +
+                     " episodes, the whole wire checked " + std::to_string(looks_) +
                      " times: " + std::to_string(escapes_) + " escapes, " + std::to_string(not_finite_) +
                      " not finite, " + std::to_string(too_deep_) + " deeper than " + number(1e3 * kFuzzDepth) +
                      " mm beyond the wall's compliance (deepest " + number(1e3 * depth()) + " mm), " +
-                     std::to_string(refused_) + " steps refused. " + (good() ? "Good." : "NOT GOOD.") + "\n\n";
+                     std::to_string(rejected_) + " steps rejected. " + (good() ? "Good." : "NOT GOOD.") + "\n\n";
   Table totals({"vessel", "episodes", "steps", "escapes", "deepest [mm]"});
   for (const auto& [name, total] : vessels_)
     totals.add({name, std::to_string(total.episodes), std::to_string(total.steps), std::to_string(total.escapes),
                 number(1e3 * total.depth)});
   text += totals.markdown() + "\n";
   for (const std::string& reason : skipped)
-    text += "- Left out: " + reason + "\n";
-  text += "\n## The worst episodes\n\n`" + command + " --episode N` runs episode N again.\n\n" +
-          worstTable(worst_).markdown();
+    text += "- Skipped: " + reason + "\n";
+  text +=
+      "\n## The worst episodes\n\n`" + command + " --episode N` reruns episode N.\n\n" + worstTable(worst_).markdown();
   return text;
 }
 

@@ -10,7 +10,7 @@
 namespace endovascular_sim::benchmark
 {
 
-/** What a leak fuzz has found so far: enough to go on with later. */
+/** Results of a leak fuzz, from which it can be resumed. */
 class FuzzRecord
 {
 public:
@@ -22,32 +22,34 @@ public:
   std::uint64_t steps() const { return steps_; }
   std::uint64_t escapes() const { return escapes_; }
   std::uint64_t notFinite() const { return not_finite_; }
-  double depth() const { return worst_.empty() ? 0.0 : worst_.front().depth; }  ///< largest [m]
+  double depth() const { return worst_.empty() ? 0.0 : worst_.front().depth; }  ///< largest penetration depth [m]
 
   /** No escape, no NaN, no depth beyond kFuzzDepth. */
   bool good() const { return escapes_ == 0 && not_finite_ == 0 && too_deep_ == 0; }
 
-  /** All of it as JSON: the result, and the state from which the fuzz can be resumed. */
+  /** Results as JSON; also the state for resume(). */
   std::string json() const;
 
-  /** Goes on from what json() gave.
-   *  @throws InputError when the text is damaged, or is of another seed, episode length, overrides or list of vessels
-   */
+  /** Restores the state of an earlier json().
+   *  @param origin name of the text's source, for messages
+   *  @throws InputError for damaged text, or another seed, episode length, overrides or list of vessels */
   void resume(const std::string& json, const std::string& origin);
 
-  std::string csv() const;  ///< of the worst episodes
+  std::string csv() const;  ///< worst episodes as CSV
 
-  /** A short report. @param command that reproduces an episode, without its number */
+  /** Short report.
+   *  @param command command that reproduces an episode, without its number
+   *  @param skipped files that were not used, with the reason */
   std::string markdown(const std::string& command, const std::vector<std::string>& skipped) const;
 
 private:
-  /** Over all episodes in one vessel. */
+  /** Totals over all episodes in one vessel. */
   struct VesselTotal
   {
     std::uint64_t episodes = 0;
     std::uint64_t steps = 0;
     std::uint64_t escapes = 0;
-    double depth = 0.0;  ///< largest [m]
+    double depth = 0.0;  ///< largest penetration depth [m]
   };
 
   bool isWorse(const FuzzEpisode& a, const FuzzEpisode& b) const;
@@ -55,9 +57,9 @@ private:
   FuzzSettings settings_;
   std::vector<std::string> kinds_;
   std::uint64_t next_ = 0, steps_ = 0, looks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0;
-  std::uint64_t refused_ = 0, hit_iteration_limit_ = 0;
+  std::uint64_t rejected_ = 0, hit_iteration_limit_ = 0;
   std::map<std::string, VesselTotal> vessels_;
-  std::vector<FuzzEpisode> worst_;  ///< worst first
+  std::vector<FuzzEpisode> worst_;  ///< sorted, worst first
 };
 
 }  // namespace endovascular_sim::benchmark

@@ -26,7 +26,7 @@ namespace
 
 constexpr int kForks = 6;
 constexpr int kTries = 200;
-constexpr double kSmoothedUpTo = 20000;  // triangles of a mesh that is also fuzzed after smoothing
+constexpr double kSmoothedUpTo = 20000;  // largest number of triangles of a mesh that is also used after smoothing
 
 vessel::TubeShape randomShape(FuzzRandom& random)
 {
@@ -44,7 +44,7 @@ vessel::TubeShape randomShape(FuzzRandom& random)
   return shape;
 }
 
-/** Channels may run into themselves: then the winding number is not 1 or the axis is not in the middle. */
+/** Checks that a channel does not intersect itself: the winding number is 1 and the axis lies at the centre. */
 bool isPlain(const WireCheck& check, const geometry::TriangleMesh& mesh, const vessel::TubeShape& shape)
 {
   const vessel::CentrelineTree axis = vessel::tubeCentreline(shape);
@@ -84,10 +84,10 @@ std::unique_ptr<FuzzVessel> randomChannel(FuzzRandom& random)
                    " mm around";
     return made;
   }
-  throw InputError("fuzz", "", "found no channel that does not run into itself");
+  throw InputError("fuzz", "", "no channel without self-intersection found");
 }
 
-/** A trunk with two arms; which one it is decides about widths and angles. */
+/** Trunk with two branches. @param which number of the variant, which determines widths and angles */
 vessel::Anatomy forkAnatomy(int which)
 {
   FuzzRandom random(20260101, static_cast<std::uint64_t>(which));
@@ -132,7 +132,7 @@ vessel::Vessel forkVessel(int which)
   return made;
 }
 
-/** Reads a mesh in millimetres or, where that gives no vessel's size, in metres. */
+/** Reads a mesh in millimetres or, if its size is then implausible, in metres. */
 geometry::TriangleMesh readCleanMesh(const std::string& file)
 {
   const double unit = vessel::checkMesh(vessel::readMesh(file, 1.0)).upper.cwiseAbs().maxCoeff() > 3.0 ? 1e-3 : 1.0;
@@ -173,14 +173,14 @@ FuzzVessels::FuzzVessels(const std::vector<std::string>& mesh_files)
   }
 }
 
-FuzzVessel& FuzzVessels::keep(const std::string& name, vessel::Vessel vessel)
+FuzzVessel& FuzzVessels::retain(const std::string& name, vessel::Vessel vessel)
 {
   auto made = std::make_unique<FuzzVessel>();
   made->name = name;
   made->vessel = std::move(vessel);
   made->check = std::make_unique<WireCheck>(made->vessel.mesh);
   made->narrowest = narrowest(made->vessel.centreline);
-  return *(kept_[name] = std::move(made));
+  return *(retained_[name] = std::move(made));
 }
 
 FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
@@ -189,27 +189,27 @@ FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
     return *(channel_ = randomChannel(random));
   const int which = kind == "fork" ? random.integer(0, kForks - 1) : 0;
   const std::string name = kind == "fork" ? "fork_" + std::to_string(which) : kind;
-  const auto known = kept_.find(name);
-  if (known != kept_.end())
+  const auto known = retained_.find(name);
+  if (known != retained_.end())
     return *known->second;
   if (kind == "fork")
-    return keep(name, forkVessel(which));
+    return retain(name, forkVessel(which));
   if (kind == "anatomy")
-    return keep(name, vessel::loadAnatomy(scene::configFolder() + "/anatomies/default.yaml"));
+    return retain(name, vessel::loadAnatomy(scene::configFolder() + "/anatomies/default.yaml"));
   vessel::Vessel vessel;
   vessel.mesh = readCleanMesh(file_of_kind_.at(kind));
   if (kind != std::filesystem::path(file_of_kind_.at(kind)).stem().string())
     vessel.mesh = geometry::loopSubdivision(std::move(vessel.mesh), 1);
   vessel.centreline = vessel::extractCentreline(vessel.mesh);
-  return keep(name, std::move(vessel));
+  return retain(name, std::move(vessel));
 }
 
 scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, double radius, double length)
 {
-  const double room = radius + 0.05e-3;
+  const double clearance = radius + 0.05e-3;
   if (vessel.name == "channel")
   {
-    scene::EntryPose pose;  // its mesh begins behind the origin
+    scene::EntryPose pose;  // the mesh starts behind the origin
     pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
     return pose;
   }
@@ -223,12 +223,12 @@ scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, doubl
     pose.d1 = pose.direction.unitOrthogonal();
     bool free = true;
     for (int k = 0; k <= 10 && free; ++k)
-      free = vessel.check->signedDistance(pose.position + 0.1 * k * length * pose.direction) > room;
+      free = vessel.check->signedDistance(pose.position + 0.1 * k * length * pose.direction) > clearance;
     pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
     if (free)
       return pose;
   }
-  throw InputError(vessel.name, "", "has no end in which a wire of " + number(1e3 * radius) + " mm radius fits");
+  throw InputError(vessel.name, "", "no end admits a wire of " + number(1e3 * radius) + " mm radius");
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -1,5 +1,4 @@
 #include "benchmark/fuzz/leak_fuzz.h"
-#include "scene/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "contact/detector.h"
 #include "results/run_result.h"
 #include "rod/kkt/kkt_stepper.h"
+#include "scene/scene_file.h"
 #include "simulation/simulation.h"
 #include "vessel/centreline/centreline.h"
 
@@ -18,28 +18,29 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kInitialInsertion = 4e-3;  // m
-constexpr double kFastestHand = 0.5;        // m/s
-constexpr double kFastestTurn = 59.0;       // rad/s
-constexpr double kLargestTipMoment = 0.02;  // N·m that straighten a pre-curved tip; the stiff J of peer_wire has 0.0165
-constexpr double kSuspicious = 50e-6;       // m of depth that the solver sees: the wire is looked at
-constexpr int kLookEvery = 10;              // steps
-constexpr int kControlEvery = 10;           // looks: then one node is looked at by brute force too
-constexpr int kDetectorLife = 200;          // episodes
-constexpr double kDisagreement = 1e-9;      // m
+constexpr double kInitialInsertion = 4e-3;  // inserted length at the start [m]
+constexpr double kFastestHand = 0.5;        // largest speed of the hand [m/s]
+constexpr double kFastestTurn = 59.0;       // largest angular speed of the hand [rad/s]
+constexpr double kLargestTipMoment =
+    0.02;  // largest moment that straightens a pre-curved tip [N·m]; the stiff J of peer_wire requires 0.0165
+constexpr double kSuspicious = 50e-6;    // depth in the solver that triggers a check [m]
+constexpr int kCheckInterval = 10;       // steps between checks
+constexpr int kBruteForceInterval = 10;  // checks between brute-force searches for one node
+constexpr int kDetectorLife = 200;       // episodes between replacements of a detector
+constexpr double kDisagreement = 1e-9;   // largest difference of both searches [m]
 
-/** The random choices of an episode that make its scene. */
+/** Random choices that define the scene of an episode. */
 struct Setup
 {
   double length, radius, tip_length, tip_radius, bending, tip_bending;  // tip_radius 0: straight
   double time_step;
-  double stiffness;  // of the wall; infinite: rigid
+  double stiffness;  // stiffness of the wall; infinite: rigid
   double friction, force_limit;
   std::string sampling;
-  double tip_width;  // of the tip's surface, as a share of the body's
+  double tip_width;  // ratio of the radius of the tip to that of the shaft
 };
 
-/** Of a wire that is to enter [m]. In trees, it meets branches that are too narrow for it. */
+/** Largest radius of a wire in the vessel [m]. In trees it also encounters narrower branches. */
 double largestRadius(const FuzzVessel& vessel)
 {
   if (vessel.name == "channel")
@@ -65,7 +66,7 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
   setup.stiffness = random.chance(0.25) ? random.logBetween(5e5, 5e6) : std::numeric_limits<double>::infinity();
   setup.friction = random.chance(0.3) ? 0.0 : random.between(0.0, 0.3);
   setup.force_limit = random.logBetween(1.0, 5.0);
-  // At least two edges per radius of the tightest bend: coarser ones cannot follow it.
+  // At least two edges per radius of the tightest bend; coarser wires cannot follow it.
   const double longest = std::min(2.5e-3, 0.5 * vessel.tightest);
   std::ostringstream sampling;
   if (random.chance(0.5))
@@ -100,7 +101,7 @@ std::string sceneText(const Setup& setup)
   return out.str();
 }
 
-std::string described(const Setup& setup, const FuzzVessel& vessel)
+std::string describe(const Setup& setup, const FuzzVessel& vessel)
 {
   return (vessel.detail.empty() ? "" : vessel.detail + "; ") + "EI " + number(1e6 * setup.bending) + " and " +
          number(1e6 * setup.tip_bending) + " N·mm², radius " + number(1e3 * setup.radius) + " and " +
@@ -111,7 +112,7 @@ std::string described(const Setup& setup, const FuzzVessel& vessel)
          ", μ " + number(setup.friction) + ", slips at " + number(setup.force_limit) + " N";
 }
 
-/** A hand that pushes, pulls and turns in jerks. */
+/** Hand with abrupt random pushes, pulls and turns. */
 class RandomHand
 {
 public:
@@ -145,7 +146,7 @@ private:
   double turn_ = 0.0;
 };
 
-/** A vessel's detector with another law of the wall. */
+/** Detector of a vessel with a different wall law. */
 class WallSource : public contact::ContactSource
 {
 public:
@@ -175,7 +176,7 @@ private:
   double friction_;
 };
 
-/** The vessel's detector: what it remembers changes no result, but takes memory. */
+/** Detector of the vessel, replaced periodically: its caches change no result, but take memory. */
 contact::Detector& detectorOf(FuzzVessel& vessel)
 {
   if (!vessel.detector || ++vessel.uses % kDetectorLife == 0)
@@ -183,20 +184,19 @@ contact::Detector& detectorOf(FuzzVessel& vessel)
   return *vessel.detector;
 }
 
-/** The wire from the introducer to the tip. A soft wall is a spring without memory: up to its travel, every depth is
- * its compliance. */
+/** Nodes from the introducer to the tip. Up to its travel, the depth of a soft wall counts as compliance. */
 void insertedWire(const simulation::Simulation& simulation, double stiffness, std::vector<CheckedNode>& nodes)
 {
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
   const int first = results::firstInsertedNode(simulation);
-  const auto add = [&](const Eigen::Vector3d& place, double radius) {
-    nodes.push_back({place, radius, std::isfinite(stiffness) ? rod::softWallTravel(radius) : 0.0});
+  const auto add = [&](const Eigen::Vector3d& position, double radius) {
+    nodes.push_back({position, radius, std::isfinite(stiffness) ? rod::softWallTravel(radius) : 0.0});
   };
   nodes.clear();
   if (first > state.first_node && first < wire.nodes())
   {
-    // Where the wire leaves the introducer, inside of an edge.
+    // The mouth of the introducer, within an edge.
     const double t = (wire.length() - state.inserted_length - wire.position[first - 1]) / wire.rest_length[first - 1];
     add((1.0 - t) * state.position[first - 1] + t * state.position[first], wire.radius[first]);
   }
@@ -204,12 +204,12 @@ void insertedWire(const simulation::Simulation& simulation, double stiffness, st
     add(state.position[i], wire.radius[i]);
 }
 
-/** Looks at the whole wire; one node of it is looked at by brute force too. */
-void look(const simulation::Simulation& simulation, double stiffness, WireCheck& check, FuzzEpisode& episode,
-          std::vector<CheckedNode>& nodes)
+/** Checks the whole wire, and periodically one node by brute force. */
+void checkWire(const simulation::Simulation& simulation, double stiffness, WireCheck& check, FuzzEpisode& episode,
+               std::vector<CheckedNode>& nodes)
 {
   insertedWire(simulation, stiffness, nodes);
-  const WireFinding finding = check.look(nodes);
+  const WireFinding finding = check.check(nodes);
   ++episode.looks;
   episode.finite = finding.finite && std::isfinite(simulation.state().hand_force);
   episode.escaped = finding.outside;
@@ -226,11 +226,11 @@ void look(const simulation::Simulation& simulation, double stiffness, WireCheck&
       episode.depth_place +=
           finding.parameter * (nodes[finding.edge + 1].position - nodes[finding.edge].position).norm();
   }
-  if (episode.looks % kControlEvery != 1)
+  if (episode.looks % kBruteForceInterval != 1)
     return;
   const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.looks) * 7 % nodes.size()].position;
   if (std::abs(check.signedDistance(one) - check.bruteSignedDistance(one)) > kDisagreement)
-    throw std::logic_error("the check's tree of boxes and all triangles give different distances");
+    throw std::logic_error("WireCheck: the box tree and the brute-force search give different distances");
 }
 
 }  // namespace
@@ -248,7 +248,7 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   FuzzEpisode episode;
   episode.number = number;
   episode.vessel = vessel.name;
-  episode.description = described(setup, vessel);
+  episode.description = describe(setup, vessel);
   std::vector<CheckedNode> nodes;
   RandomHand hand(random, setup.time_step, setup.length);
   while (episode.steps < settings.steps_per_episode && episode.finite && !episode.escaped)
@@ -256,13 +256,13 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
     simulation.step(hand.next());
     ++episode.steps;
     const rod::StepReport& report = simulation.report();
-    episode.refused += !report.solved;
+    episode.rejected += !report.solved;
     episode.hit_iteration_limit += report.hit_iteration_limit;
     episode.max_strain = std::max(episode.max_strain, report.max_strain);
     episode.force = std::max(episode.force, std::abs(simulation.state().hand_force));
     const bool suspicious = simulation.surfacePenetration() > kSuspicious || !report.solved;
-    if (suspicious || episode.steps % kLookEvery == 0)
-      look(simulation, setup.stiffness, *vessel.check, episode, nodes);
+    if (suspicious || episode.steps % kCheckInterval == 0)
+      checkWire(simulation, setup.stiffness, *vessel.check, episode, nodes);
   }
   if (episode.escaped || !episode.finite)
     episode.bad_step = episode.steps;

@@ -9,44 +9,44 @@
 namespace endovascular_sim::benchmark
 {
 
-/** What is fuzzed besides the random choices. */
+/** Settings of the fuzz. */
 struct FuzzSettings
 {
   std::uint64_t seed = 1;
   int steps_per_episode = 400;
-  std::vector<std::string> overrides;  ///< `key.path=value` of every episode's scene
+  std::vector<std::string> overrides;  ///< overrides `key.path=value` of every scene
 };
 
-/** What became of one episode: one wire in one vessel, pushed, pulled and turned at random. */
+/** Result of one episode: one wire in one vessel, pushed, pulled and turned at random. */
 struct FuzzEpisode
 {
   std::uint64_t number = 0;
   std::string vessel;
-  std::string description;  ///< of the wire, its sampling, the time step and the wall
+  std::string description;  ///< description of wire, sampling, time step and wall
   int steps = 0;
-  int looks = 0;                ///< at the whole wire
-  int bad_step = -1;            ///< the first with an escape or a NaN; the episode ends there
-  bool escaped = false;         ///< a point of the axis is out of the lumen
+  int looks = 0;                ///< number of checks of the whole wire
+  int bad_step = -1;            ///< first step with an escape or a NaN, which ends the episode; −1: none
+  bool escaped = false;         ///< a point of the axis is outside the lumen
   bool finite = true;           ///< no NaN
-  int refused = 0;              ///< steps without a solution: the wire was held
-  int hit_iteration_limit = 0;  ///< sub-steps accepted at the limit of solves
-  double depth = 0.0;           ///< largest of the wire's surface beyond the wall, the wall's compliance taken off [m]
-  int depth_step = 0;           ///< when it was
-  double depth_place = 0;       ///< where: length of wire between the introducer and it [m]
-  double force = 0.0;           ///< largest at the hand [N]
+  int rejected = 0;             ///< rejected steps, in which the wire was held
+  int hit_iteration_limit = 0;  ///< sub-steps accepted at the iteration limit
+  double depth = 0.0;           ///< largest penetration depth of the surface minus the compliance of the wall [m]
+  int depth_step = 0;           ///< step of the largest depth
+  double depth_place = 0;       ///< arc length from the introducer to the largest depth [m]
+  double force = 0.0;           ///< largest force at the hand [N]
   double max_strain = 0.0;
 };
 
-/** Depth beyond the wall's compliance that is still good [m]. */
+/** Largest permitted depth beyond the compliance of the wall [m]. */
 constexpr double kFuzzDepth = 1e-4;
 
-/** Runs episode @p number: what happens in it depends on the seed, its number and the list of vessels' kinds alone.
+/** Runs an episode, which depends only on the seed, its number and the list of vessel kinds.
  *
  *  Wire (EI from 1.6 to 5000 N·mm², straight or pre-curved tip, length, radius), sampling (uniform, adaptive), time
  * step (0.1 to 10 ms), wall (rigid, compliant; friction) and the hand's motion (up to 500 mm/s and 59 rad/s, reversals)
- * are drawn at random. After every tenth step, and where the solver sees more than 50 µm, the whole wire is looked at
- * with WireCheck.
- *  @throws std::logic_error when WireCheck disagrees with itself by looking at every triangle */
+ * are drawn at random. WireCheck checks the whole wire after every tenth step, and after steps with a depth above 50 µm
+ * in the solver.
+ *  @throws std::logic_error if WireCheck disagrees with a brute-force search over all triangles */
 FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number);
 
 }  // namespace endovascular_sim::benchmark

@@ -10,9 +10,9 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kFloor = 20e-6;     // m: depths below it are not resolved along edges
-constexpr double kTolerance = 2e-6;  // m of depth that a bisected edge may hide
-constexpr double kShortest = 1e-7;   // m of an edge that is not bisected any more
+constexpr double kFloor = 20e-6;     // depth below which edges are not resolved [m]
+constexpr double kTolerance = 2e-6;  // depth that a bisected edge may hide [m]
+constexpr double kShortest = 1e-7;   // length below which an edge is not bisected [m]
 
 }  // namespace
 
@@ -35,7 +35,7 @@ double WireCheck::bruteSignedDistance(const Eigen::Vector3d& point) const
   return geometry::windingNumber(mesh_, point) > 0.5 ? std::sqrt(squared) : -std::sqrt(squared);
 }
 
-void WireCheck::note(const Edge& edge, double t, double signed_distance)
+void WireCheck::record(const Edge& edge, double t, double signed_distance)
 {
   const double radius = (1.0 - t) * edge.begin->radius + t * edge.end->radius;
   const double allowance = std::max(edge.begin->allowance, edge.end->allowance);
@@ -48,14 +48,14 @@ void WireCheck::note(const Edge& edge, double t, double signed_distance)
   finding_.parameter = t;
 }
 
-/** Looks at a piece of an edge whose first end's signed distance is known.
- *  @param distance1 of its other end, without a sign
- *  @return the same with its sign */
+/** Checks a part of an edge with known signed distance of its first end.
+ *  @param distance1 unsigned distance of its second end
+ *  @return signed distance of its second end */
 double WireCheck::walk(const Edge& edge, double t0, double signed0, double t1, double distance1)
 {
   const double length = (t1 - t0) * edge.length;
   const Eigen::Vector3d end = (1.0 - t1) * edge.begin->position + t1 * edge.end->position;
-  // Balls that no wall reaches into cover the piece: both ends are on one side.
+  // The clearance spheres of both ends cover the part, so both ends lie on the same side of the wall.
   const bool covered = length < std::abs(signed0) + distance1;
   double signed1 = std::copysign(distance1, signed0);
   bool bisect = !covered;
@@ -69,17 +69,17 @@ double WireCheck::walk(const Edge& edge, double t0, double signed0, double t1, d
   if (bisect && length > kShortest)
   {
     const double middle = 0.5 * (t0 + t1);
-    const Eigen::Vector3d place = (1.0 - middle) * edge.begin->position + middle * edge.end->position;
-    const double signed_middle = walk(edge, t0, signed0, middle, distance_.closest(place).distance);
+    const Eigen::Vector3d centre = (1.0 - middle) * edge.begin->position + middle * edge.end->position;
+    const double signed_middle = walk(edge, t0, signed0, middle, distance_.closest(centre).distance);
     return walk(edge, middle, signed_middle, t1, distance1);
   }
   if (!covered)
     signed1 = geometry::windingNumber(mesh_, end) > 0.5 ? distance1 : -distance1;
-  note(edge, t1, signed1);
+  record(edge, t1, signed1);
   return signed1;
 }
 
-WireFinding WireCheck::look(const std::vector<CheckedNode>& nodes)
+WireFinding WireCheck::check(const std::vector<CheckedNode>& nodes)
 {
   finding_ = WireFinding();
   for (const CheckedNode& node : nodes)
@@ -88,7 +88,7 @@ WireFinding WireCheck::look(const std::vector<CheckedNode>& nodes)
     return finding_;
   double before = signedDistance(nodes.front().position);
   const Edge first{&nodes.front(), &nodes.front(), 0.0, 0};
-  note(first, 0.0, before);
+  record(first, 0.0, before);
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
   {
     const Edge edge{&nodes[i], &nodes[i + 1], (nodes[i + 1].position - nodes[i].position).norm(), static_cast<int>(i)};

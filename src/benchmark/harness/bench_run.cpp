@@ -16,8 +16,8 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kCheckInterval = 0.1;    // s of the scene between looks with the exact distance
-constexpr double kBeyondAllBounds = 1e3;  // m or m/s
+constexpr double kCheckInterval = 0.1;    // simulated time between checks with the exact distance [s]
+constexpr double kBeyondAllBounds = 1e3;  // coordinates of a diverged state [m]
 
 double simulatedMass(const simulation::Simulation& simulation)
 {
@@ -57,10 +57,10 @@ BenchRun::BenchRun(const std::string& scene_text, const std::vector<std::string>
   else
     entry = scene::resolveEntry(scene_.entry, scene_.file);
   simulation_ = std::make_unique<simulation::Simulation>(scene_, entry, wall_.get(), &vessel.centreline);
-  forgetEnergy();
+  resetEnergyBalance();
 }
 
-void BenchRun::forgetEnergy()
+void BenchRun::resetEnergyBalance()
 {
   last_insertion_ = simulation_->state().inserted_length;
   last_rotation_ = simulation_->state().rotation;
@@ -106,20 +106,20 @@ void BenchRun::observe(RunSummary& summary)
 {
   const rod::State& state = simulation_->state();
   const rod::StepReport& report = simulation_->report();
-  summary.refused += report.solved ? 0 : 1;
-  summary.halved += report.bisections;
+  summary.rejected += report.solved ? 0 : 1;
+  summary.bisections += report.bisections;
   summary.truncated += report.truncations;
   summary.solves += report.solves;
   summary.max_strain = std::max(summary.max_strain, report.max_strain);
   summary.worst_penetration = std::max(summary.worst_penetration, simulation_->surfacePenetration());
   summary.mean_hand_force += state.hand_force;
   summary.finite = isFinite(state);
-  // Trapezoidal: the force changes during the step.
+  // Trapezoidal rule, because the force changes during the step.
   const double speed = (state.inserted_length - last_insertion_) / scene_.solver.time_step;
   const double mass = simulatedMass(*simulation_);
   work_ += 0.5 * (last_force_ + state.hand_force) * (state.inserted_length - last_insertion_) +
            0.5 * (last_torque_ + state.hand_torque) * (state.rotation - last_rotation_);
-  // Wire that comes into the guide has been set in motion outside.
+  // Wire entering the guide has received its kinetic energy outside.
   work_ += 0.5 * (mass - last_mass_) * speed * speed;
   last_mass_ = mass;
   last_insertion_ = state.inserted_length;
@@ -147,7 +147,7 @@ std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation
 {
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> points;
   int edge = wire.nodes() - 2;
   for (double back = 0.0; back < state.inserted_length; back += spacing)
   {
@@ -155,9 +155,9 @@ std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation
     while (edge > state.first_node && wire.position[edge] > at)
       --edge;
     const double t = (at - wire.position[edge]) / wire.rest_length[edge];
-    places.push_back((1.0 - t) * state.position[edge] + t * state.position[edge + 1]);
+    points.push_back((1.0 - t) * state.position[edge] + t * state.position[edge + 1]);
   }
-  return places;
+  return points;
 }
 
 CurveDistance distanceBetween(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b)

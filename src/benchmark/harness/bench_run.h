@@ -12,39 +12,40 @@
 namespace endovascular_sim::benchmark
 {
 
-/** What a stretch of a run did. */
+/** Statistics over a part of a run. */
 struct RunSummary
 {
   int steps = 0;
-  int refused = 0;       ///< steps without a solution: the wire was held
-  int halved = 0;        ///< bisections of the time step
-  int truncated = 0;     ///< solves that the trust region cut short
-  double solves = 0.0;   ///< mean per step
-  double mean_us = 0.0;  ///< time of a step [µs]
-  double median_us = 0.0;
-  double p99_us = 0.0;
-  std::array<double, kPhaseCount> phase_us{};  ///< median of every phase [µs]
-  double worst_penetration = 0.0;              ///< of the wire's surface [m]
-  int nodes_outside = 0;                       ///< seen by the exact distance, every tenth of a second
+  int rejected = 0;                            ///< rejected steps, in which the wire was held
+  int bisections = 0;                          ///< bisections of the time step
+  int truncated = 0;                           ///< solves truncated by the trust region
+  double solves = 0.0;                         ///< mean number of solves per step
+  double mean_us = 0.0;                        ///< mean time of a step [µs]
+  double median_us = 0.0;                      ///< median time of a step [µs]
+  double p99_us = 0.0;                         ///< 99th percentile of the time of a step [µs]
+  std::array<double, kPhaseCount> phase_us{};  ///< median time of every phase [µs]
+  double worst_penetration = 0.0;              ///< largest penetration depth of the wire's surface [m]
+  int nodes_outside = 0;                       ///< nodes beyond the wall by exact distance, counted every 0.1 s
   double max_strain = 0.0;
-  bool finite = true;            ///< no NaN and nothing beyond all bounds
-  double energy_excess = 0.0;    ///< most that elastic and kinetic energy stood above the work put in [J]
-  double largest_energy = 0.0;   ///< [J]
-  double mean_hand_force = 0.0;  ///< [N]
+  bool finite = true;            ///< no NaN and no diverged position
+  double energy_excess = 0.0;    ///< largest excess of elastic and kinetic energy over the applied work [J]
+  double largest_energy = 0.0;   ///< largest elastic and kinetic energy [J]
+  double mean_hand_force = 0.0;  ///< mean force at the hand [N]
 };
 
-/** A scene run offline for a study: the loop of `simulate`, with what studies look at. */
+/** Offline run of a scene for a study: the loop of `simulate` with the statistics of a study. */
 class BenchRun
 {
 public:
-  /** @throws InputError when the scene is refused */
+  /** @throws InputError for a rejected scene */
   BenchRun(const std::string& scene_text, const std::vector<std::string>& overrides = {});
 
-  /** Runs on for a time of the scene and measures it. */
+  /** Continues the run for a simulated time and measures it.
+   *  @param seconds simulated time [s] */
   RunSummary advance(double seconds);
 
-  /** Begins the energy's account anew, after the state was changed from outside. */
-  void forgetEnergy();
+  /** Resets the energy balance after an external change of the state. */
+  void resetEnergyBalance();
 
   simulation::Simulation& simulation() { return *simulation_; }
   const scene::Scene& scene() const { return scene_; }
@@ -57,20 +58,20 @@ private:
   scene::Scene scene_;
   std::unique_ptr<contact::Detector> wall_;
   std::unique_ptr<simulation::Simulation> simulation_;
-  double work_ = 0.0;  ///< that the hand has put in [J]
+  double work_ = 0.0;  ///< work of the hand [J]
   double last_insertion_ = 0.0;
   double last_rotation_ = 0.0;
-  double last_mass_ = 0.0;  ///< of the simulated part [kg]
+  double last_mass_ = 0.0;  ///< mass of the simulated part [kg]
   double last_force_ = 0.0;
   double last_torque_ = 0.0;
   double first_energy_ = 0.0;
 };
 
-/** Positions of the wire's nodes beyond the introducer, by arc length from the tip: for comparing samplings.
- *  @param spacing between the places [m] */
+/** Points on the wire beyond the introducer at equal arc lengths from the tip, for comparisons of samplings.
+ *  @param spacing arc length between the points [m] */
 std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation, double spacing);
 
-/** Root mean square and largest distance of two centrelines' places, as far as both reach [m]. */
+/** Distance of the corresponding points of two centrelines, over their common length [m]. */
 struct CurveDistance
 {
   double rms = 0.0;

@@ -26,7 +26,7 @@ double median(std::vector<double> values)
   return *middle;
 }
 
-/** @param stiffness EI, of bending_stiffness */
+/** @param stiffness ratio of EI to bending_stiffness */
 void writeSection(std::ostream& out, const BenchWire& wire, double length, double stiffness, bool curved)
 {
   out << "    - length: " << length << "\n      radius: " << wire.radius

@@ -5,7 +5,7 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Time that this thread has had of a processor [s]: unlike a clock, it leaves out what other programs took. */
+/** Processor time of the calling thread [s]; unlike wall-clock time it excludes other programs. */
 inline double processorSeconds()
 {
   timespec now{};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,28 +11,43 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Told how far a study has come, 0 to 1, and what it does now. */
+/** Callback for the progress of a study: completed share, 0 to 1, and the present case. */
 using Progress = std::function<void(double, const std::string&)>;
 
-/** What all studies are asked. */
+/** Options of all studies. */
 struct StudyOptions
 {
   bool quick = false;       ///< fewer and smaller cases: minutes instead of an hour
-  std::string vessel_mesh;  ///< path of aortic_arch_tree.obj [mm]; empty: what needs it is left out, and that is said
+  std::string vessel_mesh;  ///< path of aortic_arch_tree.obj [mm]; empty: cases that need it are omitted and named
+  std::function<std::uint64_t()> allocations;  ///< number of allocations of the process so far; empty: not counted
 };
 
-/** One part of a study's report: a paragraph and a table. */
+/** Declaration of a table of a study, known before the study runs. */
+struct TableSpec
+{
+  std::string name;     ///< name of the CSV file without extension
+  std::string heading;  ///< heading in tables.md
+  std::vector<std::string> columns;
+  std::string plot;  ///< file name of the plot drawn from the CSV file; empty: none
+};
+
+/** Table of a study with its description. */
 struct Section
 {
-  std::string name;     ///< of the CSV file, without ending
-  std::string heading;  ///< in the report
-  std::string text;     ///< Markdown before the table
+  /** @param tables tables of the study
+   *  @param name name of one of them */
+  Section(const std::vector<TableSpec>& tables, const std::string& name)
+    : spec(*std::find_if(tables.begin(), tables.end(), [&name](const TableSpec& t) { return t.name == name; })),
+      table(spec.columns)
+  {
+  }
+
+  TableSpec spec;
+  std::string text;  ///< description in Markdown: method, conditions, results derived from the table
   Table table;
-  std::string plot;       ///< file name of the plot that the section's CSV is drawn into; empty: none
-  bool only_csv = false;  ///< too long a table for the report
 };
 
-/** The schemes that are compared. */
+/** Simulation schemes compared by the studies. */
 inline const std::vector<std::string>& schemes()
 {
   static const std::vector<std::string> names = {"kkt", "paper", "mixed"};

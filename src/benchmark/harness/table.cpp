@@ -16,7 +16,7 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sep
   return line;
 }
 
-/** Cells with commas between quotes, as CSV has them. */
+/** Cells in CSV syntax: quoted if they contain a comma. */
 std::vector<std::string> quoted(std::vector<std::string> cells)
 {
   for (std::string& cell : cells)

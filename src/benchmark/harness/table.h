@@ -6,13 +6,14 @@
 namespace endovascular_sim::benchmark
 {
 
-/** A table of results that is written as CSV and as Markdown. */
+/** Table of results, for output as CSV or Markdown. */
 class Table
 {
 public:
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
-  /** @param cells as many as there are columns */
+  /** Appends a row.
+   *  @param cells one text per column */
   void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
   std::size_t rows() const { return rows_.size(); }
@@ -24,7 +25,7 @@ private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-/** A number with the given count of significant digits; an empty text for NaN. */
+/** Text of a number with the given count of significant digits; an empty text for NaN. */
 std::string number(double value, int digits = 3);
 
 }  // namespace endovascular_sim::benchmark

@@ -20,7 +20,7 @@ void addBlock(std::vector<Eigen::Triplet<double>>& entries, int row_node, int co
       entries.emplace_back(3 * row_node + row, 3 * col_node + col, block(row, col));
 }
 
-/** Second derivative by the edges before and after a node, as one by the three nodes. */
+/** Adds a Hessian with respect to the edges before and after a node as one with respect to the three nodes. */
 void addStencil(std::vector<Eigen::Triplet<double>>& entries, const int (&node)[3], const Eigen::Matrix3d& a,
                 const Eigen::Matrix3d& b, const Eigen::Matrix3d& c)
 {
@@ -47,7 +47,7 @@ rod::Discretisation discretiseRing(const rod::Section& section, int nodes)
                                       &ring.radius, &ring.friction})
     values->pop_back();
   ring.rest_curvature.pop_back();
-  // The first node's cell is a whole one.
+  // The cell of the first node is complete, unlike at the end of an open rod.
   ring.cell_length.front() = ring.rest_length.front();
   ring.mass.front() *= 2.0;
   ring.first_curved = std::min(ring.first_curved, nodes);
@@ -58,13 +58,13 @@ EquilibriumSolver::EquilibriumSolver(EquilibriumProblem problem) : problem_(std:
 {
   const auto n = static_cast<std::size_t>(problem_.nodes());
   if (n < 3 || (!problem_.closed() && problem_.edges() != problem_.nodes() - 1))
-    throw InputError("equilibrium", "rod", "needs three nodes or more, and an edge between neighbours");
+    throw InputError("equilibrium", "rod", "requires at least three nodes, and an edge between neighbours");
   problem_.held.resize(n, false);
   if (!(problem_.force.empty() || problem_.force.size() == n) ||
       !(problem_.rest_binormal.empty() || problem_.rest_binormal.size() == n))
     throw InputError("equilibrium", "force, rest_binormal", "must be empty or have one entry per node");
   if (problem_.twist_held && !problem_.closed() && !(rigidEdge(0) && rigidEdge(problem_.edges() - 1)))
-    throw InputError("equilibrium", "twist_held", "needs both end edges held, or a ring");
+    throw InputError("equilibrium", "twist_held", "requires both end edges fixed, or a ring");
   for (int i = firstBent(); i <= lastBent(); ++i)
     compliance_ += problem_.rod.cell_length[i] / problem_.rod.torsional_stiffness[i];
   for (const double rest : problem_.rod.rest_length)

@@ -10,83 +10,83 @@
 namespace endovascular_sim::benchmark
 {
 
-/** One coordinate of a node that stays as it is; its reaction is part of the solution. It also takes away a rigid
- *  motion that nothing else holds: the reaction is then zero. */
+/** Constraint on one coordinate of a node, whose reaction is part of the solution. If it only removes a rigid-body
+ * mode, the reaction is zero. */
 struct Support
 {
   int node = 0;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector of the constrained coordinate
 };
 
-/** A discrete rod of inextensible edges at rest, open or a closed ring. */
+/** Static problem of a discrete inextensible rod, open or a closed ring. */
 struct EquilibriumProblem
 {
-  /** n nodes; n − 1 rest lengths, or n for a ring, whose last edge joins the last node to the first. */
+  /** Rod of n nodes with n − 1 rest lengths, or n for a ring, whose last edge joins the last node to the first. */
   rod::Discretisation rod;
-  std::vector<bool> held;                      ///< nodes whose position stays; a clamp holds two. n
-  std::vector<Support> supports;               ///< further single coordinates
-  std::vector<Eigen::Vector3d> force;          ///< dead loads, n or empty [N]
-  std::vector<Eigen::Vector3d> rest_binormal;  ///< rest curvature binormal, fixed in space, n or empty [1]
-  /** Twist between the material frames of both end edges, measured against the direct parallel transport between
-   *  them; of a ring, 2π times its linking number. Uniform torque: for straight isotropic wires. */
-  bool twist_held = false;
-  double twist = 0.0;  ///< [rad]
+  std::vector<bool> held;                      ///< fixed nodes, two per clamp; size n
+  std::vector<Support> supports;               ///< constraints on single coordinates
+  std::vector<Eigen::Vector3d> force;          ///< dead loads, size n or empty [N]
+  std::vector<Eigen::Vector3d> rest_binormal;  ///< rest curvature binormals, fixed in space, size n or empty [1]
+  bool twist_held = false;  ///< prescribed twist; the torque is uniform, as in straight isotropic wires
+  /** Twist between the material frames of both end edges relative to the direct parallel transport between them; for a
+   *  ring, 2π times the linking number [rad]. */
+  double twist = 0.0;
 
   int nodes() const { return rod.nodes(); }
   int edges() const { return static_cast<int>(rod.rest_length.size()); }
   bool closed() const { return edges() == nodes(); }
 };
 
-/** A closed ring of one section, cut into equal edges, its nodes at the corners of a regular polygon. */
+/** Closed ring of one section with equal edges; the nodes are the corners of a regular polygon. */
 rod::Discretisation discretiseRing(const rod::Section& section, int nodes);
 
-/** A guess, then a solution. */
+/** Initial guess and solution. */
 struct Equilibrium
 {
-  std::vector<Eigen::Vector3d> position;  ///< [m], n
-  std::vector<double> tension;            ///< multiplier of every edge [N]
-  std::vector<double> reaction;           ///< of every support, on the wire [N]
-  double torque = 0.0;                    ///< along the wire [N·m]
-  double transport = 0.0;  ///< twist that the centreline adds, followed over full turns from the value before [rad]
+  std::vector<Eigen::Vector3d> position;  ///< positions of the nodes, size n [m]
+  std::vector<double> tension;            ///< Lagrange multiplier of every edge [N]
+  std::vector<double> reaction;           ///< reaction force of every support on the wire [N]
+  double torque = 0.0;                    ///< uniform torque along the wire [N·m]
+  double transport = 0.0;                 ///< twist due to the centreline, continuous over full turns [rad]
   int iterations = 0;
 };
 
-/** Solves for the rest shape by Newton's method with the exact Hessian, multipliers for edges and supports, and KLU:
- *  independent of the time-stepping schemes, which share only the energies with it. */
+/** Static solver: Newton's method with the exact Hessian, multipliers for edges and supports, and KLU. It shares only
+ * the energies with the time-stepping schemes. */
 class EquilibriumSolver
 {
 public:
-  /** @throws InputError for arrays of wrong size, or a twist whose ends are not held */
+  /** @throws InputError for arrays of wrong size, or a prescribed twist without fixed ends */
   explicit EquilibriumSolver(EquilibriumProblem problem);
 
   const EquilibriumProblem& problem() const { return problem_; }
   EquilibriumProblem& problem() { return problem_; }
 
   /** Newton's method from the guess, regularised in proportion to the residual force.
-   *  @return false when it does not converge; the guess is then spoilt */
+   *  @return false without convergence; the guess is then overwritten */
   bool solve(Equilibrium& guess) const;
 
-  /** Elastic energy less the work of the dead loads [J]. */
+  /** Elastic energy minus the work of the dead loads [J]. */
   double potential(const Equilibrium& e) const;
 
-  /** Gradient of the potential by the nodes, with the edges' tensions: zero at equilibrium, the force of the hold at
-   *  held nodes [N], 3n. */
+  /** Gradient of the Lagrangian with respect to the nodes: zero at equilibrium, the reaction at fixed nodes; size 3n
+   *  [N]. */
   Eigen::VectorXd forces(const Equilibrium& e) const;
 
-  /** Exact second derivative of the Lagrangian by the nodes at fixed tension and torque [N/m], 3n × 3n. */
+  /** Exact Hessian of the Lagrangian with respect to the nodes at fixed tension and torque; 3n × 3n [N/m]. */
   rod::SparseMatrix hessian(const Equilibrium& e) const;
 
-  /** Derivative of the transport by the nodes [rad/m], 3n. */
+  /** Gradient of transport() with respect to the nodes; size 3n [rad/m]. */
   Eigen::VectorXd transportGradient(const Equilibrium& e) const;
 
-  /** Twist that the centreline adds, nearest to e.transport [rad]. */
+  /** Twist due to the centreline, on the branch nearest to e.transport [rad]. */
   double transport(const Equilibrium& e) const;
 
-  /** ∫ds/GJ between the middles of the end edges, or around the ring [1/(N·m)]. */
+  /** Torsional compliance ∫ds/GJ between the centres of the end edges, or around the ring [1/(N·m)]. */
   double torsionalCompliance() const { return compliance_; }
 
-  /** Eigenvalues, ascending, of the energy's second variation over all motions that keep edges and supports [N/m]: the
-   *  equilibrium is stable when none is negative. Dense: for small rods. */
+  /** Eigenvalues of the second variation of the energy over all admissible motions, ascending [N/m]. The equilibrium is
+   *  stable if none is negative. The computation is dense, for small rods. */
   Eigen::VectorXd stiffness(const Equilibrium& e) const;
 
 private:
@@ -116,7 +116,7 @@ private:
 
   EquilibriumProblem problem_;
   double compliance_ = 0.0;
-  double length_ = 0.0;  ///< of the whole wire [m]
+  double length_ = 0.0;  ///< length of the whole wire [m]
 };
 
 }  // namespace endovascular_sim::benchmark

@@ -6,7 +6,7 @@
 
 #include "benchmark/reference/equilibrium.h"
 
-// Newton's method on the saddle system, and stability: unknowns are nodes, tensions, reactions, torque.
+// Newton's method on the saddle-point system of nodes, tensions, reactions and torque; stability of the solution.
 
 namespace endovascular_sim::benchmark
 {
@@ -14,14 +14,15 @@ namespace
 {
 
 constexpr int kMaxIterations = 500;
-constexpr double kLargestTurn = 0.3;  // of an edge in one iteration [rad]
-constexpr double kConverged = 1e-11;  // last motion, of the wire's length
+constexpr double kLargestTurn = 0.3;  // largest rotation of an edge in one iteration [rad]
+constexpr double kConverged = 1e-11;  // largest last motion over the length of the wire
 constexpr double kConvergedStrain = 1e-12;
-constexpr double kReach = 0.1;  // of the wire's length: what the residual force may move against the regularisation
+constexpr double kReach =
+    0.1;  // largest motion by the residual force against the regularisation, over the length of the wire
 
 }  // namespace
 
-/** Left-hand sides of all equations, held ones zero. */
+/** Residuals of all equations, zero at fixed nodes. */
 Eigen::VectorXd EquilibriumSolver::residual(const Equilibrium& e) const
 {
   const int n = problem_.nodes();
@@ -39,7 +40,7 @@ Eigen::VectorXd EquilibriumSolver::residual(const Equilibrium& e) const
   return r;
 }
 
-/** Rows of edges, supports and torque, and their transposes. */
+/** Adds the rows of edges, supports and torque, and their transposes. */
 void EquilibriumSolver::addConstraints(const Equilibrium& e, Triplets& entries) const
 {
   const auto couple = [this, &entries](int row, int node, const Eigen::Vector3d& value)
@@ -133,7 +134,7 @@ bool EquilibriumSolver::solve(Equilibrium& e) const
   return false;
 }
 
-/** Rows for all edges and supports that bind; held nodes as single coordinates. */
+/** Rows of the active edges and supports; fixed nodes count as single coordinates. */
 Eigen::MatrixXd EquilibriumSolver::constraintJacobian(const Equilibrium& e) const
 {
   const int n = problem_.nodes();

@@ -8,10 +8,11 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kLeastShift = 1e-4;  // of EI/L³
-constexpr double kMostShift = 1e12;
+constexpr double kLeastShift = 1e-4;  // smallest shift over EI/L³
+constexpr double kMostShift = 1e12;   // largest shift over EI/L³
 constexpr double kShiftGrowth = 30.0;
 
+/** Newton iteration of one mixed rod. */
 class Statics
 {
 public:

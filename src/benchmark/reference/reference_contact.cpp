@@ -11,20 +11,10 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-/** Of `paper` everything is slow and short: its contact yields by F Δt²/m. */
+/** Scheme `paper` requires short steps: its contact yields by F Δt²/m. */
 bool isPaper(const std::string& scheme)
 {
   return scheme == "paper";
-}
-
-rod::StepperSettings settings()
-{
-  rod::StepperSettings settings;
-  settings.strain_tolerance = 1e-6;
-  settings.contact_stiffness = 1e6;
-  settings.corrected_strain_ratio = 0.0;
-  settings.max_iterations = 30;
-  return settings;
 }
 
 }  // namespace
@@ -40,8 +30,8 @@ Measured ceilingForce(const std::string& scheme, double turn, double height, int
   const rod::Boundary boundary = clampAtOrigin(scheme, rod);
   rod::Environment environment;
   environment.damping = isPaper(scheme) ? 2.0 * frequency : 0.0;
-  rod::StepperSettings stiff = settings();
-  stiff.contact_stiffness = 1e7;  // its yielding counts as height
+  rod::StepperSettings stiff = stiffContactSettings();
+  stiff.contact_stiffness = 1e7;  // compliance acts as additional height
   ReferenceWire wire(scheme, rod, boundary, environment, stiff);
   FlatChannel channel(height * length);
   wire.wall = &channel;
@@ -54,11 +44,11 @@ Measured ceilingForce(const std::string& scheme, double turn, double height, int
 Measured capstanRatio(const std::string& scheme, int nodes, double speed)
 {
   constexpr double kPegRadius = 0.02;
-  constexpr double kSpan = 0.04;  // on each side, six times the length over which bending fades
+  constexpr double kSpan = 0.04;  // length on each side: six decay lengths of bending
   constexpr double kFriction = 0.3;
   ReferenceRod rod;
   const double slack = rod.bending_stiffness / (0.1 * kPegRadius * kPegRadius);
-  // Far from the peg a span lies on a line that passes its centre at R + EI/(2 T R).
+  // Far from the peg, a span approaches a line at distance R + EI/(2 T R) from its centre.
   const double line = kPegRadius + rod.bending_stiffness / (2.0 * kCapstanRatio * slack * kPegRadius);
   const double inserted = 2.0 * kSpan + 0.5 * M_PI * line;
   rod.nodes = nodes;
@@ -68,7 +58,7 @@ Measured capstanRatio(const std::string& scheme, int nodes, double speed)
   boundary.guide_length = 1e-3;
   rod::Environment environment;
   environment.damping = 100.0;
-  ReferenceWire wire(scheme, rod, boundary, environment, settings(), inserted);
+  ReferenceWire wire(scheme, rod, boundary, environment, stiffContactSettings(), inserted);
   Peg peg(Eigen::Vector3d(kSpan, -line, 0.0), kPegRadius, kFriction);
   wire.wall = &peg;
   for (Eigen::Vector3d& x : wire.state.position)
@@ -89,7 +79,7 @@ Measured capstanRatio(const std::string& scheme, int nodes, double speed)
     {
       wire.input.inserted_length -= velocity * dt;
       if (!wire.step(dt))
-        result.note = "steps refused";
+        result.note = "steps rejected";
       sum -= wire.state.hand_force;
     }
     return sum / steps;
@@ -107,13 +97,13 @@ Insertion insertIntoABend(const std::string& scheme, int nodes)
   constexpr double kStraight = 0.03;
   constexpr double kAngle = 0.5 * M_PI;
   constexpr double kSpeed = 0.05;
-  constexpr double kWindow = 0.01;  // m of travel
+  constexpr double kWindow = 0.01;  // averaging window of travel [m]
   ReferenceRod rod;
   rod.length = 0.16;
   rod.nodes = nodes;
   rod.bending_stiffness = 3e-4;
   const double exact = 0.5 * rod.bending_stiffness / (kBendRadius * kBendRadius);
-  ReferenceWire wire(scheme, rod, rod::Boundary(), rod::Environment(), settings(), kStraight);
+  ReferenceWire wire(scheme, rod, rod::Boundary(), rod::Environment(), stiffContactSettings(), kStraight);
   BentTube tube(0.01 * kBendRadius, kStraight, kBendRadius, kAngle);
   wire.wall = &tube;
   const double dt = isPaper(scheme) ? 2e-5 : 1e-3;
@@ -126,7 +116,7 @@ Insertion insertIntoABend(const std::string& scheme, int nodes)
     {
       wire.input.inserted_length += kSpeed * dt;
       if (!wire.step(dt))
-        result.note = "steps refused";
+        result.note = "steps rejected";
       sum += wire.state.hand_force;
     }
     return sum / (steps * exact);

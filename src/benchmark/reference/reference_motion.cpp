@@ -12,7 +12,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-/** Shape of the first mode of a clamped wire at x/L. */
+/** First mode of a clamped wire at x/L. */
 double firstMode(double x)
 {
   constexpr double kBeta = 1.875104068711961;
@@ -45,7 +45,7 @@ Propagation swing(const std::string& scheme, int nodes, double turn)
     run.simulation().step({});
     amplitude.push_back(run.simulation().state().position.back().y());
   }
-  // The first steps carry what the continuum's mode has of the discrete rod's higher ones; they die out first.
+  // The initial shape also excites higher modes of the discrete rod, which decay during the skipped steps.
   constexpr int kSkip = 60;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();

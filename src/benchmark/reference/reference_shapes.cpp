@@ -70,12 +70,10 @@ double criticalTwist(int nodes)
   return 0.5 * (stable + unstable);
 }
 
-// ------------------------------------------------------------------------------------------------ localised helix
-
 namespace
 {
 
-// References 05: B = 1.345, C = 0.789, L = 9.29, D = 0.3, R = 27 turns, second solution.
+// Van der Heijden & Thompson: B = 1.345, C = 0.789, L = 9.29, D = 0.3, R = 27 turns, second solution.
 constexpr double kB = 1.345;
 constexpr double kC = 0.789;
 constexpr double kSpan = 9.29;
@@ -91,13 +89,13 @@ double helixCosine(double s)
   return kCosine + (1.0 - kCosine) * std::pow(std::tanh(s / kScale), 2.0);
 }
 
-/** The helix of theory, its ends where they are held. */
+/** Analytical helix with the prescribed positions of the ends. */
 std::vector<Eigen::Vector3d> helixGuess(int nodes)
 {
   const double edge = kSpan / (nodes - 2);
   const int middle = nodes / 2;
   std::vector<Eigen::Vector3d> x(static_cast<std::size_t>(nodes), Eigen::Vector3d::Zero());
-  // ψ' = M/(B (1 + cos φ)), from the middle, where the tangent leans towards y.
+  // ψ' = M/(B (1 + cos φ)), integrated from the centre, where the tangent is inclined towards y.
   double azimuth = 0.0;
   for (int j = middle; j + 1 < nodes; ++j)
   {
@@ -105,16 +103,16 @@ std::vector<Eigen::Vector3d> helixGuess(int nodes)
     azimuth += (j == middle ? 0.5 : 1.0) * edge * kTorque / (kB * (1.0 + u));
     const double across = std::sqrt(1.0 - u * u);
     x[j + 1] = x[j] + edge * Eigen::Vector3d(u, across * std::cos(azimuth), across * std::sin(azimuth));
-    // Half a turn about z brings the other half.
+    // A rotation by π about z gives the other half.
     x[2 * middle - j - 1] = Eigen::Vector3d(-x[j + 1].x(), -x[j + 1].y(), x[j + 1].z());
   }
-  // Ends on the axis that both tails approach, as far apart as they are held.
+  // The ends lie on the asymptotic axis of both tails, at their prescribed distance.
   const double height = x.back().z();
   const double half = 0.5 * (kSpan - kShortening);
   const int ends[4] = {0, 1, nodes - 2, nodes - 1};
-  const double places[4] = {-half - 0.5 * edge, -half + 0.5 * edge, half - 0.5 * edge, half + 0.5 * edge};
+  const double positions[4] = {-half - 0.5 * edge, -half + 0.5 * edge, half - 0.5 * edge, half + 0.5 * edge};
   for (int k = 0; k < 4; ++k)
-    x[ends[k]] = Eigen::Vector3d(places[k], 0.0, height);
+    x[ends[k]] = Eigen::Vector3d(positions[k], 0.0, height);
   return x;
 }
 
@@ -150,7 +148,7 @@ LocalisedHelix localisedHelix(int nodes)
   problem.held[0] = problem.held[1] = problem.held[nodes - 2] = problem.held[nodes - 1] = true;
   problem.twist_held = true;
   problem.twist = kTwist;
-  // The helix may turn about its axis, and slides along it nearly freely: its middle stays.
+  // Fixing the centre removes the rotation about the axis and the nearly free translation along it.
   problem.supports.push_back({nodes / 2, Eigen::Vector3d::UnitY()});
   problem.supports.push_back({nodes / 2, Eigen::Vector3d::UnitX()});
   Equilibrium rest;
@@ -158,7 +156,7 @@ LocalisedHelix localisedHelix(int nodes)
   rest.transport = -kWrithe;
   rest.torque = kTorque;
   LocalisedHelix helix;
-  // What keeps the middle must have nothing to bear.
+  // The reactions of these supports must vanish.
   helix.converged =
       EquilibriumSolver(problem).solve(rest) && std::abs(rest.reaction[0]) < 1e-9 && std::abs(rest.reaction[1]) < 1e-9;
   helix.envelope_error = envelopeError(rest.position);

@@ -3,10 +3,10 @@
 namespace endovascular_sim::benchmark
 {
 
-Table referenceTable()
+std::vector<std::string> referenceColumns()
 {
-  return Table(
-      {"quantity", "scheme", "nodes", "value", "exact", "relative error", "tolerance", "order", "µs per step", "note"});
+  return {"quantity",       "scheme",    "nodes", "value",       "exact",
+          "relative error", "tolerance", "order", "µs per step", "note"};
 }
 
 void addRows(Table& table, const Reference& reference, const std::vector<int>& counts, bool ordered,
@@ -22,7 +22,7 @@ void addRows(Table& table, const Reference& reference, const std::vector<int>& c
     const double order = ordered ? std::log(previous_error / error) / std::log(nodes / previous_nodes) : NAN;
     std::string note = measured.note;
     if (!(error <= reference.tolerance) && !std::isnan(reference.tolerance))
-      note = "beyond its tolerance" + (note.empty() ? "" : ": " + note);
+      note = "beyond the tolerance" + (note.empty() ? "" : ": " + note);
     table.add({reference.quantity, reference.scheme, std::to_string(nodes), number(measured.value, 8),
                number(reference.exact, 8), number(error, 2), number(reference.tolerance, 2), number(order, 2),
                measured.step_us > 0.0 ? number(measured.step_us) : "", note});

@@ -11,24 +11,25 @@
 namespace endovascular_sim::benchmark
 {
 
-/** A quantity with its reference value, as a scheme finds it. */
+/** Quantity of a scheme with its reference value. */
 struct Reference
 {
   std::string quantity;
   std::string scheme;
   double exact = 0.0;
-  double tolerance = NAN;  ///< of the relative error, absolute where the exact value is 0; NaN: none is set
+  double tolerance =
+      NAN;  ///< tolerance of the relative error, of the absolute error for an exact value of 0; NaN: none
 };
 
-/** An empty table of references. */
-Table referenceTable();
+/** Columns of a table of reference values. */
+std::vector<std::string> referenceColumns();
 
-/** Adds a row per number of nodes, coarse to fine, with the observed order; a row beyond its tolerance says so.
- *  @param ordered false where the error is not that of the edges' length: no order is given */
+/** Adds a row per number of nodes, coarse to fine, with the observed order and a note beyond the tolerance.
+ *  @param ordered false if the error does not depend on the length of the edges: the order is omitted */
 void addRows(Table& table, const Reference& reference, const std::vector<int>& counts, bool ordered,
              const std::function<Measured(int)>& measure);
 
-/** Adds a row that says why there is no value. */
+/** Adds a row with the reason for a missing value. */
 void addReason(Table& table, const Reference& reference, const std::string& reason);
 
 }  // namespace endovascular_sim::benchmark

@@ -33,36 +33,36 @@ Transmission::Transmission(double lambda, int nodes)
   hold_.position = 0.5 * rod_.rest_length[0];
 }
 
-double Transmission::turnTo(double angle)
+double Transmission::rotateTo(double angle)
 {
   hold_.rotation = angle;
   twist_.solve(rod_, hold_, state_);
   return state_.twist_angle.back();
 }
 
-double Transmission::handAngleFor(double tip)
+double Transmission::proximalAngleFor(double tip)
 {
   const double step = 0.25 * kDegree;
-  double before = turnTo(0.0);
-  for (double hand = step; hand < 7.0; hand += step)
+  double before = rotateTo(0.0);
+  for (double proximal = step; proximal < 7.0; proximal += step)
   {
-    const double now = turnTo(hand);
+    const double now = rotateTo(proximal);
     if (now >= tip)
-      return hand - step * (now - tip) / (now - before);
+      return proximal - step * (now - tip) / (now - before);
     before = now;
   }
   return NAN;
 }
 
-double Transmission::snap()
+double Transmission::snapThrough()
 {
   const double step = 0.01 * kDegree;
-  double before = turnTo(0.0);
-  for (double hand = step; hand < 7.0; hand += step)
+  double before = rotateTo(0.0);
+  for (double proximal = step; proximal < 7.0; proximal += step)
   {
-    const double now = turnTo(hand);
+    const double now = rotateTo(proximal);
     if (now - before > 0.5)
-      return hand - step;
+      return proximal - step;
     before = now;
   }
   return NAN;

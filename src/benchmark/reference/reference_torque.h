@@ -7,20 +7,22 @@ namespace endovascular_sim::benchmark
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/** A pre-curved wire on a planar bend of the same curvature, √(EI κ κ0/GJ)·L = lambda, held at its first edge. */
+/** Torque transmission of a pre-curved wire on a planar bend of the same curvature, √(EI κ κ0/GJ)·L = lambda. */
 class Transmission
 {
 public:
   Transmission(double lambda, int nodes);
 
-  /** Turns the hand [rad]; returns the tip's angle. */
-  double turnTo(double angle);
+  /** Rotates the proximal end.
+   *  @param angle proximal angle [rad]
+   *  @return angle of the tip [rad] */
+  double rotateTo(double angle);
 
-  /** Hand angle at which the tip first reaches an angle [rad]. */
-  double handAngleFor(double tip);
+  /** Proximal angle at which the tip first reaches an angle [rad]. */
+  double proximalAngleFor(double tip);
 
-  /** Hand angle at which the tip jumps [rad]. */
-  double snap();
+  /** Proximal angle of the snap-through of the tip [rad]. */
+  double snapThrough();
 
 private:
   rod::Discretisation rod_;

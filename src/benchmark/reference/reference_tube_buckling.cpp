@@ -11,18 +11,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-rod::StepperSettings settings()
-{
-  rod::StepperSettings settings;
-  settings.strain_tolerance = 1e-6;
-  settings.contact_stiffness = 1e6;
-  settings.corrected_strain_ratio = 0.0;
-  settings.max_iterations = 30;
-  return settings;
-}
-
-/** Lays a wire of equal edges on the bottom of a straight tube, swaying to its sides by a twentieth of the clearance,
- * in a shape that is not the one sought. The first node stays. */
+/** Places a wire of equal edges on the bottom of a straight tube with a lateral amplitude of 0.05 clearances, in a
+ * shape that differs from the solution. The first node is unchanged. */
 void layOnTheBottom(std::vector<Eigen::Vector3d>& x, double edge, double clearance)
 {
   const double side = 0.05 * clearance;
@@ -37,19 +27,19 @@ void layOnTheBottom(std::vector<Eigen::Vector3d>& x, double edge, double clearan
   }
 }
 
-/** A bend of the tube and how the wire lies in it. */
+/** Bend of the tube with the initial shape of the wire. */
 struct Bend
 {
-  double radius = 0.1;       ///< of the tube's axis [m]
-  double clearance = 5e-4;   ///< [m]
-  double amplitude = 0.1;    ///< to the sides, about the tube's axis [rad]
-  double wave_number = 0.0;  ///< along the wire [1/m]
+  double radius = 0.1;       ///< radius of the axis of the tube [m]
+  double clearance = 5e-4;   ///< radial clearance of the wire [m]
+  double amplitude = 0.1;    ///< lateral amplitude as an angle about the axis of the tube [rad]
+  double wave_number = 0.0;  ///< wave number along the wire [1/m]
 
   double outer() const { return radius + clearance; }
 };
 
-/** Lays a wire on the outer side of a bend, swaying to its sides, its end edges straight with their middles on the arc.
- *  The first edge stays.
+/** Places a wire on the outer side of a bend with a lateral amplitude. The centres of the end edges lie on the arc, and
+ * the first edge is unchanged.
  *  @return angle of the bend between both clamps [rad] */
 double layOnTheOuterSide(std::vector<Eigen::Vector3d>& x, double edge, const Bend& bend)
 {
@@ -93,7 +83,7 @@ Measured buckleInATube(const std::string& scheme, int nodes)
   rod::Environment environment;
   environment.gravity = Eigen::Vector3d(0.0, 0.0, -kGravity);
   environment.damping = paper ? 50.0 : 0.0;
-  ReferenceWire wire(scheme, rod, boundary, environment, settings());
+  ReferenceWire wire(scheme, rod, boundary, environment, stiffContactSettings());
   BentTube tube(kClearance, 0.0, std::numeric_limits<double>::infinity(), 0.0);
   wire.wall = &tube;
   layOnTheBottom(wire.state.position, rod.length / (nodes - 1), kClearance);
@@ -108,7 +98,7 @@ Measured buckleInABentTube(const std::string& scheme, int nodes)
 {
   const bool paper = scheme == "paper";
   Bend bend;
-  bend.amplitude = paper ? 0.3 : 0.1;  // its wall yields by a part of what the sway takes up
+  bend.amplitude = paper ? 0.3 : 0.1;  // its compliant wall takes up part of the shortening
   bend.wave_number = std::sqrt(2.0 / (bend.clearance * bend.radius));
   const double length = 40.0 / bend.wave_number;
   const double edge = length / (nodes - 2);
@@ -121,7 +111,7 @@ Measured buckleInABentTube(const std::string& scheme, int nodes)
   boundary.origin = Eigen::Vector3d(-0.5 * edge, -bend.clearance, 0.0);
   rod::Environment environment;
   environment.damping = paper ? 2000.0 : 0.0;
-  ReferenceWire wire(scheme, rod, boundary, environment, settings());
+  ReferenceWire wire(scheme, rod, boundary, environment, stiffContactSettings());
   BentTube tube(bend.clearance, 0.0, bend.radius, 0.9 * M_PI);
   wire.wall = &tube;
   std::vector<Eigen::Vector3d>& x = wire.state.position;

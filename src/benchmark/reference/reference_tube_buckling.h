@@ -7,15 +7,17 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Axial force of a heavy wire that lies in a straight horizontal tube, pinned at both ends on the tube's bottom, just
- *  buckled to its sides, over √(EI q/r); length 10 (EI r/q)^¼, three half waves.
- *
- *  The ends are held as far apart as a small sine leaves them; the wire then finds its own shape. */
+/** Exact force of buckleInATube(). */
 constexpr double kTubeBuckling = 2.0140553254573508;
+
+/** Axial force of a heavy wire on the bottom of a straight horizontal tube at the onset of lateral buckling, over
+ *  √(EI q/r). Both ends are pinned; the length is 10 (EI r/q)^¼, the mode has three half waves.
+ *
+ *  The distance of the ends corresponds to a sine of small amplitude; the wire takes its own shape. */
 Measured buckleInATube(const std::string& scheme, int nodes);
 
-/** The same without weight in a tube with its axis bent to a radius R, clamped at both ends on the bend's outer side:
- *  force over 4 EI/(r R) for r/R = 1/200 and 12.7 half waves. */
+/** Axial buckling force of a weightless wire in a tube bent to a radius R, clamped at both ends on the outer side of
+ * the bend, over 4 EI/(r R); r/R = 1/200 and 12.7 half waves. */
 Measured buckleInABentTube(const std::string& scheme, int nodes);
 
 }  // namespace endovascular_sim::benchmark

@@ -45,6 +45,16 @@ std::unique_ptr<rod::Stepper> makeStepper(const std::string& scheme, const Refer
 
 }  // namespace
 
+rod::StepperSettings stiffContactSettings()
+{
+  rod::StepperSettings settings;
+  settings.strain_tolerance = 1e-6;
+  settings.contact_stiffness = 1e6;
+  settings.corrected_strain_ratio = 0.0;
+  settings.max_iterations = 30;
+  return settings;
+}
+
 double ReferenceRod::lineDensity() const
 {
   return density * M_PI * radius * radius;

@@ -10,46 +10,50 @@
 namespace endovascular_sim::benchmark
 {
 
-/** A value found by a scheme, and what it took. */
+/** Value computed by a scheme, with its cost. */
 struct Measured
 {
   double value = 0.0;
   double step_us = 0.0;  ///< median time of a step [µs]
-  std::string note;      ///< empty: it went as it should
+  std::string note;      ///< irregularity of the run; empty: none
 };
 
-/** A straight wire of one section, and its number of nodes. */
+/** Wire of one section with its number of nodes. */
 struct ReferenceRod
 {
-  double length = 0.1;                ///< [m]
+  double length = 0.1;                ///< length of the wire [m]
   double bending_stiffness = 1e-4;    ///< EI [N·m²]
   double torsional_stiffness = 1e-4;  ///< GJ [N·m²]
-  double radius = 1.8e-4;             ///< [m]
-  double density = 8000.0;            ///< [kg/m³]
-  double rest_curvature = 0.0;        ///< towards the boundary's director [1/m]
+  double radius = 1.8e-4;             ///< radius of the wire [m]
+  double density = 8000.0;            ///< density of the material [kg/m³]
+  double rest_curvature = 0.0;        ///< rest curvature towards the director of the boundary [1/m]
   int nodes = 100;
 
-  double lineDensity() const;  ///< [kg/m]
+  double lineDensity() const;  ///< mass per length [kg/m]
 };
 
-/** A scheme's stepper with its state and what drives it, without a scene: for references whose walls, loads and first
- *  shapes no scene describes. */
+/** Settings of references with contact: a stiff wall and tight tolerances. */
+rod::StepperSettings stiffContactSettings();
+
+/** Stepper with state and input but without a scene, for references with walls, loads and initial shapes that no scene
+ * can describe. */
 class ReferenceWire
 {
 public:
   ReferenceWire(const std::string& scheme, const ReferenceRod& rod, const rod::Boundary& boundary,
                 const rod::Environment& environment, rod::StepperSettings settings, double inserted_length = 0.0);
 
-  /** One step, with its time taken.
-   *  @return false when it was refused */
+  /** Advances one step and measures its time.
+   *  @param dt time step [s]
+   *  @return false for a rejected step */
   bool step(double dt);
 
   /** Steps until no node moves by more than @p tolerance [m] in a step.
-   *  @param from_rest every step begins at rest: a damped Newton iteration on the energy
-   *  @return false when it does not come to that */
+   *  @param from_rest sets the velocities to zero before every step: a damped Newton iteration on the energy
+   *  @return false if this is not reached */
   bool settle(double dt, bool from_rest, double tolerance, int max_steps);
 
-  double stepTime() const;  ///< median so far [µs]
+  double stepTime() const;  ///< median time of the steps so far [µs]
 
   rod::State state;
   rod::StepInput input;
@@ -61,8 +65,8 @@ private:
   std::vector<double> times_;
 };
 
-/** A bench wire along x that is clamped at the origin with @p rod.length free: the discrete rods' clamp acts in the
- *  middle of an edge, so half an edge is added to @p rod before it. */
+/** Boundary of a wire along x that is clamped at the origin with @p rod.length free. The clamp of `kkt` and `paper`
+ * acts at the centre of an edge, so half an edge is added to @p rod. */
 rod::Boundary clampAtOrigin(const std::string& scheme, ReferenceRod& rod);
 
 }  // namespace endovascular_sim::benchmark

@@ -7,8 +7,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kFar = 1.0;      // m: no feature is left out
-constexpr int kFacesOfANode = 2;  // for the features' numbers
+constexpr double kFar = 1.0;      // free distance beyond all features [m]
+constexpr int kFacesPerNode = 2;  // stride of the feature numbers
 
 }  // namespace
 
@@ -20,13 +20,13 @@ void SmoothWall::detect(const contact::Query& query, contact::ContactSet& set)
   set.features.clear();
   contact::Feature feature;
   for (std::size_t i = 0; i < query.nodes.size() && query.nodes.size() > 1; ++i)
-    for (int face = 0; meet(query.nodes[i], face, feature); ++face)
+    for (int face = 0; measure(query.nodes[i], face, feature); ++face)
     {
       const bool last = i + 1 == query.nodes.size();
       const int node = query.first_node + static_cast<int>(i);
       feature.edge = node - (last ? 1 : 0);
       feature.parameter = last ? 1.0 : 0.0;
-      feature.id = std::int64_t{kFacesOfANode} * node + face;
+      feature.id = std::int64_t{kFacesPerNode} * node + face;
       set.features.push_back(feature);
     }
 }
@@ -36,7 +36,7 @@ void SmoothWall::freeDistances(const contact::Query& query, double, contact::Con
   detect(query, set);
 }
 
-bool FlatChannel::meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
+bool FlatChannel::measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
 {
   if (face > 1)
     return false;
@@ -47,7 +47,7 @@ bool FlatChannel::meet(const Eigen::Vector3d& axis, int face, contact::Feature& 
   return true;
 }
 
-bool Peg::meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
+bool Peg::measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
 {
   if (face > 0)
     return false;
@@ -61,14 +61,14 @@ bool Peg::meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature)
   return true;
 }
 
-Eigen::Vector3d BentTube::nearestOfTheAxis(const Eigen::Vector3d& point) const
+Eigen::Vector3d BentTube::closestPointOnAxis(const Eigen::Vector3d& point) const
 {
   if (!std::isfinite(radius_))
     return {point.x(), 0.0, 0.0};
   const double along = point.x() - straight_;
   const double across = radius_ - point.y();
   const double turn = std::atan2(along, across);
-  // Behind the bend's centre the angle is nearer to its beginning or its end.
+  // Beyond the centre of the bend, the sign of the angle determines the nearer straight part.
   if (along < 0.0 && (turn < 0.0 && turn > 0.5 * angle_ - M_PI))
     return {point.x(), 0.0, 0.0};
   if (turn >= 0.0 && turn <= angle_)
@@ -78,9 +78,9 @@ Eigen::Vector3d BentTube::nearestOfTheAxis(const Eigen::Vector3d& point) const
   return end + direction.dot(point - end) * direction;
 }
 
-bool BentTube::meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
+bool BentTube::measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
 {
-  const Eigen::Vector3d centre = nearestOfTheAxis(axis);
+  const Eigen::Vector3d centre = closestPointOnAxis(axis);
   const double distance = (axis - centre).norm();
   if (face > 0 || distance < 1e-3 * clearance_)
     return false;

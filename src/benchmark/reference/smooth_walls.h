@@ -7,8 +7,8 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Walls in closed form that nodes meet, one feature each: references without facets. The wire's radius counts as part
- *  of the wall: sizes are those that its axis sees. */
+/** Wall in closed form with contact at the nodes, for references without facets. Its sizes refer to the axis of the
+ * wire: the radius of the wire counts as part of the wall. */
 class SmoothWall : public contact::ContactSource
 {
 public:
@@ -16,38 +16,39 @@ public:
   void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override;
 
 protected:
-  /** Normal, gap and closest point for a node's axis.
-   *  @param face 0, 1, … while it returns true
-   *  @return false when there is no such face */
-  virtual bool meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const = 0;
+  /** Sets normal, gap and closest point of a face of the wall.
+   *  @param axis position of a node [m]
+   *  @param face number of the face, from 0
+   *  @return false without such a face */
+  virtual bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const = 0;
 };
 
-/** Between the planes y = 0 and y = height [m]. */
+/** Channel between the planes y = 0 and y = height [m]. */
 class FlatChannel : public SmoothWall
 {
 public:
   explicit FlatChannel(double height) : height_(height) {}
 
 protected:
-  bool meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
+  bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
 
 private:
   double height_;
 };
 
-/** Outside a cylinder about an axis along z. */
+/** Solid cylinder along z, with the wire outside. */
 class Peg : public SmoothWall
 {
 public:
-  /** @param centre any point of the peg's axis [m]
-   *  @param radius [m] */
+  /** @param centre any point of the axis of the peg [m]
+   *  @param radius radius of the peg [m] */
   Peg(const Eigen::Vector3d& centre, double radius, double friction)
     : centre_(centre), radius_(radius), friction_(friction)
   {
   }
 
 protected:
-  bool meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
+  bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
 
 private:
   Eigen::Vector3d centre_;
@@ -55,24 +56,24 @@ private:
   double friction_;
 };
 
-/** Inside a tube along x, then an arc that turns towards y, then straight on; frictionless. */
+/** Frictionless tube: straight along x, an arc towards y, and a straight continuation. */
 class BentTube : public SmoothWall
 {
 public:
-  /** @param clearance of the wire's axis from the tube's [m]
+  /** @param clearance largest distance between the axes of wire and tube [m]
    *  @param straight length along x before the bend, which begins at (straight, 0, 0) [m]
-   *  @param radius of the bend, infinite for a straight tube [m]
-   *  @param angle of the bend, less than π [rad] */
+   *  @param radius radius of the bend, infinite for a straight tube [m]
+   *  @param angle angle of the bend, below π [rad] */
   BentTube(double clearance, double straight, double radius, double angle)
     : clearance_(clearance), straight_(straight), radius_(radius), angle_(angle)
   {
   }
 
 protected:
-  bool meet(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
+  bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
 
 private:
-  Eigen::Vector3d nearestOfTheAxis(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d closestPointOnAxis(const Eigen::Vector3d& point) const;
 
   double clearance_;
   double straight_;

@@ -7,7 +7,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-/** A wire of length and bending stiffness that make a load number of 1 a force of 10 mN. */
+/** Wire for which a load number of 1 is a force of 10 mN. */
 BenchWire unitWire()
 {
   BenchWire wire;
@@ -43,7 +43,7 @@ StaticCase heavyElastica(double load, double x, double y)
   return problem;
 }
 
-/** An arc of the given angle; the references are in units of its length. */
+/** Arc of the given angle; load and tip are in units of its length. */
 StaticCase arc(const std::string& name, double angle, const Eigen::Vector3d& load, const Eigen::Vector3d& tip)
 {
   StaticCase problem{name, "boundary value problem", unitWire(), tip};
@@ -52,7 +52,7 @@ StaticCase arc(const std::string& name, double angle, const Eigen::Vector3d& loa
   return problem;
 }
 
-/** A wire curved throughout whose half next to the clamp is four times as stiff, bent in space. */
+/** Curved wire bent in space; the half next to the clamp is four times as stiff. */
 StaticCase steppedArc()
 {
   StaticCase problem = arc("curved wire, EI 4 : 1 at the middle, bent in space", 1.0, {-0.4, 0.7, 2.0},
@@ -65,7 +65,7 @@ StaticCase steppedArc()
 
 std::vector<StaticCase> staticCases()
 {
-  // references/references.json: sections 01, 02, 06a, 06c; that of the stepped wire by the same equations as 06c.
+  // Elastica: elliptic integrals. All others: the boundary value problem of the inextensible Kirchhoff rod.
   const double angle = 0.25 * M_PI;
   return {elastica(1.0, 0.9435667637166234, 0.3017207737998133),
           elastica(10.0, 0.44500440224624865, 0.8106090248802966),
@@ -102,7 +102,7 @@ BenchWire atRest(const StaticCase& problem, const std::string& scheme, int nodes
   BenchWire wire = problem.wire;
   wire.scheme = scheme;
   wire.nodes = nodes;
-  // A long implicit step is next to a static Newton step; `paper` is not stable there and is damped to rest instead.
+  // A long implicit step approximates a static Newton step. `paper` is unstable at such steps and is damped to rest.
   const bool linear_implicit = scheme == "paper";
   wire.time_step = linear_implicit ? 1e-3 : 0.1;
   wire.damping = linear_implicit ? 30.0 : 0.0;

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
-#include "benchmark/reference/reference_rows.h"
+#include "benchmark/reference/reference_table.h"
 #include "benchmark/reference/static_cases.h"
+#include "benchmark/studies/contact_rows.h"
+#include "benchmark/studies/reference_rows.h"
 #include "common/error.h"
 
 namespace endovascular_sim::benchmark
@@ -11,7 +13,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kAtRest = 1e-12;  // m moved in a step
+constexpr double kAtRest = 1e-12;  // largest motion per step at rest [m]
 
 std::vector<int> nodeCounts(const std::string& scheme, bool quick)
 {
@@ -20,7 +22,7 @@ std::vector<int> nodeCounts(const std::string& scheme, bool quick)
   return quick ? std::vector<int>{25, 50, 100} : std::vector<int>{25, 50, 100, 200, 400};
 }
 
-/** Rows of one problem and one scheme, coarse to fine. */
+/** Adds the rows of one problem and one scheme, coarse to fine. */
 void addRows(Table& table, const StaticCase& problem, const std::string& scheme, bool quick)
 {
   double previous_error = NAN;
@@ -34,7 +36,7 @@ void addRows(Table& table, const StaticCase& problem, const std::string& scheme,
     }
     catch (const InputError& error)
     {
-      table.add({problem.name, scheme, "", "", "", "", std::string("refused: ") + error.what()});
+      table.add({problem.name, scheme, "", "", "", "", std::string("rejected: ") + error.what()});
       return;
     }
     const double error = tipError(problem, result);
@@ -49,16 +51,24 @@ void addRows(Table& table, const StaticCase& problem, const std::string& scheme,
 
 }  // namespace
 
+std::vector<TableSpec> accuracyTables()
+{
+  return {{"accuracy",
+           "Static shapes",
+           {"problem", "scheme", "nodes", "tip error / L", "order", "µs per step", "note"},
+           "accuracy.png"},
+          {"accuracy_references", "Buckling, torque, vibration", referenceColumns(), ""},
+          {"accuracy_contact", "Contact", referenceColumns(), ""}};
+}
+
 std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& progress)
 {
-  Section section{"accuracy", "Static shapes", "",
-                  Table({"problem", "scheme", "nodes", "tip error / L", "order", "µs per step", "note"}),
-                  "accuracy.png"};
+  Section section(accuracyTables(), "accuracy");
   section.text =
-      "Distance of the tip from the exact one in lengths of the wire, and the observed order in the edge length "
-      "between a row and the one above it. The clamp of `kkt` and `paper` acts in the middle of an edge, so the free "
-      "length is N − 3/2 edges; that of `mixed` at its node, N − 1 edges. Time per step is that of the run to rest "
-      "(long steps, several solves each).";
+      "Distance between the computed and the exact tip over the length of the wire, and the observed order in the "
+      "edge length between consecutive rows. The clamp of `kkt` and `paper` acts at the centre of an edge: the free "
+      "length is N − 3/2 edges. That of `mixed` acts at the node: N − 1 edges. The time per step is that of the run "
+      "to rest, with long steps of several solves.";
   const std::vector<StaticCase> problems = staticCases();
   double done = 0.0;
   for (const StaticCase& problem : problems)
@@ -71,8 +81,10 @@ std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& 
   const auto references = [&progress](double share, const std::string& what) { progress(0.5 + 0.3 * share, what); };
   const auto contact = [&progress](double share, const std::string& what) { progress(0.8 + 0.2 * share, what); };
   std::vector<Section> sections = {section};
-  sections.push_back(referenceRows(options, references));
-  sections.push_back(contactRows(options, contact));
+  sections.emplace_back(accuracyTables(), "accuracy_references");
+  addReferenceRows(sections.back(), options, references);
+  sections.emplace_back(accuracyTables(), "accuracy_contact");
+  addContactRows(sections.back(), contact);
   return sections;
 }
 

@@ -7,8 +7,11 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Errors against reference values, over the number of nodes, with the observed order of convergence, for every scheme.
- *  A scheme that refuses a case is listed with its reason. */
+/** Tables of accuracyStudy(). */
+std::vector<TableSpec> accuracyTables();
+
+/** Errors of every scheme against reference values over the number of nodes, with the observed order of convergence. A
+ *  scheme that rejects a case is listed with the reason. */
 std::vector<Section> accuracyStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

@@ -26,7 +26,7 @@ double gap(double value, double low, double high)
   return std::max(0.0, std::max(low - value, value - high));
 }
 
-/** A k-DOP's slabs: the axes, then diagonals of two axes, then (k = 24) of three, in FCL's order. */
+/** Slabs of a k-DOP in the order of FCL: the axes, diagonals of two axes and (k = 24) of three axes. */
 template <int K>
 struct DopVolume
 {
@@ -106,7 +106,7 @@ struct OrientedVolume
   Eigen::Vector3d centre, half;
 };
 
-/** One flat tree: as contact::Bvh, for any volume. */
+/** Flat tree of any bounding volume. */
 template <typename Volume, typename FclVolume>
 class Tree
 {
@@ -131,9 +131,9 @@ public:
     }
   }
 
-  void collect(const Eigen::Vector3d& place, double radius)
+  void collect(const Eigen::Vector3d& centre, double radius)
   {
-    const typename Volume::Point point = Volume::prepare(place);
+    const typename Volume::Point point = Volume::prepare(centre);
     std::array<int, kMaxDepth> stack;
     int top = 0;
     stack[top++] = 0;
@@ -153,9 +153,9 @@ public:
     }
   }
 
-  double nearest(const Eigen::Vector3d& place)
+  double nearest(const Eigen::Vector3d& centre)
   {
-    const typename Volume::Point point = Volume::prepare(place);
+    const typename Volume::Point point = Volume::prepare(centre);
     struct Entry
     {
       int node;
@@ -174,7 +174,7 @@ public:
       if (node.left < 0)
       {
         ++leaves;
-        best = std::min(best, distanceTo(node.triangle, place));
+        best = std::min(best, distanceTo(node.triangle, centre));
         continue;
       }
       tests += 2;

@@ -1,7 +1,8 @@
+#include "benchmark/studies/contact_rows.h"
+
 #include <map>
 
 #include "benchmark/reference/reference_contact.h"
-#include "benchmark/reference/reference_rows.h"
 #include "benchmark/reference/reference_table.h"
 #include "benchmark/reference/reference_tube_buckling.h"
 
@@ -10,7 +11,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-/** Numbers of nodes of a scheme: `mixed` needs fewer, `paper` gets one, since it is slow here. */
+/** Numbers of nodes of a scheme: `mixed` requires fewer, and `paper`, which is slow here, is run with one. */
 std::vector<int> counts(const std::string& scheme, const std::vector<int>& kkt, const std::vector<int>& mixed)
 {
   if (scheme == "paper")
@@ -38,7 +39,8 @@ void addInsertion(Table& table, const std::string& scheme)
           [&](int nodes) {
             return Measured{runs[nodes].filling, runs[nodes].step_us, runs[nodes].note};
           });
-  addRows(table, {"the same after the tip has left it", scheme, 0.0, 0.02}, nodes_of_rows, false,
+  addRows(table, {"hand force of an insertion after the tip has left the bend, over ½EIκ²", scheme, 0.0, 0.02},
+          nodes_of_rows, false,
           [&](int nodes) {
             return Measured{runs[nodes].beyond, runs[nodes].step_us, runs[nodes].note};
           });
@@ -50,7 +52,7 @@ void addTubeBuckling(Table& table, const std::string& scheme)
           counts(scheme, {41, 81}, {21, 41}), false, [&](int nodes) { return buckleInATube(scheme, nodes); });
   const Reference bent{"buckling in a bent tube, F r R/(4 EI)", scheme, 1.0, 0.1};
   if (scheme == "mixed")
-    addReason(table, bent, "clamps a far end along the wire's first direction only");
+    addReason(table, bent, "clamps a distal end along the initial direction only");
   else
     addRows(table, bent, counts(scheme, {62, 122}, {}), false,
             [&](int nodes) { return buckleInABentTube(scheme, nodes); });
@@ -58,18 +60,18 @@ void addTubeBuckling(Table& table, const std::string& scheme)
 
 }  // namespace
 
-Section contactRows(const StudyOptions& /*options*/, const Progress& progress)
+void addContactRows(Section& section, const Progress& progress)
 {
-  Section section{"accuracy_contact", "Contact", "", referenceTable(), ""};
   section.text =
-      "Walls in closed form that nodes meet, so that no facets are in the way. Insertion: a straight wire of EI = 300 "
-      "N·mm² at 50 mm/s into 90° of 30 mm radius, clearance a hundredth of it, means over 10 mm of travel; the wire "
-      "may lie anywhere in the clearance, which is ± 2 % of the force. Capstan: mean over two edges' travel; friction "
-      "in the linear step of `paper` takes at most its momentum from a node, m v/Δt, before projection gives it back, "
-      "so its share is 1/(1 + Δt μ f_n/(m v)). Tubes: held ends, shortened by what a small sway takes up; the force "
-      "grows with the sway and, between clamps in the bent tube, by 2.5 % with the finite length, both part of the "
-      "error. The wall of `paper` yields by F Δt²/m; its steps are 1.3 µs in the channel, 1 µs on the peg, 3 µs in the "
-      "bent tube, 20 µs in the insertion, 0.1 ms in the straight tube; those of the others 0.1 to 5 ms.";
+      "Walls in closed form with contact at the nodes, which exclude effects of facets.\n\n"
+      "- Insertion: a straight wire of EI = 300 N·mm² enters a bend of 90° and 30 mm radius at 50 mm/s; means over 10 "
+      "mm of travel. The clearance is a hundredth of the radius; the position within it changes the force by ± 2 %.\n"
+      "- Capstan: mean over a travel of two edges. In the linear step of `paper`, friction removes at most the "
+      "momentum of a node, m v/Δt, so its share is 1/(1 + Δt μ f_n/(m v)).\n"
+      "- Tubes: held ends, shortened by a small lateral amplitude. The force grows with the amplitude, and between "
+      "the clamps of the bent tube by 2.5 % with the finite length; both count as error.\n"
+      "- Steps: the wall of `paper` yields by F Δt²/m, so its steps are 1.3 µs in the channel, 1 µs on the peg, 3 µs "
+      "in the bent tube, 20 µs in the insertion and 0.1 ms in the straight tube; those of the others are 0.1 to 5 ms.";
   double done = 0.0;
   for (const std::string& scheme : schemes())
   {
@@ -83,7 +85,6 @@ Section contactRows(const StudyOptions& /*options*/, const Progress& progress)
     addTubeBuckling(section.table, scheme);
     done += 1.0 / static_cast<double>(schemes().size());
   }
-  return section;
 }
 
 }  // namespace endovascular_sim::benchmark

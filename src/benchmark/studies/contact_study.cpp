@@ -22,12 +22,12 @@ namespace
 {
 
 constexpr int kNodes = 380;
-constexpr double kLength = 0.45;         // m of wire
-constexpr double kRadius = 0.445e-3;     // m
-constexpr double kAway = 0.45e-3;        // m from its axis to the wall
-constexpr double kTravel = 0.035e-3;     // m per step of 1 ms: 35 mm/s
-constexpr double kMargin = 0.25e-3;      // m
-constexpr double kCollectRadius = 2e-3;  // m: about what the detector asks the tree for, once per cube of space
+constexpr double kLength = 0.45;         // length of the wire [m]
+constexpr double kRadius = 0.445e-3;     // radius of the wire [m]
+constexpr double kAway = 0.45e-3;        // distance between its axis and the wall [m]
+constexpr double kTravel = 0.035e-3;     // travel per step of 1 ms at 35 mm/s [m]
+constexpr double kMargin = 0.25e-3;      // margin of the query [m]
+constexpr double kCollectRadius = 2e-3;  // radius of a typical query of the detector [m]
 constexpr int kSteadySteps = 400;
 
 struct StudyMesh
@@ -38,7 +38,7 @@ struct StudyMesh
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
 };
 
-/** aortic_arch_tree.obj with the entry of peer_wire.yaml, or a channel. */
+/** Mesh aortic_arch_tree.obj with the entry of peer_wire.yaml, else a channel. */
 StudyMesh baseMesh(const StudyOptions& options)
 {
   StudyMesh base;
@@ -60,8 +60,8 @@ StudyMesh baseMesh(const StudyOptions& options)
   return base;
 }
 
-/** aorta_coronary_female.obj beside the other mesh, as it is: detection needs no closed surface to be timed.
- *  @return a mesh without triangles where the file is not there */
+/** Mesh aorta_coronary_female.obj in the folder of the other mesh, without repair: timing requires no closed surface.
+ *  @return mesh without triangles if the file is missing */
 StudyMesh biggestMesh(const StudyOptions& options)
 {
   StudyMesh big;
@@ -71,7 +71,7 @@ StudyMesh biggestMesh(const StudyOptions& options)
     return big;
   big.name = "aorta_coronary_female";
   big.mesh = vessel::readMesh(file.string(), 1e-3);
-  // Beside the lowest point of the mesh, upwards: in the descending aorta or on its outside, which is as good.
+  // Near the lowest point of the mesh, upwards: inside or outside the descending aorta, which is equivalent here.
   big.start = *std::min_element(big.mesh.vertices.begin(), big.mesh.vertices.end(),
                                 [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
   big.start += Eigen::Vector3d(0.1e-3, 0.1e-3, 0.3e-3);
@@ -93,13 +93,13 @@ contact::Query queryAlong(const std::vector<Eigen::Vector3d>& curve, double curv
   return query;
 }
 
-/** Times of one mesh [µs]. */
+/** Detection times of one mesh. */
 struct DetectionTime
 {
-  double steady = 0.0;    ///< median over the steps of a wire that slides along itself
-  double cold = 0.0;      ///< first call, nothing remembered; fastest of several detectors
-  double features = 0.0;  ///< mean per step
-  double build_ms = 0.0;
+  double steady = 0.0;    ///< median over the steps of a sliding wire [µs]
+  double cold = 0.0;      ///< first call of a detector, fastest of several [µs]
+  double features = 0.0;  ///< mean number of features per step
+  double build_ms = 0.0;  ///< time of building the detector [ms]
 };
 
 double percentile(std::vector<double> values, double share)
@@ -141,14 +141,11 @@ DetectionTime detectionTime(const StudyMesh& mesh, bool quick)
 
 Section volumes(const StudyMesh& base, const StudyMesh& big, bool quick, const Progress& progress)
 {
-  Section section{"contact_volumes", "Bounding volumes", "",
-                  Table({"mesh", "triangles", "volume", "bytes", "build [ms]", "collect [µs]", "volumes looked at",
-                         "triangles left", "nearest [µs]", "volumes looked at (nearest)", "triangles measured"}),
-                  "contact_volumes.png"};
+  Section section(contactTables(), "contact_volumes");
   section.text =
-      "FCL's hierarchies over the same triangles, all walked from the root by the same code with each volume's own "
-      "bound of the distance to a point. Collect: all triangles that may be within 2 mm of a node of the wire, what a "
-      "cold detector asks. Nearest: the nearest triangle, what signs and free distances ask. Fastest of several runs.";
+      "Hierarchies of FCL over the same triangles, traversed from the root by the same code with the distance bound "
+      "of each volume. Collect: all triangles possibly within 2 mm of a node, the query of a new detector. Nearest: "
+      "the nearest triangle, the query of signs and free distances. Fastest of several runs.";
   std::vector<StudyMesh> meshes;
   StudyMesh fine = base;
   fine.mesh = geometry::midpointSubdivision(base.mesh, 2);
@@ -169,7 +166,7 @@ Section volumes(const StudyMesh& base, const StudyMesh& big, bool quick, const P
   return section;
 }
 
-/** Least squares of y over x. @return slope */
+/** Slope of the least-squares line of y over x. */
 double slope(const std::vector<double>& x, const std::vector<double>& y)
 {
   double mean_x = 0.0;
@@ -189,7 +186,7 @@ double slope(const std::vector<double>& x, const std::vector<double>& y)
   return xx > 0.0 ? xy / xx : NAN;
 }
 
-/** Exponent of a power law through the points. */
+/** Exponent of the fitted power law. */
 double exponent(const std::vector<double>& triangles, const std::vector<double>& times)
 {
   std::vector<double> x;
@@ -204,10 +201,7 @@ double exponent(const std::vector<double>& triangles, const std::vector<double>&
 
 Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Progress& progress)
 {
-  Section section{"contact_growth", "Detection over the number of triangles", "",
-                  Table({"mesh", "triangles", "build [ms]", "steady [µs]", "cold [µs]", "nearest triangle [µs]",
-                         "features", "steady over log₂ of the triangles [µs]"}),
-                  "contact_growth.png"};
+  Section section(contactTables(), "contact_growth");
   std::vector<double> triangles, steady, cold, nearest;
   const auto add = [&](const StudyMesh& mesh)
   {
@@ -241,22 +235,24 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
   for (double t : triangles)
     doublings.push_back(std::log2(t));
   section.text =
-      "One call of the detector for 380 nodes over 450 mm that lie on the wall all along (every node in reach of it: "
-      "the most there can be). Steady: the wire slides along itself by 35 µm per call, median. Cold: a new "
-      "detector's first call. The triangles are cut in four without a change of the surface. Through the rows of " +
+      "One call of the detector for 380 nodes over 450 mm, all in contact with the wall (the upper bound of the "
+      "cost). Steady: the wire slides along itself by 35 µm per call; median. Cold: first call of a new detector. "
+      "Each "
+      "refinement divides the triangles into four on the same surface. Fit over the rows of " +
       base.name + ": steady ∝ N^" + number(exponent(triangles, steady), 2) + ", cold ∝ N^" +
-      number(exponent(triangles, cold), 2) + ", the tree's own query ∝ N^" + number(exponent(triangles, nearest), 2) +
+      number(exponent(triangles, cold), 2) + ", nearest triangle ∝ N^" + number(exponent(triangles, nearest), 2) +
       " or " + number(slope(doublings, nearest), 2) +
-      " µs per doubling of N; from the coarsest to the finest N grows " + number(triangles.back() / triangles.front()) +
-      " times, steady " + number(steady.back() / steady.front()) + " times, cold " +
-      number(cold.back() / cold.front()) + " times, that query " + number(nearest.back() / nearest.front()) +
-      " times. The query goes down a tree whose depth is the logarithm of N; how its time grows beyond that is what "
-      "caches add. A wire that slides has lists from before, whose length follows N only where facets are smaller than "
-      "the room for which they are made; a new detector makes them all.";
+      " µs per doubling of N. From the coarsest to the finest mesh, N grows " +
+      number(triangles.back() / triangles.front()) + " times, steady " + number(steady.back() / steady.front()) +
+      " times, cold " + number(cold.back() / cold.front()) + " times, nearest triangle " +
+      number(nearest.back() / nearest.front()) +
+      " times. The query descends a tree of depth log N; the excess is the cost of cache misses. The sliding wire "
+      "reuses its neighbour lists, whose length depends on N only for facets smaller than the skin; a new detector "
+      "builds all lists.";
   return section;
 }
 
-/** First call of a new detector of a run's wall, fastest of five [µs]. */
+/** Time of the first call of a new detector of the wall of a run, fastest of five [µs]. */
 double coldTime(const BenchRun& run, const contact::Query& query, contact::ContactSet& set)
 {
   geometry::TriangleMesh mesh;
@@ -273,17 +269,13 @@ double coldTime(const BenchRun& run, const contact::Query& query, contact::Conta
   return fastest;
 }
 
-/** Detection inside of the simulation's loop. */
+/** Detection within a simulation. */
 Section loop(const StudyOptions& options, const Progress& progress)
 {
-  Section section{
-      "contact_loop", "Detection in the simulation's loop", "",
-      Table({"vessel", "triangles", "nodes inside", "contacts listed", "detection per step, median [µs]", "cold [µs]",
-             "detection, share of the step [1]", "step, median [µs]", "step, p99 [µs]", "solves per step"}),
-      ""};
+  Section section(contactTables(), "contact_loop");
   section.text =
-      "The wire of peer_wire.yaml with 380 nodes, pushed 400 mm at 35 mm/s and turned; Δt 1 ms; the last two seconds. "
-      "Cold: the first call of a new detector where the wire then is, fastest of five.";
+      "The wire of peer_wire.yaml with 380 nodes, pushed 400 mm at 35 mm/s and rotated; Δt 1 ms; last two seconds. "
+      "Cold: first call of a new detector at the final shape, fastest of five.";
   if (options.vessel_mesh.empty())
     return section;
   for (int smoothing = 0; smoothing <= 2; ++smoothing)
@@ -292,9 +284,14 @@ Section loop(const StudyOptions& options, const Progress& progress)
     BenchRun run(
         "vessel: {mesh: '" + options.vessel_mesh +
         "', unit: 0.001, friction: 0.1, smoothing: " + std::to_string(smoothing) +
-        "}\nname: loop\nduration: 10\nentry: {position: [-0.035, 0.065, 0.005], direction: [-1, -1, 0], up: [1, "
-        "-1, 0]}\ninstrument: instruments/peer_j_wire.yaml\ndrive: {source: script, initial_insertion: 0.0042, "
-        "speed: 0.035, travel: 0.4, rotation: {amplitude: 2.0, frequency: 0.159}, force_limit: 8}\nsampling: "
+        "}\n"
+        "name: loop\n"
+        "duration: 10\n"
+        "entry: {position: [-0.035, 0.065, 0.005], direction: [-1, -1, 0], up: [1, -1, 0]}\n"
+        "instrument: instruments/peer_j_wire.yaml\n"
+        "drive: {source: script, initial_insertion: 0.0042, speed: 0.035, travel: 0.4, rotation: {amplitude: 2.0, "
+        "frequency: 0.159}, force_limit: 8}\n"
+        "sampling: "
         "{kind: uniform, nodes: 380}\n");
     run.advance(options.quick ? 0.2 : 9.4);
     const RunSummary summary = run.advance(options.quick ? 0.2 : 2.0);
@@ -327,7 +324,7 @@ std::vector<Eigen::Vector3d> curveAlongWall(const geometry::TriangleMesh& mesh, 
     const Eigen::Vector3d normal = (p - closest.point) / std::max(closest.distance, 1e-12);
     p = closest.point + distance * normal;
     curve.push_back(p);
-    // Straight on, within the wall.
+    // Continues straight, tangentially to the wall.
     Eigen::Vector3d along = d - d.dot(normal) * normal;
     if (along.norm() < 1e-6)
       along = normal.unitOrthogonal();
@@ -335,6 +332,25 @@ std::vector<Eigen::Vector3d> curveAlongWall(const geometry::TriangleMesh& mesh, 
     p += spacing * d;
   }
   return curve;
+}
+
+std::vector<TableSpec> contactTables()
+{
+  return {{"contact_volumes",
+           "Bounding volumes",
+           {"mesh", "triangles", "volume", "bytes", "build [ms]", "collect [µs]", "volumes looked at", "triangles left",
+            "nearest [µs]", "volumes looked at (nearest)", "triangles measured"},
+           "contact_volumes.png"},
+          {"contact_growth",
+           "Detection over the number of triangles",
+           {"mesh", "triangles", "build [ms]", "steady [µs]", "cold [µs]", "nearest triangle [µs]", "features",
+            "steady over log₂ of the triangles [µs]"},
+           "contact_growth.png"},
+          {"contact_loop",
+           "Detection within a simulation",
+           {"vessel", "triangles", "nodes inside", "contacts listed", "detection per step, median [µs]", "cold [µs]",
+            "detection, share of the step [1]", "step, median [µs]", "step, p99 [µs]", "solves per step"},
+           ""}};
 }
 
 std::vector<Section> contactStudy(const StudyOptions& options, const Progress& progress)
@@ -346,9 +362,9 @@ std::vector<Section> contactStudy(const StudyOptions& options, const Progress& p
   sections.push_back(growth(base, big, options.quick, progress));
   sections.push_back(loop(options, progress));
   if (big.mesh.triangles.empty())
-    sections.front().text += " aorta_coronary_female.obj is not beside the vessel mesh: left out.";
+    sections.front().text += " Omitted: aorta_coronary_female.obj is not in the folder of the vessel mesh.";
   if (options.vessel_mesh.empty())
-    sections.back().text += " Left out: no vessel mesh was given.";
+    sections.back().text += " Omitted: no vessel mesh was given.";
   return sections;
 }
 

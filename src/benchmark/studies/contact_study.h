@@ -10,15 +10,19 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Detection: which bounding volume is best, time per step of a wire that slides along a wall, and how it grows with
- * the triangles. Without meshes of ENDOVASCULAR_DATA_DIR it uses a generated channel, and says so. */
+/** Tables of contactStudy(). */
+std::vector<TableSpec> contactTables();
+
+/** Contact detection: comparison of bounding volumes, time per step of a sliding wire over the number of triangles, and
+ *  detection within a simulation. Without meshes of ENDOVASCULAR_DATA_DIR a generated channel replaces them. */
 std::vector<Section> contactStudy(const StudyOptions& options, const Progress& progress);
 
-/** A curve that lies on a wall all along: every place at the same distance from it.
- *  @param start a point in the lumen [m]
- *  @param direction in which it begins
- *  @param distance to the wall [m]
- *  @param spacing of the places [m] */
+/** Curve at a constant distance from a wall.
+ *  @param start point in the lumen [m]
+ *  @param direction initial direction
+ *  @param distance distance to the wall [m]
+ *  @param spacing distance between points [m]
+ *  @param count number of points */
 std::vector<Eigen::Vector3d> curveAlongWall(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& start,
                                             const Eigen::Vector3d& direction, double distance, double spacing,
                                             int count);

@@ -12,9 +12,9 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kTip = 5e-3;          // m that count as the wire's tip
-constexpr double kLeftOut = 0.5;       // s at both ends of a noise measurement
-constexpr double kShaftSpeed = 0.035;  // m/s
+constexpr double kTip = 5e-3;          // length of the tip [m]
+constexpr double kOmitted = 0.5;       // omitted time at both ends of a noise measurement [s]
+constexpr double kShaftSpeed = 0.035;  // speed of the push [m/s]
 
 double tipForce(const simulation::Simulation& simulation)
 {
@@ -49,7 +49,7 @@ std::vector<HandSample> pushThrough(const std::string& scene_text, const std::ve
     simulation.step(
         {scene.instruments.front().drive.insertionAt(end_time), scene.instruments.front().drive.rotationAt(end_time)});
     if (!simulation.report().solved)
-      throw std::runtime_error("hand_force: a step was refused in scene " + scene.name);
+      throw std::runtime_error("hand_force: a step was rejected in scene " + scene.name);
     const rod::State& state = simulation.state();
     samples.push_back(
         {state.inserted_length, state.hand_force, state.hand_torque, tipForce(simulation), state.hand_parts});
@@ -72,10 +72,10 @@ double meanOf(const std::vector<HandSample>& samples, double HandSample::*value,
 
 double noiseOf(const std::vector<HandSample>& samples, double time_step, double frequency)
 {
-  // A Gaussian of deviation σ passes exp(−(2πfσ)²/2) of an amplitude; what is left of it is high-pass.
+  // A Gaussian of deviation σ passes exp(−(2πfσ)²/2) of an amplitude; the remainder is high-pass.
   const double sigma = std::sqrt(-2.0 * std::log(1.0 - std::sqrt(0.5))) / (2.0 * M_PI * frequency);
   const int reach = static_cast<int>(std::ceil(4.0 * sigma / time_step));
-  const int edge = std::max(reach, static_cast<int>(std::lround(kLeftOut / time_step)));
+  const int edge = std::max(reach, static_cast<int>(std::lround(kOmitted / time_step)));
   const int n = static_cast<int>(samples.size());
   double square = 0.0;
   double mean = 0.0;

@@ -8,49 +8,52 @@
 namespace endovascular_sim::benchmark
 {
 
-/** One step of a wire that is pushed. */
+/** Quantities at the hand after one step. */
 struct HandSample
 {
-  double insertion = 0.0;     ///< [m]
-  double force = 0.0;         ///< at the hand [N]
-  double torque = 0.0;        ///< at the hand [N·m]
+  double insertion = 0.0;     ///< inserted length [m]
+  double force = 0.0;         ///< force at the hand [N]
+  double torque = 0.0;        ///< torque at the hand [N·m]
   double tip_force = 0.0;     ///< normal force of the wall on the last 5 mm [N]
-  rod::HandForceParts parts;  ///< of the force
+  rod::HandForceParts parts;  ///< parts of the force
 };
 
-/** Pushes the wire of a scene until its drive has travelled.
+/** Simulates a scene until the end of the travel of its drive.
  *  @param overrides "key.path=value"
- *  @throws InputError when the scene is refused
- *  @throws std::runtime_error when a step could not be solved */
+ *  @throws InputError for a rejected scene
+ *  @throws std::runtime_error after a rejected step */
 std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides = {});
 
-/** Mean of a value between two insertions [m]. */
+/** Mean of a quantity between two inserted lengths [m]. */
 double meanOf(const std::vector<HandSample>& samples, double HandSample::*value, double from = 0.0, double to = 1e3);
 
-/** Root mean square of the force above a frequency, over the force's mean. What is slower is taken off as a mean with
- *  Gaussian weights, which halves the power at @p frequency; half a second is left out at both ends.
- *  @param time_step of the samples [s]
- *  @param frequency [Hz] */
+/** Root mean square of the force above a frequency over the mean force. A Gaussian low-pass filter, which halves the
+ * power at @p frequency, is subtracted; half a second is omitted at both ends.
+ *  @param time_step time step of the samples [s]
+ *  @param frequency cut-off frequency [Hz] */
 double noiseOf(const std::vector<HandSample>& samples, double time_step, double frequency = 5.0);
 
-/** A 0.014" wire with graded tip, pushed from a catheter in the ostium of the left coronary artery 80 mm into the
- * generated anatomy's. */
+/** Push of a 0.014" wire with graded tip from a catheter in the ostium into the left coronary artery of the generated
+ *  anatomy. */
 struct CoronaryPush
 {
-  double speed = 0.035;    ///< [m/s]
-  double stiffness = 1.0;  ///< factor on EI of every section
-  double shear = 1.0;      ///< factor on GJ of every section, EI kept
-  double turn = 0.0;       ///< of the hand, in proportion to the insertion [rad]
-  std::string tip;         ///< of the scene's instrument; empty: straight
+  double speed = 0.035;    ///< speed of the push [m/s]
+  double stiffness = 1.0;  ///< factor of EI of every section
+  double shear = 1.0;      ///< factor of GJ of every section at constant EI
+  double turn = 0.0;       ///< final rotation of the hand, proportional to the insertion [rad]
+  std::string tip;         ///< value of instrument.tip; empty: straight
   double friction = 0.1;
-  double travel = 0.08;  ///< [m]
+  double travel = 0.08;  ///< length of the push [m]
 };
+
+/** Scene text of the push. */
 std::string sceneText(const CoronaryPush& push);
 
-/** A plain 0.035" wire, 0.3 m, pushed at 35 mm/s.
- *  @param anatomy from the femoral artery to below the aortic bifurcation; false: a channel of 8 mm with two bends in
- *  different planes
- *  @param smoothing Loop subdivisions */
+/** Scene text of a plain 0.035" wire of 0.3 m pushed at 35 mm/s.
+ *  @param anatomy true: from the femoral artery to below the aortic bifurcation of the generated anatomy; false: a
+ * channel of 8 mm diameter with two bends in different planes
+ *  @param smoothing number of Loop subdivisions
+ *  @param travel length of the push [m] */
 std::string shaftScene(bool anatomy, int nodes, int smoothing, double travel);
 
 }  // namespace endovascular_sim::benchmark

@@ -1,5 +1,4 @@
 #include "benchmark/studies/hand_force_study.h"
-#include "scene/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "benchmark/studies/hand_force_runs.h"
 #include "geometry/mesh_distance.h"
+#include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 
 namespace endovascular_sim::benchmark
@@ -14,14 +14,14 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kTimeStep = 1e-3;   // s, of all scenes here
-constexpr double kPlotted = 0.5e-3;  // m of insertion that a chart's point is the mean of
-constexpr double kFrom = 0.02;       // m of insertion from where on means are taken: the wire touches the wall
-constexpr double kMostNoise = 0.03;  // asked
-constexpr double kTissue = 8e5;      // of an artery's wall per length of wire [N/m²]
-constexpr double kAlike = 0.05;      // curves whose means differ by less are alike
+constexpr double kTimeStep = 1e-3;   // time step of all scenes [s]
+constexpr double kPlotted = 0.5e-3;  // insertion averaged per point of a chart [m]
+constexpr double kFrom = 0.02;       // insertion at which means start, after first contact [m]
+constexpr double kMostNoise = 0.03;  // largest accepted noise
+constexpr double kTissue = 8e5;      // stiffness of an arterial wall per length of wire [N/m²]
+constexpr double kAlike = 0.05;      // largest difference of equal means
 
-/** A curve of a chart. */
+/** Curve of a chart. */
 struct Curve
 {
   std::string panel;
@@ -110,15 +110,13 @@ const Curve& curveOf(const std::vector<Curve>& curves, const std::string& panel,
 
 Section chartPoints(const std::vector<Curve>& curves)
 {
-  Section section{"hand_force_curves", "Force at the hand against insertion",
-                  "A 0.014\" wire (EI 50 N·mm², graded to 1.6 N·mm² at the tip) is pushed 80 mm from a catheter in the "
-                  "left ostium through the generated anatomy's left coronary artery (smoothed once), μ = 0.1, Δt = 1 "
-                  "ms, as in Fig. 10 of Li et al. A: speed. B: bending modulus. C: shear modulus and angle by which "
-                  "the hand turns over the whole insertion, angled tip; drawn is the torque at the hand. D: shape of "
-                  "the tip; drawn is the normal force on its last 5 mm. Points are means over 0.5 mm.",
-                  Table({"panel", "curve", "insertion [mm]", "force [mN]", "torque [µN·m]", "tip [mN]"}),
-                  "hand_force.png"};
-  section.only_csv = true;
+  Section section(handForceTables(), "hand_force_curves");
+  section.text =
+      "A 0.014\" wire (EI 50 N·mm², graded to 1.6 N·mm² at the tip) is pushed 80 mm from a catheter in the left "
+      "ostium into the left coronary artery of the generated anatomy (smoothed once); μ = 0.1, Δt = 1 ms, as in Fig. "
+      "10 of Li et al. A: speed. B: bending modulus. C: shear modulus and final rotation of the hand, with an angled "
+      "tip; the plot shows the torque at the hand. D: shape of the tip; the plot shows the normal force on the last 5 "
+      "mm. Points are means over 0.5 mm.";
   for (const Curve& curve : curves)
   {
     const double end = curve.samples.back().insertion;
@@ -136,12 +134,10 @@ Section chartPoints(const std::vector<Curve>& curves)
 
 Section chartMeans(const std::vector<Curve>& curves)
 {
-  Section section{
-      "hand_force_means", "Means of the curves and parts of the force",
-      "Over the insertion from 20 mm on. Tip: normal force of the wall on the last 5 mm. Parts: docs/PHYSICS.md.",
-      Table({"panel", "curve", "force [mN]", "bending", "friction", "inertia", "largest [mN]", "mean torque [µN·m]",
-             "tip [mN]", "largest at the tip [mN]"}),
-      ""};
+  Section section(handForceTables(), "hand_force_means");
+  section.text =
+      "Means over insertions from 20 mm. Tip: normal force of the wall on the last 5 mm. Parts of the force: "
+      "docs/PHYSICS.md.";
   for (const Curve& curve : curves)
     section.table.add({curve.panel, curve.name, number(1e3 * curve.force()),
                        number(1e3 * curve.part(&rod::HandForceParts::bending)),
@@ -151,8 +147,8 @@ Section chartMeans(const std::vector<Curve>& curves)
   return section;
 }
 
-/** Whether values rise from one to the next, or are alike. */
-std::string risingWord(const std::vector<double>& values)
+/** Verdict on a sequence: "yes" if it increases, "alike" if the values are equal within kAlike, else "no". */
+std::string verdictOf(const std::vector<double>& values)
 {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*high - *low < kAlike * *high)
@@ -162,15 +158,14 @@ std::string risingWord(const std::vector<double>& values)
 
 Section orderings(const std::vector<Curve>& curves)
 {
-  Section section{"hand_force_orderings", "The paper's orderings", "",
-                  Table({"panel", "the paper", "measured, lowest to highest as the paper has it", "holds"}), ""};
+  Section section(handForceTables(), "hand_force_orderings");
   const auto add = [&section](const std::string& panel, const std::string& claim, const std::vector<double>& values,
                               double scale, const std::string& unit)
   {
     std::string list;
     for (const double value : values)
       list += (list.empty() ? "" : ", ") + number(scale * value);
-    section.table.add({panel, claim, list + " " + unit, risingWord(values)});
+    section.table.add({panel, claim, list + " " + unit, verdictOf(values)});
   };
   const auto forces = [&curves](const std::string& panel, const std::vector<std::string>& names)
   {
@@ -192,29 +187,31 @@ Section orderings(const std::vector<Curve>& curves)
   add("B", "the largest bending modulus has the largest force", forces("B", {"0.5 E", "1 E", "2 E"}), 1e3, "mN");
   add("C", "a larger shear modulus has a larger feedback: torque", torques(shear), 1e6, "µN·m");
   add("C", "a larger angle of twist has a larger feedback: torque", torques(turns), 1e6, "µN·m");
-  add("C", "the same, axial force, shear modulus", forces("C", shear), 1e3, "mN");
-  add("C", "the same, axial force, angle", forces("C", turns), 1e3, "mN");
+  add("C", "a larger shear modulus has a larger feedback: axial force", forces("C", shear), 1e3, "mN");
+  add("C", "a larger angle of twist has a larger feedback: axial force", forces("C", turns), 1e3, "mN");
   for (const std::string tip : {"angled", "semicircle", "J"})
     add("D", tip + " tip: lower than the straight one, largest force at the tip",
         {curveOf(curves, "D", tip).largestTip(), curveOf(curves, "D", "straight").largestTip()}, 1e3, "mN");
   for (const std::string tip : {"angled", "semicircle", "J"})
-    add("D", tip + " tip: the same, force at the hand", forces("D", {tip, "straight"}), 1e3, "mN");
+    add("D", tip + " tip: lower than the straight one, force at the hand", forces("D", {tip, "straight"}), 1e3, "mN");
   section.text =
-      "Alike: means within 5 %. Where the paper's ordering is not there, it is not in these assumptions:\n\n- **A, "
-      "speed.** Balance along the wire is T′ = −f·t, f = wall friction + ρ_l a + drag. Neither Coulomb's friction nor "
-      "the bending ½EIκ² depends on the speed, and inertia is of the order ρ_l v² (momentum that enters a bend): 8e-4 "
-      "kg/m · (0.1 m/s)² = 8 µN, a thousandth of the force. A force that grows with the speed needs viscous terms (a "
-      "penalty wall's damping, drag, a lubricated coating), none of which is in the scene.\n- **B, bending modulus.** "
-      "Bending and, by the wall forces that bend the wire, friction are both in proportion to EI: the force doubles "
-      "with it.\n- **C, shear modulus and angle.** A straight isotropic body whose far end is free carries no torque; "
-      "its energy ½EI∫κ² holds no GJ, so neither does the axial force. GJ acts through the curved tip only: bend and "
-      "wall hold it by a torque M(φ) that EI and the tip's rest curvature bound, and the hand's angle is Θ = φ + "
-      "M∫ds/GJ. Here ∫ds/GJ = 3.1e4 rad/(N·m), so a torque of 1.6 µN·m winds the wire up by 3° of the 180° turned: the "
-      "tip follows the hand, GJ changes where it is by degrees, and a larger angle turns it on to where M is smaller. "
-      "A torque GJ·Θ/L, in proportion to both, needs a tip that cannot turn.\n- **D, tips.** The shaft makes the force "
-      "at the hand, the tip (EI 1.6 of 50 N·mm²) hardly counts. Counted at the tip are normal forces on its last 5 mm: "
-      "a curved tip is straightened by the vessel and presses sideways with what its rest curvature takes, on top of "
-      "what a straight one does. Pushes head-on into a wall, where curved tips give way, are not measured here.";
+      "Alike: means within 5 %. Orderings of the paper that do not appear do not follow from the present "
+      "assumptions.\n\n"
+      "- **A, speed.** The balance along the wire is T′ = −f·t with f = wall friction + ρ_l a + drag. Neither Coulomb "
+      "friction nor the bending term ½EIκ² depends on the speed. Inertia is of order ρ_l v² (momentum flux into a "
+      "bend): 8e-4 kg/m · (0.1 m/s)² = 8 µN, a thousandth of the force. A force that increases with the speed "
+      "requires viscous terms (a damped penalty wall, drag, a lubricated coating), which the scene does not have.\n"
+      "- **B, bending modulus.** Bending forces are proportional to EI, and so is friction, through the wall forces "
+      "that bend the wire. The force doubles with EI.\n"
+      "- **C, shear modulus and angle.** A straight isotropic shaft with a free distal end carries no torque. Its "
+      "energy ½EI∫κ² is independent of GJ, and so is the axial force. GJ acts through the curved tip only: bend and "
+      "wall hold the tip by a torque M(φ), bounded by EI and its rest curvature, and the proximal angle is Θ = φ + "
+      "M∫ds/GJ. Here ∫ds/GJ = 3.1e4 rad/(N·m), so 1.6 µN·m twist the wire by 3° of 180°: the tip follows the hand. A "
+      "larger angle rotates the tip to positions of smaller M. A torque GJ·Θ/L requires a tip that cannot rotate.\n"
+      "- **D, tips.** The shaft determines the force at the hand; the tip (EI 1.6 of 50 N·mm²) contributes little. "
+      "The tip force is the normal force on the last 5 mm: the vessel straightens a curved tip, whose rest curvature "
+      "adds lateral forces to those of a straight one. Frontal pushes into a wall, where curved tips yield, are not "
+      "measured.";
   return section;
 }
 
@@ -229,11 +226,11 @@ void addDeviation(Table& table, const std::string& vessel, const std::vector<Han
 
 Section overNodes(bool quick, const Progress& progress)
 {
-  Section section{"hand_force_nodes", "Mean force over the number of nodes",
-                  "A plain 0.035\" wire (EI 291 N·mm²) of 0.3 m at 35 mm/s, μ = 0.1, 200 mm (quick: 120 mm): a channel "
-                  "of 8 mm with two bends in different planes, smoothed twice, and the generated anatomy from the "
-                  "femoral artery to below the aortic bifurcation, smoothed once. Asked: within 3 % of 240 nodes.",
-                  Table({"vessel", "nodes", "mean force [mN]", "difference from 240 nodes [%]", "holds"}), ""};
+  Section section(handForceTables(), "hand_force_nodes");
+  section.text =
+      "A plain 0.035\" wire (EI 291 N·mm²) of 0.3 m, pushed 200 mm (quick: 120 mm) at 35 mm/s, μ = 0.1. Channel: 8 mm "
+      "diameter, two bends in different planes, smoothed twice. Anatomy: the generated anatomy from the femoral "
+      "artery to below the aortic bifurcation, smoothed once. Criterion: within 3 % of 240 nodes.";
   double done = 0.0;
   for (const bool anatomy : {false, true})
   {
@@ -252,7 +249,7 @@ Section overNodes(bool quick, const Progress& progress)
   return section;
 }
 
-/** Largest distance of either surface's corners from the other surface [m]. */
+/** Largest distance between the vertices of either surface and the other surface [m]. */
 double departure(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b)
 {
   double largest = 0.0;
@@ -271,12 +268,12 @@ geometry::TriangleMesh meshOf(const std::string& scene_text)
   return scene::buildVessel(*scene.vessel, scene.entry, scene.file).mesh;
 }
 
-/** A wall and how it is met. */
+/** Wall of a noise measurement. */
 struct WallCase
 {
   bool anatomy;
-  int smoothing;     ///< Loop subdivisions
-  double stiffness;  ///< of the contacts with a rigid wall [N/m], or of a wall that gives way [N/m²]
+  int smoothing;     ///< number of Loop subdivisions
+  double stiffness;  ///< contact stiffness of a rigid wall [N/m], or stiffness of a compliant wall [N/m²]
   bool rigid = true;
 };
 
@@ -299,16 +296,14 @@ void addNoise(Table& table, const WallCase& wall, double travel)
 
 Section smoothness(bool quick, const Progress& progress)
 {
-  Section section{
-      "hand_force_noise", "Noise of the force",
-      "The same wire with 480 nodes, every step of 1 ms. Noise: RMS of what is faster than 5 Hz (7 mm of travel at 35 "
-      "mm/s), over the mean; the first and the last half second are left out. It holds whatever is in that band, so "
-      "also what tip and wall really do to each other. The rest falls with the facets' size and with the contacts' "
-      "stiffness. Departure: largest distance between the smoothed surface and the original one, corners of both. "
-      "Wall: rigid, every contact with `solver.contact_stiffness` (by default 100 N/mm; 30 give way by about 2 µm "
-      "here), or a tissue's `vessel.stiffness` per length of wire. Asked: 3 % on a smoothed wall.",
-      Table({"vessel", "smoothing", "wall", "triangles", "departure [mm]", "mean force [mN]", "noise [%]", "holds"}),
-      ""};
+  Section section(handForceTables(), "hand_force_noise");
+  section.text =
+      "The wire of the table above with 480 nodes, sampled at every step of 1 ms. Noise: RMS of the force above 5 Hz "
+      "(7 mm of travel at 35 mm/s) over its mean; the first and last half second are omitted. The band includes the "
+      "physical interaction of tip and wall; the remainder decreases with the size of the facets and with the contact "
+      "stiffness. Departure: largest distance between the vertices of the smoothed and the original surface and the "
+      "other surface. Wall: rigid with `solver.contact_stiffness` (default 100 N/mm; 30 N/mm yield by about 2 µm "
+      "here), or compliant with `vessel.stiffness` per length of wire. Criterion: 3 % on a smoothed wall.";
   const WallCase walls[] = {{false, 0, 1e5},          {false, 1, 1e5}, {false, 2, 1e5}, {true, 0, 1e5},
                             {true, 1, 1e5},           {true, 2, 1e5},  {true, 2, 3e4},  {false, 1, kTissue, false},
                             {true, 1, kTissue, false}};
@@ -324,6 +319,31 @@ Section smoothness(bool quick, const Progress& progress)
 }
 
 }  // namespace
+
+std::vector<TableSpec> handForceTables()
+{
+  return {{"hand_force_curves",
+           "Force at the hand over insertion",
+           {"panel", "curve", "insertion [mm]", "force [mN]", "torque [µN·m]", "tip [mN]"},
+           "hand_force.png"},
+          {"hand_force_means",
+           "Means of the curves and parts of the force",
+           {"panel", "curve", "force [mN]", "bending", "friction", "inertia", "largest [mN]", "mean torque [µN·m]",
+            "tip [mN]", "largest at the tip [mN]"},
+           ""},
+          {"hand_force_orderings",
+           "Orderings of the paper",
+           {"panel", "the paper", "measured, lowest to highest as the paper has it", "holds"},
+           ""},
+          {"hand_force_nodes",
+           "Mean force over the number of nodes",
+           {"vessel", "nodes", "mean force [mN]", "difference from 240 nodes [%]", "holds"},
+           ""},
+          {"hand_force_noise",
+           "Noise of the force",
+           {"vessel", "smoothing", "wall", "triangles", "departure [mm]", "mean force [mN]", "noise [%]", "holds"},
+           ""}};
+}
 
 std::vector<Section> handForceStudy(const StudyOptions& options, const Progress& progress)
 {

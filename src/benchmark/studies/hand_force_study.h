@@ -7,8 +7,10 @@
 namespace endovascular_sim::benchmark
 {
 
-/** The force at the hand: against insertion as in the charts of Li et al., over the number of nodes, and how smooth it
- *  is. */
+/** Tables of handForceStudy(). */
+std::vector<TableSpec> handForceTables();
+
+/** Force at the hand: over insertion as in the charts of Li et al., over the number of nodes, and its noise. */
 std::vector<Section> handForceStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

@@ -15,24 +15,24 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kTravel = 0.06;          // m of the channel that the wire is pushed through
-constexpr double kHandTurn = 59.0;        // rad/s, just below the fastest hand
-constexpr double kMaxStrain = 1e-3;       // what still counts as good
-constexpr double kMaxPenetration = 1e-4;  // m
-constexpr double kEnergyShare = 0.02;     // of the largest energy: what the trapezoidal work may miss
-constexpr double kEnergyFloor = 1e-7;     // J
+constexpr double kTravel = 0.06;          // length of the push through the channel [m]
+constexpr double kHandTurn = 59.0;        // angular speed of the handle, just below the limit of the hand [rad/s]
+constexpr double kMaxStrain = 1e-3;       // largest accepted strain
+constexpr double kMaxPenetration = 1e-4;  // largest accepted penetration [m]
+constexpr double kEnergyShare = 0.02;     // accepted excess over the largest energy: error of the trapezoidal work
+constexpr double kEnergyFloor = 1e-7;     // excess below which the energy is not evaluated [J]
 
 double channelRadius(const HardCase& hard)
 {
   return std::clamp(0.1 * hard.bend_radius, 0.8e-3, 3e-3);
 }
 
-/** Time for the way and for the turns; @p max_steps cuts it short. */
+/** Simulated time for the travel and the turns, limited by @p max_steps [s]. */
 double duration(const HardCase& hard, int max_steps)
 {
-  const double way = kTravel / std::max(hard.speed, 1e-9);
+  const double travelling = kTravel / std::max(hard.speed, 1e-9);
   const double turning = 2.0 * M_PI * hard.turns / kHandTurn;
-  const double whole = std::max({20.0 * hard.time_step, way, turning});
+  const double whole = std::max({20.0 * hard.time_step, travelling, turning});
   return hard.whole ? whole : std::min(max_steps * hard.time_step, whole);
 }
 
@@ -62,23 +62,23 @@ void writeDrive(std::ostream& out, const HardCase& hard)
   out << "  rotation: {points: [[0, 0], [" << time << ", " << 2.0 * M_PI * hard.turns << "]]}\n";
 }
 
-/** Moves every node that is simulated, and folds two edges in the middle of the free part where that is asked for. */
-void disturb(simulation::Simulation& simulation, const HardCase& hard)
+/** Perturbs the simulated nodes, or folds two edges at the centre of the free part. */
+void perturb(simulation::Simulation& simulation, const HardCase& hard)
 {
   rod::State state = simulation.state();
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-hard.disturbance, hard.disturbance);
+  std::uniform_real_distribution<double> uniform(-hard.perturbation, hard.perturbation);
   const int last = simulation.discretisation().nodes() - 1;
   const int inside = std::max(state.first_node + 2, last - static_cast<int>(0.5 * last));
-  for (int i = inside; i <= last && hard.disturbance > 0.0; ++i)
+  for (int i = inside; i <= last && hard.perturbation > 0.0; ++i)
     for (int axis = 0; axis < 3; ++axis)
       state.position[i][axis] += uniform(random);
-  if (hard.nearly_folded > 0.0)
+  if (hard.fold_angle > 0.0)
   {
     const int middle = (inside + last) / 2;
     const Eigen::Vector3d before = state.position[middle] - state.position[middle - 1];
     const Eigen::Vector3d across = before.unitOrthogonal();
-    const Eigen::AngleAxisd turn(M_PI - hard.nearly_folded, across);
+    const Eigen::AngleAxisd turn(M_PI - hard.fold_angle, across);
     const Eigen::Vector3d pivot = state.position[middle];
     for (int i = middle + 1; i <= last; ++i)
       state.position[i] = pivot + turn * (state.position[i] - pivot);
@@ -86,13 +86,13 @@ void disturb(simulation::Simulation& simulation, const HardCase& hard)
   simulation.setState(std::move(state));
 }
 
-std::string complaint(const RunSummary& summary, double energy_excess)
+std::string violations(const RunSummary& summary, double energy_excess)
 {
   std::string text;
-  const auto add = [&text](bool wrong, const char* what)
+  const auto add = [&text](bool wrong, const char* criterion)
   {
     if (wrong)
-      text += (text.empty() ? "" : ", ") + std::string(what);
+      text += (text.empty() ? "" : ", ") + std::string(criterion);
   };
   add(!summary.finite, "not finite");
   add(summary.nodes_outside > 0, "outside");
@@ -109,16 +109,16 @@ Verdict verdictOf(const RunSummary& summary)
   verdict.penetration = summary.worst_penetration;
   verdict.energy_excess = summary.energy_excess / std::max(summary.largest_energy, kEnergyFloor);
   verdict.solves = summary.solves;
-  verdict.halved = summary.halved;
+  verdict.bisections = summary.bisections;
   verdict.truncated = summary.truncated;
-  verdict.refused = summary.refused;
+  verdict.rejected = summary.rejected;
   verdict.steps = summary.steps;
-  verdict.reason = complaint(summary, summary.energy_excess > kEnergyFloor ? verdict.energy_excess : 0.0);
-  // A wire that is held throughout keeps the strain that it was given.
-  const bool held = summary.finite && summary.refused > 0 && summary.refused == summary.steps;
-  verdict.word = !verdict.reason.empty() && !held ? "bad" : summary.refused > 0 ? "refused" : "good";
-  if (verdict.word == "refused")
-    verdict.reason = std::to_string(summary.refused) + " steps refused, the wire held";
+  verdict.reason = violations(summary, summary.energy_excess > kEnergyFloor ? verdict.energy_excess : 0.0);
+  // A wire that is held in all steps retains its initial strain.
+  const bool held = summary.finite && summary.rejected > 0 && summary.rejected == summary.steps;
+  verdict.word = !verdict.reason.empty() && !held ? "bad" : summary.rejected > 0 ? "rejected" : "good";
+  if (verdict.word == "rejected")
+    verdict.reason = std::to_string(summary.rejected) + " steps rejected, wire held";
   return verdict;
 }
 
@@ -130,8 +130,8 @@ std::string sceneText(const HardCase& hard)
   std::ostringstream out;
   out.precision(12);
   out << "name: hard\nduration: 1.0e6\n";
-  // A disturbed node may not be put beyond a wall.
-  if (hard.disturbance > 0.0 || hard.nearly_folded > 0.0)
+  // Free space, because a perturbed node must not lie beyond a wall.
+  if (hard.perturbation > 0.0 || hard.fold_angle > 0.0)
     out << "vessel: none\nloads: {damping: 20.0}\n";
   else
     out << "vessel:\n  tube:\n    radius: " << radius << "\n    facet_length: " << 0.35 * radius
@@ -158,16 +158,16 @@ Verdict judge(const HardCase& hard, int max_steps)
   {
     BenchRun run(sceneText(hard));
     const double time = duration(hard, max_steps);
-    if (hard.disturbance == 0.0 && hard.nearly_folded == 0.0)
+    if (hard.perturbation == 0.0 && hard.fold_angle == 0.0)
     {
       Verdict verdict = verdictOf(run.advance(time));
       verdict.turned = run.simulation().state().rotation / (2.0 * M_PI);
       return verdict;
     }
     run.advance(0.5 * time);
-    disturb(run.simulation(), hard);
-    run.forgetEnergy();
-    // Off the wall and stretched at first: what counts is what it becomes.
+    perturb(run.simulation(), hard);
+    run.resetEnergyBalance();
+    // The perturbed wire is stretched at first; only the later part is evaluated.
     const RunSummary settling = run.advance(0.25 * time);
     Verdict verdict = verdictOf(run.advance(0.25 * time));
     if (!settling.finite)
@@ -177,7 +177,7 @@ Verdict judge(const HardCase& hard, int max_steps)
   catch (const InputError& error)
   {
     Verdict verdict;
-    verdict.word = "refused";
+    verdict.word = "rejected";
     verdict.reason = error.what();
     return verdict;
   }

@@ -1,13 +1,11 @@
 #include "benchmark/studies/sampling_study.h"
 
-// The driven wires of the sampling study, as scenes.
-
 namespace endovascular_sim::benchmark
 {
 namespace
 {
 
-// Push, hold, draw back; the hand turns all the time. Facets of half a millimetre: the force from longer ones is noise.
+// Push, hold, withdraw, with continuous rotation. Facets of 0.5 mm limit the noise of the force.
 constexpr auto kTube = R"(
 name: bent_tube
 vessel:
@@ -34,8 +32,8 @@ drive:
   force_limit: 8.0
 )";
 
-// From the ostium of the left main artery; the last 120 mm of a 0.014" wire. The wall gives way: on a rigid one the tip
-// snaps from facet to facet, and the finest wire's snaps decide what is compared.
+// Distal 120 mm of a 0.014" wire from the ostium of the left main artery. The wall is compliant: on a rigid wall the
+// snap-through of the tip between facets would dominate the comparison.
 constexpr auto kCoronary = R"(
 name: coronary
 vessel:
@@ -60,9 +58,8 @@ drive:
   rotation: {amplitude: 0.5, frequency: 0.5}
 )";
 
-// From the iliac artery towards the aorta, before the first bifurcation: beyond it the outcome is chaotic. The mesh's
-// facets are millimetres long, the wall that they stand for is smooth: three subdivisions leave ridges so low that the
-// tip snaps over them at nearly the same time with every sampling.
+// From the iliac artery towards the aorta, up to the first bifurcation, beyond which the outcome is chaotic. Three
+// subdivisions reduce the ridges between facets, so that the snap-through of the tip hardly depends on the sampling.
 constexpr auto kArch = R"(
 name: aortic_tree
 vessel:

@@ -7,7 +7,10 @@
 namespace endovascular_sim::benchmark
 {
 
-/** The study of adaptive sampling as tables: every run of every case, and the acceptance measures. */
+/** Tables of samplingSections(). */
+std::vector<TableSpec> samplingTables();
+
+/** Study of adaptive sampling: every run of every case, and the acceptance measures. */
 std::vector<Section> samplingSections(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

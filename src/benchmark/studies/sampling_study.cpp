@@ -1,12 +1,12 @@
 #include "benchmark/studies/sampling_study.h"
-#include "scene/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "benchmark/harness/processor_time.h"
 #include "contact/detector.h"
 #include "results/run_result.h"
+#include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::benchmark
@@ -14,48 +14,41 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kReferenceEdge = 0.125e-3;  // m
-constexpr double kFineEdge = 0.5e-3;         // m, what adaptive sampling is measured against
-constexpr double kCoarseEdge = 0.8e-3;       // m, the paper's other uniform sampling
-constexpr double kPictureTime = 50e-3;       // s between two comparisons of the shape
-constexpr double kPointSpacing = 0.25e-3;    // m along the wire
+constexpr double kReferenceEdge = 0.125e-3;  // edge of the reference [m]
+constexpr double kFineEdge = 0.5e-3;         // edge of the uniform sampling that adaptive sampling is compared with [m]
+constexpr double kCoarseEdge = 0.8e-3;       // edge of the second uniform sampling of the paper [m]
+constexpr double kShapeInterval = 50e-3;     // simulated time between comparisons of the shape [s]
+constexpr double kPointSpacing = 0.25e-3;    // spacing of the compared points along the wire [m]
 constexpr int kTimedRuns = 3;
-constexpr double kStart = 50e-3;  // s that are left out of forces: the wire finds its place
+constexpr double kStart = 50e-3;  // initial transient omitted from forces [s]
 
-double processorTime()
-{
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/** The wire's shape at one moment; the arc length is counted from the introducer. */
+/** Shape of the wire at one time, by arc length from the introducer. */
 struct Shape
 {
-  std::vector<double> place;
+  std::vector<double> arc_length;
   std::vector<Eigen::Vector3d> point;
 
-  /** Tangent by arc length, second order. */
+  /** Tangent, of second order in the edge length. */
   Eigen::Vector3d tangent(std::size_t i) const
   {
     const auto slope = [this](std::size_t j)
-    { return Eigen::Vector3d((point[j + 1] - point[j]) / (place[j + 1] - place[j])); };
+    { return Eigen::Vector3d((point[j + 1] - point[j]) / (arc_length[j + 1] - arc_length[j])); };
     if (i == 0)
       return slope(0);
     if (i + 1 == point.size())
       return slope(i - 1);
-    const double before = place[i] - place[i - 1];
-    const double after = place[i + 1] - place[i];
+    const double before = arc_length[i] - arc_length[i - 1];
+    const double after = arc_length[i + 1] - arc_length[i];
     return (after * slope(i - 1) + before * slope(i)) / (before + after);
   }
 
-  /** Point of the smooth curve through the nodes (cubic Hermite). */
+  /** Point of the cubic Hermite curve through the nodes. */
   Eigen::Vector3d at(double s) const
   {
-    const auto after = std::upper_bound(place.begin() + 1, place.end() - 1, s);
-    const auto i = static_cast<std::size_t>(after - place.begin()) - 1;
-    const double h = place[i + 1] - place[i];
-    const double t = (s - place[i]) / h;
+    const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, s);
+    const auto i = static_cast<std::size_t>(after - arc_length.begin()) - 1;
+    const double h = arc_length[i + 1] - arc_length[i];
+    const double t = (s - arc_length[i]) / h;
     const double u = 1.0 - t;
     return u * u * (1.0 + 2.0 * t) * point[i] + t * t * (3.0 - 2.0 * t) * point[i + 1] +
            h * t * u * (u * tangent(i) - t * tangent(i + 1));
@@ -74,16 +67,16 @@ struct Shape
   }
 };
 
-/** What a run leaves behind. */
+/** Records of a run. */
 struct Run
 {
   SamplingResult result;
   std::vector<Shape> shapes;
   std::vector<double> force, energy;
-  std::vector<std::size_t> resampled;  ///< steps before which the sampling changed
+  std::vector<std::size_t> resampled;  ///< steps preceded by a resampling
 };
 
-/** A case with its vessel. */
+/** Case with its vessel. */
 struct Setting
 {
   explicit Setting(const SamplingCase& study) : scene(scene::parseScene(study.scene_yaml, study.name))
@@ -114,7 +107,7 @@ Shape shapeOf(const simulation::Simulation& simulation)
   Shape shape;
   for (int i = state.first_node; i < wire.nodes(); ++i)
   {
-    shape.place.push_back(wire.position[i] - (wire.length() - state.inserted_length));
+    shape.arc_length.push_back(wire.position[i] - (wire.length() - state.inserted_length));
     shape.point.push_back(state.position[i]);
   }
   return shape;
@@ -126,14 +119,14 @@ Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string
   simulation::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
   Run run;
   run.result.sampling = name;
-  const auto picture_every = static_cast<std::size_t>(std::llround(kPictureTime / scene.solver.time_step));
+  const auto shape_interval = static_cast<std::size_t>(std::llround(kShapeInterval / scene.solver.time_step));
   std::vector<double> before = simulation.discretisation().position;
   for (std::size_t k = 0; k < setting.steps; ++k)
   {
     const simulation::HandCommand command = commandAt(scene, k);
-    const double begin = processorTime();
+    const double begin = processorSeconds();
     simulation.step(command);
-    run.result.step_time += processorTime() - begin;
+    run.result.step_time += processorSeconds() - begin;
     run.result.sampling_time += simulation.timer().seconds(Phase::kSampling);
     const rod::Discretisation& wire = simulation.discretisation();
     if (wire.position != before)
@@ -148,7 +141,7 @@ Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string
     run.result.penetration = std::max(run.result.penetration, simulation.surfacePenetration());
     run.result.unsolved += !simulation.report().solved;
     run.force.push_back(simulation.state().hand_force);
-    if ((k + 1) % picture_every != 0)
+    if ((k + 1) % shape_interval != 0)
       continue;
     run.shapes.push_back(shapeOf(simulation));
     run.energy.push_back(simulation.energy().bending);
@@ -162,7 +155,7 @@ Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string
   return run;
 }
 
-/** The step's time is the shortest of some equal runs: others use the machine, too. */
+/** Run with the shortest time per step of several equal runs. */
 Run runTimed(const Setting& setting, const scene::Scene& scene, const std::string& name)
 {
   Run run = runOnce(setting, scene, name);
@@ -185,8 +178,8 @@ scene::Scene uniformScene(const scene::Scene& scene, double edge)
   return uniform;
 }
 
-/** Mean over the window that ends with each step. */
-std::vector<double> feltForce(const std::vector<double>& force, double time_step)
+/** Mean force over the window that ends at each step. */
+std::vector<double> windowMean(const std::vector<double>& force, double time_step)
 {
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kForceWindow / time_step)));
   std::vector<double> mean(force.size());
@@ -215,7 +208,7 @@ void compareShapes(const Run& reference, Run& run)
   double peak = 0.0;
   for (std::size_t k = 0; k < run.shapes.size(); ++k)
   {
-    for (double s = 0.0; s <= run.shapes[k].place.back(); s += kPointSpacing)
+    for (double s = 0.0; s <= run.shapes[k].arc_length.back(); s += kPointSpacing)
     {
       const double distance = reference.shapes[k].distance(run.shapes[k].at(s));
       sum += distance * distance;
@@ -237,18 +230,18 @@ void compareShapes(const Run& reference, Run& run)
 void compareForces(const Run& reference, Run& run, double time_step)
 {
   const auto start = static_cast<std::size_t>(kStart / time_step);
-  const std::vector<double> felt = feltForce(reference.force, time_step);
+  const std::vector<double> mean = windowMean(reference.force, time_step);
   double peak = 0.0;
-  for (std::size_t k = start; k < felt.size(); ++k)
-    peak = std::max(peak, std::abs(felt[k]));
+  for (std::size_t k = start; k < mean.size(); ++k)
+    peak = std::max(peak, std::abs(mean[k]));
   run.result.force_peak = peak;
-  run.result.force_error = rmsDifference(felt, feltForce(run.force, time_step), start) / peak;
+  run.result.force_error = rmsDifference(mean, windowMean(run.force, time_step), start) / peak;
   run.result.raw_force_error = rmsDifference(reference.force, run.force, start) / peak;
   for (std::size_t k = start; k < run.force.size(); ++k)
     run.result.largest_jump = std::max(run.result.largest_jump, std::abs(run.force[k] - run.force[k - 1]) / peak);
 }
 
-/** Force of a step before which the sampling would have changed, had it not been kept from then on. */
+/** Force of a step without the resampling before it. */
 double forceWithoutResampling(const Setting& setting, const scene::Scene& scene, std::size_t step)
 {
   contact::Detector wall(setting.wall, scene::wallLaw(*scene.vessel));
@@ -262,7 +255,7 @@ double forceWithoutResampling(const Setting& setting, const scene::Scene& scene,
   return simulation.state().hand_force;
 }
 
-/** Of the steps before which the sampling changed, those with the largest change of force are looked at. */
+/** Measures the effect of the resamplings with the largest change of the force. */
 void measureJumps(const Setting& setting, const scene::Scene& scene, int samples, Run& run)
 {
   const auto start = static_cast<std::size_t>(kStart / scene.solver.time_step);

@@ -8,6 +8,7 @@
 
 #include "benchmark/harness/processor_time.h"
 #include "contact/detector.h"
+#include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "scene/yaml/file_search.h"
 #include "simulation/simulation.h"
@@ -64,15 +65,21 @@ Cost costOf(const std::function<std::unique_ptr<contact::Detector>()>& detector,
 
 }  // namespace
 
+TableSpec sharedWallTable()
+{
+  return {"speed_shared_wall",
+          "A further simulation in the same anatomy",
+          {"wall model", "memory [MB]", "processor time of the construction [ms]"},
+          ""};
+}
+
 Section sharedWallCost(const Progress& progress)
 {
   progress(0.99, "memory of a further simulation");
-  Section section{"speed_shared_wall", "A further simulation in the same anatomy", "",
-                  Table({"wall model", "memory [MB]", "processor time of the construction [ms]"}), ""};
+  Section section({sharedWallTable()}, sharedWallTable().name);
   section.text =
-      "The scene `demo`, means per simulation. Detectors that share a wall model keep their neighbour lists only. "
-      "Memory "
-      "is read after " +
+      "Scene `demo`, means per simulation. Detectors that share a wall model own their neighbour lists only. Memory is "
+      "read after " +
       std::to_string(kSteps) + " steps.";
   const scene::Scene scene = scene::loadScene(scene::configFolder() + "/scenes/demo.yaml", {});
   const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));

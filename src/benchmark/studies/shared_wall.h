@@ -5,6 +5,9 @@
 namespace endovascular_sim::benchmark
 {
 
+/** Table of sharedWallCost(). */
+TableSpec sharedWallTable();
+
 /** Memory and processor time of a further simulation in the demonstration's anatomy, with a shared and with its own
  *  wall model. */
 Section sharedWallCost(const Progress& progress);

@@ -21,7 +21,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/** Counter of the processor's clock; 0 where there is none. */
+/** Time stamp counter of the processor; 0 on other architectures. */
 std::uint64_t cycles()
 {
 #if defined(__x86_64__)
@@ -31,7 +31,7 @@ std::uint64_t cycles()
 #endif
 }
 
-/** A 0.45 m wire, all of it inside a channel with two bends, pushed back and forth and turned. */
+/** Scene text of a 0.45 m wire inside a channel with two bends, pushed back and forth and rotated. */
 std::string channelScene(const std::string& scheme, int nodes)
 {
   std::ostringstream out;
@@ -79,11 +79,11 @@ double microsecondsOf(const std::function<void()>& work, int times)
   return best;
 }
 
-/** Time of the wire's surface for a 3D view and of one 512² fluoroscopy frame [µs]. */
+/** Rendering times of a wire. */
 struct RenderingTime
 {
-  double surface = 0.0;
-  double frame = 0.0;
+  double surface = 0.0;  ///< surface mesh for a 3D view [µs]
+  double frame = 0.0;    ///< fluoroscopy frame of 512² pixels [µs]
 };
 
 RenderingTime renderingTime(BenchRun& run)
@@ -110,17 +110,13 @@ RenderingTime renderingTime(BenchRun& run)
 
 Section paperTable(const StudyOptions& options, const Progress& progress)
 {
-  Section section{"speed_table", "The paper's Table 1", "",
-                  Table({"scheme", "nodes", "collision", "assembly", "solve", "twist", "step, median", "step, p99",
-                         "wire's surface", "fluoroscopy frame", "whole frame", "frames per second",
-                         "paper: physics + constraints + collision"}),
-                  ""};
+  Section section(speedTables(), "speed_table");
   section.text =
-      "All in µs, medians, one core; the wire lies in a channel with two bends, pushed and turned, all nodes in the "
-      "solver. The paper's phases were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not add up to its "
-      "totals, so they are compared phase by phase; inextensibility is part of `kkt`'s solve, and of `paper`'s it is "
-      "the projection. The whole frame is one step, the wire's surface as a mesh and one 512² fluoroscopy frame; the "
-      "paper reaches 75 frames per second at 380 nodes.";
+      "Medians in µs on one core. The wire lies in a channel with two bends and is pushed and rotated; all nodes are "
+      "in the solver. The phases of the paper were measured on its own machine (Xeon E3-1230 v2, 3.3 GHz) and do not "
+      "add up to its totals, so the comparison is by phase. Inextensibility is part of the solve of `kkt`, and the "
+      "projection of `paper`. A whole frame is one step, the surface mesh of the wire and one fluoroscopy frame of "
+      "512² pixels; the paper reaches 75 frames per second at 380 nodes.";
   const std::vector<std::pair<int, int>> paper = {
       {100, 680 + 260 + 1020}, {200, 920 + 520 + 2130}, {300, 1160 + 790 + 3140}, {380, 1270 + 990 + 3980}};
   const std::vector<std::string> compared = {"kkt", "paper"};
@@ -144,15 +140,13 @@ Section paperTable(const StudyOptions& options, const Progress& progress)
   return section;
 }
 
-Section growth(const StudyOptions& options, const Progress& progress, const std::function<std::uint64_t()>& allocations)
+Section growth(const StudyOptions& options, const Progress& progress)
 {
-  Section section{"speed_growth", "Growth with the number of nodes", "",
-                  Table({"scheme", "nodes", "µs per step", "µs per node", "cycles per node", "allocations per step",
-                         "growth exponent"}),
-                  "speed.png"};
+  const std::function<std::uint64_t()>& allocations = options.allocations;
+  Section section(speedTables(), "speed_growth");
   section.text =
-      "The clamped wire that falls under gravity (no contact), Δt = 1 ms, medians. The exponent is that between a row "
-      "and the one above it; 1 is linear. Cycles are those of the processor's time stamp counter, means.";
+      "A clamped wire falling under gravity without contact, Δt = 1 ms; medians. The exponent between consecutive "
+      "rows is 1 for linear growth. Cycles are means of the time stamp counter of the processor.";
   const std::vector<int> counts =
       options.quick ? std::vector<int>{100, 380, 1000} : std::vector<int>{100, 200, 380, 1000, 2000, 5000};
   const StaticCase problem = heavyCantilever();
@@ -192,12 +186,26 @@ Section growth(const StudyOptions& options, const Progress& progress, const std:
 
 }  // namespace
 
-std::vector<Section> speedStudy(const StudyOptions& options, const Progress& progress,
-                                const std::function<std::uint64_t()>& allocations)
+std::vector<TableSpec> speedTables()
+{
+  return {
+      {"speed_table",
+       "Table 1 of the paper",
+       {"scheme", "nodes", "collision", "assembly", "solve", "twist", "step, median", "step, p99", "wire's surface",
+        "fluoroscopy frame", "whole frame", "frames per second", "paper: physics + constraints + collision"},
+       ""},
+      {"speed_growth",
+       "Growth with the number of nodes",
+       {"scheme", "nodes", "µs per step", "µs per node", "cycles per node", "allocations per step", "growth exponent"},
+       "speed.png"},
+      sharedWallTable()};
+}
+
+std::vector<Section> speedStudy(const StudyOptions& options, const Progress& progress)
 {
   std::vector<Section> sections;
   sections.push_back(paperTable(options, progress));
-  sections.push_back(growth(options, progress, allocations));
+  sections.push_back(growth(options, progress));
   sections.push_back(sharedWallCost(progress));
   return sections;
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "benchmark/harness/study.h"
@@ -9,9 +7,11 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Time per step, phase by phase, over the number of nodes: the table of the paper, and on to 5000 nodes.
- *  @param allocations counts the allocations of the process so far; empty: they are not counted */
-std::vector<Section> speedStudy(const StudyOptions& options, const Progress& progress,
-                                const std::function<std::uint64_t()>& allocations);
+/** Tables of speedStudy(). */
+std::vector<TableSpec> speedTables();
+
+/** Time per step over the number of nodes: by phase for the nodes of the table of the paper, in total up to 5000 nodes.
+ */
+std::vector<Section> speedStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

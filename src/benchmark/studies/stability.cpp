@@ -20,14 +20,14 @@ const std::vector<std::string> kColumns = {
     "case",  "scheme", "verdict",         "reason", "strain",    "penetration [mm]", "energy excess",
     "steps", "turned", "solves per step", "halved", "cut short", "refused"};
 const std::vector<std::string> kCompared = {"kkt", "paper"};
-constexpr int kSampleSteps = 600;  // at most, of a sample of the hypercube
+constexpr int kSampleSteps = 600;  // largest number of steps of a sample of the hypercube
 
 void addRow(Table& table, const HardCase& hard, const Verdict& verdict)
 {
   table.add({hard.label, hard.scheme, verdict.word, verdict.reason, number(verdict.max_strain),
              number(1e3 * verdict.penetration), number(std::max(0.0, verdict.energy_excess), 2),
              std::to_string(verdict.steps), number(verdict.turned, 2), number(verdict.solves),
-             std::to_string(verdict.halved), std::to_string(verdict.truncated), std::to_string(verdict.refused)});
+             std::to_string(verdict.bisections), std::to_string(verdict.truncated), std::to_string(verdict.rejected)});
 }
 
 template <typename Value, typename Set>
@@ -46,7 +46,7 @@ void vary(std::vector<HardCase>& cases, const std::string& name, const std::stri
 std::vector<HardCase> oneAtATime(bool quick)
 {
   std::vector<HardCase> cases(1);
-  cases[0].label = "the case that is varied";
+  cases[0].label = "baseline";
   vary<double>(cases, "EI", "N·mm²", 1e6, {1.6e-6, 20e-6, 2463e-6, 5000e-6},
                [](HardCase& h, double v) { h.bending_stiffness = v; });
   vary<double>(cases, "Δt", "ms", 1e3, {5e-5, 5e-4, 2e-3, 5e-3, 1e-2, 2e-2},
@@ -58,14 +58,14 @@ std::vector<HardCase> oneAtATime(bool quick)
                  h.turns = v;
                  h.whole = true;
                });
-  vary<double>(cases, "bend of radius", "mm", 1e3, {2e-3, 5e-3, 1e-2},
+  vary<double>(cases, "bend radius", "mm", 1e3, {2e-3, 5e-3, 1e-2},
                [](HardCase& h, double v)
                {
                  h.bend_radius = v;
                  h.bending_stiffness = 20e-6;
                  h.nodes = 400;
                });
-  vary<double>(cases, "tip of radius", "mm", 1e3, {2e-3, 5e-3},
+  vary<double>(cases, "tip radius", "mm", 1e3, {2e-3, 5e-3},
                [](HardCase& h, double v)
                {
                  h.tip_radius = v;
@@ -76,10 +76,10 @@ std::vector<HardCase> oneAtATime(bool quick)
             [](HardCase& h, int v) { h.nodes = v; });
   vary<double>(cases, "stiffness jump at the tip, 1 :", "", 1.0, {100.0, 1000.0},
                [](HardCase& h, double v) { h.stiffness_jump = v; });
-  vary<double>(cases, "every node moved at random by", "mm", 1e3, {0.1e-3, 1e-3, 5e-3},
-               [](HardCase& h, double v) { h.disturbance = v; });
-  vary<double>(cases, "two edges folded up to", "°", 180.0 / M_PI, {0.5, 0.1, 0.01},
-               [](HardCase& h, double v) { h.nearly_folded = v; });
+  vary<double>(cases, "random displacement of every node by", "mm", 1e3, {0.1e-3, 1e-3, 5e-3},
+               [](HardCase& h, double v) { h.perturbation = v; });
+  vary<double>(cases, "two edges folded to", "°", 180.0 / M_PI, {0.5, 0.1, 0.01},
+               [](HardCase& h, double v) { h.fold_angle = v; });
   HardCase hard;
   hard.label = "edges from 0.2 to 6 mm";
   hard.sampling = "{kind: adaptive, min_edge: 0.2e-3, max_edge: 6.0e-3, turn_per_edge: 0.02}";
@@ -88,7 +88,7 @@ std::vector<HardCase> oneAtATime(bool quick)
   hard.sampling = "{kind: adaptive, min_edge: 0.06e-3, max_edge: 6.0e-3, turn_per_edge: 0.02}";
   cases.push_back(hard);
   hard = HardCase();
-  hard.label = "no motion at all";
+  hard.label = "no motion";
   hard.speed = 0.0;
   hard.turns = 0.0;
   cases.push_back(hard);
@@ -100,8 +100,8 @@ std::vector<HardCase> oneAtATime(bool quick)
   return cases;
 }
 
-/** Latin hypercube over EI, Δt, speed, turns, bend radius, tip radius, nodes; all but the turns on logarithmic scales.
- */
+/** Latin hypercube over EI, Δt, speed, turns, bend radius, tip radius and nodes, on logarithmic scales except for the
+ *  turns. */
 std::vector<HardCase> latinHypercube(int samples)
 {
   constexpr int kFactors = 7;
@@ -127,15 +127,15 @@ std::vector<HardCase> latinHypercube(int samples)
     hard.turns = 100.0 * share[3][k] * share[3][k] * share[3][k];
     hard.bend_radius = scaled(2e-3, 0.06, share[4][k]);
     hard.tip_radius = scaled(2e-3, 0.02, share[5][k]);
-    // At least two edges per radius of the bend: coarser ones cannot follow it.
+    // At least two edges per radius of the bend; coarser wires cannot follow it.
     hard.nodes = static_cast<int>(scaled(std::max(20.0, 2.0 * 0.15 / hard.bend_radius), 1000.0, share[6][k]));
     cases.push_back(hard);
   }
   return cases;
 }
 
-/** What the factors of a sample are, for the table. */
-std::string described(const HardCase& hard)
+/** Label of a sample with its factors. */
+std::string describe(const HardCase& hard)
 {
   return hard.label + ": EI " + number(1e6 * hard.bending_stiffness) + " N·mm², Δt " + number(1e3 * hard.time_step) +
          " ms, " + number(1e3 * hard.speed) + " mm/s, " + number(hard.turns) + " turns, bend " +
@@ -143,8 +143,8 @@ std::string described(const HardCase& hard)
          std::to_string(hard.nodes) + " nodes";
 }
 
-/** Runs all cases with all schemes, as many at a time as there are processors; returns how many came to which verdict.
- */
+/** Runs all cases with all compared schemes in parallel on all processors.
+ *  @return number of cases by scheme and verdict */
 std::map<std::string, std::map<std::string, int>> run(const std::vector<HardCase>& cases, Table& table, int max_steps,
                                                       const Progress& progress, double begin, double end)
 {
@@ -155,7 +155,7 @@ std::map<std::string, std::map<std::string, int>> run(const std::vector<HardCase
       hard.scheme = scheme;
       jobs.push_back(hard);
     }
-  // The longest ones first, so that no processor waits for one at the end.
+  // Longest cases first, so that no processor idles at the end.
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -198,29 +198,37 @@ std::string counted(std::map<std::string, std::map<std::string, int>>& counts)
   std::string text;
   for (const std::string& scheme : kCompared)
     text += "`" + scheme + "`: " + std::to_string(counts[scheme]["good"]) + " good, " +
-            std::to_string(counts[scheme]["refused"]) + " refused, " + std::to_string(counts[scheme]["bad"]) + " bad. ";
+            std::to_string(counts[scheme]["rejected"]) + " rejected, " + std::to_string(counts[scheme]["bad"]) +
+            " bad. ";
   return text;
 }
 
 }  // namespace
 
+std::vector<TableSpec> stabilityTables()
+{
+  return {{"stability_factors", "Hard cases, one factor at a time", kColumns, ""},
+          {"stability_samples", "Hard cases, Latin hypercube", kColumns, ""}};
+}
+
 std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress& progress)
 {
   const int max_steps = options.quick ? 600 : 1200;
-  Section single{"stability_factors", "Hard cases, one factor at a time", "", Table(kColumns), ""};
+  Section single(stabilityTables(), "stability_factors");
   auto counts = run(oneAtATime(options.quick), single.table, max_steps, progress, 0.0, 0.4);
   single.text =
-      "A J wire (EI 300 N·mm², 150 nodes) pushed 60 mm at 35 mm/s through a 90° bend of 30 mm radius, Δt 1 ms, half a "
-      "turn; then one thing changed. Good: no NaN, strain ≤ 1e-3, the wire's surface at most 0.1 mm beyond the wall, "
-      "no node outside, no more energy than the work put in. Refused: a step without a solution, in which the wire is "
-      "held, or a scene that is turned away. Self-contact of the wire is out of scope. " +
+      "Baseline: a J wire (EI 300 N·mm², 150 nodes) pushed 60 mm at 35 mm/s through a 90° bend of 30 mm radius, Δt 1 "
+      "ms, half a turn. Each further case changes one factor. Good: no NaN, strain ≤ 1e-3, penetration of the surface "
+      "≤ 0.1 mm, no node outside, no more energy than the applied work. Rejected: rejected steps, in which the wire "
+      "is held, or "
+      "a rejected scene. Self-contact of the wire is out of scope. " +
       counted(counts);
-  Section cube{"stability_samples", "Hard cases, Latin hypercube", "", Table(kColumns), ""};
+  Section cube(stabilityTables(), "stability_samples");
   std::vector<HardCase> samples = latinHypercube(options.quick ? 20 : 200);
   for (HardCase& hard : samples)
-    hard.label = described(hard);
+    hard.label = describe(hard);
   counts = run(samples, cube.table, kSampleSteps, progress, 0.4, 1.0);
-  cube.text = "The same, all factors at once, with at least two edges per radius of the bend. " + counted(counts);
+  cube.text = "All factors vary at once, with at least two edges per radius of the bend. " + counted(counts);
   return {single, cube};
 }
 

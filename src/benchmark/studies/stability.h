@@ -7,8 +7,11 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Hard cases: one factor at a time, a Latin hypercube over all of them, and disturbed states. Every run is good, or
- *  refused with a reason, or bad and named. */
+/** Tables of stabilityStudy(). */
+std::vector<TableSpec> stabilityTables();
+
+/** Hard cases: one factor at a time, a Latin hypercube over all factors, and perturbed states. Every run is good,
+ * rejected with a reason, or bad. */
 std::vector<Section> stabilityStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

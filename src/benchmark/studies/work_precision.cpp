@@ -19,8 +19,7 @@ std::vector<int> nodeCounts(const std::string& scheme, bool quick)
   return quick ? std::vector<int>{25, 100} : std::vector<int>{25, 50, 100, 200, 380, 800, 1400};
 }
 
-/** Points that others reach, measured on one core (shared/peers.md has the conditions): ms per step, static error / L.
- */
+/** Adds points of other systems, measured on one core: time per step and static error over L. */
 void addPeers(Table& table)
 {
   const auto add = [&table](const char* name, int nodes, double milliseconds, double error)
@@ -37,7 +36,7 @@ void addPeers(Table& table)
   add("DisMech", 100, 0.975, 1.1e-4);
 }
 
-/** Error of the rest shape, against the time of a 1 ms step while the wire falls. */
+/** Adds the error of the rest shape and the time of a 1 ms step of the falling wire. */
 void addStatics(Table& table, const std::string& name, const StaticCase& problem, const std::string& scheme, bool quick)
 {
   for (int nodes : nodeCounts(scheme, quick))
@@ -55,7 +54,7 @@ void addStatics(Table& table, const std::string& name, const StaticCase& problem
     }
     catch (const InputError& error)
     {
-      table.add({name, scheme, std::to_string(nodes), "1", "", "", std::string("refused: ") + error.what()});
+      table.add({name, scheme, std::to_string(nodes), "1", "", "", std::string("rejected: ") + error.what()});
       return;
     }
   }
@@ -63,13 +62,11 @@ void addStatics(Table& table, const std::string& name, const StaticCase& problem
 
 Section statics(const StudyOptions& options, const Progress& progress)
 {
-  Section section{"work_precision_static", "Static error against time per step", "",
-                  Table({"problem", "scheme", "nodes", "Δt [ms]", "tip error / L", "µs per step", "note"}),
-                  "work_precision_static.png"};
+  Section section(workPrecisionTables(), "work_precision_static");
   section.text =
-      "Time is that of a step of 1 ms while the wire moves, the error that of its rest shape. `measured` are the "
-      "points that other systems reached on the same wire (another run of a like machine, so read factors, not "
-      "percents).";
+      "The time is that of a step of 1 ms of the moving wire; the error is that of its rest shape. Points marked "
+      "`measured` belong to other systems with the same wire, measured separately on a similar machine: differences "
+      "of some percent are not significant.";
   addPeers(section.table);
   double done = 0.0;
   for (const std::string& scheme : schemes())
@@ -83,11 +80,11 @@ Section statics(const StudyOptions& options, const Progress& progress)
   return section;
 }
 
-/** Tip of the falling wire at a moment of its fall. */
+/** Position of the tip of the falling wire. */
 struct Fall
 {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();
-  double seconds = 0.0;  ///< of computing
+  double seconds = 0.0;  ///< computing time [s]
 };
 
 Fall fall(const std::string& scheme, int nodes, double time_step, double duration)
@@ -105,12 +102,11 @@ Fall fall(const std::string& scheme, int nodes, double time_step, double duratio
 Section dynamics(const StudyOptions& options, const Progress& progress)
 {
   constexpr double kDuration = 0.2;
-  Section section{"work_precision_dynamic", "Error of a motion against run time", "",
-                  Table({"scheme", "nodes", "Δt [ms]", "tip error / L", "ms for 0.2 s", "real-time factor"}),
-                  "work_precision_dynamic.png"};
+  Section section(workPrecisionTables(), "work_precision_dynamic");
   section.text =
-      "The heavy cantilever 0.2 s after it was let go. The reference is `kkt` with 200 nodes and Δt extrapolated to "
-      "zero from 20 and 10 µs. Backward Euler is first order in Δt, which is what limits every scheme from 1 ms on.";
+      "The heavy cantilever 0.2 s after its release. The reference is `kkt` with 200 nodes, extrapolated to Δt = 0 "
+      "from 20 and 10 µs. Backward Euler is of first order in Δt, which limits every scheme at steps of 1 ms and "
+      "longer.";
   progress(0.3, "reference of the motion");
   const double fine = options.quick ? 1e-4 : 2e-5;
   const Fall coarse = fall("kkt", 200, fine, kDuration);
@@ -131,7 +127,7 @@ Section dynamics(const StudyOptions& options, const Progress& progress)
         }
         catch (const InputError&)
         {
-          section.table.add({scheme, std::to_string(nodes), number(1e3 * time_step), "", "", "refused"});
+          section.table.add({scheme, std::to_string(nodes), number(1e3 * time_step), "", "", "rejected"});
         }
       }
   return section;
@@ -173,15 +169,12 @@ VesselRun runVessel(const std::string& text, double duration, const std::vector<
 
 Section vessel(const StudyOptions& options, const Progress& progress)
 {
-  // 4.2 mm + 35 mm/s: before the first bifurcation, after which runs differ by which branch the tip falls into.
+  // The push ends before the first bifurcation, beyond which runs differ by the branch that the tip enters.
   const double duration = options.quick ? 1.0 : 2.5;
-  Section section{"work_precision_vessel", "Wire in a vessel: error against run time", "",
-                  Table({"scheme", "sampling", "Δt [ms]", "RMS distance [mm]", "largest [mm]", "hand force, mean [mN]",
-                         "µs per step", "real-time factor", "worst penetration [mm]", "note"}),
-                  "work_precision_vessel.png"};
+  Section section(workPrecisionTables(), "work_precision_vessel");
   if (options.vessel_mesh.empty())
   {
-    section.text = "Left out: aortic_arch_tree.obj was not given (`--vessel-mesh FILE`, or ENDOVASCULAR_DATA_DIR).";
+    section.text = "Omitted: aortic_arch_tree.obj was not given (`--vessel-mesh FILE`, or ENDOVASCULAR_DATA_DIR).";
     return section;
   }
   const double fine_step = options.quick ? 2e-4 : 5e-5;
@@ -194,12 +187,12 @@ Section vessel(const StudyOptions& options, const Progress& progress)
   const CurveDistance sensitivity = distanceBetween(reference.line, perturbed.line);
   std::ostringstream about;
   about << "The wire and motion of the published comparison in `aortic_arch_tree.obj`, " << number(duration)
-        << " s of pushing, which ends before the first bifurcation. "
-        << "Distances are between points at the same arc length from the tip, to a reference with "
+        << " s of pushing, ending before the first bifurcation. "
+        << "Distances refer to points at equal arc length from the tip of a reference with "
         << (options.quick ? "0.5 mm edges and Δt 0.2 ms" : "0.125 mm edges and Δt 0.05 ms") << " (mean hand force "
         << number(1e3 * reference.summary.mean_hand_force)
-        << " mN). Turned by 1e-9 rad at the start, the reference itself moves by " << number(1e3 * sensitivity.rms)
-        << " mm RMS, " << number(1e3 * sensitivity.largest) << " mm at most: errors below that mean nothing.";
+        << " mN). An initial rotation by 1e-9 rad displaces the reference by " << number(1e3 * sensitivity.rms)
+        << " mm RMS, " << number(1e3 * sensitivity.largest) << " mm at most; smaller errors are not significant.";
   section.text = about.str();
   double done = 0.0;
   for (const std::string& scheme : schemes())
@@ -216,18 +209,35 @@ Section vessel(const StudyOptions& options, const Progress& progress)
                              number(1e3 * distance.largest), number(1e3 * run.summary.mean_hand_force),
                              number(run.summary.mean_us), number(1e6 * time_step / run.summary.mean_us),
                              number(1e3 * run.summary.worst_penetration),
-                             run.summary.refused > 0 ? std::to_string(run.summary.refused) + " steps refused" : ""});
+                             run.summary.rejected > 0 ? std::to_string(run.summary.rejected) + " steps rejected" : ""});
         }
         catch (const InputError& error)
         {
           section.table.add({scheme, sampling, number(1e3 * time_step), "", "", "", "", "", "",
-                             std::string("refused: ") + error.what()});
+                             std::string("rejected: ") + error.what()});
         }
       }
   return section;
 }
 
 }  // namespace
+
+std::vector<TableSpec> workPrecisionTables()
+{
+  return {{"work_precision_static",
+           "Static error over time per step",
+           {"problem", "scheme", "nodes", "Δt [ms]", "tip error / L", "µs per step", "note"},
+           "work_precision_static.png"},
+          {"work_precision_dynamic",
+           "Error of a motion over run time",
+           {"scheme", "nodes", "Δt [ms]", "tip error / L", "ms for 0.2 s", "real-time factor"},
+           "work_precision_dynamic.png"},
+          {"work_precision_vessel",
+           "Wire in a vessel: error over run time",
+           {"scheme", "sampling", "Δt [ms]", "RMS distance [mm]", "largest [mm]", "hand force, mean [mN]",
+            "µs per step", "real-time factor", "worst penetration [mm]", "note"},
+           "work_precision_vessel.png"}};
+}
 
 std::vector<Section> workPrecisionStudy(const StudyOptions& options, const Progress& progress)
 {

@@ -7,8 +7,11 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Error against run time: schemes × nodes × time step (and sampling, in the vessel) on the heavy cantilever of the
- *  published comparison, on a pre-curved tip, and on the wire in aortic_arch_tree.obj. */
+/** Tables of workPrecisionStudy(). */
+std::vector<TableSpec> workPrecisionTables();
+
+/** Error over run time for schemes × nodes × time steps (and samplings, in the vessel): the heavy cantilever of the
+ *  published comparison, a pre-curved wire, and a wire in aortic_arch_tree.obj. */
 std::vector<Section> workPrecisionStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

@@ -64,7 +64,7 @@ def row_of(name, speed, angle, result):
     if result['max_strain'] > MAX_STRAIN:
         broken.append('strain')
     if result['solver']['refused_steps'] > 0:
-        broken.append('refused')
+        broken.append('rejected')
     time = result['step_time_us']
     return {'vessel': name, 'speed_mm_s': round(1e3 * speed), 'angle_deg': round(math.degrees(angle), 1),
             'inserted_mm': round(1e3 * result['inserted_length'], 1), 'jammed': 'yes' if locked else 'no',

@@ -1,14 +1,13 @@
-#!/usr/bin/env python3
-"""Draws the plots of `benchmark` from the CSV files in a folder."""
+#!/usr/bin/python3
+"""Draws the plots of `benchmark` from the CSV files of a folder into that folder."""
 
-import argparse
-import csv
 import pathlib
+import sys
 
-import matplotlib
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import tool_support as tools  # noqa: E402
 
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt  # noqa: E402
+plt = tools.pyplot()
 
 COLOURS = {'kkt': 'tab:blue', 'paper': 'tab:orange', 'mixed': 'tab:green', 'SOFA BeamAdapter': 'tab:red',
            'PositionBasedDynamics': 'tab:purple', 'DisMech': 'tab:brown'}
@@ -16,16 +15,13 @@ MARKERS = {'kkt': 'o', 'paper': 's', 'mixed': 'D', 'SOFA BeamAdapter': '^', 'Pos
 
 
 def rows_of(folder, name):
-    """Rows of a CSV as dictionaries; none when the study was not run."""
+    """Rows of a table; an empty list for a study that was not run."""
     path = folder / f'{name}.csv'
-    if not path.exists():
-        return []
-    with open(path, encoding='utf-8') as stream:
-        return list(csv.DictReader(stream))
+    return list(tools.read_rows(path)) if path.exists() else []
 
 
 def value(row, key):
-    """A cell as a number, None where it is empty."""
+    """Cell as a number; None for an empty cell."""
     try:
         return float(row[key])
     except ValueError:
@@ -33,7 +29,7 @@ def value(row, key):
 
 
 def grouped(rows, *keys):
-    """Rows by the values of some columns, in order of appearance."""
+    """Rows by the values of the key columns, in order of appearance."""
     groups = {}
     for row in rows:
         groups.setdefault(tuple(row[key] for key in keys), []).append(row)
@@ -41,7 +37,7 @@ def grouped(rows, *keys):
 
 
 def curve(axes, rows, x, y, **style):
-    """One line of points that have both values."""
+    """Draws a line through the points with two positive values."""
     points = [(value(row, x), value(row, y)) for row in rows]
     points = [(a, b) for a, b in points if a is not None and b is not None and a > 0 and b > 0]
     if points:
@@ -49,7 +45,7 @@ def curve(axes, rows, x, y, **style):
 
 
 def finish(axes, title, x, y):
-    """Log–log axes with names."""
+    """Sets logarithmic axes with labels and title."""
     axes.set_xscale('log')
     axes.set_yscale('log')
     axes.set_xlabel(x)
@@ -59,13 +55,14 @@ def finish(axes, title, x, y):
 
 
 def save(figure, folder, name):
+    """Writes a figure."""
     figure.tight_layout()
-    figure.savefig(folder / 'images' / 'validation' / name, dpi=110)
+    figure.savefig(folder / name, dpi=110)
     plt.close(figure)
 
 
 def panels(count):
-    """A row of axes, or two."""
+    """Figure with a number of axes in rows of three."""
     columns = min(count, 3)
     lines = -(-count // columns)
     figure, axes = plt.subplots(lines, columns, figsize=(5 * columns, 4 * lines), squeeze=False)
@@ -76,7 +73,7 @@ def panels(count):
 
 
 def draw_accuracy(folder):
-    """Tip error over nodes, a panel per problem."""
+    """Draws the tip error over nodes, a panel per problem."""
     problems = grouped(rows_of(folder, 'accuracy'), 'problem')
     if not problems:
         return
@@ -90,7 +87,7 @@ def draw_accuracy(folder):
 
 
 def draw_static(folder):
-    """Static error over time per step."""
+    """Draws the static error over the time per step."""
     problems = grouped(rows_of(folder, 'work_precision_static'), 'problem')
     if not problems:
         return
@@ -105,7 +102,7 @@ def draw_static(folder):
 
 
 def draw_dynamic(folder):
-    """Error of the falling wire over run time, one line per scheme and number of nodes, along Δt."""
+    """Draws the error of the falling wire over run time, a line per scheme and number of nodes with varying Δt."""
     groups = grouped(rows_of(folder, 'work_precision_dynamic'), 'scheme', 'nodes')
     if not groups:
         return
@@ -113,13 +110,13 @@ def draw_dynamic(folder):
     for k, ((scheme, nodes), rows) in enumerate(groups.items()):
         curve(axis, rows, 'ms for 0.2 s', 'tip error / L', color=COLOURS[scheme], marker=MARKERS[scheme], label=f'{scheme}, {nodes}',
               alpha=(0.45, 0.7, 1.0)[k % 3])
-    finish(axis, 'falling wire after 0.2 s; along a line Δt from 4 to 0.25 ms', 'ms of computing', 'tip error / L')
+    finish(axis, 'falling wire after 0.2 s; lines: Δt from 4 to 0.25 ms', 'computing time [ms]', 'tip error / L')
     axis.legend(fontsize=8)
     save(figure, folder, 'work_precision_dynamic.png')
 
 
 def draw_vessel(folder):
-    """Distance to the reference over time per second of motion."""
+    """Draws the distance to the reference over the computing time per second of motion."""
     groups = grouped(rows_of(folder, 'work_precision_vessel'), 'scheme', 'sampling')
     if not groups:
         return
@@ -131,13 +128,13 @@ def draw_vessel(folder):
         curve(axis, points, 'load', 'RMS distance [mm]', color=COLOURS[scheme], marker='*' if adaptive else MARKERS[scheme],
               markersize=12 if adaptive else 6, linestyle='--' if adaptive else '-',
               label=f"{scheme}, {sampling.strip('{}').replace('kind: ', '')}")
-    finish(axis, 'wire in aortic_arch_tree.obj; along a line Δt', 's of computing per s of motion', 'RMS distance to the reference [mm]')
+    finish(axis, 'wire in aortic_arch_tree.obj; lines: varying Δt', 'computing time per simulated time', 'RMS distance to the reference [mm]')
     axis.legend(fontsize=7)
     save(figure, folder, 'work_precision_vessel.png')
 
 
 def draw_speed(folder):
-    """Time per step over nodes."""
+    """Draws the time per step over nodes."""
     groups = grouped(rows_of(folder, 'speed_growth'), 'scheme')
     if not groups:
         return
@@ -150,16 +147,16 @@ def draw_speed(folder):
 
 
 def draw_volumes(folder):
-    """Time of both queries per bounding volume, a panel per mesh."""
+    """Draws the time of both queries per bounding volume, a panel per mesh."""
     meshes = grouped(rows_of(folder, 'contact_volumes'), 'mesh', 'triangles')
     if not meshes:
         return
     figure, axes = panels(len(meshes))
     for axis, ((mesh, triangles), rows) in zip(axes, meshes.items()):
-        places = range(len(rows))
+        positions = range(len(rows))
         for shift, key in ((-0.2, 'collect [µs]'), (0.2, 'nearest [µs]')):
-            axis.bar([k + shift for k in places], [value(row, key) for row in rows], width=0.4, label=key)
-        axis.set_xticks(list(places))
+            axis.bar([k + shift for k in positions], [value(row, key) for row in rows], width=0.4, label=key)
+        axis.set_xticks(list(positions))
         axis.set_xticklabels([row['volume'] for row in rows], rotation=20, fontsize=8)
         axis.set_ylabel('µs per query')
         axis.set_title(f'{mesh}, {triangles} triangles', fontsize=10)
@@ -168,7 +165,7 @@ def draw_volumes(folder):
 
 
 def draw_growth(folder):
-    """Detection over the number of triangles of one surface."""
+    """Draws the detection time over the number of triangles of one surface."""
     rows = rows_of(folder, 'contact_growth')
     if not rows:
         return
@@ -184,23 +181,23 @@ def draw_growth(folder):
 
 
 def draw_sampling(folder):
-    """Distance to the reference over time per step, a panel per case."""
+    """Draws the distance to the reference over the time per step, a panel per case."""
     cases = grouped(rows_of(folder, 'sampling_runs'), 'case')
     if not cases:
         return
     figure, axes = panels(len(cases))
     for axis, ((case,), rows) in zip(axes, cases.items()):
-        for row in rows[1:]:  # the first one is the reference itself
+        for row in rows[1:]:  # the first row is the reference
             curve(axis, [row], 'µs per step', 'RMS distance [mm]', marker='*' if 'adaptive' in row['sampling'] else 'o',
                   linestyle='', markersize=13 if 'adaptive' in row['sampling'] else 7, label=row['sampling'])
         finish(axis, case, 'µs per step', 'RMS distance to uniform 0.125 mm [mm]')
-        axis.set_xscale('linear')  # less than a decade: logarithmic ticks run into each other
+        axis.set_xscale('linear')  # logarithmic ticks of less than a decade overlap
         axis.legend(fontsize=7)
     save(figure, folder, 'sampling.png')
 
 
 def draw_hand_force(folder):
-    """Force at the hand (C: torque; D: force on the tip) against insertion."""
+    """Draws the force at the hand (C: torque; D: force on the tip) over insertion."""
     charts = grouped(rows_of(folder, 'hand_force_curves'), 'panel')
     if not charts:
         return
@@ -223,10 +220,10 @@ def draw_hand_force(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('folder', type=pathlib.Path, help='where `benchmark` wrote its CSV files')
+    """Draws the plots of all tables in the folder."""
+    parser = tools.argument_parser(__doc__)
+    parser.add_argument('folder', type=pathlib.Path, help='folder with the CSV files of `benchmark`')
     folder = parser.parse_args().folder
-    (folder / 'images' / 'validation').mkdir(parents=True, exist_ok=True)
     for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_volumes, draw_growth,
                  draw_sampling, draw_hand_force):
         draw(folder)

@@ -12,16 +12,16 @@ namespace
 
 FuzzSettings settings()
 {
-  FuzzSettings made;
-  made.steps_per_episode = 150;
-  return made;
+  FuzzSettings settings;
+  settings.steps_per_episode = 150;
+  return settings;
 }
 
 TEST(LeakFuzz, NoWireLeavesARandomChannel)
 {
   FuzzVessels vessels({});
   double deepest = 0.0;
-  for (std::uint64_t k = 0; k < 24; k += 2)  // every second kind is a channel
+  for (std::uint64_t k = 0; k < 24; k += 2)  // every second kind of vessel is a channel
   {
     const FuzzEpisode episode = fuzzEpisode(vessels, settings(), k);
     ASSERT_EQ(episode.vessel, "channel");
@@ -31,10 +31,10 @@ TEST(LeakFuzz, NoWireLeavesARandomChannel)
     EXPECT_GE(episode.looks, 15);
     deepest = std::max(deepest, episode.depth);
   }
-  EXPECT_GT(deepest, 1e-6);  // walls were met
+  EXPECT_GT(deepest, 1e-6);  // the wires touched walls
 }
 
-TEST(LeakFuzz, AnEpisodeIsTheSameAgainWhateverWentBefore)
+TEST(LeakFuzz, AnEpisodeIsIndependentOfEarlierEpisodes)
 {
   FuzzVessels vessels({});
   const FuzzEpisode first = fuzzEpisode(vessels, settings(), 6);
@@ -45,7 +45,7 @@ TEST(LeakFuzz, AnEpisodeIsTheSameAgainWhateverWentBefore)
   EXPECT_EQ(first.force, again.force);
 }
 
-TEST(FuzzRecord, GoesOnWhereItWasWrittenDown)
+TEST(FuzzRecord, ResumesFromItsJson)
 {
   FuzzRecord record(settings(), {"channel"});
   FuzzEpisode episode;
@@ -69,7 +69,7 @@ TEST(FuzzRecord, GoesOnWhereItWasWrittenDown)
   EXPECT_NE(resumed.csv().find("yes"), std::string::npos);
 }
 
-TEST(FuzzRecord, IsNotResumedWithOtherSettingsOrFromADamagedFile)
+TEST(FuzzRecord, RejectsResumptionWithOtherSettingsOrFromDamagedText)
 {
   const std::string json = FuzzRecord(settings(), {"channel"}).json();
   FuzzSettings other = settings();

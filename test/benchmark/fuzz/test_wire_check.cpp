@@ -10,7 +10,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-/** A channel of 3 mm radius that turns by 90° about the point (20 mm, 0, 0). */
+/** Channel of 3 mm radius with a bend of 90° about the point (20 mm, 0, 0). */
 geometry::TriangleMesh quarterTurn()
 {
   vessel::TubeShape shape;
@@ -21,23 +21,23 @@ geometry::TriangleMesh quarterTurn()
   return vessel::tubeMesh(shape);
 }
 
-TEST(WireCheck, SeesAChordThatLeavesBetweenTwoNodesThatAreInside)
+TEST(WireCheck, DetectsAnEdgeThatLeavesTheLumenBetweenTwoInnerNodes)
 {
   const geometry::TriangleMesh mesh = quarterTurn();
   WireCheck check(mesh);
   const Eigen::Vector3d end(0.02, 0.0, 0.02);
   EXPECT_GT(check.signedDistance(Eigen::Vector3d::Zero()), 2e-3);
   EXPECT_GT(check.signedDistance(end), 2e-3);
-  EXPECT_TRUE(check.look({{Eigen::Vector3d::Zero(), 0.4e-3, 0.0}, {end, 0.4e-3, 0.0}}).outside);
+  EXPECT_TRUE(check.check({{Eigen::Vector3d::Zero(), 0.4e-3, 0.0}, {end, 0.4e-3, 0.0}}).outside);
   const Eigen::Vector3d middle = Eigen::Vector3d(0.02, 0.0, 0.0) + 0.02 * Eigen::Vector3d(-M_SQRT1_2, 0.0, M_SQRT1_2);
   EXPECT_FALSE(check
-                   .look({{Eigen::Vector3d::Zero(), 0.4e-3, 0.0},
-                          {0.5 * (middle + Eigen::Vector3d(0.0, 0.0, 0.008)), 0.4e-3, 0.0},
-                          {middle, 0.4e-3, 0.0}})
+                   .check({{Eigen::Vector3d::Zero(), 0.4e-3, 0.0},
+                           {0.5 * (middle + Eigen::Vector3d(0.0, 0.0, 0.008)), 0.4e-3, 0.0},
+                           {middle, 0.4e-3, 0.0}})
                    .outside);
 }
 
-TEST(WireCheck, FindsTheDepthThatThousandsOfPointsAlongTheWireFindAmongAllTriangles)
+TEST(WireCheck, FindsTheDepthOfABruteForceSearchWithManyPoints)
 {
   const geometry::TriangleMesh mesh = quarterTurn();
   WireCheck check(mesh);
@@ -55,19 +55,19 @@ TEST(WireCheck, FindsTheDepthThatThousandsOfPointsAlongTheWireFindAmongAllTriang
         depth =
             std::max(depth, 0.6e-3 - check.bruteSignedDistance(nodes[k].position +
                                                                s / 60.0 * (nodes[k + 1].position - nodes[k].position)));
-    const WireFinding finding = check.look(nodes);
+    const WireFinding finding = check.check(nodes);
     EXPECT_GE(finding.depth, depth - (depth > 20e-6 ? 2.1e-6 : 22e-6));
-    EXPECT_LE(finding.depth, depth + 20e-6);  // between the points of the comparison
+    EXPECT_LE(finding.depth, depth + 20e-6);  // the maximum may lie between the sampled points
     deep += depth > 20e-6;
   }
   EXPECT_GT(deep, 2);
 }
 
-TEST(WireCheck, TellsANodeThatIsNotFinite)
+TEST(WireCheck, ReportsANodeThatIsNotFinite)
 {
   const geometry::TriangleMesh mesh = quarterTurn();
   WireCheck check(mesh);
-  EXPECT_FALSE(check.look({{Eigen::Vector3d(0.0, NAN, 0.0), 0.4e-3, 0.0}}).finite);
+  EXPECT_FALSE(check.check({{Eigen::Vector3d(0.0, NAN, 0.0), 0.4e-3, 0.0}}).finite);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-TEST(Table, WritesCommasInCellsBetweenQuotes)
+TEST(Table, QuotesCellsWithCommas)
 {
   Table table({"a", "b, c"});
   table.add({"1", "x, y"});
@@ -17,7 +17,7 @@ TEST(Table, WritesCommasInCellsBetweenQuotes)
   EXPECT_EQ(table.markdown(), "| a | b, c |\n|---|---|\n| 1 | x, y |\n");
 }
 
-TEST(Table, LeavesACellWithoutAValueEmpty)
+TEST(Table, ShowsNaNAsAnEmptyCell)
 {
   EXPECT_EQ(number(std::nan("")), "");
   EXPECT_EQ(number(0.00123456), "0.00123");

@@ -12,12 +12,12 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kEi = 4.9469e-5;  // N·m²
+constexpr double kEi = 4.9469e-5;  // bending stiffness [N·m²]
 constexpr double kLength = 0.38;
 constexpr double kRadius = 1.8e-4;
 constexpr double kDensity = 7900.0;
 
-/** A straight clamped wire at rest along x, its clamp acting at the origin. */
+/** Straight clamped wire along x; the clamp acts at the origin. */
 EquilibriumProblem cantilever(int nodes)
 {
   EquilibriumProblem problem;
@@ -48,7 +48,7 @@ rod::Section unitSection(double length, double bending_stiffness, double torsion
   return section;
 }
 
-/** Largest distance between the nodes at which the time-stepping scheme comes to rest and the solver's [lengths]. */
+/** Largest distance between the nodes of the time-stepping scheme at rest and those of the solver, over the length. */
 double distanceToStepper(const EquilibriumProblem& problem, const rod::Wire& wire, const rod::Environment& environment,
                          const rod::StepInput& input)
 {
@@ -68,7 +68,7 @@ double distanceToStepper(const EquilibriumProblem& problem, const rod::Wire& wir
   return worst / kLength;
 }
 
-TEST(Equilibrium, RestOfTheTimeSteppingSchemeUnderItsWeightIsTheIndependentSolution)
+TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderGravity)
 {
   EquilibriumProblem problem = cantilever(100);
   rod::Environment environment;
@@ -81,7 +81,7 @@ TEST(Equilibrium, RestOfTheTimeSteppingSchemeUnderItsWeightIsTheIndependentSolut
             1e-8);
 }
 
-TEST(Equilibrium, RestOfTheTimeSteppingSchemeUnderForcesInSpaceIsTheIndependentSolution)
+TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderSpatialForces)
 {
   EquilibriumProblem problem = cantilever(60);
   rod::Environment environment;
@@ -96,7 +96,7 @@ TEST(Equilibrium, RestOfTheTimeSteppingSchemeUnderForcesInSpaceIsTheIndependentS
       1e-8);
 }
 
-TEST(Equilibrium, RestOfTheTimeSteppingSchemeWithAPlanarPreCurvedTipIsTheIndependentSolution)
+TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestWithAPlanarPreCurvedTip)
 {
   const int nodes = 60;
   rod::Wire wire = uniformWire(0.7 * clampedLength(kLength, nodes), kEi, kRadius, kDensity);
@@ -111,7 +111,7 @@ TEST(Equilibrium, RestOfTheTimeSteppingSchemeWithAPlanarPreCurvedTipIsTheIndepen
   for (int i = 0; i < nodes; ++i)
   {
     problem.force[i] = problem.rod.mass[i] * environment.gravity;
-    // ω̄1 d2 with d1 = y, tangent in the plane: along z.
+    // ω̄1 d2 with d1 = y and a planar tangent points along z.
     problem.rest_binormal.emplace_back(0.0, 0.0, problem.rod.rest_curvature[i].x());
   }
   EXPECT_LT(distanceToStepper(problem, wire, environment, rod::StepInput()), 1e-8);
@@ -120,7 +120,7 @@ TEST(Equilibrium, RestOfTheTimeSteppingSchemeWithAPlanarPreCurvedTipIsTheIndepen
 class TwistedRod : public testing::Test
 {
 protected:
-  /** An open wire with both ends held, or a ring, far from equilibrium, with tensions and torque of no meaning. */
+  /** Open wire with both ends fixed, or a ring, far from equilibrium, with arbitrary tensions and torque. */
   void prepare(bool closed)
   {
     const int nodes = 9;
@@ -140,9 +140,9 @@ protected:
     for (int i = 0; i < nodes; ++i)
     {
       const double angle = 2.0 * M_PI * i / nodes;
-      const Eigen::Vector3d place =
+      const Eigen::Vector3d regular =
           closed ? Eigen::Vector3d(1.43 * std::cos(angle), 1.43 * std::sin(angle), 0.0) : Eigen::Vector3d(i, 0.0, 0.0);
-      e.position.push_back(place + Eigen::Vector3d(uniform(random), uniform(random), uniform(random)));
+      e.position.push_back(regular + Eigen::Vector3d(uniform(random), uniform(random), uniform(random)));
     }
     for (int j = 0; j < problem.edges(); ++j)
       e.tension.push_back(uniform(random));
@@ -188,7 +188,7 @@ protected:
   Equilibrium e;
 };
 
-TEST_F(TwistedRod, DerivativesOfAnOpenWireHeldAtBothEndsEqualFiniteDifferences)
+TEST_F(TwistedRod, DerivativesOfAnOpenWireFixedAtBothEndsEqualFiniteDifferences)
 {
   prepare(false);
   expectDerivatives();
@@ -200,7 +200,7 @@ TEST_F(TwistedRod, DerivativesOfARingEqualFiniteDifferences)
   expectDerivatives();
 }
 
-/** Twist at which a ring of unit stiffnesses and length 2π loses stability. */
+/** Critical twist of a ring of unit stiffnesses and length 2π. */
 double criticalTwist(int nodes)
 {
   EquilibriumProblem problem;
@@ -232,8 +232,8 @@ double criticalTwist(int nodes)
   return 0.5 * (stable + unstable);
 }
 
-// References 04: Θc = 2π√3·EI/GJ = 10.8827961854; the discrete rod of 32 and 64 nodes.
-TEST(Equilibrium, ATwistedRingLosesStabilityAtMichellsTwistAndConvergesToItWithSecondOrder)
+// Michell: Θc = 2π√3·EI/GJ = 10.8827961854; discrete rods of 32 and 64 nodes.
+TEST(Equilibrium, CriticalTwistOfARingConvergesToMichellsWithSecondOrder)
 {
   const double exact = 2.0 * M_PI * std::sqrt(3.0);
   const double coarse = criticalTwist(32) / exact;
@@ -243,8 +243,8 @@ TEST(Equilibrium, ATwistedRingLosesStabilityAtMichellsTwistAndConvergesToItWithS
   EXPECT_NEAR(std::log2((coarse - 1.0) / (fine - 1.0)), 2.0, 0.05);
 }
 
-/** Deflection and axial force (PL²/EI) of a unit wire whose clamps, acting at the middles of its end edges, have come
- * nearer by a tenth of the length between them. */
+/** Deflection and axial force (PL²/EI) of a unit wire shortened by a tenth of its length; the clamps act at the centres
+ * of the end edges. */
 Eigen::Vector2d clampedPostBuckling(int nodes)
 {
   constexpr double kShortening = 0.1;
@@ -255,7 +255,7 @@ Eigen::Vector2d clampedPostBuckling(int nodes)
   problem.rod = rod::discretiseUniformly(wire, nodes);
   problem.held.assign(static_cast<std::size_t>(nodes), false);
   problem.held[0] = problem.held[1] = problem.held[nodes - 2] = problem.held[nodes - 1] = true;
-  // The plane in which an isotropic wire buckles is free: the middle stays in one.
+  // Fixing the centre selects one of the equivalent buckling planes of an isotropic wire.
   problem.supports.push_back({nodes / 2, Eigen::Vector3d::UnitZ()});
   Equilibrium guess;
   for (int i = 0; i < nodes; ++i)
@@ -277,8 +277,8 @@ Eigen::Vector2d clampedPostBuckling(int nodes)
   return {guess.position[nodes / 2].y(), forces[0] + forces[3]};
 }
 
-// References 03: clamped post-buckling, end shortening 0.1.
-TEST(Equilibrium, AClampedWireBucklesAsTheContinuumDoesWithSecondOrder)
+// Elastica, clamped ends, end shortening 0.1.
+TEST(Equilibrium, PostBucklingOfAClampedWireConvergesWithSecondOrder)
 {
   const Eigen::Vector2d exact(0.19492431137557378, 41.57025579315579);
   const Eigen::Vector2d coarse = clampedPostBuckling(41) - exact;
@@ -290,7 +290,7 @@ TEST(Equilibrium, AClampedWireBucklesAsTheContinuumDoesWithSecondOrder)
   EXPECT_LT(std::abs(fine[1]), 0.1);
 }
 
-/** The same of a unit wire on two pins. */
+/** Deflection and axial force (PL²/EI) of a unit wire with pinned ends, shortened by a tenth of its length. */
 Eigen::Vector2d pinnedPostBuckling(int nodes)
 {
   rod::Wire wire;
@@ -310,8 +310,8 @@ Eigen::Vector2d pinnedPostBuckling(int nodes)
   return {guess.position[nodes / 2].y(), solver.forces(guess)[0]};
 }
 
-// References 03: pinned post-buckling, end shortening 0.1.
-TEST(Equilibrium, APinnedWireBucklesAsTheContinuumDoesWithSecondOrder)
+// Elastica, pinned ends, end shortening 0.1.
+TEST(Equilibrium, PostBucklingOfAPinnedWireConvergesWithSecondOrder)
 {
   const Eigen::Vector2d exact(0.19492431137557378, 10.392563948288947);
   const Eigen::Vector2d coarse = pinnedPostBuckling(41) - exact;
@@ -322,7 +322,7 @@ TEST(Equilibrium, APinnedWireBucklesAsTheContinuumDoesWithSecondOrder)
   EXPECT_LT(std::abs(fine[1]), 0.02);
 }
 
-TEST(Equilibrium, RefusesWhatItIsNotFor)
+TEST(Equilibrium, RejectsInconsistentProblems)
 {
   EquilibriumProblem problem = cantilever(10);
   problem.twist_held = true;
@@ -332,13 +332,13 @@ TEST(Equilibrium, RefusesWhatItIsNotFor)
   EXPECT_THROW(EquilibriumSolver{problem}, InputError);
 }
 
-TEST(Equilibrium, TellsWhenItHasNoSolution)
+TEST(Equilibrium, ReportsAProblemWithoutSolution)
 {
   EquilibriumProblem problem = cantilever(10);
   problem.held[8] = problem.held[9] = true;
   Equilibrium guess = straightGuess(problem, Eigen::Vector3d::Zero());
   for (const int i : {8, 9})
-    guess.position[i].x() += 0.2 * kLength;  // further than the wire reaches
+    guess.position[i].x() += 0.2 * kLength;  // beyond the length of the wire
   EXPECT_FALSE(EquilibriumSolver(problem).solve(guess));
 }
 

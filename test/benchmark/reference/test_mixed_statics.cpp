@@ -11,7 +11,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/** A rod of length 1 and EI = 1, clamped at the origin along x. */
+/** Rod of length 1 and EI = 1, clamped at the origin along x. */
 rod::MixedRod unitRod(int edges, rod::EndHold distal = rod::EndHold::kFree)
 {
   rod::MixedEdge edge;
@@ -37,8 +37,8 @@ double order(double coarse, double fine)
   return std::log2(coarse / fine);
 }
 
-// References 01: cantilever elastica, tip x/L and y/L by an independent boundary value solver.
-TEST(MixedStatics, TipOfTheElasticaConvergesToTheContinuumWithFourthOrder)
+// Cantilever elastica, tip x/L and y/L by an independent boundary value solver.
+TEST(MixedStatics, TipOfTheElasticaConvergesWithFourthOrder)
 {
   const Vector3d light(0.9435667637166234, -0.3017207737998133, 0.0);
   const Vector3d heavy(0.61237163927557, -0.7137915236119128, 0.0);
@@ -57,7 +57,7 @@ TEST(MixedStatics, TipOfTheElasticaConvergesToTheContinuumWithFourthOrder)
   }
 }
 
-TEST(MixedStatics, ForcesOutOfThePlaneConvergeWithFourthOrder)
+TEST(MixedStatics, SpatialForcesConvergeWithFourthOrder)
 {
   const auto tip = [](int edges)
   {
@@ -72,7 +72,7 @@ TEST(MixedStatics, ForcesOutOfThePlaneConvergeWithFourthOrder)
   EXPECT_LT(middle_error, 3e-6);
 }
 
-// References 06a: planar quarter-circle cantilever with a dead tip load, PL²/EI = 1.
+// Planar quarter-circle cantilever with a dead tip load, PL²/EI = 1.
 TEST(MixedStatics, PreCurvedRodConvergesWithFourthOrder)
 {
   const Vector3d exact(0.804105101290247, 0.4818706970436423, 0.0);
@@ -89,8 +89,8 @@ TEST(MixedStatics, PreCurvedRodConvergesWithFourthOrder)
   EXPECT_NEAR(order(error[1], error[2]), 4.0, 0.2);
 }
 
-// A jump of 4:1 at the middle: a straight wire loaded out of a plane, and a curved soft tip loaded in its plane.
-TEST(MixedStatics, SectionJumpAtANodeKeepsFourthOrder)
+// Stiffness jump of 4 : 1 at the centre: a straight wire with a spatial load, and a curved tip with a planar load.
+TEST(MixedStatics, SectionJumpAtANodePreservesFourthOrder)
 {
   for (const double curvature : {0.0, 1.0})
   {
@@ -112,25 +112,26 @@ TEST(MixedStatics, SectionJumpAtANodeKeepsFourthOrder)
   }
 }
 
-TEST(MixedStatics, UnequalEdgesKeepFourthOrder)
+TEST(MixedStatics, UnequalEdgesPreserveFourthOrder)
 {
   const Vector3d exact(0.61237163927557, -0.7137915236119128, 0.0);
   std::vector<double> error;
   for (const int edges : {12, 24, 48})
   {
     rod::MixedRod rod = unitRod(edges);
-    const auto place = [edges](int node) { return (node + 0.08 * edges * std::sin(5.0 * node / edges) / 1.0) / edges; };
-    const double end = place(edges);
+    const auto coordinate = [edges](int node)
+    { return (node + 0.08 * edges * std::sin(5.0 * node / edges) / 1.0) / edges; };
+    const double end = coordinate(edges);
     for (int j = 0; j < edges; ++j)
-      rod.edge(j).length = (place(j + 1) - place(j)) / end;
+      rod.edge(j).length = (coordinate(j + 1) - coordinate(j)) / end;
     error.push_back((equilibrium(rod, {{edges, Vector3d(0.0, -5.0, 0.0)}}).position.back() - exact).norm());
   }
   EXPECT_NEAR(order(error[0], error[1]), 4.0, 0.3);
   EXPECT_NEAR(order(error[1], error[2]), 4.0, 0.2);
 }
 
-// References 02 for wL³/EI = 10, and the heavy cantilever of other systems' comparison, wL³/EI = 8.75.
-TEST(MixedStatics, HeavyCantileverConvergesWithFourthOrderAndIsWithinAMillionthAt25Nodes)
+// Heavy elastica, wL³/EI = 10, and the heavy cantilever of the published comparison, wL³/EI = 8.75.
+TEST(MixedStatics, HeavyCantileverConvergesWithFourthOrderToBelow1e6At25Nodes)
 {
   const Vector3d exact(0.6975592593323616, -0.6655170278745548, 0.0);
   const auto tip = [](int edges, double weight)
@@ -153,8 +154,8 @@ TEST(MixedStatics, HeavyCantileverConvergesWithFourthOrderAndIsWithinAMillionthA
   EXPECT_LT((tip(24, 10.0) - Vector3d(0.6563537612385988, -0.7001997155143129, 0.0)).norm(), 1e-6);
 }
 
-// References 03: clamped–clamped elastica after buckling, end shortening 0.1.
-TEST(MixedStatics, ClampedRodBucklesToTheElastica)
+// Post-buckling elastica, clamped ends, end shortening 0.1.
+TEST(MixedStatics, PostBucklingOfAClampedRodEqualsTheElastica)
 {
   const double load = 41.57025579315579;
   const double deflection = 0.19492431112557375;
@@ -169,7 +170,7 @@ TEST(MixedStatics, ClampedRodBucklesToTheElastica)
       state.position[i] = Vector3d(0.9 * s, 0.1 * (1.0 - std::cos(2.0 * M_PI * s)), 0.0);
     }
     ASSERT_TRUE(solveStatics(rod, {}, StaticsSettings(), state).converged);
-    // The ends carry no transverse force: the axial one is the tension's of the straight chord at the inflection.
+    // The ends carry no transverse force; the axial force is the tension of the chord at the inflection point.
     Vector3d force = Vector3d::Zero();
     rod::MixedRod::Matrix unused;
     unused.reset(rod.size(state));
@@ -185,8 +186,8 @@ TEST(MixedStatics, ClampedRodBucklesToTheElastica)
   EXPECT_LT(load_error[0], 2e-6 * load);
 }
 
-// The same elastica with pinned ends is half as stiff in wave number: P L²/EI = 10.39 at end shortening 0.1.
-TEST(MixedStatics, PinnedRodBucklesToTheElastica)
+// Pinned ends halve the wave number of the elastica: P L²/EI = 10.39 at end shortening 0.1.
+TEST(MixedStatics, PostBucklingOfAPinnedRodEqualsTheElastica)
 {
   const int edges = 32;
   rod::MixedEdge edge;
@@ -206,7 +207,7 @@ TEST(MixedStatics, PinnedRodBucklesToTheElastica)
   EXPECT_NEAR(rod.bendingEnergy(state), 1.0126022229086291, 1e-5);
 }
 
-TEST(MixedStatics, ReportsWhatCannotConverge)
+TEST(MixedStatics, ReportsMissingConvergence)
 {
   rod::MixedRod rod = unitRod(8);
   rod::State state = rod.straight(Vector3d::Zero(), Vector3d::UnitX());

@@ -9,8 +9,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-// References 06 b, non-linear: with k0 l = 1, h/l = 0.1 a part of the wire lies on the floor; with h/l = 0.3 none does.
-TEST(ReferenceContact, AJTipPushesOnTheWallOfAStraightChannelAsTheElasticaDoes)
+// Nonlinear elastica with k0 l = 1: for h/l = 0.1 part of the wire lies on the floor, for h/l = 0.3 none.
+TEST(ReferenceContact, WallForceOfAJTipInAStraightChannelEqualsTheElastica)
 {
   for (const char* scheme : {"kkt", "mixed", "paper"})
   {
@@ -24,8 +24,8 @@ TEST(ReferenceContact, AJTipPushesOnTheWallOfAStraightChannelAsTheElasticaDoes)
   }
 }
 
-// References 08 c, µ = 0.3, 90°, EI/(T1 R²) = 0.1; without stiffness it would be e^0.47 = 1.602.
-TEST(ReferenceContact, AStiffWireDrawnOverAPegHasTheTensionsOfTheCapstan)
+// µ = 0.3, 90°, EI/(T1 R²) = 0.1; the ratio without bending stiffness is e^0.47 = 1.602.
+TEST(ReferenceContact, TensionRatioOfAStiffWireOverAPegEqualsTheCapstan)
 {
   for (const char* scheme : {"kkt", "mixed"})
   {
@@ -35,8 +35,8 @@ TEST(ReferenceContact, AStiffWireDrawnOverAPegHasTheTensionsOfTheCapstan)
   }
 }
 
-// References 13: ½EIκ² while the bend fills, for a wire anywhere within the clearance: a hundredth of the radius.
-TEST(ReferenceContact, FillingABendTakesItsBendingEnergyAndGoingOnTakesNothing)
+// Exact: ½EIκ² while the tip is in the bend, within a clearance of a hundredth of the radius, and 0 beyond it.
+TEST(ReferenceContact, InsertionForceEqualsTheBendingEnergyPerLengthWithinABend)
 {
   for (const char* scheme : {"kkt", "mixed"})
   {

@@ -9,8 +9,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-// References 05, L/s* = 24.
-TEST(ReferenceShapes, ATwistedWireBucklesIntoTheLocalisedHelixOfTheory)
+// L/s* = 24.
+TEST(ReferenceShapes, LocalisedHelixConvergesWithSecondOrder)
 {
   const LocalisedHelix coarse = localisedHelix(601);
   const LocalisedHelix fine = localisedHelix(1201);
@@ -21,7 +21,7 @@ TEST(ReferenceShapes, ATwistedWireBucklesIntoTheLocalisedHelixOfTheory)
   EXPECT_NEAR(std::log2(coarse.envelope_error / fine.envelope_error), 2.0, 0.1);
 }
 
-TEST(ReferenceShapes, StepsComeToTheSameLocalisedHelixAsTheStaticSolver)
+TEST(ReferenceShapes, StepsAndStaticSolverGiveTheSameLocalisedHelix)
 {
   const LocalisedHelix rest = localisedHelix(301);
   const LocalisedHelix steps = localisedHelixInSteps(301);
@@ -30,7 +30,7 @@ TEST(ReferenceShapes, StepsComeToTheSameLocalisedHelixAsTheStaticSolver)
   EXPECT_NEAR(steps.torque_error, rest.torque_error, 1e-5);
 }
 
-TEST(ReferenceShapes, AShortenedClampedWireBucklesAsTheElasticaDoesWithSecondOrder)
+TEST(ReferenceShapes, PostBucklingOfAClampedWireConvergesToTheElasticaWithSecondOrder)
 {
   const Buckled coarse = buckle(27);
   const Buckled fine = buckle(51);

@@ -7,8 +7,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-// References 09: pinned, L = 10 (EI r/q)^¼; Paslay & Bogy 1964, Dawson & Paslay 1984.
-TEST(ReferenceTubeBuckling, AHeavyWireInAStraightTubeBucklesToItsSides)
+// Pinned ends, L = 10 (EI r/q)^¼; Paslay & Bogy 1964, Dawson & Paslay 1984.
+TEST(ReferenceTubeBuckling, ForceOfAHeavyWireInAStraightTubeEqualsTheTheory)
 {
   for (const char* scheme : {"kkt", "mixed", "paper"})
   {
@@ -18,8 +18,8 @@ TEST(ReferenceTubeBuckling, AHeavyWireInAStraightTubeBucklesToItsSides)
   }
 }
 
-// References 09: 4 EI/(r R), He & Kyllingstad 1995; clamps add 2.5 % at this length.
-TEST(ReferenceTubeBuckling, AWeightlessWireInABentTubeBucklesOffItsOuterSide)
+// 4 EI/(r R), He & Kyllingstad 1995; clamps add 2.5 % at this length.
+TEST(ReferenceTubeBuckling, ForceOfAWeightlessWireInABentTubeEqualsTheTheory)
 {
   const Measured force = buckleInABentTube("kkt", 62);
   EXPECT_EQ(force.note, "");

@@ -10,7 +10,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-contact::ContactSet meetAt(SmoothWall& wall, const Eigen::Vector3d& point)
+contact::ContactSet contactsAt(SmoothWall& wall, const Eigen::Vector3d& point)
 {
   contact::Query query;
   query.first_node = 5;
@@ -21,10 +21,10 @@ contact::ContactSet meetAt(SmoothWall& wall, const Eigen::Vector3d& point)
   return set;
 }
 
-/** The gap grows along the normal, by finite differences, and the closest point lies that far off. */
+/** Expects the normal to be the gradient of the gap, and the closest point at the distance of the gap. */
 void expectConsistent(SmoothWall& wall, const Eigen::Vector3d& point)
 {
-  const contact::Feature feature = meetAt(wall, point).features.front();
+  const contact::Feature feature = contactsAt(wall, point).features.front();
   EXPECT_EQ(feature.edge, 5);
   EXPECT_EQ(feature.parameter, 0.0);
   EXPECT_NEAR(feature.normal.norm(), 1.0, 1e-14);
@@ -34,7 +34,7 @@ void expectConsistent(SmoothWall& wall, const Eigen::Vector3d& point)
   {
     const Eigen::Vector3d shift = step * Eigen::Vector3d::Unit(axis);
     const double slope =
-        (meetAt(wall, point + shift).features.front().gap - meetAt(wall, point - shift).features.front().gap) /
+        (contactsAt(wall, point + shift).features.front().gap - contactsAt(wall, point - shift).features.front().gap) /
         (2.0 * step);
     EXPECT_NEAR(slope, feature.normal[axis], 1e-4) << axis;
   }
@@ -52,7 +52,7 @@ TEST(SmoothWalls, NormalsAreTheGradientsOfTheGaps)
   expectConsistent(tube, Eigen::Vector3d(0.01, -4e-4, 3e-4));
 }
 
-TEST(SmoothWalls, GapInABentTubeIsTheClearanceLessTheDistanceToItsAxis)
+TEST(SmoothWalls, GapInABentTubeIsTheClearanceMinusTheDistanceToItsAxis)
 {
   const double angle = 2.2;
   BentTube tube(1e-3, 0.02, 0.03, angle);
@@ -67,14 +67,14 @@ TEST(SmoothWalls, GapInABentTubeIsTheClearanceLessTheDistanceToItsAxis)
       axis = end + (s - 0.02 - 0.03 * angle) * beyond;
     const Eigen::Vector3d across(-std::sin(turn), std::cos(turn), 0.0);
     const Eigen::Vector3d offset = 3e-4 * across + 4e-4 * Eigen::Vector3d::UnitZ();
-    EXPECT_NEAR(meetAt(tube, axis + offset).features.front().gap, 5e-4, 1e-12) << s;
+    EXPECT_NEAR(contactsAt(tube, axis + offset).features.front().gap, 5e-4, 1e-12) << s;
   }
 }
 
 TEST(SmoothWalls, ListTheLastNodeAtTheEndOfItsEdge)
 {
   BentTube tube(1e-3, 0.0, std::numeric_limits<double>::infinity(), 0.0);
-  const contact::ContactSet set = meetAt(tube, Eigen::Vector3d(0.0, 5e-4, 0.0));
+  const contact::ContactSet set = contactsAt(tube, Eigen::Vector3d(0.0, 5e-4, 0.0));
   ASSERT_EQ(set.features.size(), 2U);
   EXPECT_EQ(set.features[1].edge, 5);
   EXPECT_EQ(set.features[1].parameter, 1.0);

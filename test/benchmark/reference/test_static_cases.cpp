@@ -9,7 +9,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kAtRest = 1e-12;  // m moved in a step
+constexpr double kAtRest = 1e-12;  // largest motion per step at rest [m]
 
 double errorOf(const StaticCase& problem, const std::string& scheme, int nodes)
 {
@@ -24,7 +24,7 @@ TEST(StaticCases, OfTheDiscreteRodConvergeWithSecondOrder)
   {
     const double coarse = errorOf(problem, "kkt", 26);
     const double fine = errorOf(problem, "kkt", 51);
-    // 24.5 and 49.5 edges beyond the clamp.
+    // The free length has 24.5 and 49.5 edges.
     EXPECT_NEAR(std::log(coarse / fine) / std::log(49.5 / 24.5), 2.0, 0.1) << problem.name;
   }
 }
@@ -42,7 +42,7 @@ TEST(StaticCases, OfTheMixedRodConvergeWithFourthOrder)
 TEST(StaticCases, OfBothDiscreteSchemesAgree)
 {
   const StaticCase problem = heavyCantilever();
-  // 1.15e-4 is what the discrete rod itself has with 100 edges; there are 98.5.
+  // The error of the discrete rod is 1.15e-4 with 100 edges; here it has 98.5.
   EXPECT_NEAR(errorOf(problem, "kkt", 100), 1.15e-4 * std::pow(100.0 / 98.5, 2), 0.02e-4);
   EXPECT_NEAR(errorOf(problem, "paper", 50), errorOf(problem, "kkt", 50), 1e-6);
 }

@@ -22,7 +22,7 @@ geometry::TriangleMesh channel()
   return vessel::tubeMesh(shape);
 }
 
-TEST(BoundingVolumes, AllKindsFindTheNearestTriangleAndLeaveOutNoneWithinReach)
+TEST(BoundingVolumes, AllKindsFindTheNearestTriangleAndAllTrianglesWithinTheRadius)
 {
   const geometry::TriangleMesh mesh = channel();
   const std::vector<Eigen::Vector3d> points =
@@ -52,7 +52,7 @@ TEST(BoundingVolumes, AllKindsFindTheNearestTriangleAndLeaveOutNoneWithinReach)
   }
 }
 
-TEST(CurveAlongWall, KeepsItsDistance)
+TEST(CurveAlongWall, HasAConstantDistance)
 {
   const geometry::TriangleMesh mesh = channel();
   const geometry::MeshDistance wall(mesh);

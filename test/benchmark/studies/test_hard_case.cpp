@@ -7,14 +7,14 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-TEST(HardCase, IsGoodWhereTheWireIsOrdinary)
+TEST(HardCase, BaselineIsGood)
 {
   const Verdict verdict = judge(HardCase(), 400);
   EXPECT_EQ(verdict.word, "good") << verdict.reason;
   EXPECT_EQ(verdict.steps, 400);
 }
 
-TEST(HardCase, IsBadWhereTheSchemeLetsTheWireThroughTheWall)
+TEST(HardCase, IsBadIfTheWireLeavesThroughTheWall)
 {
   HardCase hard;
   hard.scheme = "paper";
@@ -23,26 +23,26 @@ TEST(HardCase, IsBadWhereTheSchemeLetsTheWireThroughTheWall)
   EXPECT_NE(verdict.reason.find("outside"), std::string::npos) << verdict.reason;
 }
 
-TEST(HardCase, IsRefusedWithAReasonWhereTheSceneIs)
+TEST(HardCase, IsRejectedWithTheReasonOfTheScene)
 {
   HardCase hard;
   hard.nodes = 3;
   const Verdict verdict = judge(hard, 10);
-  EXPECT_EQ(verdict.word, "refused");
+  EXPECT_EQ(verdict.word, "rejected");
   EXPECT_NE(verdict.reason.find("introducer"), std::string::npos) << verdict.reason;
 }
 
-TEST(HardCase, RecoversFromADisturbedState)
+TEST(HardCase, RecoversFromAPerturbedState)
 {
   HardCase hard;
-  hard.disturbance = 0.3e-3;
+  hard.perturbation = 0.3e-3;
   EXPECT_EQ(judge(hard, 400).word, "good");
-  hard.disturbance = 0.0;
-  hard.nearly_folded = 0.2;
+  hard.perturbation = 0.0;
+  hard.fold_angle = 0.2;
   EXPECT_EQ(judge(hard, 400).word, "good");
 }
 
-TEST(HardCase, GivesTheSameVerdictTwice)
+TEST(HardCase, IsReproducible)
 {
   HardCase hard;
   hard.speed = 0.2;

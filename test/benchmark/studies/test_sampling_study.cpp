@@ -10,7 +10,7 @@ namespace
 TEST(SamplingStudy, ComparesEverySamplingWithTheReference)
 {
   SamplingCase tube = samplingCases("", true).front();
-  tube.duration = 2.0;  // the wire is half-way round the bend
+  tube.duration = 2.0;  // the tip is at the centre of the bend
   double done = 0.0;
   const std::vector<SamplingResult> results = studySampling(tube, 1,
                                                             [&done](double share, const std::string& what)
@@ -24,7 +24,7 @@ TEST(SamplingStudy, ComparesEverySamplingWithTheReference)
   EXPECT_EQ(results[0].max_tip_error, 0.0);
   EXPECT_EQ(results[0].energy_error, 0.0);
   EXPECT_EQ(results[0].force_error, 0.0);
-  // Coarser is worse.
+  // The error grows with the length of the edges.
   EXPECT_GT(results[1].rms_distance, 1e-7);
   EXPECT_GT(results[2].rms_distance, results[1].rms_distance);
   EXPECT_TRUE(results[3].isAdaptive());
@@ -40,7 +40,7 @@ TEST(SamplingStudy, ComparesEverySamplingWithTheReference)
   EXPECT_EQ(judgeSampling(results).size(), 8U);
 }
 
-TEST(SamplingStudy, JudgesByTheLimits)
+TEST(SamplingStudy, ComparesMeasuresWithTheirLimits)
 {
   std::vector<SamplingResult> results(5);
   results[1].rms_distance = 10e-6;
@@ -64,7 +64,7 @@ TEST(SamplingStudy, JudgesByTheLimits)
   EXPECT_TRUE(holds("RMS distance / uniform with as many nodes"));
 }
 
-TEST(SamplingStudy, HasACaseMoreWithAMesh)
+TEST(SamplingStudy, HasAFurtherCaseWithAMesh)
 {
   EXPECT_EQ(samplingCases("", false).size(), 2U);
   EXPECT_EQ(samplingCases("/data/aortic_arch_tree.obj", false).size(), 3U);

@@ -1,4 +1,4 @@
-#include "benchmark/reference/reference_rows.h"
+#include "benchmark/studies/reference_rows.h"
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ void addBuckling(Table& table, bool quick)
             const Buckled buckled = buckle(nodes);
             return Measured{buckled.force, buckled.step_us, ""};
           });
-  addRows(table, {"the same: deflection / L", "kkt", kBuckledDeflection}, counts, true,
+  addRows(table, {"post-buckling at 10 % end shortening: deflection / L", "kkt", kBuckledDeflection}, counts, true,
           [](int nodes)
           {
             const Buckled buckled = buckle(nodes);
@@ -29,7 +29,7 @@ void addBuckling(Table& table, bool quick)
           });
   for (const char* scheme : {"paper", "mixed"})
     addReason(table, {"post-buckling at 10 % end shortening: PL²/EI", scheme, kBuckledForce},
-              "does not move a far end");
+              "no displacement of a distal end");
 }
 
 void addTwistBuckling(Table& table, bool quick)
@@ -49,34 +49,34 @@ void addTwistBuckling(Table& table, bool quick)
   addRows(table, {quantity, "kkt", 0.0, 0.01}, counts, true,
           [&](int nodes) { return measured(localisedHelixInSteps(nodes)); });
   for (const char* scheme : {"paper", "mixed"})
-    addReason(table, {quantity, scheme, 0.0, 0.01}, "does not hold the twist of a far end");
+    addReason(table, {quantity, scheme, 0.0, 0.01}, "no prescribed twist of a distal end");
 }
 
 void addTorque(Table& table)
 {
   const std::vector<int> counts = {22, 42, 82};
   const double degree = 1.0;
-  addRows(
-      table,
-      {"hand angle for 60° at the tip, √(EIκκ0/GJ)L = 1 [°]", "twist", 85.69151950722886, degree / 85.69151950722886},
-      counts, true,
-      [](int nodes) {
-        return Measured{Transmission(1.0, nodes).handAngleFor(60.0 * kDegree) / kDegree, 0.0, ""};
-      });
-  addRows(
-      table,
-      {"hand angle for 90° at the tip, √(EIκκ0/GJ)L = 2 [°]", "twist", 191.78227469332728, degree / 191.78227469332728},
-      counts, true,
-      [](int nodes) {
-        return Measured{Transmission(2.0, nodes).handAngleFor(90.0 * kDegree) / kDegree, 0.0, ""};
-      });
-  addRows(
-      table,
-      {"hand angle of the snap, √(EIκκ0/GJ)L = 2 [°]", "twist", 197.7856142522825, 2.0 * degree / 197.7856142522825},
-      counts, true,
-      [](int nodes) {
-        return Measured{Transmission(2.0, nodes).snap() / kDegree, 0.0, ""};
-      });
+  addRows(table,
+          {"proximal angle for 60° at the tip, √(EIκκ0/GJ)L = 1 [°]", "twist", 85.69151950722886,
+           degree / 85.69151950722886},
+          counts, true,
+          [](int nodes) {
+            return Measured{Transmission(1.0, nodes).proximalAngleFor(60.0 * kDegree) / kDegree, 0.0, ""};
+          });
+  addRows(table,
+          {"proximal angle for 90° at the tip, √(EIκκ0/GJ)L = 2 [°]", "twist", 191.78227469332728,
+           degree / 191.78227469332728},
+          counts, true,
+          [](int nodes) {
+            return Measured{Transmission(2.0, nodes).proximalAngleFor(90.0 * kDegree) / kDegree, 0.0, ""};
+          });
+  addRows(table,
+          {"proximal angle of the snap-through, √(EIκκ0/GJ)L = 2 [°]", "twist", 197.7856142522825,
+           2.0 * degree / 197.7856142522825},
+          counts, true,
+          [](int nodes) {
+            return Measured{Transmission(2.0, nodes).snapThrough() / kDegree, 0.0, ""};
+          });
 }
 
 void addVibration(Table& table, bool quick)
@@ -105,23 +105,20 @@ void addVibration(Table& table, bool quick)
 
 }  // namespace
 
-Section referenceRows(const StudyOptions& options, const Progress& progress)
+void addReferenceRows(Section& section, const StudyOptions& options, const Progress& progress)
 {
-  Section section{"accuracy_references", "Buckling, torque, vibration", "", referenceTable(), ""};
   section.text =
-      "`statics` is the independent solver of the same discrete rod (Newton with the exact Hessian, KLU), `twist` the "
-      "quasi-static twist that `kkt` and `paper` share, on a prescribed planar centreline. Frequencies are taken from "
-      "the turn of a swinging wire's tip per step at ωΔt = 0.1; backward Euler's growth is that of the beam's "
-      "frequency, so the error of the frequency shows in it.";
+      "`statics` is an independent solver of the same discrete rod (Newton with the exact Hessian, KLU). `twist` is "
+      "the quasi-static twist of `kkt` and `paper` on a prescribed planar centreline. Frequencies are phases per step "
+      "of the vibrating tip at ωΔt = 0.1. The exact growth of backward Euler is that at the frequency of the beam.";
   progress(0.0, "post-buckling");
   addBuckling(section.table, options.quick);
-  progress(0.4, "buckling by twist");
+  progress(0.4, "torsional buckling");
   addTwistBuckling(section.table, options.quick);
   progress(0.7, "torque transmission");
   addTorque(section.table);
   progress(0.9, "vibration");
   addVibration(section.table, options.quick);
-  return section;
 }
 
 }  // namespace endovascular_sim::benchmark

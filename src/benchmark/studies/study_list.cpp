@@ -1,0 +1,29 @@
+#include "benchmark/studies/study_list.h"
+
+#include "benchmark/studies/accuracy.h"
+#include "benchmark/studies/contact_study.h"
+#include "benchmark/studies/hand_force_study.h"
+#include "benchmark/studies/sampling_sections.h"
+#include "benchmark/studies/speed.h"
+#include "benchmark/studies/stability.h"
+#include "benchmark/studies/work_precision.h"
+
+namespace endovascular_sim::benchmark
+{
+
+const std::vector<Study>& studies()
+{
+  static const std::vector<Study> list = {
+      {"accuracy", "Accuracy", "errors against reference values with the observed order", accuracyTables(),
+       accuracyStudy},
+      {"work-precision", "Work and precision", "error over run time", workPrecisionTables(), workPrecisionStudy},
+      {"speed", "Speed", "time per step by phase over the number of nodes", speedTables(), speedStudy},
+      {"contact", "Contact", "detection: bounding volumes, time per step, growth with the triangles", contactTables(),
+       contactStudy},
+      {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},
+      {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
+      {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
+  return list;
+}
+
+}  // namespace endovascular_sim::benchmark
