@@ -20,7 +20,7 @@ import test_results
 
 # Programs whose tests have deadlines of milliseconds: nothing runs beside them.
 ALONE = ("common", "haptics", "nodes")
-SECONDS_PER_GTEST = 300  # ceiling of one test case
+SECONDS_PER_GTEST = 300  # default ceiling of one test case
 SECONDS_PER_ROSTEST = 300
 SECONDS_PER_SCRIPT = 900
 SECONDS_PER_LONG_SCRIPT = 4 * 3600  # scripts of test/scripts/all
@@ -197,7 +197,7 @@ class Runner:
             selector.register(process.stdout, selectors.EVENT_READ)
             pending = b""
             while True:
-                if not selector.select(timeout=max(0.0, begin + SECONDS_PER_GTEST - time.monotonic())):
+                if not selector.select(timeout=max(0.0, begin + self.arguments.ceiling - time.monotonic())):
                     end_group(process)
                     hung = True
                     break
@@ -228,7 +228,7 @@ class Runner:
             case = test_results.Case(*(current or run.name + ".end").rsplit(".", 1))
             case.seconds = time.monotonic() - begin
             case.failed = True
-            reason = "not finished within %d s" % SECONDS_PER_GTEST if hung else "the program ended with code %d" % status
+            reason = "not finished within %d s" % self.arguments.ceiling if hung else "the program ended with code %d" % status
             case.message, case.text = reason + "; the tests after it did not run", "\n".join(text)[-4000:]
             cases.append(case)
         return cases
@@ -286,6 +286,7 @@ def main():
     parser.add_argument("--filter", default="")
     parser.add_argument("--no-rostest", action="store_true")
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--ceiling", type=int, default=SECONDS_PER_GTEST, help="seconds of one gtest case at most")
     return Runner(parser.parse_args()).run_all()
 
 

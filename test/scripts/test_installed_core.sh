@@ -1,9 +1,10 @@
 #!/bin/bash
-# The installation is complete and can be moved: a plain CMake program and a catkin program outside of the repository are
-# built against it, the first links no ROS library, and both compute the trajectory of `simulate`.
+# An installation is complete and can be moved. The projects of test/install are built against it: both compute the
+# trajectory of `simulate`, and the plain CMake program links no ROS library. The catkin project also builds in the devel space.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 build=${ENDOVASCULAR_BUILD_DIR:-$repository/catkin_ws/build}
+devel=${ENDOVASCULAR_DEVEL_DIR:-$repository/catkin_ws/devel}
 unset ENDOVASCULAR_CONFIG_DIR LD_LIBRARY_PATH
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -25,17 +26,21 @@ cd "$folder"
 wanted=$(hash_of "$folder/run/result.json")
 [ -n "$wanted" ]
 
-for project in plain_cmake catkin; do
-  cp -r "$repository/test/install/$project" "$folder/$project"
-  cmake -S "$folder/$project" -B "$folder/$project/build" -DCMAKE_PREFIX_PATH="$installed" -DCMAKE_BUILD_TYPE=Release \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 > "$folder/$project.log"
-  cmake --build "$folder/$project/build" >> "$folder/$project.log"
-  program=$(find "$folder/$project/build" -name 'step_a_scene*' -type f -perm -100 | head -n 1)
-  "$program" | tee "$folder/$project.out"
-  [ "$(hash_of "$folder/$project.out")" = "$wanted" ] || { echo "$project: the trajectory is not that of simulate, $wanted"; exit 1; }
-  ldd "$program" > "$folder/$project.ldd"
-  grep -q "$installed/lib/libendovascular_sim_core.so" "$folder/$project.ldd"
-done
+# build_and_run PROJECT PREFIX NAME: builds a project against the package in a prefix, runs it and compares its hash.
+build_and_run() {
+  local project=$1 prefix=$2 name=$3 program
+  cmake -S "$repository/test/install/$project" -B "$folder/$name" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 > "$folder/$name.log"
+  cmake --build "$folder/$name" >> "$folder/$name.log"
+  program=$(find "$folder/$name" -name 'step_a_scene*' -type f -perm -100 | head -n 1)
+  "$program" | tee "$folder/$name.out"
+  [ "$(hash_of "$folder/$name.out")" = "$wanted" ] || { echo "$name: the trajectory is not that of simulate, $wanted"; exit 1; }
+  ldd "$program" > "$folder/$name.ldd"
+  grep -q "$prefix/lib/libendovascular_sim_core.so" "$folder/$name.ldd"
+}
+build_and_run plain_cmake "$installed" plain_cmake
+build_and_run catkin "$installed" catkin
+build_and_run catkin "$devel" catkin_devel
 if grep -E 'libros|libxmlrpcpp|libcpp_common|libendovascular_sim_nodes' "$folder/plain_cmake.ldd"; then
   echo "plain_cmake links ROS"
   exit 1
