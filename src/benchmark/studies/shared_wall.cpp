@@ -8,6 +8,7 @@
 
 #include "benchmark/harness/processor_time.h"
 #include "contact/detector.h"
+#include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "scene/yaml/file_search.h"
 #include "simulation/simulation.h"
