@@ -91,7 +91,9 @@ TEST(WallModel, GivesDetectorsThatShareItTheBitsOfDetectorsWithTheirOwn)
   Detector own_second(mesh, WallLaw{1e6, 0.2, {}});
   ContactSet shared, own;
   std::size_t features = 0;
-  for (const Query& wire : randomWires(15))
+  std::vector<Query> wires = randomWires(15);
+  wires.push_back(longWire());
+  for (const Query& wire : wires)
   {
     first.detect(wire, shared);
     own_first.detect(wire, own);

@@ -134,7 +134,11 @@ TEST_F(NarrowPhaseInATube, GivesAClearanceRadiusToFacesOnly)
   narrow_phase_.edgeEdgeFeature(across(0.5e-3), reflex_edge_, kCutoff, minimum_);
   EXPECT_TRUE(std::isinf(narrow_phase_.clearanceRadius(minimum_.feature, Eigen::Vector3d::UnitZ(), 0.4e-3)));
   narrow_phase_.faceFeature(centroid(0) + 0.5e-3 * wall_.normals[0], 0, kCutoff, minimum_);
-  EXPECT_NEAR(narrow_phase_.clearanceRadius(minimum_.feature, Eigen::Vector3d::UnitZ(), 0.4e-3), 3.6e-3, 1e-3);
+  const auto clearance = [&](double radius)
+  { return narrow_phase_.clearanceRadius(minimum_.feature, Eigen::Vector3d::UnitZ(), radius); };
+  ASSERT_TRUE(std::isfinite(clearance(0.4e-3)));
+  EXPECT_NEAR(clearance(0.4e-3) - clearance(0.9e-3), 0.5e-3, 1e-12);
+  EXPECT_EQ(clearance(1.0), 0.05e-3) << "the least clearance, for a wire as wide as the lumen";
 }
 
 }  // namespace
