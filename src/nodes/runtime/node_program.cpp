@@ -1,4 +1,4 @@
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 
 #include <cstdlib>
 #include <exception>
