@@ -1,5 +1,5 @@
 #include "nodes/contact/contact_node.h"
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/scene_parameters.h"
 
 int main(int argc, char** argv)

@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
 #include "nodes/fluoroscopy/fluoroscopy_node.h"
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/scene_parameters.h"
 
 int main(int argc, char** argv)

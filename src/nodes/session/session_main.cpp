@@ -1,4 +1,4 @@
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/scene_parameters.h"
 #include "nodes/session/session_node.h"
 

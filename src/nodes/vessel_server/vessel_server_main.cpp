@@ -1,6 +1,6 @@
 #include <ros/ros.h>
 
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/scene_parameters.h"
 #include "nodes/vessel_server/vessel_server_node.h"
 

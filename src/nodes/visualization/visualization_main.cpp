@@ -1,6 +1,6 @@
 #include <ros/ros.h>
 
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/visualization/visualization_node.h"
 
 int main(int argc, char** argv)

@@ -1,6 +1,5 @@
-#include "nodes/runtime/node_main.h"
+#include "nodes/runtime/node_program.h"
 
-#include <cstdlib>
 #include <exception>
 
 #include <ros/ros.h>
@@ -27,7 +26,6 @@ SchedulingGrant requestScheduling(const NodeProgram& program)
 int runNode(int argc, char** argv, const NodeProgram& program,
             const std::function<bool(ros::NodeHandle& node, const SchedulingGrant& grant)>& run)
 {
-  setenv("ROSCONSOLE_FORMAT", "[${severity}] [${time}] ${node}: ${message}", 0);
   // Before ROS starts its threads: they inherit the scheduling.
   const SchedulingGrant grant = requestScheduling(program);
   ros::init(argc, argv, program.name);

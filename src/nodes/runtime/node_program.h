@@ -28,8 +28,8 @@ struct NodeProgram
 
 /** Main function of a node: requests scheduling, initialises ROS and runs the node.
  *
- *  Log lines on the console begin with the node's name, unless ROSCONSOLE_FORMAT is set. An exception ends the process
- *  with a log line and exit code 1.
+ *  An exception ends the process with a log line and exit code 1. Log lines of nodes contain no name of their node: the
+ *  launch files set ROSCONSOLE_FORMAT, which prints it.
  *  @param run constructs the node and returns when it has ended; false: it failed
  *  @return exit code */
 int runNode(int argc, char** argv, const NodeProgram& program,
