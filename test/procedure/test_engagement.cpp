@@ -40,7 +40,7 @@ TEST(Engagement, SucceedsFromAPerturbedStart)
     simulation::wallContacts(simulation, contacts);
     run.addStep(simulation, contacts);
   }
-  EXPECT_EQ(run.scripted_operator()->progress(), Progress::kDone) << run.scripted_operator()->failure();
+  EXPECT_EQ(run.scriptedOperator()->progress(), Progress::kDone) << run.scriptedOperator()->failure();
   const InstrumentView& catheter = run.metrics().samples().back().observation.instruments[1];
   EXPECT_EQ(run.metrics().locator().name(catheter.branch_position.branch), "left_main");
   EXPECT_TRUE(run.metrics().wrongBranches().empty());

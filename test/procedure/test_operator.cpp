@@ -22,9 +22,9 @@ TEST(Operator, ExecutesTheStepsInOrder)
                 "    - {withdraw: wire, until: {insertion: 0.02}, speed: 0.05}\n"));
   world.run(10.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
-  ASSERT_EQ(world.scripted.records().size(), 4U);
-  EXPECT_EQ(world.scripted.records()[0].name, "advance wire until its tip is in trunk by 80.0 mm");
-  for (const StepRecord& record : world.scripted.records())
+  ASSERT_EQ(world.scripted_operator.records().size(), 4U);
+  EXPECT_EQ(world.scripted_operator.records()[0].name, "advance wire until its tip is in trunk by 80.0 mm");
+  for (const StepRecord& record : world.scripted_operator.records())
     EXPECT_EQ(record.outcome, Progress::kDone);
   EXPECT_NEAR(world.hand(0).insertion, 0.02, 0.01);
   EXPECT_NEAR(world.hand(0).rotation, 1.5, 0.3);
@@ -43,7 +43,7 @@ TEST(Operator, WithdrawsIntoABranchAndToADepth)
   world.run(6.0);
   EXPECT_NEAR(world.hand(0).insertion, 0.1 + 0.007 + 0.02, 0.003);
   world.run(5.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
   EXPECT_NEAR(world.hand(0).insertion, 0.107, 0.003);
 }
 
@@ -119,7 +119,7 @@ TEST(Operator, PullsBackRotatesAndRetriesWithoutProgress)
                    { return Eigen::Vector3d(0.0, 0.0, rotation < 1.2 ? std::min(insertion, 0.06) : insertion); });
   world.run(25.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
-  EXPECT_EQ(world.scripted.records().front().retries, 2);
+  EXPECT_EQ(world.scripted_operator.records().front().retries, 2);
   EXPECT_GE(world.hand(0).rotation, 1.2);
 }
 
@@ -134,8 +134,8 @@ TEST(Operator, RetriesAfterPassingTheGoal)
                      return {-beyond, 0.0, insertion - beyond};
                    });
   world.run(30.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
-  EXPECT_EQ(world.scripted.records().front().retries, 2);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
+  EXPECT_EQ(world.scripted_operator.records().front().retries, 2);
 }
 
 TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
@@ -152,8 +152,8 @@ TEST(Operator, LeavesABranchThatDoesNotLeadToItsGoal)
                              "       retry: {back: 0.005, turn: 0.8, times: 3}}\n"),
                    tip);
   world.run(30.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
-  EXPECT_EQ(world.scripted.records().front().wrong_branches, 1);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
+  EXPECT_EQ(world.scripted_operator.records().front().wrong_branches, 1);
 }
 
 /** Disturbance that displaces the support: a wire that leaves the catheter by 20 mm lifts it from the goal branch into
@@ -205,14 +205,14 @@ TEST(Operator, WithdrawsAndResumesFromAnEarlierPhaseAfterALossOfSupport)
 {
   SupportedWorld world(1);
   world.run(80.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
   std::vector<std::size_t> steps;
-  for (const StepRecord& record : world.scripted.records())
+  for (const StepRecord& record : world.scripted_operator.records())
     steps.push_back(record.step);
   ASSERT_EQ(steps, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(world.scripted.records()[2].outcome, Progress::kLost);
-  EXPECT_EQ(world.scripted.records()[5].outcome, Progress::kDone);
-  EXPECT_EQ(world.scripted.records()[4].phase, "Engagement");
+  EXPECT_EQ(world.scripted_operator.records()[2].outcome, Progress::kLost);
+  EXPECT_EQ(world.scripted_operator.records()[5].outcome, Progress::kDone);
+  EXPECT_EQ(world.scripted_operator.records()[4].phase, "Engagement");
   for (std::size_t k = 1; k < world.history.size(); ++k)
   {
     const double wire = world.history[k][0].insertion;
@@ -229,9 +229,9 @@ TEST(Operator, FailsAfterRepeatedLossesOfSupport)
   SupportedWorld world(100);
   world.run(200.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
-  EXPECT_NE(world.scripted.failure().find("catheter has left goal repeatedly"), std::string::npos)
-      << world.scripted.failure();
-  EXPECT_EQ(world.scripted.records().size(), 9U) << "the phase was repeated twice";
+  EXPECT_NE(world.scripted_operator.failure().find("catheter has left goal repeatedly"), std::string::npos)
+      << world.scripted_operator.failure();
+  EXPECT_EQ(world.scripted_operator.records().size(), 9U) << "the phase was repeated twice";
 }
 
 TEST(Operator, ToleratesAShortLossOfSupport)
@@ -243,8 +243,8 @@ TEST(Operator, ToleratesAShortLossOfSupport)
       observation.instruments[0].branch_position = observation.instruments[1].branch_position = {0, 0.14};
   };
   world.run(40.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
-  for (const StepRecord& record : world.scripted.records())
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
+  for (const StepRecord& record : world.scripted_operator.records())
     EXPECT_EQ(record.outcome, Progress::kDone);
 }
 
@@ -257,8 +257,8 @@ TEST(Operator, NeedsNoSupportOnceTheTipIsInTheBranch)
       observation.instruments[1].branch_position = {0, 0.14};
   };
   world.run(80.0);
-  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted.failure();
-  EXPECT_EQ(world.scripted.records().size(), 3U);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone) << world.scripted_operator.failure();
+  EXPECT_EQ(world.scripted_operator.records().size(), 3U);
 }
 
 TEST(Operator, RejectsAnInvalidSupport)
@@ -292,7 +292,7 @@ TEST(Operator, FailureReportsStepReasonAndPositionOfTheTip)
                    { return Eigen::Vector3d(0.0, 0.0, std::min(insertion, 0.06)); });
   world.run(30.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
-  EXPECT_EQ(world.scripted.failure(),
+  EXPECT_EQ(world.scripted_operator.failure(),
             "step 2 (advance wire until its tip is in goal): makes no progress, after 1 retries; the tip of wire is "
             "in trunk, 60.0 mm beyond its ostium, at (0.0, 0.0, 60.0) mm");
   const double rest = world.hand(0).insertion;
@@ -305,7 +305,8 @@ TEST(Operator, FailsAfterItsTimeLimit)
   PlainWorld world(sceneWith("    - {advance: wire, until: {by: 0.4}, speed: 0.01, time_limit: 3}\n"));
   world.run(5.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
-  EXPECT_NE(world.scripted.failure().find("not done within 3 s"), std::string::npos) << world.scripted.failure();
+  EXPECT_NE(world.scripted_operator.failure().find("not done within 3 s"), std::string::npos)
+      << world.scripted_operator.failure();
 }
 
 TEST(Operator, ExchangeWithdrawsOneInstrumentBeforeAdvancingTheOther)
@@ -383,9 +384,9 @@ TEST(Operator, ContinuesFromASavedStateBitForBit)
       ASSERT_EQ(world.history[k][0].insertion, other.history[k][0].insertion) << at << " " << k;
       ASSERT_EQ(world.history[k][0].rotation, other.history[k][0].rotation) << at << " " << k;
     }
-    EXPECT_EQ(world.scripted.records().size(), other.scripted.records().size());
-    EXPECT_EQ(world.scripted.records().back().name, other.scripted.records().back().name);
-    EXPECT_EQ(world.scripted.records().back().retries, other.scripted.records().back().retries);
+    EXPECT_EQ(world.scripted_operator.records().size(), other.scripted_operator.records().size());
+    EXPECT_EQ(world.scripted_operator.records().back().name, other.scripted_operator.records().back().name);
+    EXPECT_EQ(world.scripted_operator.records().back().retries, other.scripted_operator.records().back().retries);
   }
 }
 
@@ -403,7 +404,7 @@ TEST(Operator, ContinuesFromAStateSavedAfterALossOfSupport)
     other.scripted_operator.archive(loaded);
     world.run(50.0);
     other.run(50.0);
-    EXPECT_EQ(world.scripted.records().size(), 6U);
+    EXPECT_EQ(world.scripted_operator.records().size(), 6U);
     ASSERT_EQ(world.history.size(), other.history.size());
     for (std::size_t k = 0; k < world.history.size(); ++k)
       for (int hand : {0, 1})

@@ -16,8 +16,9 @@ class Session
 {
 public:
   Session()
-    : metrics(sceneWith("    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, until: {by: 0.1}}\n"),
-              forkedTree(), {0, 0, 0.001})
+    : metrics(procedure::sceneWith(
+                  "    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, until: {by: 0.1}}\n"),
+              procedure::forkedTree(), {0, 0, 0.001})
   {
   }
 
