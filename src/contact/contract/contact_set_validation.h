@@ -5,9 +5,9 @@
 namespace endovascular_sim::contact
 {
 
-/** Whether a set answers a query and makes sense: the same step, sub-step, pass and edges, every number what it may be,
- *  and every gap the distance between the wire's surface and the plane of its point and normal. A set that came over a
- *  wire counts only then. */
+/** True if a set answers a query and is consistent: same step, sub-step, pass, vessel version and edges, every number
+ *  in its range, and every gap equal to the distance between the wire's surface and the plane of its feature. A set
+ *  received from another process is used only then. */
 bool isValidAnswer(const Query& query, const ContactSet& set);
 
 }  // namespace endovascular_sim::contact
