@@ -5,9 +5,9 @@
 namespace endovascular_sim::contact
 {
 
-/** Validation of a contact set received from another process. @return whether the set belongs to the query (step,
- *  sub-step, pass, edges), all numbers are in range, and each gap is the distance between the wire's surface and the
- *  plane through its point. */
+/** True if a set answers a query and is consistent: same step, sub-step, pass, vessel version and edges, every number
+ *  in its range, and every gap equal to the distance between the wire's surface and the plane of its feature. A set
+ *  received from another process is used only then. */
 bool isValidAnswer(const Query& query, const ContactSet& set);
 
 }  // namespace endovascular_sim::contact

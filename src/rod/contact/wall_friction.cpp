@@ -13,13 +13,13 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastForce = 1e-9;     // N: a wall force below it has no friction
-constexpr double kLeastArm = 1e-9;       // m/rad: below it, where a wire stands on the wall, nothing holds the twist
-constexpr double kTolerance = 0.1;       // of the sum of all limits, by which friction may be wrong
-constexpr double kNodeTolerance = 0.01;  // of a node's limit: the node is left as it is
-// Inertia so many times over may outweigh a node's friction and is still enough to keep the first pass near the mark.
+constexpr double kLeastForce = 1e-9;     // N: smaller wall forces have no friction
+constexpr double kLeastArm = 1e-9;       // m/rad: where a wire stands on the wall, friction does not act on its twist
+constexpr double kTolerance = 0.1;       // deviation from Coulomb's law, share of the sum of all limits
+constexpr double kNodeTolerance = 0.01;  // deviation of a node, share of its limit
+// Weight of the inertia: large enough for inertia to outweigh friction, small enough for an accurate first pass.
 constexpr double kInertiaWeight = 16.0;
-constexpr int kSecantFromPass = 1;  // secants only take energy
+constexpr int kSecantFromPass = 1;  // from this pass on, secants only: they dissipate energy
 constexpr int kLastPass = 3;
 
 Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
@@ -90,8 +90,9 @@ const std::vector<TwistFriction>& WallFriction::aboutAxis()
     friction.node = contact.node;
     friction.limit = contact.limit;
     friction.slip = slip_;
-    // Sideways the motion follows the turn (rolling): if the twist relied on what is expected of it, neither would meet
-    // the other's force. At the first solve that is no motion yet.
+    // In a rolling wire, the lateral motion follows the turn. With an expected lateral motion, neither the positions
+    // nor the twist would feel the friction. Therefore the present stretch counts here, without motion at the first
+    // solve.
     friction.along = contact.stretch.dot(contact.around) / friction.arm;
     const double guessed = contact.guess.dot(contact.around) / friction.arm;
     friction.across_squared = std::max(0.0, contact.guess.squaredNorm() - guessed * guessed);
@@ -132,7 +133,7 @@ void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double 
   term.pull += (lowered * direction.dot(stretch - contact.stretch)) * direction;
 }
 
-/** Coulomb's law at a stretch. */
+/** Friction by Coulomb's law at a stretch [N]. */
 Vector3d WallFriction::force(std::size_t index, const Vector3d& stretch) const
 {
   return (contacts_[index].limit / std::max(stretch.norm(), slip_)) * stretch;

@@ -10,93 +10,93 @@
 namespace endovascular_sim::rod
 {
 
-/** What drags the wire's surface over the wall beside the nodes' motion: it turns about the wire's axis, and that of a
- *  layer slides over the nodes (concentric_stack.h). */
+/** Motion of the wire's surface over the wall besides the motion of the nodes. The surface turns about the wire's axis,
+ *  and that of a layer slides over the nodes (concentric_stack.h). */
 struct SurfaceMotion
 {
-  const std::vector<double>& radius;                    ///< of every node [m], n
-  const std::vector<double>& begin_angle;               ///< of every node at the beginning of the step [rad], n
-  const std::vector<double>& angle;                     ///< at the present iterate [rad], n
-  const std::vector<Eigen::Vector3d>* slide = nullptr;  ///< over every node in the step [m], n; null: none
+  const std::vector<double>& radius;                    ///< radius at every node [m], n
+  const std::vector<double>& begin_angle;               ///< angle of every node at the beginning of the step [rad], n
+  const std::vector<double>& angle;                     ///< angle of every node at the present iterate [rad], n
+  const std::vector<Eigen::Vector3d>* slide = nullptr;  ///< slide over every node in the step [m], n; null: none
 };
 
-/** Twist angle of a node, the mean of its edges' [rad]. */
+/** Twist angle of a node: the mean over its edges [rad]. */
 double nodeAngle(const std::vector<double>& twist_angle, int node, int first_node);
 
-/** Coulomb friction of the wall on the nodes, which sticks (docs/CONTACT.md).
+/** Coulomb friction of the wall on the nodes, with sticking (docs/CONTACT.md).
  *
- *  Every node that touches keeps how far its surface has been dragged over the wall without sliding: its stretch u,
- *  tangential and at most δ long, in State::friction_stretch. The wall pulls with μ f_n u/δ; what is dragged further
- *  slides, pulled with μ f_n u/|u|, and its stretch is cut to δ at the end of the step (return mapping). Over a step
- *  the stretch is u + the tangential motion since the step began, and the normal force that of the last solve.
+ *  Every node in contact stores its stretch u (State::friction_stretch): the tangential distance that its surface was
+ *  dragged over the wall without sliding, |u| ≤ δ. The wall pulls with μ f_n u/δ while |u| ≤ δ, and with μ f_n u/|u|
+ *  beyond: the node slides, and its stretch is cut to δ at the end of the step (return mapping). During a step, the
+ *  stretch is u plus the tangential motion since the step began. The normal force f_n is that of the last solve.
  *
- *  Where a scheme tells the wire's SurfaceMotion, that motion is the surface's: a turn Δθ about the tangent t adds
- *  r Δθ n × t, n the wall's normal. What the Bishop frame itself turns in space is left out. Positions are solved for
- *  at a known turn, the twist at a known motion (aboutAxis), both against the same potential.
+ *  With a SurfaceMotion, the motion is that of the surface: a turn Δθ about the tangent t adds r Δθ n × t, n the wall's
+ *  normal. The turn of the Bishop frame in space is neglected. Positions are solved for at a fixed turn, and the twist
+ *  at a fixed motion (aboutAxis), both with the same potential.
  *
- *  A solve gets the secant μ f_n/max(|u|, δ) of the stretch to be expected. Along the direction of sliding it is
- * lowered by the node's inertia m/Δt² about that stretch: Newton's tangent there is zero, and where inertia outweighs
- * friction a secant would brake whatever gets faster. Where a pass shows friction to be far from Coulomb's law, the
- * nodes concerned are linearised again at its motion and the system is solved once more. */
+ *  A solve uses the secant stiffness μ f_n/max(|u|, δ) of the expected stretch. Along the direction of sliding, the
+ *  node's inertia m/Δt² about that stretch is subtracted. Newton's tangent is zero there, and where inertia outweighs
+ *  friction, a secant would brake an accelerating node. If a pass shows that friction deviates from Coulomb's law, the
+ *  nodes concerned are linearised at its motion and the system is solved again. */
 class WallFriction
 {
 public:
   using Motion = std::vector<Eigen::Vector3d>;  ///< a solve's increment of every node [m]
 
-  /** Friction on a node for one solve: gradient and second derivative of its potential by the node's position. */
+  /** Friction on a node in one solve: gradient and Hessian of its potential with respect to the node's position. */
   struct Term
   {
     int node = 0;
-    Eigen::Vector3d pull = Eigen::Vector3d::Zero();       ///< minus the force on the node where it is now [N]
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero();       ///< minus the force at the present position [N]
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< [N/m], positive semidefinite
   };
 
   /** @param slip δ, the stretch at which a node begins to slide [m] */
   explicit WallFriction(double slip) : slip_(slip) {}
 
-  /** Takes up what touches at the beginning of a solve.
+  /** Collects the nodes in contact at the beginning of a solve.
    *  @param begin positions at the beginning of the step [m]
-   *  @param mass of every node [kg]; null: secants only
-   *  @param first_solve the velocities tell how far the nodes will go; else the motion so far does
-   *  @param surface null: it follows the nodes. Its present angles need not be known yet */
+   *  @param mass mass of every node [kg]; null: secants only
+   *  @param first_solve the expected stretch follows from the velocities; otherwise from the motion so far
+   *  @param surface null: the surface follows the nodes. Its present angles need not be known yet */
   void collect(const State& state, const Motion& begin, const std::vector<double>* mass, double dt, bool first_solve,
                const SurfaceMotion* surface = nullptr);
 
-  /** Friction about the axis, by ascending nodes, at the motion to be expected; after collect() with a surface's
-   *  motion. */
+  /** Friction about the axis at the expected motion, by ascending nodes; after collect() with a surface motion. */
   const std::vector<TwistFriction>& aboutAxis();
-  /** What that gave last. */
+  /** Result of the last aboutAxis(). */
   const std::vector<TwistFriction>& lastAboutAxis() const { return about_axis_; }
 
-  /** Linearises what was collected for the first pass of a solve.
-   *  @param surface as it was collected, with its present angles */
+  /** Linearises the collected nodes for the first pass of a solve.
+   *  @param surface that of collect(), with its present angles */
   void linearise(const SurfaceMotion* surface = nullptr);
 
   std::size_t count() const { return terms_.size(); }
   const Term& term(std::size_t index) const { return terms_[index]; }
 
-  /** After a pass: takes nodes anew whose friction was not Coulomb's, when it matters.
-   *  @return true when something changed */
+  /** Linearises again, after a pass, the nodes whose friction deviates from Coulomb's law by more than 1 % of their
+   *  limit. It does nothing while all deviations together are below 10 % of all limits.
+   *  @return true if a node was linearised again */
   bool update(const Motion& motion, int pass);
-  /** Lowest node of those that the last such update took anew; beyond all nodes where it took none. */
+  /** Lowest node linearised by the last update that returned true; INT_MAX if none. */
   int firstChanged() const { return first_changed_; }
 
-  /** Return mapping at the end of a step. A node that nothing pushes on forgets its stretch.
+  /** Return mapping at the end of a step. The stretch of a node without wall force becomes zero.
    *  @param begin positions at the beginning of the step [m]
-   *  @param surface as it was collected, with its present angles */
+   *  @param surface that of collect(), with its present angles */
   void finish(State& state, const Motion& begin, const SurfaceMotion* surface = nullptr) const;
 
 private:
-  /** What a node's friction depends on during a solve. */
+  /** Friction data of a node in a solve. */
   struct Contact
   {
     int node = 0;
     double inertia = 0.0;                               ///< m/Δt² [N/m]
     double limit = 0.0;                                 ///< μ f_n [N]
-    double begin_angle = 0.0;                           ///< of the node [rad]
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< of the wall, unit
-    Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< at the present iterate [m]
-    Eigen::Vector3d guess = Eigen::Vector3d::Zero();    ///< stretch to be expected [m]
+    double begin_angle = 0.0;                           ///< angle at the beginning of the step [rad]
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit normal of the wall
+    Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< stretch at the present iterate [m]
+    Eigen::Vector3d guess = Eigen::Vector3d::Zero();    ///< expected stretch [m]
     Eigen::Vector3d around = Eigen::Vector3d::Zero();   ///< motion of the surface per turn [m/rad]
   };
 
@@ -110,8 +110,8 @@ private:
   std::vector<TwistFriction> about_axis_;
 };
 
-/** Friction force of the wall on a node after a step [N]; zero where nothing pushes on it.
- *  @param slip as in WallFriction */
+/** Friction force of the wall on a node after a step [N]; zero without a wall force.
+ *  @param slip stretch at which a node begins to slide [m] */
 Eigen::Vector3d frictionForce(const State& state, int node, double slip);
 
 }  // namespace endovascular_sim::rod

@@ -11,7 +11,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-/** Three nodes along x, 1 mm apart, starting at node 5; the wall is the plane z = −0.5 mm. */
+/** Three nodes along x, 1 mm apart, beginning at node 5; the wall is the plane z = −0.5 mm. */
 Query query()
 {
   Query query;
@@ -24,7 +24,7 @@ Query query()
   return query;
 }
 
-ContactSet validSet()
+ContactSet answer()
 {
   ContactSet set;
   set.step = 7;
@@ -43,12 +43,12 @@ ContactSet validSet()
   return set;
 }
 
-TEST(ContactSetValidation, AcceptsASetOfTheQuery)
+TEST(ContactSetValidation, AcceptsAnAnswerToTheQuery)
 {
-  EXPECT_TRUE(isValidAnswer(query(), validSet()));
+  EXPECT_TRUE(isValidAnswer(query(), answer()));
 }
 
-TEST(ContactSetValidation, RejectsEveryKindOfCorruption)
+TEST(ContactSetValidation, RejectsEveryCorruptedField)
 {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
@@ -58,33 +58,33 @@ TEST(ContactSetValidation, RejectsEveryKindOfCorruption)
       {"another sub-step", [](ContactSet& set) { set.substep = 0; }},
       {"another pass", [](ContactSet& set) { set.pass = 2; }},
       {"other edges", [](ContactSet& set) { set.first_edge = 4; }},
-      {"an edge too few", [](ContactSet& set) { set.free_distance.pop_back(); }},
-      {"an edge too many", [](ContactSet& set) { set.free_distance.push_back(0.0); }},
+      {"one edge too few", [](ContactSet& set) { set.free_distance.pop_back(); }},
+      {"one edge too many", [](ContactSet& set) { set.free_distance.push_back(0.0); }},
       {"no edges", [](ContactSet& set) { set.free_distance.clear(); }},
-      {"a free distance that is not a number", [=](ContactSet& set) { set.free_distance[0] = nan; }},
+      {"a free distance that is NaN", [=](ContactSet& set) { set.free_distance[0] = nan; }},
       {"a negative free distance", [](ContactSet& set) { set.free_distance[0] = -1e-3; }},
       {"a negative edge", [](ContactSet& set) { set.features[0].edge = -1; }},
       {"the most negative edge", [](ContactSet& set) { set.features[0].edge = std::numeric_limits<int>::min(); }},
       {"an edge before the first", [](ContactSet& set) { set.features[0].edge = 4; }},
-      {"an edge behind the last", [](ContactSet& set) { set.features[0].edge = 7; }},
+      {"an edge after the last", [](ContactSet& set) { set.features[0].edge = 7; }},
       {"a parameter beyond the edge", [](ContactSet& set) { set.features[0].parameter = 1.5; }},
-      {"a parameter that is not a number", [=](ContactSet& set) { set.features[0].parameter = nan; }},
-      {"a point that is not a number", [=](ContactSet& set) { set.features[0].point.y() = nan; }},
-      {"a normal that is not a number", [=](ContactSet& set) { set.features[0].normal.y() = nan; }},
+      {"a parameter that is NaN", [=](ContactSet& set) { set.features[0].parameter = nan; }},
+      {"a point that is NaN", [=](ContactSet& set) { set.features[0].point.y() = nan; }},
+      {"a normal that is NaN", [=](ContactSet& set) { set.features[0].normal.y() = nan; }},
       {"a normal of another length", [](ContactSet& set) { set.features[0].normal *= 1.01; }},
-      {"a gap that is not a number", [=](ContactSet& set) { set.features[0].gap = nan; }},
+      {"a gap that is NaN", [=](ContactSet& set) { set.features[0].gap = nan; }},
       {"an infinite gap", [=](ContactSet& set) { set.features[0].gap = -infinity; }},
-      {"a gap that contradicts the point", [](ContactSet& set) { set.features[0].gap = -0.3e-3; }},
+      {"a gap that is not the plane's", [](ContactSet& set) { set.features[0].gap = -0.3e-3; }},
       {"another wire's radius", [](ContactSet& set) { set.features[0].gap += 0.1e-3; }},
       {"a negative friction", [](ContactSet& set) { set.features[0].friction = -0.1; }},
       {"an infinite friction", [=](ContactSet& set) { set.features[0].friction = infinity; }},
       {"no stiffness", [](ContactSet& set) { set.features[0].stiffness = 0.0; }},
-      {"a stiffness that is not a number", [=](ContactSet& set) { set.features[0].stiffness = nan; }},
-      {"a clearance that is not a number", [=](ContactSet& set) { set.features[0].clearance_radius = nan; }},
+      {"a stiffness that is NaN", [=](ContactSet& set) { set.features[0].stiffness = nan; }},
+      {"a clearance that is NaN", [=](ContactSet& set) { set.features[0].clearance_radius = nan; }},
   };
   for (const auto& [name, corrupt] : faults)
   {
-    ContactSet set = validSet();
+    ContactSet set = answer();
     corrupt(set);
     EXPECT_FALSE(isValidAnswer(query(), set)) << name;
   }

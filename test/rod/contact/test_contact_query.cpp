@@ -158,7 +158,7 @@ TEST(QueriesInTheIntroducersMouth, HaveParametersOfTheWholeEdge)
   query.detect(state, set, report);
   ASSERT_FALSE(set.features.empty());
   EXPECT_EQ(query.mouthEdge(), query.query().first_node);
-  EXPECT_NEAR(query.mouth(), 0.6, 1e-9);  // 42 mm beyond the mouth are 8.4 edges of 5 mm
+  EXPECT_NEAR(query.mouth(), 0.6, 1e-9);  // 42 mm are 8.4 edges of 5 mm
   EXPECT_EQ(set.features.front().edge, query.mouthEdge());
   EXPECT_NEAR(set.features.front().parameter, query.mouth(), 1e-12);
 }

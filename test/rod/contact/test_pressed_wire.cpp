@@ -18,12 +18,12 @@ class PressedWire : public testing::TestWithParam<std::tuple<double, double>>
 {
 };
 
-TEST_P(PressedWire, KeepsItsAxisInFrontOfTheWallHoweverHardItIsPressed)
+TEST_P(PressedWire, KeepsItsAxisInTheLumenUnderAnyLoad)
 {
   constexpr int kNodes = 20;
   const auto [radius, stiffness] = GetParam();
   Environment environment;
-  environment.gravity = Eigen::Vector3d(0.0, 0.0, -1e8);  // some hundred newtons a node
+  environment.gravity = Eigen::Vector3d(0.0, 0.0, -1e8);  // some hundred newtons per node
   Boundary boundary;
   boundary.introducer = false;
   boundary.origin = Eigen::Vector3d(0.0, 0.0, radius + 0.1e-3);
@@ -44,7 +44,7 @@ TEST_P(PressedWire, KeepsItsAxisInFrontOfTheWallHoweverHardItIsPressed)
       lowest = std::min(lowest, p.z());
   }
   EXPECT_GT(lowest, 0.0);
-  EXPECT_LT(lowest, radius) << "it did not even touch";
+  EXPECT_LT(lowest, radius) << "no contact";
 }
 
 INSTANTIATE_TEST_SUITE_P(Wires, PressedWire,

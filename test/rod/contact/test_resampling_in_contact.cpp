@@ -18,7 +18,7 @@ constexpr double kCurvature = 20;    // 1/m
 constexpr double kStiffness = 3e-4;  // N·m²
 constexpr double kTimeStep = 1e-3;
 
-/** A soft floor at z = 0 that nodes stand on. */
+/** A soft floor at z = 0 that touches nodes only. */
 class SoftFloor : public contact::ContactSource
 {
 public:
@@ -46,7 +46,7 @@ public:
   void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
 };
 
-/** A free wire that couples at its ends bend upwards, standing on the floor. */
+/** A free wire on the floor, bent upwards by couples at its ends. */
 struct Bowl
 {
   Bowl() : coarse(discretise(wire, positions())), stepper(coarse, boundary(), environment(), StepperSettings())
@@ -133,7 +133,7 @@ struct Bowl
   std::uint64_t steps = 0;
 };
 
-TEST(ResamplingInContact, DoesNotPushTheArcOffTheWallThatItsChordLayOn)
+TEST(ResamplingInContact, DoesNotPushANewNodeOffTheWallThatItsChordTouched)
 {
   Bowl bowl;
   for (int k = 0; k < 1500; ++k)
@@ -144,7 +144,7 @@ TEST(ResamplingInContact, DoesNotPushTheArcOffTheWallThatItsChordLayOn)
   const Discretisation fine = discretise(bowl.wire, finer);
   const double lowest = bowl.state.position[kEdges / 2].z();
   bowl.change(fine);
-  // The new node stands in the floor, which would push it with twenty times the wire's weight.
+  // The new node lies in the floor, which would push it with twenty times the wire's weight.
   const double depth = bowl.coarse.radius[0] - bowl.state.position[kEdges / 2 + 1].z();
   EXPECT_GT(5e6 * fine.cell_length[kEdges / 2 + 1] * depth, 20.0 * bowl.weight());
   double rose = 0.0;
@@ -154,7 +154,7 @@ TEST(ResamplingInContact, DoesNotPushTheArcOffTheWallThatItsChordLayOn)
     EXPECT_NEAR(bowl.support(), bowl.weight(), 0.1 * bowl.weight()) << "step " << k;
     rose = bowl.state.position[kEdges / 2].z() - lowest;
   }
-  // By now the wire stands on its new node: the sag of the arc over the old edge.
+  // Now the wire rests on its new node, higher by the sag of the arc over the old edge.
   const double h = kLength / kEdges;
   EXPECT_NEAR(rose, kCurvature * h * h / 8.0, 0.1 * kCurvature * h * h / 8.0);
 }

@@ -72,7 +72,7 @@ public:
     }
   }
 
-  /** @param push along x, of the wire's mass times gravity */
+  /** @param push force along x over the wire's weight */
   void step(double push = 0.0)
   {
     StepInput input;
@@ -91,7 +91,8 @@ public:
       step();
   }
 
-  double place() const { return state.position[static_cast<std::size_t>(nodes_ / 2)].x(); }
+  /** Position of the middle node along x [m]. */
+  double middle() const { return state.position[static_cast<std::size_t>(nodes_ / 2)].x(); }
 
   double kineticEnergy() const
   {
@@ -125,26 +126,26 @@ class InclineTest : public ::testing::TestWithParam<Incline>
 {
 };
 
-TEST_P(InclineTest, HoldsTheWireJustBelowTheAngleOfFriction)
+TEST_P(InclineTest, HoldsAWireJustBelowTheAngleOfFriction)
 {
   Table table(GetParam().scheme, 21, GetParam().dt);
   table.tiltTo(0.999 * kFriction);
-  const double before = table.place();
+  const double before = table.middle();
   table.run(GetParam().seconds);
-  EXPECT_LT(std::abs(table.place() - before), 1e-9);
+  EXPECT_LT(std::abs(table.middle() - before), 1e-9);
 }
 
-TEST_P(InclineTest, LetsTheWireSlideJustAboveTheAngleOfFriction)
+TEST_P(InclineTest, LetsAWireSlideJustAboveTheAngleOfFriction)
 {
   Table table(GetParam().scheme, 21, GetParam().dt);
   table.tiltTo(0.999 * kFriction);
   table.tilt(1.001 * kFriction);
-  const double before = table.place();
+  const double before = table.middle();
   table.run(2.0);
   const double acceleration = 0.001 * kFriction * kGravity * std::cos(std::atan(kFriction));
   // With one solve per step and secants only, `paper` starts late.
   const double tolerance = GetParam().scheme == Scheme::kPaper ? 0.2 : 0.005;
-  EXPECT_NEAR(table.place() - before, 0.5 * acceleration * 4.0, tolerance * 0.5 * acceleration * 4.0);
+  EXPECT_NEAR(table.middle() - before, 0.5 * acceleration * 4.0, tolerance * 0.5 * acceleration * 4.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(WallFriction, InclineTest,
@@ -162,15 +163,15 @@ struct StickSlip
 StickSlip stickSlip(Scheme scheme, int nodes, double dt)
 {
   Table table(scheme, nodes, dt);
-  const double begin = table.place();
+  const double begin = table.middle();
   StickSlip result;
   const int steps = static_cast<int>(std::lround(0.5 / dt));
   for (int k = 1; k <= steps; ++k)
   {
     table.step(1.3 * kFriction * std::sin(2.0 * M_PI * k / steps));
-    result.farthest = std::max(result.farthest, table.place() - begin);
+    result.farthest = std::max(result.farthest, table.middle() - begin);
   }
-  result.end = table.place() - begin;
+  result.end = table.middle() - begin;
   return result;
 }
 
@@ -189,9 +190,9 @@ TEST(WallFriction, StickSlipDependsNeitherOnTheTimeStepNorOnTheSampling)
   EXPECT_NEAR(stickSlip(Scheme::kMixed, 21, 1e-3).farthest, kFarthest, 2e-3 * kFarthest);
 }
 
-TEST(WallFriction, NeverGivesEnergy)
+TEST(WallFriction, NeverAddsEnergy)
 {
-  // A bent wire is let go on the table: what it loses of elastic and kinetic energy may only grow.
+  // A moving wire on the table: its elastic and kinetic energy may only decrease.
   for (const double dt : {2.5e-4, 1e-3, 2e-3})
   {
     Table table(Scheme::kKkt, 41, dt);
@@ -212,12 +213,12 @@ TEST(WallFriction, NeverGivesEnergy)
       least = std::min(least, energy());
     }
     EXPECT_LT(largest_gain, 1e-5 * first) << dt;
-    EXPECT_LT(table.kineticEnergy(), 1e-12 * first) << dt;  // and at last it sticks
+    EXPECT_LT(table.kineticEnergy(), 1e-12 * first) << dt;  // it sticks in the end
   }
 }
 
-/** T2/T1 of a wire that is pulled back into an introducer over a frictional cylinder, the tension T1 at its tip turned
- *  by an angle. */
+/** Tension ratio T2/T1 of a wire that is pulled back into an introducer over a frictional cylinder. The tension T1 at
+ *  its tip is turned by an angle. */
 double capstan(double friction, double degrees, double stiffness, double expected)
 {
   constexpr double kBend = 20e-3;  // R of the wire's axis [m]
@@ -226,7 +227,7 @@ double capstan(double friction, double degrees, double stiffness, double expecte
   constexpr double kDt = 1e-3;
   const double angle = degrees * M_PI / 180.0;
   const double tension = kEi / (stiffness * kBend * kBend);
-  const double decay = std::sqrt(kEi / tension);  // of what bends the free spans
+  const double decay = std::sqrt(kEi / tension);  // decay length of the bending of the free spans [m]
   const double before = 6.0 * decay + 20e-3;
   const double inserted = before + kBend * angle + 8.0 * decay + 24e-3;
   const double length = inserted + 30e-3;
@@ -282,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Capstan{0.3, 45.0, 0.01, 1.2644789171}, Capstan{0.3, 90.0, 0.1, 1.5773414788},
                       Capstan{0.3, 180.0, 0.1, 2.4917627567}));
 
-/** A state of one free node per entry that a floor pushes on. */
+/** A state with one free node per stretch, pressed on a floor. */
 State pressedState(const std::vector<Vector3d>& stretch)
 {
   State state;
@@ -297,7 +298,7 @@ State pressedState(const std::vector<Vector3d>& stretch)
   return state;
 }
 
-TEST(WallFriction, LinearisedPullIsCoulombsLawAndItsStiffnessBoundsItsChange)
+TEST(WallFriction, LinearisedPullIsCoulombsLawWithAStiffnessBetweenTangentAndSecant)
 {
   const std::vector<double> mass(3, 1e-6);
   State state = pressedState({Vector3d(0.2e-6, 0.1e-6, 0.0), Vector3d(0.4e-6, 0.0, 0.0), Vector3d(0.0, 0.3e-6, 0.0)});
@@ -327,7 +328,7 @@ TEST(WallFriction, LinearisedPullIsCoulombsLawAndItsStiffnessBoundsItsChange)
   }
 }
 
-TEST(WallFriction, ReturnMappingKeepsTheStretchWithinItsLimitAndForgetsItWithTheContact)
+TEST(WallFriction, ReturnMappingLimitsTheStretchAndClearsItWithoutAContact)
 {
   State state = pressedState({Vector3d(0.1e-6, 0.0, 0.0), Vector3d(0.4e-6, 0.0, 0.0), Vector3d(0.4e-6, 0.0, 0.0)});
   const WallFriction::Motion begin = state.position;
@@ -342,7 +343,7 @@ TEST(WallFriction, ReturnMappingKeepsTheStretchWithinItsLimitAndForgetsItWithThe
   EXPECT_NEAR(frictionForce(state, 1, kSlip).norm(), 0.6, 1e-12);
 }
 
-TEST(WallFriction, ARestingWireGoesOnFromItsStateBitForBit)
+TEST(WallFriction, ARestingWireContinuesFromItsStateBitForBit)
 {
   Table table(Scheme::kKkt, 21, 1e-3);
   table.tiltTo(0.9 * kFriction);
@@ -355,12 +356,12 @@ TEST(WallFriction, ARestingWireGoesOnFromItsStateBitForBit)
   EXPECT_EQ(table.state.hash(), first);
 }
 
-TEST(WallFriction, AHeldWireStaysWhereItIsWhenItIsResampled)
+TEST(WallFriction, AStickingWireStaysAtItsPositionWhenItIsResampled)
 {
   const Wire wire = uniformWire(0.1, 4.9469e-5, kRadius, 7900.0);
   Table table(Scheme::kKkt, 21, 1e-3);
   table.tiltTo(0.9 * kFriction);
-  const double before = table.place();
+  const double before = table.middle();
   const Discretisation coarse = discretiseUniformly(wire, 21);
   const Discretisation fine = discretiseUniformly(wire, 41);
   Resampling resampling;
@@ -371,7 +372,7 @@ TEST(WallFriction, AHeldWireStaysWhereItIsWhenItIsResampled)
     ASSERT_TRUE(table.stepper->resample(split ? fine : coarse));
     table.run(0.05);
   }
-  EXPECT_LT(std::abs(table.place() - before), 1e-9);
+  EXPECT_LT(std::abs(table.middle() - before), 1e-9);
 }
 
 }  // namespace
