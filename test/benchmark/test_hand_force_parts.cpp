@@ -26,7 +26,7 @@ constexpr double kDensity = 7900.0;
 constexpr double kGravity = 9.81;
 const double kLineDensity = kDensity * M_PI * kRadius * kRadius;
 
-/** Another wall with friction of its own. */
+/** Wall with a friction coefficient of its own. */
 class RoughWall : public contact::ContactSource
 {
 public:
@@ -44,11 +44,11 @@ private:
   double friction_;
 };
 
-/** A wire that is pushed through an introducer at the origin, along x. */
+/** Wire that is pushed through an introducer at the origin, along x. */
 struct PushedWire
 {
   PushedWire(double length, int nodes, const rod::Environment& environment, double inserted)
-    : stepper(rod::discretiseUniformly(uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
+    : stepper(rod::discretiseUniformly(rod::uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
               environment, rod::StepperSettings()),
       state(stepper.initialState(inserted, 0.0))
   {
@@ -71,8 +71,8 @@ struct PushedWire
   PhaseTimer timer;
 };
 
-/** The parts from what a step left behind: energy gradient, forces of wall, friction and guide, velocities. */
-rod::HandForceParts partsAnew(PushedWire& wire)
+/** Parts recomputed from the state after a step: energy gradient, forces of wall, friction and guide, velocities. */
+rod::HandForceParts recomputedParts(PushedWire& wire)
 {
   const rod::State& state = wire.state;
   const rod::Discretisation& rod = wire.stepper.discretisation();
@@ -114,7 +114,7 @@ TEST(SlideAlongItself, KeepsTheLengthOfEveryEdge)
     EXPECT_NEAR((x[j + 1] - x[j]).dot(slide[j + 1] - slide[j]), 0.0, 1e-14) << j;
 }
 
-TEST(rod::HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStepLeft)
+TEST(HandForceParts, RecomputedFromTheStateAfterAStepAddUpToTheForceInABentTube)
 {
   BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
   RoughWall wall(tube, 0.2);
@@ -123,7 +123,7 @@ TEST(rod::HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStep
   for (int k = 0; k < 2000; ++k)
   {
     wire.push(0.04e-3, &wall);
-    const rod::HandForceParts anew = partsAnew(wire);
+    const rod::HandForceParts anew = recomputedParts(wire);
     const rod::HandForceParts& parts = wire.state.hand_parts;
     EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
     whole += wire.state.hand_force;
@@ -139,7 +139,7 @@ TEST(rod::HandForceParts, AddUpToTheHandForceInABentTubeWhenFoundFromWhatTheStep
 }
 
 // References 13: ½EIκ² while the bend fills.
-TEST(rod::HandForceParts, AreAllBendingWithoutFrictionWhichIsTheEnergyThatEntersTheBend)
+TEST(HandForceParts, AreBendingOnlyWithoutFrictionEqualToTheEnergyThatEntersTheBend)
 {
   constexpr double kBend = 0.03;
   BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
@@ -160,7 +160,7 @@ TEST(rod::HandForceParts, AreAllBendingWithoutFrictionWhichIsTheEnergyThatEnters
   EXPECT_LT(others, 0.02 * work);
 }
 
-TEST(rod::HandForceParts, AreFrictionAndWeightOnAStraightRamp)
+TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
 {
   constexpr double kSlope = 0.4;  // rad
   constexpr double kFriction = 0.3;
@@ -188,7 +188,7 @@ TEST(rod::HandForceParts, AreFrictionAndWeightOnAStraightRamp)
   EXPECT_NEAR(parts.inertia, 0.0, 0.01 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, AreAllInertiaOfAFreeWireThatIsAccelerated)
+TEST(HandForceParts, AreInertiaOnlyForAnAcceleratedFreeWire)
 {
   constexpr double kAcceleration = 2.0;  // m/s²
   PushedWire wire(0.16, 161, rod::Environment(), 0.06);
@@ -203,7 +203,7 @@ TEST(rod::HandForceParts, AreAllInertiaOfAFreeWireThatIsAccelerated)
   EXPECT_NEAR(wire.state.hand_force, wire.state.hand_parts.inertia, 1e-6 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, AreAllDragOfAFreeWireInAFluidAtConstantSpeed)
+TEST(HandForceParts, AreDragOnlyForAFreeWireInAFluidAtConstantSpeed)
 {
   rod::Environment environment;
   environment.damping = 5.0;
