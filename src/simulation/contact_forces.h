@@ -16,7 +16,7 @@ struct WallContact
   Eigen::Vector3d normal_force = Eigen::Vector3d::Zero();    ///< force of the wall on the wire [N]
   Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();  ///< force of the wall on the wire [N]
   int node = 0;                                              ///< node of the wire
-  double gap = 0.0;   ///< from the wire's surface to the wall; infinite without a feature at the node [m]
+  double gap = 0.0;   ///< distance of the wire's surface from the wall; infinite without a feature at the node [m]
   int triangle = -1;  ///< triangle of the wall; −1 without a feature at the node
 };
 

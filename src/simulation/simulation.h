@@ -29,9 +29,9 @@ struct HandState
 {
   double insertion = 0.0;  ///< tip beyond the introducer; negative: outside [m]
   double rotation = 0.0;   ///< rotation of the handle [rad]
-  double force = 0.0;      ///< on the hand, positive where it resists pushing [N]
+  double force = 0.0;      ///< axial force on the hand, positive where it resists pushing [N]
   double torque = 0.0;     ///< torque that the hand holds [N·m]
-  double pressure = 0.0;   ///< at the inflator of the instrument's balloon [Pa]
+  double pressure = 0.0;   ///< pressure at the inflator of the instrument's balloon [Pa]
 };
 
 /** Simulation of a scene in fixed time steps. The nodes and the offline tool run this same code, so that the same
@@ -76,7 +76,7 @@ public:
   void save(std::ostream& stream, std::uint64_t vessel_hash = 0, const std::function<void(Archive&)>& more = nullptr);
 
   /** Continues from a saved state, bit for bit as the simulation that was saved. The present state, whatever it is, is
-   *  replaced. Sums over past steps (forces on the wall, results) start anew.
+   *  replaced. Sums over past steps (forces on the wall, results) start at zero.
    *  @param origin names the stream in errors
    *  @throws InputError when the state is damaged or belongs to another version, scene or vessel; the simulation then
    *          needs another load before its next step */
@@ -119,8 +119,8 @@ private:
     StaleContactPacer pacer;
     double slipped_insertion = 0.0;  ///< command minus what reached the wire [m]
     double slipped_rotation = 0.0;   ///< [rad]
-    double grip = 1.0;               ///< of pushing, 1 firm to 0 slipping
-    double turning_grip = 1.0;       ///< of turning, 1 firm to 0 slipping
+    double grip = 1.0;               ///< grip while pushing, 1 firm to 0 slipping
+    double turning_grip = 1.0;       ///< grip while turning, 1 firm to 0 slipping
     double max_insertion = 0.0;      ///< [m]
 
     void archive(Archive& archive);
@@ -149,7 +149,7 @@ private:
   std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform
   bool samples_ = false;                             ///< the nodes follow the sampling
   std::uint64_t sampling_every_ = 1;                 ///< steps between two updates of the sampling
-  rod::Discretisation initial_nodes_;                ///< with which the stepper is constructed
+  rod::Discretisation initial_nodes_;                ///< nodes of a new stepper
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;

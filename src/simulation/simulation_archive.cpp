@@ -19,9 +19,9 @@ namespace
 
 constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
 constexpr std::uint32_t kFormat = 5;        ///< incremented with every change of the saved data
-constexpr std::uint32_t kOldestFormat = 4;  ///< that this version loads
+constexpr std::uint32_t kOldestFormat = 4;  ///< oldest format that this version loads
 constexpr std::uint32_t kNamesWriter = 5;   ///< first format whose head names the version that wrote it
-constexpr int kFirstPhysicsNumber = 1;      ///< of formats that do not hold one
+constexpr int kFirstPhysicsNumber = 1;      ///< physics number of formats that do not hold one
 
 /** First commits of the formats whose heads do not name the version that wrote them. */
 constexpr std::array<const char*, 4> kFormatCommits = {"3dc36e6", "613f4dc", "6b5167a", "ca765d6"};
@@ -172,7 +172,7 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   {
     in(head);
     checkHead(head, wanted, origin);
-    stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // members that are not saved begin anew
+    stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
     report_ = rod::StepReport();
     archive(in);
     if (more)

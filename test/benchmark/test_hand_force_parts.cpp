@@ -20,13 +20,13 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kDt = 1e-3;
-constexpr double kStiffness = 5e-5;  // EI [N·m²]
+constexpr double kStiffness = 5e-5;  // N·m²
 constexpr double kRadius = 1.8e-4;
 constexpr double kDensity = 7900.0;
 constexpr double kGravity = 9.81;
 const double kLineDensity = kDensity * M_PI * kRadius * kRadius;
 
-/** Wall with a given friction coefficient. */
+/** Wall with a friction coefficient of its own. */
 class RoughWall : public contact::ContactSource
 {
 public:
@@ -49,11 +49,11 @@ private:
   double friction_;
 };
 
-/** Wire pushed through an introducer at the origin along x. */
+/** Wire that is pushed through an introducer at the origin, along x. */
 struct PushedWire
 {
   PushedWire(double length, int nodes, const rod::Environment& environment, double inserted)
-    : stepper(rod::discretiseUniformly(uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
+    : stepper(rod::discretiseUniformly(rod::uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
               environment, rod::StepperSettings()),
       state(stepper.initialState(inserted, 0.0))
   {
@@ -76,8 +76,7 @@ struct PushedWire
   PhaseTimer timer;
 };
 
-/** Parts of the hand force recomputed from the result of a step: energy gradient, forces of wall, friction and guide,
- *  velocities. */
+/** Parts recomputed from the state after a step: energy gradient, forces of wall, friction and guide, velocities. */
 rod::HandForceParts recomputedParts(PushedWire& wire)
 {
   const rod::State& state = wire.state;
@@ -108,7 +107,7 @@ rod::HandForceParts recomputedParts(PushedWire& wire)
 
 }  // namespace
 
-TEST(SlideAlongItself, PreservesTheLengthOfEveryEdge)
+TEST(SlideAlongItself, KeepsTheLengthOfEveryEdge)
 {
   std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {1.9, 0.2, 0.1}, {2.5, 0.9, -0.3}, {2.4, 1.8, 0.1}};
   const std::vector<Vector3d> none(x.size(), Vector3d::Zero());
@@ -120,7 +119,7 @@ TEST(SlideAlongItself, PreservesTheLengthOfEveryEdge)
     EXPECT_NEAR((x[j + 1] - x[j]).dot(slide[j + 1] - slide[j]), 0.0, 1e-14) << j;
 }
 
-TEST(rod::HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
+TEST(HandForceParts, RecomputedFromTheStateAfterAStepAddUpToTheForceInABentTube)
 {
   BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
   RoughWall wall(tube, 0.2);
@@ -129,23 +128,23 @@ TEST(rod::HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
   for (int k = 0; k < 2000; ++k)
   {
     wire.push(0.04e-3, &wall);
-    const rod::HandForceParts recomputed = recomputedParts(wire);
+    const rod::HandForceParts anew = recomputedParts(wire);
     const rod::HandForceParts& parts = wire.state.hand_parts;
     EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
     whole += wire.state.hand_force;
-    difference += recomputed.sum() - wire.state.hand_force;
-    bending += recomputed.bending - parts.bending;
-    friction += recomputed.friction - parts.friction;
+    difference += anew.sum() - wire.state.hand_force;
+    bending += anew.bending - parts.bending;
+    friction += anew.friction - parts.friction;
   }
-  // Friction uses the normal force of the preceding solve, so it agrees with the end of the step in the mean only.
+  // Friction takes the normal force of the solve before: only in the mean is it that of the step's end.
   EXPECT_GT(whole / 2000, 5e-3);
   EXPECT_LT(std::abs(difference), 0.01 * whole);
   EXPECT_LT(std::abs(bending), 0.01 * whole);
   EXPECT_LT(std::abs(friction), 0.01 * whole);
 }
 
-// Exact: ½EIκ² while the tip is in the bend.
-TEST(rod::HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
+// References 13: ½EIκ² while the bend fills.
+TEST(HandForceParts, AreBendingOnlyWithoutFrictionEqualToTheEnergyThatEntersTheBend)
 {
   constexpr double kBend = 0.03;
   BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
@@ -166,9 +165,9 @@ TEST(rod::HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
   EXPECT_LT(others, 0.02 * work);
 }
 
-TEST(rod::HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
+TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
 {
-  constexpr double kSlope = 0.4;  // inclination of the ramp [rad]
+  constexpr double kSlope = 0.4;  // rad
   constexpr double kFriction = 0.3;
   rod::Environment environment;
   environment.gravity = kGravity * Vector3d(-std::sin(kSlope), -std::cos(kSlope), 0.0);
@@ -184,7 +183,7 @@ TEST(rod::HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
   for (const Vector3d& force : state.wall_force)
     pressed += force.norm();
   EXPECT_NEAR(parts.friction, kFriction * pressed, 0.01 * parts.friction);
-  EXPECT_GT(pressed, 0.99 * std::cos(kSlope) * weight);  // the compliant end of the guide carries part of the weight
+  EXPECT_GT(pressed, 0.99 * std::cos(kSlope) * weight);  // the soft end of the guide leaves it some of its own
   EXPECT_LT(pressed, std::cos(kSlope) * weight * (1.0 + rod::Boundary().guide_length / state.inserted_length));
   double heavy = 0.0;
   for (int i = state.first_node; i < 161; ++i)
@@ -194,9 +193,9 @@ TEST(rod::HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
   EXPECT_NEAR(parts.inertia, 0.0, 0.01 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
+TEST(HandForceParts, AreInertiaOnlyForAnAcceleratedFreeWire)
 {
-  constexpr double kAcceleration = 2.0;  // acceleration of the hand [m/s²]
+  constexpr double kAcceleration = 2.0;  // m/s²
   PushedWire wire(0.16, 161, rod::Environment(), 0.06);
   double speed = 0.0;
   for (int k = 0; k < 50; ++k)
@@ -209,7 +208,7 @@ TEST(rod::HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
   EXPECT_NEAR(wire.state.hand_force, wire.state.hand_parts.inertia, 1e-6 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, EqualTheDragOfAFreeWireInAFluidAtConstantSpeed)
+TEST(HandForceParts, AreDragOnlyForAFreeWireInAFluidAtConstantSpeed)
 {
   rod::Environment environment;
   environment.damping = 5.0;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/reference/bending_exact_hessian.h"
+#include "benchmark/reference/twist_of_centreline.h"
 #include "common/error.h"
-#include "rod/model/bending.h"
 #include "rod/model/stretching.h"
-#include "rod/model/twisting.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -99,10 +99,10 @@ double EquilibriumSolver::transport(const Equilibrium& e) const
   for (int j = 1; j <= last; ++j)
   {
     const Eigen::Vector3d along = edge(e, j % problem_.edges()).vector.normalized();
-    director = rod::parallelTransport(director, tangent, along);
+    director = parallelTransport(director, tangent, along);
     tangent = along;
   }
-  const Eigen::Vector3d held = rod::parallelTransport(start, first, tangent);
+  const Eigen::Vector3d held = parallelTransport(start, first, tangent);
   const double angle = std::atan2(director.cross(held).dot(tangent), director.dot(held));
   return angle + 2.0 * M_PI * std::round((e.transport - angle) / (2.0 * M_PI));
 }
@@ -115,7 +115,7 @@ double EquilibriumSolver::potential(const Equilibrium& e) const
     const int before = edgeBefore(i);
     const rod::CurvatureBinormal kb(edge(e, before).vector, edge(e, i).vector,
                                     problem_.rod.rest_length[before] * problem_.rod.rest_length[i]);
-    sum += rod::bendingEnergy(kb, restBinormal(i), problem_.rod.bending_stiffness[i] / problem_.rod.cell_length[i]);
+    sum += bendingEnergy(kb, restBinormal(i), problem_.rod.bending_stiffness[i] / problem_.rod.cell_length[i]);
   }
   for (std::size_t i = 0; i < problem_.force.size(); ++i)
     sum -= problem_.force[i].dot(e.position[i]);
@@ -132,7 +132,7 @@ Eigen::VectorXd EquilibriumSolver::transportGradient(const Equilibrium& e) const
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rowOf(problem_.nodes()));
   for (int i = firstBent(); problem_.twist_held && i <= lastBent(); ++i)
   {
-    const rod::TwistOfCentreline twist(edge(e, edgeBefore(i)).vector, edge(e, i).vector);
+    const TwistOfCentreline twist(edge(e, edgeBefore(i)).vector, edge(e, i).vector);
     gradient.segment<3>(rowOf(previous(i))) -= twist.by_before;
     gradient.segment<3>(rowOf(i)) += twist.by_before - twist.by_after;
     gradient.segment<3>(rowOf(next(i))) += twist.by_after;
@@ -177,12 +177,12 @@ rod::SparseMatrix EquilibriumSolver::hessian(const Equilibrium& e) const
     const Eigen::Vector3d in = edge(e, before).vector;
     const Eigen::Vector3d out = edge(e, i).vector;
     const rod::CurvatureBinormal kb(in, out, problem_.rod.rest_length[before] * problem_.rod.rest_length[i]);
-    const rod::BendingExactHessian bending(kb, restBinormal(i),
-                                           problem_.rod.bending_stiffness[i] / problem_.rod.cell_length[i]);
+    const BendingExactHessian bending(kb, restBinormal(i),
+                                      problem_.rod.bending_stiffness[i] / problem_.rod.cell_length[i]);
     addStencil(entries, node, bending.before_before, bending.before_after, bending.after_after);
     if (e.torque == 0.0)
       continue;
-    const rod::TwistOfCentreline twist(in, out);
+    const TwistOfCentreline twist(in, out);
     addStencil(entries, node, e.torque * twist.before_before, e.torque * twist.before_after,
                e.torque * twist.after_after);
   }

@@ -31,7 +31,7 @@ void SmoothWall::detect(const contact::Query& query, contact::ContactSet& set)
     }
 }
 
-void SmoothWall::freeDistances(const contact::Query& query, double, contact::ContactSet& set)
+void SmoothWall::freeDistances(const contact::Query& query, double /*wanted*/, contact::ContactSet& set)
 {
   detect(query, set);
 }

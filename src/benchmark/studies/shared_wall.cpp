@@ -19,8 +19,8 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr int kSimulations = 10;  // over which costs are averaged
-constexpr int kSteps = 100;       // after which memory is read: the lists are built then
+constexpr int kSimulations = 10;  // number of averaged simulations
+constexpr int kSteps = 100;       // steps before memory is read, which build the neighbour lists
 
 /** Heap memory in use [B]. */
 double heapInUse()
@@ -41,7 +41,8 @@ struct Cost
   double seconds = 0.0;  ///< processor time of the construction
 };
 
-/** Mean cost of one of several simulations. @param detector makes the detector of a simulation */
+/** Mean cost of a simulation.
+ *  @param detector returns the detector of one simulation */
 Cost costOf(const std::function<std::unique_ptr<contact::Detector>()>& detector, const scene::Scene& scene,
             const scene::EntryPose& entry, const vessel::Vessel& vessel, int simulations)
 {
@@ -76,9 +77,10 @@ TableSpec sharedWallTable()
 Section sharedWallCost(const Progress& progress)
 {
   progress(0.99, "memory of a further simulation");
-  Section section({sharedWallTable()}, sharedWallTable().name);
+  Section section({sharedWallTable()}, "speed_shared_wall");
   section.text =
-      "Scene `demo`, means per simulation. Detectors that share a wall model own their neighbour lists only. Memory is "
+      "The scene `demo`; means per simulation. Detectors with a shared wall model own their neighbour lists only. "
+      "Memory is "
       "read after " +
       std::to_string(kSteps) + " steps.";
   const scene::Scene scene = scene::loadScene(scene::configFolder() + "/scenes/demo.yaml", {});

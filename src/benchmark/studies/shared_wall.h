@@ -5,10 +5,10 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Table of sharedWallCost(). */
+/** Declaration of the table of sharedWallCost(). */
 TableSpec sharedWallTable();
 
-/** Memory and processor time of a further simulation in the demonstration's anatomy, with a shared and with its own
+/** Memory and processor time of a further simulation in the anatomy of the scene `demo`, with a shared and with its own
  *  wall model. */
 Section sharedWallCost(const Progress& progress);
 

@@ -46,7 +46,7 @@ private:
   struct Location
   {
     int node = 0;            ///< first node of the edge
-    double parameter = 0.0;  ///< on the edge, 0 to 1
+    double parameter = 0.0;  ///< position on the edge, 0 to 1
   };
 
   Location locate(double arc_length) const;

@@ -63,9 +63,10 @@ private:
 
   const ConcentricStack& stack_;
   const KktModel& model_;
-  std::vector<double> turn_before_, share_before_;  ///< per pair, before the last change of its friction torque
-  std::vector<std::vector<double>> torque_limit_;   ///< of friction with the next outer layer, per edge [N·m]
-  std::vector<double> vessel_share_;                ///< part of every node's cell that is in the vessel, 0 to 1
+  std::vector<double> turn_before_, share_before_;  ///< angle and share of every pair before the last change
+  std::vector<std::vector<double>>
+      torque_limit_;                  ///< largest friction torque with the next outer layer, per edge [N·m]
+  std::vector<double> vessel_share_;  ///< part of every node's cell that is in the vessel, 0 to 1
   std::vector<Eigen::Vector3d> binormal_, moment_;
 };
 

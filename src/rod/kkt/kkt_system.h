@@ -15,7 +15,7 @@ namespace endovascular_sim::rod
 struct KktSystem
 {
   static constexpr int kBandwidth = 10;
-  static constexpr int kIdleRow = 3;  ///< of a node, within its four rows: the multiplier's; idle at the first node
+  static constexpr int kIdleRow = 3;  ///< row of the multiplier among the four of a node; idle at the first node
   using Matrix = BandedLdlt<kBandwidth, 4>;
 
   /** Sets the first simulated node and zeroes the system of the nodes from there on. */
@@ -31,7 +31,7 @@ struct KktSystem
   int multiplierRow(int edge) const { return 4 * (edge - first) + 7; }
 
   int first = 0;       ///< first simulated node
-  double scale = 1.0;  ///< of the constraint rows [kg]
+  double scale = 1.0;  ///< factor on the constraint rows [kg]
   Matrix matrix;
   std::vector<double> rhs;
 };

@@ -69,14 +69,14 @@ private:
   InterlayerFriction friction_;
   InsertionForces forces_;
   std::vector<std::vector<double>> initial_twist_;  ///< twist angles of every layer at the beginning of the step [rad]
-  std::vector<LayerMotion> motion_;                 ///< of every layer in the step
+  std::vector<LayerMotion> motion_;                 ///< insertion of every layer in the step
   LayerSlides slides_;
   bool sliding_ = false;
   std::vector<double> behind_;  ///< distance of every layer's tip behind the reference's [m]
   std::vector<TwistFriction> layer_friction_;
   std::vector<double> edge_torque_, force_before_;
   StepInput input_;
-  State relaxed_;  ///< for torques only
+  State relaxed_;  ///< state for the computation of torques
 };
 
 }  // namespace endovascular_sim::rod

@@ -56,7 +56,7 @@ private:
   Resampling resampling_;
   Discretisation rod_, next_rod_;
   std::vector<double> position_;
-  std::vector<double> curvature_;  ///< per node [1/m]
+  std::vector<double> curvature_;  ///< curvature per node [1/m]
   std::vector<SamplingDemand> demand_;
   double beyond_tip_ = -1.0;  ///< curvature ahead of the tip at the last query; negative: none yet [1/m]
   Eigen::Vector3d queried_from_ = Eigen::Vector3d::Zero();  ///< position of the tip at that query [m]

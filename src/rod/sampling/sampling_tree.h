@@ -81,7 +81,7 @@ private:
   {
     kNone,
     kSplit,
-    kMerge,  ///< with the next leaf
+    kMerge,  ///< merge with the next leaf
   };
 
   void markSplits(const std::vector<SamplingDemand>& demand);

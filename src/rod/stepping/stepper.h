@@ -51,8 +51,8 @@ struct Boundary
 struct Environment
 {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration; buoyancy is subtracted [m/s²]
-  double fluid_density = 0.0;                         ///< for drag and buoyancy [kg/m³]
-  double drag_coefficient = 1.2;                      ///< of a cylinder across the stream [1]
+  double fluid_density = 0.0;                         ///< density of the fluid, for drag and buoyancy [kg/m³]
+  double drag_coefficient = 1.2;                      ///< drag coefficient of a cylinder across the stream [1]
   double damping = 0.0;                               ///< mass-proportional [1/s]
 };
 
@@ -101,7 +101,7 @@ struct StepInput
   std::uint64_t vessel_version = 0;  ///< version of the wall for contact detection; 0: any
   double inserted_length = 0.0;      ///< wire beyond the introducer at the end of the step [m]
   double rotation = 0.0;             ///< rotation of the handle at the end of the step [rad]
-  std::vector<LayerInput> layers;    ///< of a stack, in place of the two above; empty for one wire
+  std::vector<LayerInput> layers;    ///< handles of a stack, in place of the two above; empty for one wire
   EndMotion distal;                  ///< motion of a held distal end at the end of the step
   std::vector<NodalForce> forces;
   double tip_torque = 0.0;          ///< external torque at the tip [N·m]
@@ -118,7 +118,7 @@ struct StepReport
   int solves = 0;               ///< linear systems solved
   int factorisations = 0;       ///< active-set passes included
   int truncations = 0;          ///< solves truncated by the trust region
-  int bisections = 0;           ///< of the time step
+  int bisections = 0;           ///< bisections of the time step
   int hit_iteration_limit = 0;  ///< steps accepted at the limit of solves
   double max_strain = 0.0;      ///< largest edge strain after the step [1]
   /** First pass with a stale contact set, as all later ones of the step then are; kNoStalePass without. */

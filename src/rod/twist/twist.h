@@ -111,7 +111,7 @@ private:
   std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
   Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both directors of the last edge
   std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
-  std::vector<double> cosine_, sine_;           ///< of the twist angles of the curved tip's edges
+  std::vector<double> cosine_, sine_;           ///< cosine and sine of the twist angles of the curved tip's edges
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
   std::vector<double> gradient_, diagonal_, upper_, concave_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rod/model/turning_angle.h"
+#include "test/rod/mixed/mixed_lagrangian.h"
 
 namespace endovascular_sim::rod
 {

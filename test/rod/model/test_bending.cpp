@@ -74,64 +74,6 @@ TEST_F(Bending, GaussNewtonBlocksEqualTheProductsOfFiniteDifferenceJacobians)
   EXPECT_LT((hessian.after_after - scale * by_g.transpose() * by_g).norm(), 1e-8);
 }
 
-TEST_F(Bending, GradientWithRestCurvatureIsTheDerivativeOfTheEnergy)
-{
-  const Eigen::Vector3d rest_binormal = 0.4 * randomVector(random);
-  const double weight = 1.3;
-  constexpr double kStep = 1e-6;
-  const auto energy = [&](const Eigen::Vector3d& before, const Eigen::Vector3d& after)
-  { return bendingEnergy(CurvatureBinormal(before, after, rest), rest_binormal, weight); };
-  const CurvatureBinormal kb(e, g, rest);
-  const Eigen::Vector3d by_before = weight * kb.transposeBefore(kb.value - rest_binormal);
-  const Eigen::Vector3d by_after = weight * kb.transposeAfter(kb.value - rest_binormal);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
-    EXPECT_NEAR((energy(e + step, g) - energy(e - step, g)) / (2.0 * kStep), by_before[axis], 1e-8);
-    EXPECT_NEAR((energy(e, g + step) - energy(e, g - step)) / (2.0 * kStep), by_after[axis], 1e-8);
-  }
-}
-
-TEST_F(Bending, ExactHessianWithRestCurvatureEqualsFiniteDifferencesOfTheGradient)
-{
-  constexpr double kStep = 1e-6;
-  constexpr double kScale = 1.7;
-  for (int sample = 0; sample < 20; ++sample)
-  {
-    SetUp();
-    const Eigen::Vector3d rest_binormal = 0.4 * randomVector(random);
-    const auto before = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-    {
-      const CurvatureBinormal kb(a, b, rest);
-      return Eigen::Vector3d(kScale * kb.transposeBefore(kb.value - rest_binormal));
-    };
-    const auto after = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-    {
-      const CurvatureBinormal kb(a, b, rest);
-      return Eigen::Vector3d(kScale * kb.transposeAfter(kb.value - rest_binormal));
-    };
-    const BendingExactHessian hessian(CurvatureBinormal(e, g, rest), rest_binormal, kScale);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
-      const double inverse = 0.5 / kStep;
-      EXPECT_LT((inverse * (before(e + step, g) - before(e - step, g)) - hessian.before_before.col(axis)).norm(), 1e-7);
-      EXPECT_LT((inverse * (before(e, g + step) - before(e, g - step)) - hessian.before_after.col(axis)).norm(), 1e-7);
-      EXPECT_LT((inverse * (after(e, g + step) - after(e, g - step)) - hessian.after_after.col(axis)).norm(), 1e-7);
-    }
-  }
-}
-
-TEST_F(Bending, GaussNewtonIsTheExactHessianWhereTheStrainVanishes)
-{
-  const CurvatureBinormal kb(e, g, rest);
-  const BendingHessian gauss_newton(kb, 1.0);
-  const BendingExactHessian exact(kb, kb.value, 1.0);
-  EXPECT_LT((gauss_newton.before_before - exact.before_before).norm(), 1e-14);
-  EXPECT_LT((gauss_newton.before_after - exact.before_after).norm(), 1e-14);
-  EXPECT_LT((gauss_newton.after_after - exact.after_after).norm(), 1e-14);
-}
-
 TEST_F(Bending, GradientHasNoResultantForceOrMoment)
 {
   // About the node itself: forces −∂E/∂e, ∂E/∂e − ∂E/∂g, ∂E/∂g at −e, 0, g; a straight wire's energy has no frame.

@@ -3,24 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace endovascular_sim::rod
+namespace endovascular_sim::benchmark
 {
-
-/** Energy ½ k m² of the twist m between two edges, k = GJ over the node's Voronoi length [N·m], and its derivative by
- *  the angle θ of the edge after the node. The derivative by θ of the edge before has the opposite sign. */
-struct Twisting
-{
-  double twist;    ///< m = θ⁺ − θ⁻ [rad]
-  double torque;   ///< k m [N·m]; also ∂E/∂θ⁺ = −∂E/∂θ⁻
-  double hessian;  ///< k: ∂²E/∂θ⁺² = ∂²E/∂θ⁻² = −∂²E/∂θ⁺∂θ⁻ [N·m]
-
-  Twisting(double before, double after, double stiffness)
-    : twist(after - before), torque(stiffness * twist), hessian(stiffness)
-  {
-  }
-
-  double energy() const { return 0.5 * torque * twist; }  ///< ½ k m² [J]
-};
 
 /** Derivatives of the twist at a node by its edges e (before) and g (after), whose material frames follow them by
  *  parallel transport in time: ∂m/∂e = κb/(2|e|), ∂m/∂g = κb/(2|g|) (Bergou et al. 2010, eq. 7). The actual lengths in
@@ -66,4 +50,4 @@ inline Eigen::Vector3d parallelTransport(const Eigen::Vector3d& vector, const Ei
   return cosine * vector + axis.cross(vector) + (axis.dot(vector) / (1.0 + cosine)) * axis;
 }
 
-}  // namespace endovascular_sim::rod
+}  // namespace endovascular_sim::benchmark

@@ -1,11 +1,12 @@
-#include "rod/model/twisting.h"
+#include "benchmark/reference/twist_of_centreline.h"
 
+#include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace endovascular_sim::rod
+namespace endovascular_sim::benchmark
 {
 namespace
 {
@@ -71,19 +72,7 @@ Eigen::Matrix3d twistHessianBlock(const Chain& x, int row, int col)
   return sum;
 }
 
-TEST(Twisting, DerivativesByTheAnglesEqualFiniteDifferences)
-{
-  const Twisting node(0.3, 1.1, 2.5);
-  EXPECT_NEAR(node.energy(), 0.5 * 2.5 * 0.8 * 0.8, 1e-15);
-  EXPECT_NEAR((Twisting(0.3, 1.1 + kStep, 2.5).energy() - Twisting(0.3, 1.1 - kStep, 2.5).energy()) / (2.0 * kStep),
-              node.torque, 1e-9);
-  EXPECT_NEAR((Twisting(0.3 + kStep, 1.1, 2.5).energy() - Twisting(0.3 - kStep, 1.1, 2.5).energy()) / (2.0 * kStep),
-              -node.torque, 1e-9);
-  EXPECT_NEAR((Twisting(0.3, 1.1 + kStep, 2.5).torque - Twisting(0.3, 1.1 - kStep, 2.5).torque) / (2.0 * kStep),
-              node.hessian, 1e-9);
-}
-
-TEST(Twisting, GradientByTheCentrelineIsTheDerivativeOfTheTwistOfAHeldWire)
+TEST(TwistOfCentreline, GradientByTheCentrelineIsTheDerivativeOfTheTwistOfAHeldWire)
 {
   const Chain x = bentChain();
   const Chain gradient = twistGradient(x);
@@ -98,7 +87,7 @@ TEST(Twisting, GradientByTheCentrelineIsTheDerivativeOfTheTwistOfAHeldWire)
     }
 }
 
-TEST(Twisting, HessianOfTheHolonomyEqualsFiniteDifferencesOfItsGradient)
+TEST(TwistOfCentreline, HessianOfTheHolonomyEqualsFiniteDifferencesOfItsGradient)
 {
   const Chain x = bentChain();
   for (int col = 2; col + 2 < kNodes; ++col)
@@ -115,7 +104,7 @@ TEST(Twisting, HessianOfTheHolonomyEqualsFiniteDifferencesOfItsGradient)
     }
 }
 
-TEST(Twisting, TransportKeepsLengthsAndAngles)
+TEST(TwistOfCentreline, TransportKeepsLengthsAndAngles)
 {
   const Eigen::Vector3d t = Eigen::Vector3d(1.0, 0.4, -0.2).normalized();
   const Eigen::Vector3d u = Eigen::Vector3d(0.3, 1.0, 0.5).normalized();
@@ -126,4 +115,4 @@ TEST(Twisting, TransportKeepsLengthsAndAngles)
 }
 
 }  // namespace
-}  // namespace endovascular_sim::rod
+}  // namespace endovascular_sim::benchmark
