@@ -387,7 +387,7 @@ void run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-  endovascular_sim::nodes::keepOffLockStepCpu();
+  endovascular_sim::nodes::avoidLockStepProcessor();
   Arguments arguments;
   try
   {

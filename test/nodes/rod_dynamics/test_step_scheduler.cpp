@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-namesscheduler endovascular_sim::nodes
+namespace endovascular_sim::nodes
 {
-  namesscheduler
+  namespace
   {
     constexpr double kStep = 1e-3;  ///< [s]
 
@@ -72,5 +72,5 @@ namesscheduler endovascular_sim::nodes
         EXPECT_NEAR(loop.step(1.1e-3), k * 1.1e-3, 1e-9);
     }
 
-  }  // namesscheduler
-}  // namesscheduler endovascular_sim::nodes
+  }  // namespace
+}  // namespace endovascular_sim::nodes
