@@ -259,7 +259,7 @@ std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const 
 void takePicture(const Surroundings& surroundings, const simulation::Simulation& simulation)
 {
   if (surroundings.pictures)
-    surroundings.pictures->look(
+    surroundings.pictures->update(
         simulation, *surroundings.session->scriptedOperator(),
         surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
 }

@@ -210,7 +210,7 @@ TEST(Operator, WithdrawsAndResumesFromAnEarlierPhaseAfterALossOfSupport)
   for (const StepRecord& record : world.scripted_operator.records())
     steps.push_back(record.step);
   ASSERT_EQ(steps, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(world.scripted_operator.records()[2].outcome, Progress::kLost);
+  EXPECT_EQ(world.scripted_operator.records()[2].outcome, Progress::kSupportLost);
   EXPECT_EQ(world.scripted_operator.records()[5].outcome, Progress::kDone);
   EXPECT_EQ(world.scripted_operator.records()[4].phase, "Engagement");
   for (std::size_t k = 1; k < world.history.size(); ++k)
