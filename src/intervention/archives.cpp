@@ -38,13 +38,20 @@ void Treatment::archive(Archive& archive)
     archive(*stent_);
 }
 
-/** Of vertices only those that have been through something. */
+/** Saves or loads the vertices that differ from their initial state. */
 void VesselOpening::archive(Archive& archive)
 {
   std::vector<int> changed;
   for (std::size_t v = 0; v < walls_.size() && !archive.reading(); ++v)
     if (walls_[v].active || walls_[v].peak != 0.0 || walls_[v].base != first_[v] || mesh_.vertices[v] != first_[v])
       changed.push_back(static_cast<int>(v));
+  for (std::size_t v = 0; v < walls_.size() && archive.reading(); ++v)
+  {
+    Wall initial;
+    initial.base = mesh_.vertices[v] = first_[v];
+    initial.healthy_radius = walls_[v].healthy_radius;
+    walls_[v] = initial;
+  }
   archive(changed, active_, next_.first, next_.second, empty_, farthest_, peak_pressure_, largest_stretch_);
   for (int v : changed)
   {
