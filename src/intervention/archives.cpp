@@ -44,7 +44,7 @@ void Treatment::archive(Archive& archive)
     archive(*stent_);
 }
 
-/** Archives only vertices whose state differs from the initial one. */
+/** Saves or loads the vertices whose state differs from the initial one. */
 void VesselDilatation::archive(Archive& archive)
 {
   std::vector<int> changed;
@@ -52,6 +52,13 @@ void VesselDilatation::archive(Archive& archive)
     if (vertices_[v].active || vertices_[v].peak != 0.0 || vertices_[v].base != initial_vertices_[v] ||
         mesh_.vertices[v] != initial_vertices_[v])
       changed.push_back(static_cast<int>(v));
+  for (std::size_t v = 0; v < vertices_.size() && archive.reading(); ++v)
+  {
+    VertexState initial;
+    initial.base = mesh_.vertices[v] = initial_vertices_[v];
+    initial.healthy_radius = vertices_[v].healthy_radius;
+    vertices_[v] = initial;
+  }
   archive(changed, active_, next_.first, next_.second, empty_, largest_displacement_, peak_pressure_, largest_stretch_);
   for (int v : changed)
   {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/studies/study_list.h"
+#include "benchmark/study_list.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 

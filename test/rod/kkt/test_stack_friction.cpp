@@ -30,10 +30,13 @@ struct TightFit
   /** @param rest_curvature of both layers, over their last 100 mm [1/m] */
   explicit TightFit(double rest_curvature = 0.0)
   {
+    StepperSettings settings;
+    settings.corrected_strain_ratio = 0.0;  // the friction torques converge with the solves of a step
+    settings.max_iterations = 12;
     Layer wire{curvedAtTip(uniformWire(kLength, 2e-5, 0.4e-3, 6000.0), rest_curvature), 0.1, 2.0};
     Layer catheter{curvedAtTip(uniformWire(kLength, 8e-5, 0.9e-3, 6000.0), rest_curvature)};
     stepper = std::make_unique<KktStepper>(std::vector<Layer>{wire, catheter}, equalNodes(kLength, 151), Boundary(),
-                                           calm(), StepperSettings());
+                                           calm(), settings);
     state = stepper->initialState(input);
   }
 

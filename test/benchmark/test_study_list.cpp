@@ -1,4 +1,4 @@
-#include "benchmark/studies/study_list.h"
+#include "benchmark/study_list.h"
 
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "benchmark/studies/study_list.h"
+#include "benchmark/study_list.h"
 
 #include "benchmark/studies/accuracy.h"
 #include "benchmark/studies/contact_study.h"
