@@ -47,7 +47,7 @@ private:
 struct PushedWire
 {
   PushedWire(double length, int nodes, const rod::Environment& environment, double inserted)
-    : stepper(rod::discretiseUniformly(uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
+    : stepper(rod::discretiseUniformly(rod::uniformWire(length, kStiffness, kRadius, kDensity), nodes), rod::Boundary(),
               environment, rod::StepperSettings()),
       state(stepper.initialState(inserted, 0.0))
   {
@@ -114,7 +114,7 @@ TEST(SlideAlongItself, PreservesTheLengthOfEveryEdge)
     EXPECT_NEAR((x[j + 1] - x[j]).dot(slide[j + 1] - slide[j]), 0.0, 1e-14) << j;
 }
 
-TEST(rod::HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
+TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
 {
   BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
   RoughWall wall(tube, 0.2);
@@ -139,7 +139,7 @@ TEST(rod::HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
 }
 
 // Exact: ½EIκ² while the tip is in the bend.
-TEST(rod::HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
+TEST(HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
 {
   constexpr double kBend = 0.03;
   BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
@@ -160,7 +160,7 @@ TEST(rod::HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
   EXPECT_LT(others, 0.02 * work);
 }
 
-TEST(rod::HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
+TEST(HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
 {
   constexpr double kSlope = 0.4;  // inclination of the ramp [rad]
   constexpr double kFriction = 0.3;
@@ -188,7 +188,7 @@ TEST(rod::HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
   EXPECT_NEAR(parts.inertia, 0.0, 0.01 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
+TEST(HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
 {
   constexpr double kAcceleration = 2.0;  // acceleration of the hand [m/s²]
   PushedWire wire(0.16, 161, rod::Environment(), 0.06);
@@ -203,7 +203,7 @@ TEST(rod::HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
   EXPECT_NEAR(wire.state.hand_force, wire.state.hand_parts.inertia, 1e-6 * wire.state.hand_force);
 }
 
-TEST(rod::HandForceParts, EqualTheDragOfAFreeWireInAFluidAtConstantSpeed)
+TEST(HandForceParts, EqualTheDragOfAFreeWireInAFluidAtConstantSpeed)
 {
   rod::Environment environment;
   environment.damping = 5.0;

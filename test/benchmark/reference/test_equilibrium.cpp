@@ -21,7 +21,8 @@ constexpr double kDensity = 7900.0;
 EquilibriumProblem cantilever(int nodes)
 {
   EquilibriumProblem problem;
-  problem.rod = rod::discretiseUniformly(uniformWire(clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes);
+  problem.rod =
+      rod::discretiseUniformly(rod::uniformWire(clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes);
   problem.held.assign(static_cast<std::size_t>(nodes), false);
   problem.held[0] = problem.held[1] = true;
   problem.force.assign(static_cast<std::size_t>(nodes), Eigen::Vector3d::Zero());
@@ -56,10 +57,10 @@ double distanceToStepper(const EquilibriumProblem& problem, const rod::Wire& wir
   rod::StepperSettings settings;
   settings.max_iterations = 40;
   settings.strain_tolerance = 1e-12;
-  const rod::Boundary boundary = clampAtOrigin(kLength, nodes);
+  const rod::Boundary boundary = rod::clampAtOrigin(kLength, nodes);
   rod::KktStepper stepper(rod::discretiseUniformly(wire, nodes), boundary, environment, settings);
   rod::State state = stepper.initialState(0.0, 0.0);
-  EXPECT_GE(settle(stepper, state, input, 0.02, 1e-11, 40000), 0);
+  EXPECT_GE(rod::settle(stepper, state, input, 0.02, 1e-11, 40000), 0);
   Equilibrium rest = straightGuess(problem, boundary.origin);
   EXPECT_TRUE(EquilibriumSolver(problem).solve(rest));
   double worst = 0.0;
@@ -76,8 +77,8 @@ TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderGravity)
   environment.damping = 30.0;
   for (int i = 0; i < 100; ++i)
     problem.force[i] = problem.rod.mass[i] * environment.gravity;
-  EXPECT_LT(distanceToStepper(problem, uniformWire(clampedLength(kLength, 100), kEi, kRadius, kDensity), environment,
-                              rod::StepInput()),
+  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(clampedLength(kLength, 100), kEi, kRadius, kDensity),
+                              environment, rod::StepInput()),
             1e-8);
 }
 
@@ -91,17 +92,17 @@ TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderSpatialForces)
   input.forces = {{30, Eigen::Vector3d(0.0, 4.0 * unit, 2.0 * unit)}, {59, Eigen::Vector3d(0.0, -unit, -3.0 * unit)}};
   for (const rod::NodalForce& load : input.forces)
     problem.force[load.node] = load.force;
-  EXPECT_LT(
-      distanceToStepper(problem, uniformWire(clampedLength(kLength, 60), kEi, kRadius, kDensity), environment, input),
-      1e-8);
+  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(clampedLength(kLength, 60), kEi, kRadius, kDensity),
+                              environment, input),
+            1e-8);
 }
 
 TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestWithAPlanarPreCurvedTip)
 {
   const int nodes = 60;
-  rod::Wire wire = uniformWire(0.7 * clampedLength(kLength, nodes), kEi, kRadius, kDensity);
+  rod::Wire wire = rod::uniformWire(0.7 * rod::clampedLength(kLength, nodes), kEi, kRadius, kDensity);
   wire.sections.push_back(wire.sections[0]);
-  wire.sections[1].length = 0.3 * clampedLength(kLength, nodes);
+  wire.sections[1].length = 0.3 * rod::clampedLength(kLength, nodes);
   wire.sections[1].rest_curvature = Eigen::Vector2d(8.0, 0.0);
   EquilibriumProblem problem = cantilever(nodes);
   problem.rod = rod::discretiseUniformly(wire, nodes);
