@@ -22,7 +22,7 @@ EquilibriumProblem cantilever(int nodes)
 {
   EquilibriumProblem problem;
   problem.rod =
-      rod::discretiseUniformly(rod::uniformWire(clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes);
+      rod::discretiseUniformly(rod::uniformWire(rod::clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes);
   problem.held.assign(static_cast<std::size_t>(nodes), false);
   problem.held[0] = problem.held[1] = true;
   problem.force.assign(static_cast<std::size_t>(nodes), Eigen::Vector3d::Zero());
@@ -77,7 +77,7 @@ TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderGravity)
   environment.damping = 30.0;
   for (int i = 0; i < 100; ++i)
     problem.force[i] = problem.rod.mass[i] * environment.gravity;
-  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(clampedLength(kLength, 100), kEi, kRadius, kDensity),
+  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(rod::clampedLength(kLength, 100), kEi, kRadius, kDensity),
                               environment, rod::StepInput()),
             1e-8);
 }
@@ -92,7 +92,7 @@ TEST(Equilibrium, EqualsTheTimeSteppingSchemeAtRestUnderSpatialForces)
   input.forces = {{30, Eigen::Vector3d(0.0, 4.0 * unit, 2.0 * unit)}, {59, Eigen::Vector3d(0.0, -unit, -3.0 * unit)}};
   for (const rod::NodalForce& load : input.forces)
     problem.force[load.node] = load.force;
-  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(clampedLength(kLength, 60), kEi, kRadius, kDensity),
+  EXPECT_LT(distanceToStepper(problem, rod::uniformWire(rod::clampedLength(kLength, 60), kEi, kRadius, kDensity),
                               environment, input),
             1e-8);
 }
