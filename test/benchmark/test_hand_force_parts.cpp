@@ -119,7 +119,7 @@ TEST(SlideAlongItself, KeepsTheLengthOfEveryEdge)
     EXPECT_NEAR((x[j + 1] - x[j]).dot(slide[j + 1] - slide[j]), 0.0, 1e-14) << j;
 }
 
-TEST(HandForceParts, RecomputedFromTheStateAfterAStepAddUpToTheForceInABentTube)
+TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
 {
   BentTube tube(1e-3, 0.02, 0.03, 0.5 * M_PI);
   RoughWall wall(tube, 0.2);
@@ -143,8 +143,8 @@ TEST(HandForceParts, RecomputedFromTheStateAfterAStepAddUpToTheForceInABentTube)
   EXPECT_LT(std::abs(friction), 0.01 * whole);
 }
 
-// References 13: ½EIκ² while the bend fills.
-TEST(HandForceParts, AreBendingOnlyWithoutFrictionEqualToTheEnergyThatEntersTheBend)
+// Exact: ½EIκ² while the tip is in the bend.
+TEST(HandForceParts, WithoutFrictionEqualTheBendingEnergyEnteringTheBend)
 {
   constexpr double kBend = 0.03;
   BentTube tube(0.01 * kBend, 0.03, kBend, 0.5 * M_PI);
@@ -165,7 +165,7 @@ TEST(HandForceParts, AreBendingOnlyWithoutFrictionEqualToTheEnergyThatEntersTheB
   EXPECT_LT(others, 0.02 * work);
 }
 
-TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
+TEST(HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
 {
   constexpr double kSlope = 0.4;  // rad
   constexpr double kFriction = 0.3;
@@ -193,7 +193,7 @@ TEST(HandForceParts, AreFrictionAndWeightOnAStraightRamp)
   EXPECT_NEAR(parts.inertia, 0.0, 0.01 * wire.state.hand_force);
 }
 
-TEST(HandForceParts, AreInertiaOnlyForAnAcceleratedFreeWire)
+TEST(HandForceParts, EqualTheInertiaOfAnAcceleratedFreeWire)
 {
   constexpr double kAcceleration = 2.0;  // m/s²
   PushedWire wire(0.16, 161, rod::Environment(), 0.06);
@@ -208,7 +208,7 @@ TEST(HandForceParts, AreInertiaOnlyForAnAcceleratedFreeWire)
   EXPECT_NEAR(wire.state.hand_force, wire.state.hand_parts.inertia, 1e-6 * wire.state.hand_force);
 }
 
-TEST(HandForceParts, AreDragOnlyForAFreeWireInAFluidAtConstantSpeed)
+TEST(HandForceParts, EqualTheDragOfAFreeWireInAFluidAtConstantSpeed)
 {
   rod::Environment environment;
   environment.damping = 5.0;
