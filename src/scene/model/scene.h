@@ -92,7 +92,7 @@ struct DriveProfile
   /** Value at time t [s]. */
   double at(double t) const;
 
-  /** True where the value is zero at all times. */
+  /** True if the value is zero at all times. */
   bool isTrivial() const { return points.empty() && amplitude == 0.0; }
 };
 
@@ -152,7 +152,7 @@ struct DistalScene
   DriveProfile tilt;                                    ///< rotation of the clamp's direction about tilt_axis [rad]
   DriveProfile rotation;  ///< rotation of a clamp with held twist about the wire's axis [rad]
 
-  /** True where the end moves, or holds the twist (SchemeTraits::moves_distal_end). */
+  /** True if the end moves or holds the twist (SchemeTraits::moves_distal_end). */
   bool isDriven() const
   {
     return twist_held || !displacement.isTrivial() || !tilt.isTrivial() || !rotation.isTrivial();
@@ -196,14 +196,14 @@ struct SamplingScene
   double min_age = 0.05;        ///< age from which edges may be merged [s]
 };
 
-/** Time stepping. */
+/** Time integration. */
 struct SolverScene
 {
-  std::string scheme = "kkt";               ///< see rod::SchemeTraits
+  std::string scheme = "kkt";               ///< name of the scheme (rod::SchemeTraits)
   rod::StepperSettings stepper;             ///< settings of the scheme
-  double time_step = 1e-3;                  ///< [s]
-  double max_travel_per_substep = 0.05e-3;  ///< of a handle; faster motion is divided into sub-steps [m]
-  double guide_length = 19e-3;              ///< length over which the introducer's guide fades [m]
+  double time_step = 1e-3;                  ///< time step [s]
+  double max_travel_per_substep = 0.05e-3;  ///< largest travel of a handle per sub-step [m]
+  double guide_length = 19e-3;              ///< length over which the stiffness of the introducer's guide decays [m]
 
   const rod::SchemeTraits& traits() const { return rod::schemeTraits(scheme); }
 };
@@ -247,7 +247,7 @@ struct Scene
   EntryScene entry;
   std::vector<DrivenInstrument> instruments;        ///< ordered from the inside out; at least one
   std::optional<ProcedureScene> procedure;          ///< procedure of the scripted operator
-  rod::EndHold proximal_end = rod::EndHold::kFree;  ///< hold of a bench scene; an introducer holds a driven wire
+  rod::EndHold proximal_end = rod::EndHold::kFree;  ///< bench scenes; a driven wire is held by its introducer
   rod::EndHold distal_end = rod::EndHold::kFree;
   DistalScene distal;      ///< motion of a held distal end
   bool introducer = true;  ///< true: the wire enters through an introducer; false: bench scene with the whole wire

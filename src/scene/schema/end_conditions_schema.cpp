@@ -104,11 +104,13 @@ void visitEnds(SceneFields& fields, Scene& scene)
 void checkEnds(const SceneFields& fields, const Scene& scene)
 {
   if (scene.introducer && scene.distal_end != rod::EndHold::kFree && !scene.solver.traits().holds_inserted_end)
-    fields.refuse("distal_end", "scheme '" + scene.solver.scheme +
-                                    "' does not hold a far end behind an introducer; set distal_end: free, or "
-                                    "solver.scheme: kkt");
+    fields.refuse("distal_end",
+                  "scheme '" + scene.solver.scheme +
+                      "' does not hold a distal end together with an introducer; set distal_end: free, or "
+                      "solver.scheme: kkt");
   if (scene.distal.isDriven() && !scene.solver.traits().moves_distal_end)
-    fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' does not move a far end or hold its twist; use kkt");
+    fields.refuse("solver.scheme",
+                  "'" + scene.solver.scheme + "' does not move a distal end or hold its twist; use kkt");
   if (scene.distal_end == rod::EndHold::kClamped && !scene.solver.traits().clamped_tip_torque)
     for (const PointLoad& load : scene.loads.point_loads)
       if (load.torque != 0.0)

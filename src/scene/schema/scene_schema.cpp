@@ -131,7 +131,8 @@ void checkScene(const SceneFields& fields, const Scene& scene)
       fields.refuse(drivePath(scene, k) + "drive.pressure",
                     "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
   if (scene.sampling.kind == SamplingKind::kAdaptive && !scene.solver.traits().adaptive)
-    fields.refuse("sampling.kind", "scheme '" + scene.solver.scheme + "' keeps its nodes; set sampling.kind: uniform");
+    fields.refuse("sampling.kind", "scheme '" + scene.solver.scheme +
+                                       "' does not support adaptive sampling; set sampling.kind: uniform");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
   if (scene.instruments.size() > 1)
