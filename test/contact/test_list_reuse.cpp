@@ -18,7 +18,7 @@ namespace
 
 geometry::TriangleMesh fineTube()
 {
-  return geometry::flatSubdivision(bentTube(), 2);
+  return geometry::midpointSubdivision(bentTube(), 2);
 }
 
 /** A wire along the tube's wall. @param slid displacement along the tube; zero gives a zigzag [m] */

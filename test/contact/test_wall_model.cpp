@@ -83,7 +83,7 @@ Query longWire()
 
 TEST(WallModel, GivesDetectorsThatShareItTheBitsOfDetectorsWithTheirOwn)
 {
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 2);
+  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
   Detector first(model, WallLaw{});
   Detector second(model, WallLaw{1e6, 0.2, {}});
@@ -109,7 +109,7 @@ TEST(WallModel, GivesDetectorsThatShareItTheBitsOfDetectorsWithTheirOwn)
 
 TEST(WallModel, IsCopiedAtTheFirstMovementSoThatOtherDetectorsKeepTheirWall)
 {
-  geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 2);
+  geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
   Detector moving(model, WallLaw{});
   Detector resting(model, WallLaw{});
@@ -146,7 +146,7 @@ TEST(WallModel, IsCopiedAtTheFirstMovementSoThatOtherDetectorsKeepTheirWall)
 
 TEST(WallModel, IsMovedInPlaceByItsOnlyOwner)
 {
-  geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 3);
+  geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 3);
   Detector detector(WallModel::create(mesh), WallLaw{});
   const WallModel* before = detector.model().get();
   const Movement movement = pushOut(mesh, {0.0, 0.0, 0.01}, 2e-3, 0.2);
@@ -166,7 +166,7 @@ TEST(WallModel, IsNotCopiedByAnEmptyMovement)
 
 TEST(WallModel, LetsAFurtherDetectorCostLessThanTwoMegabytes)
 {
-  const geometry::TriangleMesh mesh = geometry::flatSubdivision(bentTube(), 4);
+  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 4);
   ASSERT_GT(mesh.triangles.size(), 90000U);
   const std::size_t before_model = allocated_bytes;
   const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
@@ -182,7 +182,7 @@ TEST(WallModel, LetsAFurtherDetectorCostLessThanTwoMegabytes)
 
 TEST(Detector, AllocatesNothingInSteadyState)
 {
-  Detector detector(geometry::flatSubdivision(bentTube(), 2), WallLaw{});
+  Detector detector(geometry::midpointSubdivision(bentTube(), 2), WallLaw{});
   Query wire = longWire();
   ContactSet set;
   const auto rock = [&](int steps)

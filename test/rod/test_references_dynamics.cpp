@@ -102,7 +102,7 @@ double frequencyOf(const Propagation& propagation, double dt)
   return std::tan(propagation.angle) / dt;
 }
 
-// References 10: βL = 1.875104069 (cantilever), 4.730040745 (free).
+// ΒL = 1.875104069 (cantilever), 4.730040745 (free).
 TEST(ReferencesDynamics, VibratesAtTheFrequenciesOfTheBeam)
 {
   const int nodes = 81;
@@ -124,7 +124,7 @@ TEST(ReferencesDynamics, VibratesAtTheFrequenciesOfTheBeam)
   EXPECT_NEAR(frequencyOf(swing(free, bending, free_dt), free_dt), 0.9993562282204456 * free_exact, 1e-6 * free_exact);
 }
 
-// References 10: growth per step of backward Euler 1/√(1 + ω²Δt²), turn atan(ωΔt).
+// Growth per step of backward Euler 1/√(1 + ω²Δt²), turn atan(ωΔt).
 TEST(ReferencesDynamics, DampsAModeAsBackwardEulerDoesAndNothingElse)
 {
   const int nodes = 41;

@@ -173,7 +173,7 @@ Buckled buckle(EndHold hold, int nodes)
   return {state.distal_force.x() / scale, std::abs(state.position[nodes / 2].y()) / kLength};
 }
 
-// References 03: ends brought together by L/10.
+// Ends brought together by L/10.
 TEST(ReferencesStatics, ABuckledWirePushesAndBulgesLikeEulersElastica)
 {
   const Buckled clamped{41.57025579315579, 0.19492431137557378};
@@ -191,7 +191,7 @@ TEST(ReferencesStatics, ABuckledWirePushesAndBulgesLikeEulersElastica)
   }
 }
 
-// References 11: catenary with a span of 0.8 L; the wire's EI is 1e-8 of its weight's scale w L³.
+// Catenary with a span of 0.8 L; the wire's EI is 1e-8 of its weight's scale w L³.
 TEST(ReferencesStatics, AHeavySoftWireHangsInTheCatenary)
 {
   const int nodes = 101;
@@ -237,7 +237,7 @@ Eigen::Vector3d loadedArcTip(int nodes)
   return state.position.back() / radius;
 }
 
-// References 06 c.
+// Cantilever with natural curvature, loaded out of its plane.
 TEST(ReferencesStatics, AnArcUnderAnOutOfPlaneLoadBendsAndTwistsLikeTheKirchhoffRod)
 {
   const Eigen::Vector3d exact(0.5877968539120596, 0.2224503474206913, 0.4018828383798087);
@@ -251,7 +251,7 @@ TEST(ReferencesStatics, AnArcUnderAnOutOfPlaneLoadBendsAndTwistsLikeTheKirchhoff
 
 // ------------------------------------------------------------------------------------------- unit energies
 
-// References 11: three nodes with a turn of p: E h/EI = 2 tan²(p/2).
+// Three nodes with a turn of p: E h/EI = 2 tan²(p/2).
 TEST(ReferencesStatics, EnergyOfOneTurnIsExact)
 {
   for (const auto& [turn, energy] :

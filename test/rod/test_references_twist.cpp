@@ -3,7 +3,7 @@
 #include "rod/twist/twist.h"
 #include "test/rod/rod_fixtures.h"
 
-// Torque transmission on a prescribed planar centreline (References 07): GJ φ″ = EI κ κ0 sin φ, φ between the wire's
+// Torque transmission on a prescribed planar centreline : GJ φ″ = EI κ κ0 sin φ, φ between the wire's
 // natural bend and the centreline's; φ_in is the handle's angle, φ_out the tip's.
 
 namespace endovascular_sim::rod
@@ -261,7 +261,7 @@ TEST(ReferencesTwist, TorqueOfATurningHandleWithoutLoadIsThatOfLessThanOneStepAn
   }
 }
 
-// References 11: over one turn of a helix (radius 1, pitch 2π·0.5) the Bishop frame falls behind Frenet's by 2.8099
+// Over one turn of a helix (radius 1, pitch 2π·0.5) the Bishop frame falls behind Frenet's by 2.8099
 // rad, in a polygon of 16, 64 edges by 2.8537, 2.8126. With equal directors at both ends that angle is twist.
 TEST(ReferencesTwist, TransportAlongAHelixTurnsByItsTorsion)
 {

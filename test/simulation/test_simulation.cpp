@@ -254,7 +254,7 @@ TEST(Simulation, CarriesOverMotionBeyondTheLargestSpeed)
   EXPECT_NEAR(bench.simulation->state().inserted_length, 0.05, 1e-9);
 }
 
-// References 03: clamped wire, ends brought together by 0.1 L: PL²/EI = 41.5703, deflection 0.19492 L.
+// Clamped wire, ends brought together by 0.1 L: PL²/EI = 41.5703, deflection 0.19492 L.
 TEST(Simulation, BringsTheEndsOfAWireTogetherAndTurnsTheDistalOne)
 {
   Bench bench("buckling.yaml");

@@ -48,7 +48,7 @@ protected:
     return off;
   }
 
-  Wall wall_{geometry::flatSubdivision(bentTube(), 3)};
+  Wall wall_{geometry::midpointSubdivision(bentTube(), 3)};
   WallBounds bounds_{wall_};
   Bvh bvh_{wall_};
   NeighbourList list_;

@@ -97,7 +97,7 @@ TEST(MixedStepper, MotionConvergesWithFirstOrderInTheTimeStep)
   EXPECT_NEAR(std::log2((a - b).norm() / (b - c).norm()), 1.0, 0.1);
 }
 
-// References 10: (βL)² of the cantilever, first and third mode.
+// (βL)² of the cantilever, first and third mode.
 TEST(MixedStepper, VibratesAtTheFrequenciesOfTheBeamWithFourthOrder)
 {
   const auto frequencies = [](int nodes)

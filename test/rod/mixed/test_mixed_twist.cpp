@@ -42,7 +42,7 @@ double order(double coarse, double fine)
   return std::log2(coarse / fine);
 }
 
-// References 06c: 45° arc, GJ = EI and GJ = EI/1.3, loaded out of its plane with FR²/EI = 3.6.
+// 45° arc, GJ = EI and GJ = EI/1.3, loaded out of its plane with FR²/EI = 3.6.
 TEST(MixedTwist, ArcBentOutOfItsPlaneConvergesWithFourthOrder)
 {
   const Vector3d isotropic(0.5877968539120596, 0.2224503474206913, 0.4018828383798087);
@@ -173,7 +173,7 @@ TEST(MixedTwist, EnergyChangesByTheWorkOfLoadAndHandToFourthOrder)
   EXPECT_LT(fine.second, 1e-4);
 }
 
-// References 06a: a quarter circle loaded in its plane, here with relaxed frames.
+// A quarter circle loaded in its plane, here with relaxed frames.
 TEST(MixedTwist, ArcBentInItsPlaneKeepsFourthOrder)
 {
   const Vector3d exact(0.804105101290247, 0.4818706970436423, 0.0);
