@@ -3,8 +3,8 @@
 #include "test/rod/stack_fixtures.h"
 
 // Two pre-curved tubes on one centreline, clamped at the base and free at the end: the angle α between their natural
-// bends obeys α″ = c sin α, c = κ1 κ2 EI1 EI2/(EI1 + EI2) (1/GJ1 + 1/GJ2): the equation of References 07, whose tables
-// of base angle against tip angle hold for √c L.
+// bends obeys α″ = c sin α, c = κ1 κ2 EI1 EI2/(EI1 + EI2) (1/GJ1 + 1/GJ2): the equation of torque transmission in a
+// bend, whose tables of base angle against tip angle hold for √c L.
 
 namespace endovascular_sim::rod
 {

@@ -217,7 +217,7 @@ TEST(MixedTwist, StraightWireTwistsAsALinearSpring)
     EXPECT_NEAR(state.twist_angle[j], 0.7 + 0.2 * 1.3 * (j + 0.5) / 10, 1e-12);
 }
 
-// References 07, null test: the unloaded shape of a pre-curved wire turns rigidly with the handle.
+// Null test: the unloaded shape of a pre-curved wire turns rigidly with the handle.
 TEST(MixedTwist, UnloadedCurvedWireTurnsWithTheHandleWithoutTorque)
 {
   TwistBoundary twist;
