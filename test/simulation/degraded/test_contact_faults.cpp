@@ -81,10 +81,6 @@ private:
     set.stale = true;
   }
 
-  static constexpr int kFaults = 12;
-  const std::array<int, kFaults>& dropped() const { return dropped_; }
-
-private:
   contact::ContactSet corrupted(const contact::Query& query, contact::ContactSet answer)
   {
     contact::Feature bad;
