@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"fraction_above_one", "[1, 7]", "[1.5, 7]", "branches[trunk].diameters", "a fraction from 0 to 1"},
         Change{"fractions_fall", "[[0, 5], [1, 4]]", "[[1, 5], [0, 4]]", "branches[right].diameters", "must increase"},
         Change{"no_diameters", "[[0, 5], [1, 4]]", "[]", "branches[right].diameters", "at least one"},
-        Change{"orphan", "parent: trunk", "parent: stem", "branches[right].parent", "no branch \"stem\""},
+        Change{"orphan", "parent: trunk", "parent: stem", "branches[right].parent", "no earlier branch \"stem\""},
         Change{"second_root", "    parent: trunk\n", "", "branches[right].parent",
                "only the first branch has no parent"},
         Change{"both_parents", "parent: trunk", "parent: trunk\n    continues: trunk", "branches[right].continues",
