@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "common/child_process.h"
 #include "common/error.h"
 
 namespace endovascular_sim::tools
@@ -53,12 +53,14 @@ inline void drawProgress(double share, const std::string& text)
 inline bool runPlotScript(const std::string& script, const std::vector<std::string>& arguments)
 {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  std::string command = "/usr/bin/python3 '" + (program.parent_path() / script).string() + "'";
-  for (const std::string& argument : arguments)
-    command += " '" + argument + "'";
-  if (std::system((command + " >/dev/null").c_str()) == 0)
+  const std::filesystem::path path = program.parent_path() / script;
+  std::vector<std::string> command = {"/usr/bin/python3", path.string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const int code = runProgram(command);
+  if (code == 0)
     return true;
-  std::cerr << program.filename().string() << ": the plots could not be drawn (" << command << ")\n";
+  std::cerr << program.filename().string() << ": the plots could not be drawn: " << path.string()
+            << " ended with exit code " << code << "\n";
   return false;
 }
 
