@@ -7,10 +7,11 @@
 namespace endovascular_sim::vessel
 {
 
-/** Reads the triangles of an OBJ, STL (ASCII or binary) or PLY file; polygons are triangulated.
+/** Reads the triangles of an OBJ, STL (ASCII or binary) or PLY file in double precision; polygons are triangulated.
  *
- *  Vertices with equal coordinates are welded, in file order. Coordinates pass through single precision (a relative
- *  error of 6e-8). There is no repair: the mesh may have holes or inverted faces.
+ *  Vertices with equal coordinates are welded and numbered in the order in which faces first use them. There is no
+ *  repair: the mesh may have holes or inverted faces. Every number and index of the file is checked, and memory is
+ *  allocated by the size of the file, not by the counts that it announces.
  *  @param path file; its extension determines the format
  *  @param unit metres per unit of the file (0.001 for millimetres)
  *  @throws InputError if the file is missing, of another format, damaged, or without triangles */

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/triangle_mesh.h"
+
+namespace endovascular_sim::vessel
+{
+
+/** Collects the vertices and polygons of a mesh file and makes a triangle mesh of them.
+ *
+ *  Vertices with bitwise equal coordinates become one, numbered in the order in which faces first use them. Polygons
+ * are triangulated by ear clipping in the plane of their Newell normal. */
+class MeshBuilder
+{
+public:
+  /** Largest number of corners of a polygon. */
+  static constexpr std::size_t kMaxCorners = 1024;
+
+  /** @param path file, named in errors
+   *  @param unit metres per unit of the file */
+  MeshBuilder(std::string path, double unit) : path_(std::move(path)), unit_(unit) {}
+
+  /** Adds a vertex of the file.
+   *  @param position in units of the file
+   *  @param line of the file that defines it; 0: unknown
+   *  @throws InputError for a coordinate that is not finite */
+  void addVertex(const Eigen::Vector3d& position, std::size_t line = 0);
+
+  /** Adds a face by the numbers of its vertices, from 0; vertices may follow later. Faces of fewer than three corners
+   * are ignored.
+   *  @throws InputError for more than kMaxCorners corners */
+  void addFace(const std::vector<long long>& corners, std::size_t line = 0);
+
+  std::size_t vertices() const { return positions_.size(); }
+
+  /** Makes the mesh, in metres.
+   *  @throws InputError for a vertex number out of range, or a file without triangles */
+  geometry::TriangleMesh build();
+
+private:
+  /** Range of corners_ of one face. */
+  struct Face
+  {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t line = 0;
+  };
+
+  [[noreturn]] void refuse(const char* kind, std::size_t index, std::size_t line, const std::string& reason) const;
+  void triangulate(std::size_t first, std::size_t last);
+  int meshVertex(int vertex);
+  void addTriangle(int a, int b, int c);
+
+  std::string path_;
+  double unit_;
+  std::vector<Eigen::Vector3d> positions_;  ///< vertices of the file [units of the file]
+  std::vector<long long> corners_;          ///< vertex numbers of all faces
+  std::vector<Face> faces_;
+  std::vector<int> ring_;                             ///< remaining corners of the polygon being triangulated
+  std::vector<int> mesh_vertex_;                      ///< number in the mesh of every vertex of the file; −1: unused
+  std::map<std::array<double, 3>, int> by_position_;  ///< mesh vertices by their coordinates [units of the file]
+  geometry::TriangleMesh mesh_;
+};
+
+}  // namespace endovascular_sim::vessel

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "vessel/io/mesh_reader.h"
+
+// Damaged mesh files: the reader returns a mesh with valid indices and finite coordinates, or throws InputError.
+
+namespace endovascular_sim::vessel
+{
+namespace
+{
+
+constexpr int kMutations = 2000;
+
+std::string contentOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/** Changes, removes, repeats or inserts bytes at random positions. */
+std::string mutated(std::string bytes, std::mt19937& random)
+{
+  static const std::string kNumbers[] = {"-1", "4294967295", "2147483648", "1e308", "nan", "0", "99999999999999999999"};
+  const int changes = 1 + static_cast<int>(random() % 8);
+  for (int k = 0; k < changes && !bytes.empty(); ++k)
+  {
+    const std::size_t at = random() % bytes.size();
+    const std::size_t length = random() % 16;
+    switch (random() % 6)
+    {
+      case 0:
+        bytes[at] = static_cast<char>(random());
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << (random() % 8)));
+        break;
+      case 2:
+        bytes.erase(at, length);
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(random() % bytes.size(), length));
+        break;
+      case 4:
+        bytes.insert(at, kNumbers[random() % std::size(kNumbers)]);
+        break;
+      default:
+        bytes.resize(at);
+    }
+  }
+  return bytes;
+}
+
+class DamagedMesh : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
+{
+  const std::string source = std::string(TEST_DATA_DIR) + "/meshes/" + GetParam();
+  const std::string original = contentOf(source);
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() /
+      ("damaged_" + std::to_string(::getpid()) + std::filesystem::path(source).extension().string());
+  std::mt19937 random(1);
+  int accepted = 0;
+  for (int k = 0; k < kMutations; ++k)
+  {
+    std::ofstream(file, std::ios::binary) << mutated(original, random);
+    try
+    {
+      const geometry::TriangleMesh mesh = readMesh(file.string(), 1e-3);
+      ++accepted;
+      ASSERT_FALSE(mesh.triangles.empty());
+      for (const Eigen::Vector3i& triangle : mesh.triangles)
+      {
+        ASSERT_GE(triangle.minCoeff(), 0) << k;
+        ASSERT_LT(triangle.maxCoeff(), static_cast<int>(mesh.vertices.size())) << k;
+      }
+      for (const Eigen::Vector3d& vertex : mesh.vertices)
+        ASSERT_TRUE(vertex.allFinite()) << k;
+    }
+    catch (const InputError& error)
+    {
+      ASSERT_NE(std::string(error.what()).find(file.filename().string()), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_LT(accepted, kMutations);
+  std::filesystem::remove(file);
+}
+
+INSTANTIATE_TEST_SUITE_P(MeshReader, DamagedMesh,
+                         testing::Values("box_mm.obj", "box_ascii.stl", "box_binary.stl", "box.ply"));
+
+/** Error of reading a file with this content; empty if it is accepted. */
+std::string errorOf(const std::string& content, const std::string& extension)
+{
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("mesh_" + std::to_string(::getpid()) + extension);
+  std::ofstream(file, std::ios::binary) << content;
+  try
+  {
+    readMesh(file.string(), 1.0);
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr auto kPlyHeader =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+    "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+TEST(MeshReader, RejectsAVertexNumberThatDoesNotExist)
+{
+  const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(errorOf(kPlyHeader + vertices + "3 0 1 2\n", ".ply"), "");
+  EXPECT_NE(errorOf(kPlyHeader + vertices + "3 0 1 3\n", ".ply").find("names vertex 3"), std::string::npos);
+  EXPECT_NE(errorOf(kPlyHeader + vertices + "3 0 1 -1\n", ".ply").find("names vertex -1"), std::string::npos);
+  EXPECT_NE(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ".obj").find("line 4"), std::string::npos);
+  EXPECT_NE(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", ".obj").find("line 4"), std::string::npos);
+  EXPECT_NE(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", ".obj").find("line 4"), std::string::npos);
+}
+
+TEST(MeshReader, RejectsCountsThatExceedTheFile)
+{
+  std::string header = kPlyHeader;
+  header.replace(header.find("vertex 3"), 8, "vertex 4000000000");
+  EXPECT_NE(errorOf(header + "0 0 0\n", ".ply").find("more than the file holds"), std::string::npos);
+  EXPECT_NE(errorOf(std::string(80, 'x') + std::string("\xff\xff\xff\x7f", 4), ".stl").find("truncated"),
+            std::string::npos);
+}
+
+TEST(MeshReader, KeepsDoublePrecision)
+{
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("precise_" + std::to_string(::getpid()) + ".obj");
+  std::ofstream(file) << "v 0.1234567890123456 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(readMesh(file.string(), 1.0).vertices[0].x(), 0.1234567890123456);
+  std::filesystem::remove(file);
+}
+
+TEST(MeshReader, TriangulatesAConcavePolygonWithinItsOutline)
+{
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("concave_" + std::to_string(::getpid()) + ".obj");
+  std::ofstream(file) << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n";
+  const geometry::TriangleMesh mesh = readMesh(file.string(), 1.0);
+  std::filesystem::remove(file);
+  ASSERT_EQ(mesh.triangles.size(), 3U);
+  double area = 0.0;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+  {
+    const Eigen::Vector3d normal =
+        0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    EXPECT_GT(normal.z(), 0.0);
+    area += normal.norm();
+  }
+  EXPECT_NEAR(area, 2.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::vessel
