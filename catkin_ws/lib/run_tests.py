@@ -56,14 +56,15 @@ class Runner:
         return [name for name in sorted(os.listdir(os.path.join(self.repository, "test")))
                 if os.path.exists(os.path.join(self.programs, "test_" + name))]
 
-    def filter_of(self, folder):
-        """gtest filter of the tests in a sub-folder of test/, e.g. rod/contact."""
+    def filter_of(self, folder, wanted):
+        """gtest filter of the tests in a sub-folder of test/, e.g. rod/contact, whose names match the glob."""
         patterns = []
         for path in glob.glob(os.path.join(self.repository, "test", folder, "**", "test_*.cpp"), recursive=True):
             with open(path) as source:
                 text = source.read()
             for suite, name in re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", text, re.MULTILINE):
-                patterns += ["%s.%s" % (suite, name), "*/%s.%s/*" % (suite, name), "%s/*.%s" % (suite, name)]
+                if any(fnmatch.fnmatchcase("%s.%s" % (suite, name), glob_) for glob_ in wanted.split(":")):
+                    patterns += ["%s.%s" % (suite, name), "*/%s.%s/*" % (suite, name), "%s/*.%s" % (suite, name)]
         return ":".join(patterns)
 
     def tests_in(self, program, gtest_filter):
@@ -82,11 +83,9 @@ class Runner:
             program = os.path.join(self.programs, "test_" + folder)
             gtest_filter = self.arguments.filter or "*"
             if only and "/" in only:
-                if self.arguments.filter:
-                    raise SystemExit("error: --filter goes with a top folder of test/, not with '%s'" % only)
-                gtest_filter = self.filter_of(only)
+                gtest_filter = self.filter_of(only, gtest_filter)
                 if not gtest_filter:
-                    raise SystemExit("error: there is no test in test/%s" % only)
+                    raise SystemExit("error: there is no test '%s' in test/%s" % (self.arguments.filter or "*", only))
             count = self.tests_in(program, gtest_filter)
             if count == 0:
                 continue

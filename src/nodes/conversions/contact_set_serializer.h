@@ -21,7 +21,7 @@ struct StampedContactSet
   contact::ContactSet set;
 };
 
-// Features stand on the wire as they do in memory (ContactFeature.msg; test_contact_message.cpp compares the fields).
+// Features stand on the wire as they do in memory (ContactFeature.msg; test_contact_set_serializer.cpp compares the fields).
 static_assert(sizeof(contact::Feature) == 2 * sizeof(std::int32_t) + 12 * sizeof(double) &&
                   std::is_standard_layout<contact::Feature>::value,
               "contact::Feature must order its members as ContactFeature.msg does, without padding");
