@@ -35,8 +35,8 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
 }
 
-/** Motion of one handle that a stale contact set covers: its share of the least margin, with folded balloons, less the
- *  motion of the sub-step before [m]. */
+/** Motion of one handle that a stale contact set covers [m]: the margin at the widest folded instrument minus the
+ *  travel of a sub-step, divided by the number of handles. */
 double staleCover(const scene::Scene& scene)
 {
   double widest = 0.0;

@@ -96,8 +96,8 @@ void LayerStack::stop(State& state) const
 }
 
 /** Changes the reference before a step in which another layer's tip passes that of the present one. The nodes move
- * along the wire to that layer's tip, less than the step's motion, and follow its material from there. The layers'
- * forces depend on the spacing of the nodes, so that they differ a little; the difference fades.
+ *  along the wire to the tip of the new reference, by less than the motion of the step, and then follow its material.
+ *  The layers' forces depend slightly on the positions of the nodes; the difference fades.
  *  @param dt of the step [s] */
 void LayerStack::changeReference(State& state, int k, const StepInput& input, double dt, WallFriction& friction)
 {
