@@ -128,13 +128,13 @@ TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
   for (int k = 0; k < 2000; ++k)
   {
     wire.push(0.04e-3, &wall);
-    const rod::HandForceParts anew = recomputedParts(wire);
+    const rod::HandForceParts recomputed = recomputedParts(wire);
     const rod::HandForceParts& parts = wire.state.hand_parts;
     EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
     whole += wire.state.hand_force;
-    difference += anew.sum() - wire.state.hand_force;
-    bending += anew.bending - parts.bending;
-    friction += anew.friction - parts.friction;
+    difference += recomputed.sum() - wire.state.hand_force;
+    bending += recomputed.bending - parts.bending;
+    friction += recomputed.friction - parts.friction;
   }
   // Friction takes the normal force of the solve before: only in the mean is it that of the step's end.
   EXPECT_GT(whole / 2000, 5e-3);

@@ -226,7 +226,7 @@ TEST_F(TrustRegionOverAFloor, SubtractsTheGrowthOfABalloonAndIgnoresItsShrinking
 }
 
 /** A trust region without a contact solver. */
-TEST_F(TrustRegionOverAFloor, LeavesFreshMotionWithinTheReachAsItIs)
+TEST_F(TrustRegionOverAFloor, TruncatesMotionWithinTheReachOnAStaleSetOnly)
 {
   const WireSurface surface(rod_);
   ContactQueryBuilder query(rod_, boundary_, settings_, surface);
