@@ -27,7 +27,7 @@ Discretisation rodOf(const std::vector<Layer>& layers, const std::vector<double>
   const auto longest = std::max_element(
       layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.wire.length() < b.wire.length(); });
   if (longest == layers.end() || position.size() < 3)
-    throw std::invalid_argument("KktStepper: at least one layer and three nodes");
+    throw std::invalid_argument("KktStepper: requires at least one layer and three nodes");
   return discretise(longest->wire, position);
 }
 

@@ -21,7 +21,7 @@ void nodeAngles(const std::vector<double>& twist_angle, int first_node, std::vec
 State SingleLayer::initialState(const std::vector<LayerInput>& layers) const
 {
   if (layers.size() != 1)
-    throw std::invalid_argument("SingleLayer: one insertion and rotation");
+    throw std::invalid_argument("SingleLayer: requires one insertion and rotation");
   return initialState(layers.front().inserted_length, layers.front().rotation);
 }
 
