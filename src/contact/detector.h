@@ -71,7 +71,7 @@ private:
   WallLaw law_;
   std::uint64_t vessel_version_;
   std::vector<NeighbourList> lists_;  ///< per node, from the tip
-  std::vector<int> nearest_;          ///< per node of the whole wire: the triangle nearest to it lately, or −1
+  std::vector<int> nearest_;          ///< per node of the whole wire: nearest triangle of its last search, or −1
   NeighbourList::Scratch scratch_;
 };
 

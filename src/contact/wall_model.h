@@ -27,7 +27,7 @@ public:
   static std::shared_ptr<const WallModel> create(const geometry::TriangleMesh& mesh);
 
   /** Copy on write: gives access to a model that no other owner holds.
-   *  @param model replaced by a copy if it is shared; a model without another owner remains as it is */
+   *  @param model replaced by a copy if it is shared; a model without another owner is not copied */
   static WallModel& writable(std::shared_ptr<const WallModel>& model);
 
   WallModel& operator=(const WallModel&) = delete;

@@ -1,6 +1,6 @@
 #include "procedure/operator.h"
 
-// Saved state of the scripted operator.
+// Serialization of the scripted operator.
 
 namespace endovascular_sim::procedure
 {

@@ -46,7 +46,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
     if (k >= 0)
       takeNearer(contacts[static_cast<std::size_t>(k)], feature);
   }
-  // A node without a feature on its own halves of its edges got its force from the far halves.
+  // The force of a node without a feature on the near halves of its edges comes from features on the far halves.
   const auto unlisted = [](const WallContact& contact) { return contact.triangle < 0; };
   for (WallContact& contact : contacts)
     if (unlisted(contact))

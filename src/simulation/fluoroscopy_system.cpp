@@ -17,7 +17,7 @@ constexpr double kBalloonIodine = 185.0;  // mgI/ml: contrast medium of 370 mgI/
 const scene::FluoroscopyScene& xRayOf(const scene::Scene& scene)
 {
   if (!scene.fluoroscopy)
-    throw InputError(scene.file, "fluoroscopy", "missing; add it (`fluoroscopy: {}`) where pictures are wanted");
+    throw InputError(scene.file, "fluoroscopy", "missing; add `fluoroscopy: {}` to render images");
   return *scene.fluoroscopy;
 }
 

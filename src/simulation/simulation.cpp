@@ -35,8 +35,8 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
   return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
 }
 
-/** Motion of one handle that a stale contact set covers: its share of the least margin, with folded balloons, less the
- *  motion of the sub-step before [m]. */
+/** Motion of one handle that a stale contact set covers [m]: the margin at the widest folded instrument minus the
+ *  travel of a sub-step, divided by the number of handles. */
 double staleCover(const scene::Scene& scene)
 {
   double widest = 0.0;
@@ -106,7 +106,7 @@ void Simulation::setMaxInsertions()
         rod::maxInsertion(stepper_->layerLength(k), stepper_->discretisation(), scene_.solver.guide_length);
     if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > channel.max_insertion)
       throw InputError(scene_.file, scene::drivePath(scene_, k) + "drive.initial_insertion",
-                       "leaves less of the wire outside than the introducer's guide; at most " +
+                       "leaves a proximal part shorter than the introducer's guide; must be at most " +
                            std::to_string(channel.max_insertion) + " m");
   }
 }
@@ -128,7 +128,7 @@ void Simulation::setPressures(const std::vector<HandCommand>& commands)
   for (int k = 0; k < instruments(); ++k)
   {
     if (commands[k].pressure != 0.0 && (treatments_.of(k) == nullptr || !scene_.solver.traits().balloons))
-      throw std::invalid_argument("Simulation: a pressure for an instrument without a balloon, or without scheme kkt");
+      throw std::invalid_argument("Simulation: a pressure requires an instrument with a balloon, and the scheme kkt");
     pressures_[k] = commands[k].pressure;
   }
 }
@@ -282,7 +282,7 @@ void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, d
 void Simulation::stepAll(const std::vector<HandCommand>& commands)
 {
   if (commands.size() != channels_.size())
-    throw std::invalid_argument("Simulation: one command for every instrument");
+    throw std::invalid_argument("Simulation: requires one command for every instrument");
   setPressures(commands);
   timer_.reset();
   resample();

@@ -10,7 +10,7 @@
 #include "simulation/simulation.h"
 #include "simulation/stepper_factory.h"
 
-// File of a saved state: a head, the bytes of the archive, and a hash over both.
+// File of a saved state: header, bytes of the archive, and a hash over both.
 
 namespace endovascular_sim::simulation
 {
@@ -20,15 +20,15 @@ namespace
 constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
 constexpr std::uint32_t kFormat = 5;        ///< incremented with every change of the saved data
 constexpr std::uint32_t kOldestFormat = 4;  ///< oldest format that this version loads
-constexpr std::uint32_t kNamesWriter = 5;   ///< first format whose head names the version that wrote it
+constexpr std::uint32_t kNamesWriter = 5;   ///< first format whose header names the version that wrote it
 constexpr int kFirstPhysicsNumber = 1;      ///< physics number of formats that do not hold one
 
-/** First commits of the formats whose heads do not name the version that wrote them. */
+/** First commits of the formats whose headers do not name the version that wrote them. */
 constexpr std::array<const char*, 4> kFormatCommits = {"3dc36e6", "613f4dc", "6b5167a", "ca765d6"};
 
 /** Data that must agree before a state is used. The layout up to and including the writer is the same in all formats
  *  from kNamesWriter on, so that every later version can name the writer of a state that it does not load. */
-struct Head
+struct Header
 {
   std::array<char, 8> magic = kMagic;
   std::uint32_t format = kFormat;
@@ -92,24 +92,24 @@ std::string checked(std::string bytes, const std::string& origin)
   return bytes;
 }
 
-void checkHead(const Head& head, const Head& wanted, const std::string& origin)
+void checkHeader(const Header& header, const Header& wanted, const std::string& origin)
 {
-  if (head.format > kFormat || head.format < kOldestFormat)
+  if (header.format > kFormat || header.format < kOldestFormat)
     throw InputError(origin, "",
-                     "has format " + std::to_string(head.format) + ", written by endovascular_sim " + head.writer +
+                     "has format " + std::to_string(header.format) + ", written by endovascular_sim " + header.writer +
                          "; this version reads formats " + std::to_string(kOldestFormat) + " to " +
                          std::to_string(kFormat) + "; load it with the version that wrote it, or save it again");
-  if (head.physics != wanted.physics)
+  if (header.physics != wanted.physics)
     throw InputError(origin, "",
-                     "was saved with physics number " + std::to_string(head.physics) + " by endovascular_sim " +
-                         head.writer + "; this version has number " + std::to_string(wanted.physics) +
+                     "was saved with physics number " + std::to_string(header.physics) + " by endovascular_sim " +
+                         header.writer + "; this version has number " + std::to_string(wanted.physics) +
                          "; load it with the version that wrote it, or save it again");
-  if (head.scene_hash != wanted.scene_hash)
+  if (header.scene_hash != wanted.scene_hash)
     throw InputError(origin, "",
-                     "was saved in another scene, or with other values (hash " + Hash64::toHex(head.scene_hash) +
+                     "was saved in another scene, or with other values (hash " + Hash64::toHex(header.scene_hash) +
                          ", this one's is " + Hash64::toHex(wanted.scene_hash) +
                          "); load it with the scene it was saved in");
-  if (head.vessel_hash != wanted.vessel_hash)
+  if (header.vessel_hash != wanted.vessel_hash)
     throw InputError(origin, "", "was saved in another vessel: the scene's mesh has changed since");
 }
 
@@ -145,10 +145,10 @@ void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std
   if (!scene_.solver.traits().saves)
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be saved; use kkt");
   Archive out;
-  Head head;
-  head.scene_hash = scene_.hash();
-  head.vessel_hash = vessel_hash;
-  out(head);
+  Header header;
+  header.scene_hash = scene_.hash();
+  header.vessel_hash = vessel_hash;
+  out(header);
   archive(out);
   if (more)
     more(out);
@@ -164,14 +164,14 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   if (!scene_.solver.traits().saves)
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be loaded; use kkt");
   Archive in(checked({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, origin));
-  Head head;
-  Head wanted;
+  Header header;
+  Header wanted;
   wanted.scene_hash = scene_.hash();
   wanted.vessel_hash = vessel_hash;
   try
   {
-    in(head);
-    checkHead(head, wanted, origin);
+    in(header);
+    checkHeader(header, wanted, origin);
     stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
     report_ = rod::StepReport();
     archive(in);

@@ -176,10 +176,9 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.argument(
       "INSTRUMENT", options.instruments,
       "YAML file, or the name of one in config/instruments, e.g. catheter_5f_jl4; all: every one of that folder");
-  line.option(
-          "--out", options.out, "FILE",
-          ".png or .svg: the drawing. .csv: its numbers, with FILE_markers.csv, FILE_balloon.csv and FILE_stent.csv "
-          "beside it for the instruments that have them")
+  line.option("--out", options.out, "FILE",
+              ".png or .svg: the drawing. .csv: its data, with FILE_markers.csv, FILE_balloon.csv and FILE_stent.csv "
+              "beside it for the instruments that have them")
       ->required()
       ->check(
           [](const std::string& name)

@@ -131,7 +131,7 @@ int prepare(Options a)
   tools::writeFile(stem + "_report.json", made.report.json(made.centreline));
   std::cout << made.report.text(made.centreline) << "wrote " << a.out << ", " << stem << "_centreline.yaml, " << stem
             << "_report.json\n"
-            << "to simulate in it: simulate config/scenes/mesh.yaml --set vessel.mesh="
+            << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="
             << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
   return made.report.withinDistance() ? 0 : 3;
 }

@@ -128,15 +128,15 @@ TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
   for (int k = 0; k < 2000; ++k)
   {
     wire.push(0.04e-3, &wall);
-    const rod::HandForceParts anew = recomputedParts(wire);
+    const rod::HandForceParts recomputed = recomputedParts(wire);
     const rod::HandForceParts& parts = wire.state.hand_parts;
     EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
     whole += wire.state.hand_force;
-    difference += anew.sum() - wire.state.hand_force;
-    bending += anew.bending - parts.bending;
-    friction += anew.friction - parts.friction;
+    difference += recomputed.sum() - wire.state.hand_force;
+    bending += recomputed.bending - parts.bending;
+    friction += recomputed.friction - parts.friction;
   }
-  // Friction takes the normal force of the solve before: only in the mean is it that of the step's end.
+  // Friction uses the normal force of the previous solve, which equals that at the end of the step on average only.
   EXPECT_GT(whole / 2000, 5e-3);
   EXPECT_LT(std::abs(difference), 0.01 * whole);
   EXPECT_LT(std::abs(bending), 0.01 * whole);
@@ -183,7 +183,8 @@ TEST(HandForceParts, EqualFrictionAndWeightOnAStraightRamp)
   for (const Vector3d& force : state.wall_force)
     pressed += force.norm();
   EXPECT_NEAR(parts.friction, kFriction * pressed, 0.01 * parts.friction);
-  EXPECT_GT(pressed, 0.99 * std::cos(kSlope) * weight);  // the soft end of the guide leaves it some of its own
+  EXPECT_GT(pressed, 0.99 * std::cos(kSlope) *
+                         weight);  // the guide is soft near the mouth, so the wall supports a part of the weight there
   EXPECT_LT(pressed, std::cos(kSlope) * weight * (1.0 + rod::Boundary().guide_length / state.inserted_length));
   double heavy = 0.0;
   for (int i = state.first_node; i < 161; ++i)

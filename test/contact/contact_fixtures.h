@@ -61,7 +61,7 @@ inline geometry::TriangleMesh realMesh(const std::string& file)
   return vessel::repairMesh(vessel::readMesh(file, 1e-3), file).mesh;
 }
 
-/** Distance to the wall by looking at every triangle. */
+/** Distance to the wall by brute force over all triangles. */
 inline double bruteDistance(const Wall& wall, const Eigen::Vector3d& p, int& triangle)
 {
   double best = 1e9;

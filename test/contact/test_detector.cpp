@@ -175,7 +175,7 @@ TEST(Detector, GivesTheSameBitsToAWireThatSlidesForwardsAndBack)
   EXPECT_GT(found, 100U);
 }
 
-TEST(Detector, UsesTheMarginOfEachNodeWhateverEarlierQueriesWere)
+TEST(Detector, UsesTheMarginOfEachNodeIndependentlyOfEarlierQueries)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector warm(mesh, WallLaw{});
@@ -348,7 +348,7 @@ TEST(Detector, GivesEachContactTheFrictionOfItsRegion)
   EXPECT_GT(outside, 10);
 }
 
-TEST(Detector, GivesFreeDistancesThatNeverReachTheWallAndAreAsLargeAsWanted)
+TEST(Detector, GivesFreeDistancesBelowTheClearanceAndUpToTheWantedOne)
 {
   const geometry::TriangleMesh mesh = bentTube();
   Detector detector(mesh, WallLaw{});

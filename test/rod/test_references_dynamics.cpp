@@ -125,7 +125,7 @@ TEST(ReferencesDynamics, VibratesAtTheFrequenciesOfTheBeam)
 }
 
 // Growth per step of backward Euler 1/√(1 + ω²Δt²), turn atan(ωΔt).
-TEST(ReferencesDynamics, DampsAModeAsBackwardEulerDoesAndNothingElse)
+TEST(ReferencesDynamics, DampsAModeOnlyByTheFactorOfBackwardEuler)
 {
   const int nodes = 41;
   KktStepper stepper(discretiseUniformly(uniformWire(clampedLength(kLength, nodes), kEi, kRadius, kDensity), nodes),

@@ -22,7 +22,7 @@ StepperSettings exactSettings()
 {
   StepperSettings settings;
   settings.max_iterations = 40;
-  settings.strain_tolerance = 1e-6;  // steps from rest reach their own accuracy by themselves
+  settings.strain_tolerance = 1e-6;  // further steps from rest reduce the strain
   return settings;
 }
 

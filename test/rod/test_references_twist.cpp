@@ -226,8 +226,9 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandlesAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
-// A bent tip that swings freely transmits no torque; the remaining torque comes from its lag behind the handle.
-TEST(ReferencesTwist, TorqueOfATurningHandleWithoutLoadIsThatOfLessThanOneStepAndDecreasesWithTheTimeStep)
+// A freely rotating bent tip exerts no torque. The computed torque comes from its lag behind the handle, which is less
+// than the rotation of one step.
+TEST(ReferencesTwist, LagTorqueOfAnUnloadedRotatingTipIsOfFirstOrderInTheTimeStep)
 {
   constexpr double kRate = 4.0;        // rad/s
   constexpr double kCurvature = 80.0;  // 1/m

@@ -48,12 +48,13 @@ TEST(IntroducerValve, AddsItsFrictionToTheForceOnTheHandAndChangesNothingElse)
   run(with, held, 200);
   EXPECT_EQ(with.trajectoryHash(), without.trajectoryHash());
   const rod::State& state = with.state();
-  // The surface moves 20 mm/s along and 200 rad/s · 0.2 mm = 40 mm/s about the axis, as far as the hand may turn.
-  const double turned = 2e-4 * state.rotation / 0.2;
-  const double along = 0.1 * 0.02 / std::hypot(0.02, turned);
+  // Mean surface velocity: 20 mm/s along the axis, and radius · rotation / 0.2 s about it. The script demands 200
+  // rad/s, which the simulation limits.
+  const double circumferential = 2e-4 * state.rotation / 0.2;
+  const double along = 0.1 * 0.02 / std::hypot(0.02, circumferential);
   EXPECT_NEAR(state.hand_parts.valve, along, 1e-6);
   EXPECT_NEAR(state.hand_force - without.state().hand_force, along, 1e-6);
-  EXPECT_NEAR(state.hand_torque - without.state().hand_torque, 2e-4 * along * turned / 0.02, 1e-9);
+  EXPECT_NEAR(state.hand_torque - without.state().hand_torque, 2e-4 * along * circumferential / 0.02, 1e-9);
   EXPECT_NEAR(state.hand_parts.sum(), state.hand_force, 1e-9);
 }
 

@@ -5,8 +5,8 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Adds reference values with walls in closed form: force of a pre-curved tip, capstan, insertion into a bend, buckling
- * in tubes. */
+/** Adds reference problems with analytically defined walls: force of a pre-curved tip, capstan, insertion into a bend,
+ *  buckling in tubes. */
 void addContactRows(Section& section, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

@@ -28,7 +28,7 @@ public:
     Eigen::Vector3f begin, end;  ///< from the origin [m]
     Eigen::Vector3f direction;   ///< unit; zero for an edge without length
     float length;                ///< [m]
-    float beyond;  ///< distance beyond an end at which a foot still belongs to a contact between the ends: taper [m]
+    float beyond;  ///< largest distance of the foot beyond an end for a contact between the ends: the taper [m]
     float cutoff, displacement;
   };
 

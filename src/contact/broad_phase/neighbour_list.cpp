@@ -22,8 +22,8 @@ constexpr double kSlideOfLongList = 0.25e-3;  // m: on fine meshes long lists co
 constexpr double kSlides = 0.05e-3;           // m along the wire since the last rebuild from which a node slides
 constexpr std::size_t kLong = 8;              // entries above which a list is long
 constexpr double kCutoffSlack = 0.1e-3;       // m: half of it is added to a cutoff that changes, as a balloon's does
-// m by which the needed cutoff may fall short of the list's. It exceeds the widening of the cutoff at a fast node, so
-// a node that is no longer fast keeps its list.
+// Largest excess of a list's cutoff over the needed one [m]. It is larger than the widening of the cutoff at a fast
+// node, so the list remains valid when the node slows down.
 constexpr double kCutoffExcess = 0.6e-3;
 constexpr double kListGuard = 1e-8;        // m: exceeds all rounding errors of distances
 constexpr std::size_t kUsualEntries = 16;  // of a list

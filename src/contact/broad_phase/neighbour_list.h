@@ -19,7 +19,7 @@ namespace endovascular_sim::contact
  *
  *  The list holds for every position of the node in a short interval along the wire, so that a sliding wire keeps it.
  *  It stays valid while wire and wall have moved by less than the skin, and while the cutoff changes little. Contents
- *  are a superset of what the narrow phase accepts: contacts do not depend on when the list was built. */
+ *  are a superset of the features that the narrow phase accepts: contacts do not depend on when the list was built. */
 class NeighbourList
 {
 public:

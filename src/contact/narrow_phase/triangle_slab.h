@@ -10,9 +10,9 @@
 namespace endovascular_sim::contact
 {
 
-constexpr double kOffTriangle = 1e-9;  ///< m beyond an edge of a triangle: larger values are not rounding
+constexpr double kOffTriangle = 1e-9;  ///< tolerance for rounding beyond an edge of a triangle [m]
 
-/** Bounds of a triangle: its plane, the planes through its edges perpendicular to it, and its normal cones. */
+/** Bounds of a triangle: its plane, the planes perpendicular to it through its edges, and slopes of normal cones. */
 struct alignas(64) TriangleSlab  // the data of every query fill two cache lines
 {
   /** Coefficients of x, y, z and 1 of four signed heights. Lane 0: the triangle's plane, positive towards the lumen.

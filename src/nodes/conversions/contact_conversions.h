@@ -14,7 +14,7 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v);
 Eigen::Vector3d fromMessage(const geometry_msgs::Point& p);
 Eigen::Vector3d fromMessage(const geometry_msgs::Vector3& v);
 
-/** Converts a query to its message, bit for bit; the header is left to the caller. Answers are serialized as they are
+/** Converts a query to its message, bit for bit; the caller sets the header. Contact sets need no conversion
  *  (contact_set_serializer.h).
  *  @param wanted_free_distance of a query for free distances [m]; 0: a query for features */
 void toMessage(const contact::Query& query, double wanted_free_distance, RodState& message);

@@ -13,15 +13,15 @@
 namespace endovascular_sim::nodes
 {
 
-/** What stands for a ContactSet message in the nodes that send and receive it: the core's own set, written and read
- *  without another copy of its features. A filled balloon has a thousand of them in every one. */
+/** Contact set with a header, equivalent to a ContactSet message. Serialization reads and writes the core's set
+ *  directly, without a copy of its features (about a thousand around an inflated balloon). */
 struct StampedContactSet
 {
   std_msgs::Header header;
   contact::ContactSet set;
 };
 
-// Features stand on the wire as they do in memory (ContactFeature.msg; test_contact_set_serializer.cpp compares the fields).
+// The serialized layout of a feature equals its memory layout (test_contact_set_serializer.cpp compares the fields).
 static_assert(sizeof(contact::Feature) == 2 * sizeof(std::int32_t) + 12 * sizeof(double) &&
                   std::is_standard_layout<contact::Feature>::value,
               "contact::Feature must order its members as ContactFeature.msg does, without padding");

@@ -44,11 +44,11 @@ bool ActiveSet::update(ContactList& contacts, const NodalMotion& motion, int pas
   return true;
 }
 
-/** The slope of the energy on the line is the springs' own, piecewise linear, plus that of the rest, linear: at either
- *  end, the rest balances the springs of the systems solved. */
+/** Bisects the derivative of the energy along the line. The part of the springs is piecewise linear. The part of the
+ *  system without springs is linear: at both ends it balances the active springs of the systems solved. */
 double ActiveSet::shareOfLeastEnergy(const std::vector<ContactSpring>& springs)
 {
-  resisting_.clear();  // all others are open on the whole line
+  resisting_.clear();  // springs outside this list are open on the whole line
   for (std::size_t c = 0; c < springs.size(); ++c)
     if (springs[c].active || springs[c].resisted != 0.0 || springs[c].reached < 0.0 || gap_after_[c] < 0.0)
       resisting_.push_back(c);

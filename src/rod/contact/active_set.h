@@ -10,10 +10,10 @@ namespace endovascular_sim::rod
 
 /** Active-set search over one-sided springs.
  *
- *  The springs make the problem of a solve convex and piecewise quadratic, and each solve is a Newton step on it. Full
- *  steps may cycle. Therefore the search goes from the point reached so far towards the solution, up to the least
- *  energy on that line, and the springs in compression there become active. From the 12th pass on, springs are only
- *  added: those left over pull. */
+ *  The problem of a solve is convex and piecewise quadratic, and each solve is a Newton step on it. Full steps may
+ *  cycle. Therefore a line search from the present iterate towards the solution minimises the energy. The springs
+ *  compressed at the minimum become active. From the 12th pass on, springs are only activated, so the search ends;
+ *  superfluous active springs then pull. */
 class ActiveSet
 {
 public:

@@ -30,7 +30,7 @@ struct ContactSpring
   double gap = 0.0;        ///< gap of the wall's law, with the wall offset [m]
   double force = 0.0;      ///< after an accepted solve [N]
   double reached = 0.0;    ///< gap at the point reached by the active-set search [m]
-  double resisted = 0.0;   ///< stiffness times gap there, in the systems solved so far [N]
+  double resisted = 0.0;   ///< stiffness · gap at that point, in the systems solved so far [N]
   bool active = false;
 
   /** Gap after a motion, to first order [m]. */

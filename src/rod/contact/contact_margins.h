@@ -10,10 +10,10 @@ namespace endovascular_sim::rod
 {
 
 /** Share of the contact margin granted to a body: 1 up to the radius of a thin catheter, (0.9 mm/r)⁴ beyond it, at
- *  least 0.25. Within a wire's margin of a filled balloon lies the whole wall around it, and a balloon moves little. */
+ *  least 0.25. The full margin of a filled balloon would contain the whole wall around it. Balloons move little. */
 inline double marginShare(double radius)
 {
-  constexpr double kLeast = 0.25;   // more than a hand moves in a sub-step or a balloon grows
+  constexpr double kLeast = 0.25;   // exceeds the travel and the growth of a balloon per sub-step
   constexpr double kWide = 0.9e-3;  // m
   if (radius <= kWide)
     return 1.0;

@@ -100,7 +100,7 @@ void ContactQueryBuilder::detect(const State& state, contact::ContactSet& answer
   send(0.0, answer, report);
   if (answer.stale)
     return;
-  // The first node of the query was the mouth, inside of its edge.
+  // The first queried point is the mouth, inside an edge: parameters on the queried part are mapped to the whole edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)
       feature.parameter = mouth_ + (1.0 - mouth_) * feature.parameter;

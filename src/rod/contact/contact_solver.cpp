@@ -64,7 +64,7 @@ void ContactSolver::refresh(const State& state, StepReport& report)
     detect(state, report);
 }
 
-/** A fresh answer gets its stiff layers; a stale one is left as it is. */
+/** Queries the contacts. A fresh set receives stiff layers; a stale set remains unchanged. */
 void ContactSolver::query(const State& state, StepReport& report)
 {
   query_.detect(state, current_.set, report);
@@ -90,7 +90,7 @@ void ContactSolver::detectAgain(const State& state, StepReport& report)
 {
   query(state, report);
   if (current_.set.stale)
-    trust_region_.setStaleBudget(0.0);  // the set is that of a state unknown by now
+    trust_region_.setStaleBudget(0.0);  // the state that the stale set belongs to is unknown
 }
 
 void ContactSolver::reuseEarlierContacts(const State& state)

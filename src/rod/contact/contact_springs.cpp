@@ -77,7 +77,7 @@ void ContactSprings::collectCrossings(const State& state, const ContactList& con
       });
 }
 
-/** Length of wire that a contact stands for [m]: half the distance to its neighbours. These are the nodes, and the
+/** Tributary length of a contact [m]: half the distance to its neighbours. The neighbours are the nodes, and the
  *  contacts between nodes with the same part of the wall. The tributary lengths of a wall add up to the wire's. */
 double ContactSprings::tributaryLength(const std::vector<contact::Feature>& features, int index) const
 {

@@ -90,9 +90,8 @@ const std::vector<TwistFriction>& WallFriction::aboutAxis()
     friction.node = contact.node;
     friction.limit = contact.limit;
     friction.slip = slip_;
-    // In a rolling wire, the lateral motion follows the turn. With an expected lateral motion, neither the positions
-    // nor the twist would feel the friction. Therefore the present stretch counts here, without motion at the first
-    // solve.
+    // The lateral motion of a rolling wire follows from its rotation. A predicted lateral motion would cancel the
+    // friction in both positions and twist. Therefore the stretch of the present iterate is used about the axis.
     friction.along = contact.stretch.dot(contact.around) / friction.arm;
     const double guessed = contact.guess.dot(contact.around) / friction.arm;
     friction.across_squared = std::max(0.0, contact.guess.squaredNorm() - guessed * guessed);

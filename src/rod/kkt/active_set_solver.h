@@ -27,9 +27,9 @@ public:
   bool solve(const State& state, double dt, ContactSolver& contacts, WallFriction& friction,
              ContactSolver::Motion& motion, StepReport& report);
 
-  /** Removes the strain that a motion leaves by another right-hand side in place of another solve (second-order
-   *  correction: Nocedal & Wright 2006, §18.3). A motion stretches the edges by the square of their rotation; what the
-   *  correction leaves is another order smaller. Larger strains are left to the next solve. */
+  /** Reduces the strain after a motion by a second right-hand side instead of another solve (second-order correction:
+   *  Nocedal & Wright 2006, §18.3). A motion stretches the edges by the square of their rotation. The remainder is of
+   *  higher order. Larger strains are left to the next solve. */
   void correctLengths(const State& state, ContactSolver::Motion& motion);
 
   /** Solution of the system: the nodes' increments [m] and the edges' multipliers. */

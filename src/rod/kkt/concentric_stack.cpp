@@ -24,8 +24,7 @@ ConcentricStack::ConcentricStack(std::vector<Layer> layers, const std::vector<do
   }
   if (layers_.empty() || position.size() < 3 || std::abs(position.back() - longest) > kLengthTolerance)
     throw std::invalid_argument(
-        "ConcentricStack: at least one layer and three nodes, which end at the longest wire's "
-        "length");
+        "ConcentricStack: requires a layer and three nodes, the last one at the length of the longest wire");
   setNodes(position);
 }
 

@@ -12,7 +12,7 @@ namespace
 
 constexpr double kLayerSlip = 20e-6;     // m, stretch between two layers at which sliding begins
 constexpr double kTurnTolerance = 1e-4;  // rad of relative rotation between stuck layers: 0.006°
-// Bounds of the rotation of a pair per share of its friction, relative to that of straight layers that nothing holds.
+// Bounds of the compliance of a pair (rotation per share of its friction torque), relative to straight free layers.
 constexpr double kLeastResponse = 0.2;
 constexpr double kMostResponse = 3.0;
 constexpr double kLeastTorque = 1e-12;  // N·m: a pair with less friction does not stick
@@ -205,8 +205,8 @@ double InterlayerFriction::turnCompliance(int k, int outer, double held) const
   return turned / (beyond + limit[0]);
 }
 
-/** Change of a pair's mean angle per share of its friction torque: a secant through the last change of the share in
- * this solve, at first that of straight layers. Curved layers, and those that the wall holds, yield less. */
+/** Change of a pair's mean angle per share of its friction torque: the secant of the last change of the share in this
+ *  solve, initially the value of straight layers. Curved layers and layers in contact with the wall are stiffer. */
 double InterlayerFriction::turnPerShare(int k, double turn, double share, double compliance, bool first) const
 {
   const double change = share - share_before_[k];
@@ -250,7 +250,7 @@ void InterlayerFriction::settle(State& state) const
     }
     else if (std::abs(layer.friction_share) == 1.0)
     {
-      // A torque that would push the pair back beyond the angle at which it stuck is too large; the pair does not slip.
+      // A limit torque that rotates the pair back beyond the angle at which it stuck overestimates it: no slip.
       const double turned = meanTurn(k, outer, state);
       if ((turned - layer.friction_turn) * layer.friction_share >= 0.0)
         layer.friction_turn = turned;

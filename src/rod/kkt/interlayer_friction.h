@@ -13,9 +13,9 @@ namespace endovascular_sim::rod
 
 /** Coulomb friction between neighbouring layers of a stack, along the wire and about its axis.
  *
- *  Inextensible layers on one centreline slide in each other by the same length everywhere, so that along the wire one
- *  stretch per pair of neighbours sticks or slides. About the axis a pair sticks at a mean angle between both, weighted
- *  with the friction. */
+ *  Inextensible layers on one centreline have the same relative axial displacement everywhere: one stretch per pair of
+ *  neighbours describes stick and slip. About the axis a pair sticks at the mean relative angle, weighted with the
+ *  friction. */
 class InterlayerFriction
 {
 public:
@@ -28,11 +28,11 @@ public:
   /** Advances the stretches of all pairs to the insertions at the end of a step. */
   void drag(State& state, const StepInput& input) const;
 
-  /** Updates the normal loads between neighbours: the forces that bend a layer, with those inside it, into another
-   *  shape than its own. */
+  /** Updates the normal loads between neighbours: the forces that bend a layer and those inside it away from their rest
+   *  shape. */
   void updateLoads(State& state, const LayerTwists& twists);
 
-  /** Force along the wire of a layer's next outer one on it, against its insertion [N]. */
+  /** Axial friction force of the next outer layer on a layer, positive against insertion [N]. */
   double axialForce(int k, int outer, const State& state) const;
 
   /** Updates the largest friction torques between neighbours. */

@@ -27,7 +27,7 @@ Discretisation rodOf(const std::vector<Layer>& layers, const std::vector<double>
   const auto longest = std::max_element(
       layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.wire.length() < b.wire.length(); });
   if (longest == layers.end() || position.size() < 3)
-    throw std::invalid_argument("KktStepper: at least one layer and three nodes");
+    throw std::invalid_argument("KktStepper: requires at least one layer and three nodes");
   return discretise(longest->wire, position);
 }
 
@@ -127,7 +127,7 @@ void KktStepper::placeEnds(State& state, const StepInput& input, double dt)
 {
   const PlacedNodes placed = model_.conditions.placePrescribedNodes(state, input.inserted_length, dt);
   for (int i = placed.begin; i < placed.end; ++i)
-    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
+    begin_[i] = state.position[i] - dt * state.velocity[i];  // new nodes have no earlier position
   model_.conditions.placeDistalEnd(state, input.distal, dt);
   state.rotation = input.rotation;
 }
@@ -150,7 +150,7 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
     if (!solve(state, dt, true, report))
       return false;
     const double factor = move(state, truncation(state, report), report);
-    // Where nothing could move twice, the next solve would repeat this one.
+    // After two solves without motion, the next solve would repeat this one.
     const bool last = k + 1 == model_.settings.max_iterations || (factor == 0.0 && !moved);
     moved = factor != 0.0;
     if (k > 0)

@@ -35,7 +35,7 @@ LayerStack::LayerStack(const std::vector<Layer>& layers, KktModel& model)
 State LayerStack::initialState(const std::vector<LayerInput>& layers) const
 {
   if (layers.size() != motion_.size())
-    throw std::invalid_argument("LayerStack: one insertion and rotation for every layer");
+    throw std::invalid_argument("LayerStack: requires one insertion and rotation for every layer");
   const auto furthest =
       std::max_element(layers.begin(), layers.end(),
                        [](const LayerInput& a, const LayerInput& b) { return a.inserted_length < b.inserted_length; });
@@ -70,7 +70,7 @@ State LayerStack::initialState(double inserted_length, double rotation) const
 bool LayerStack::beginStep(State& state, const StepInput& input, double dt, WallFriction& friction)
 {
   if (input.layers.size() != state.layers.size() || state.layers.size() != motion_.size())
-    throw std::invalid_argument("LayerStack: one insertion and rotation for every layer");
+    throw std::invalid_argument("LayerStack: requires one insertion and rotation for every layer");
   int furthest = state.reference;
   for (int k = 0; k < stack_.count(); ++k)
     if (input.layers[k].inserted_length > input.layers[furthest].inserted_length + kTipTolerance)
@@ -96,8 +96,8 @@ void LayerStack::stop(State& state) const
 }
 
 /** Changes the reference before a step in which another layer's tip passes that of the present one. The nodes move
- * along the wire to that layer's tip, less than the step's motion, and follow its material from there. The layers'
- * forces depend on the spacing of the nodes, so that they differ a little; the difference fades.
+ *  along the wire to the tip of the new reference, by less than the motion of the step, and then follow its material.
+ *  The layers' forces depend slightly on the positions of the nodes; the difference fades.
  *  @param dt of the step [s] */
 void LayerStack::changeReference(State& state, int k, const StepInput& input, double dt, WallFriction& friction)
 {

@@ -21,7 +21,7 @@ void nodeAngles(const std::vector<double>& twist_angle, int first_node, std::vec
 State SingleLayer::initialState(const std::vector<LayerInput>& layers) const
 {
   if (layers.size() != 1)
-    throw std::invalid_argument("SingleLayer: one insertion and rotation");
+    throw std::invalid_argument("SingleLayer: requires one insertion and rotation");
   return initialState(layers.front().inserted_length, layers.front().rotation);
 }
 
@@ -53,8 +53,9 @@ TwistAction SingleLayer::relaxTwist(State& state, const StepInput& input, const 
   return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
 }
 
-/** During the step the twist was relaxed at the new rotation of the handle and the old centreline. While the handle
- *  turns, that torque is too large by the curved tip's stiffness times the rotation of a step. */
+/** Recomputes the torques for the centreline at the end of the step; the twist angles are restored. During the step the
+ *  twist was relaxed for the new rotation of the handle but the previous centreline. While the handle turns, that
+ *  torque is too large by the curved tip's stiffness times the rotation of a step. */
 void SingleLayer::updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                                 PhaseTimer& timer)
 {

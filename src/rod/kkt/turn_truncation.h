@@ -10,9 +10,9 @@
 namespace endovascular_sim::rod
 {
 
-/** Share of a motion, 0 to 1, in which no edge turns by more than @p max_rotation [rad] and no two neighbouring edges
- *  come closer to folding back onto each other than by half of what is left: the bending energy is infinite at a fold,
- *  and beyond it the curvature binormal has changed its side.
+/** Share of a motion, 0 to 1, in which no edge rotates by more than @p max_rotation [rad] and no pair of neighbouring
+ *  edges approaches a fold too far: 1 + cos of a sharp turning angle decreases by at most half. At a fold the bending
+ *  energy is infinite, and beyond it the curvature binormal changes its side.
  *  @param motion increment of every node [m] */
 double turnTruncation(const Discretisation& rod, const State& state, const std::vector<Eigen::Vector3d>& motion,
                       double max_rotation);

@@ -88,7 +88,7 @@ void MixedStepper::placePrescribedNodes(State& state, double inserted_length, do
 {
   const PlacedNodes placed = conditions().placePrescribedNodes(state, inserted_length, dt);
   for (int i = placed.begin; i < placed.end; ++i)
-    begin_[i] = state.position[i] - dt * state.velocity[i];  // a node that was not simulated yet has no other
+    begin_[i] = state.position[i] - dt * state.velocity[i];  // new nodes have no earlier position
   for (int i = placed.begin; i < placed.born; ++i)
     state.moment[i].setZero();
 }

@@ -70,7 +70,7 @@ void Resampling::addChange(const Wire& wire, const Discretisation& coarse, const
   const double begin = 0.5 * (a + fine.position[fine_node]);
   const double end = 0.5 * (fine.position[fine_node] + b);
   if (coarse.position[coarse_node] != a || coarse.position[coarse_node + 1] != b)
-    throw std::logic_error("Resampling: an edge is neither kept, halved nor joined with the next");
+    throw std::logic_error("Resampling: each new edge must be an old edge, half of one, or two merged ones");
   changes_.push_back({coarse_node, fine_node, split, massBetween(wire, begin, middle), massBetween(wire, middle, end),
                       middle - begin, end - middle});
 }

@@ -18,7 +18,7 @@ Eigen::Vector3d inwardDirection(const CentrelineBranch& branch, bool at_front)
   return chord.norm() > 0.0 ? Eigen::Vector3d(chord.normalized()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
 }
 
-/** True if another branch begins at, ends at or passes the tip of a branch, so that the tip is no end of the vessel. */
+/** True if the tip of a branch lies on another branch: the tip is then a junction, not an end of the vessel. */
 bool tipMeetsBranch(const CentrelineTree& tree, std::size_t branch)
 {
   const Eigen::Vector3d& tip = tree.branches[branch].points.back();

@@ -7,7 +7,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-TEST(ContactConversions, AQueryComesBackBitForBit)
+TEST(ContactConversions, RoundTripAQueryBitForBit)
 {
   contact::Query query;
   query.step = 123456789012ULL;

@@ -44,7 +44,7 @@ std::vector<std::uint8_t> bytesOf(const Message& message)
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, message);
-  EXPECT_EQ(stream.getLength(), 0U) << "as long as was said";
+  EXPECT_EQ(stream.getLength(), 0U) << "serializationLength equals the written length";
   return bytes;
 }
 
@@ -54,11 +54,11 @@ Message messageOf(std::vector<std::uint8_t> bytes)
   Message message;
   ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::deserialize(stream, message);
-  EXPECT_EQ(stream.getLength(), 0U) << "read to its end";
+  EXPECT_EQ(stream.getLength(), 0U) << "all bytes are read";
   return message;
 }
 
-TEST(ContactMessage, IsAContactSetForEveryoneElse)
+TEST(StampedContactSetMessage, IsReadAsAContactSetMessage)
 {
   namespace traits = ros::message_traits;
   EXPECT_STREQ(traits::md5sum<StampedContactSet>(), traits::md5sum<ContactSet>());
@@ -94,14 +94,14 @@ TEST(ContactMessage, IsAContactSetForEveryoneElse)
   EXPECT_EQ(read.features[1].feature, -1);
 }
 
-TEST(ContactMessage, TakesAnyonesContactSetBitForBit)
+TEST(StampedContactSetMessage, ReadsAContactSetMessageBitForBit)
 {
   const std::vector<std::uint8_t> bytes = bytesOf(messageOf<ContactSet>(bytesOf(someSet())));
   EXPECT_EQ(bytesOf(messageOf<StampedContactSet>(bytes)), bytes);
   EXPECT_EQ(bytes, bytesOf(someSet()));
 }
 
-TEST(ContactMessage, HasNoFeaturesWhereNothingIsNear)
+TEST(StampedContactSetMessage, MayContainNoFeatures)
 {
   StampedContactSet message;
   message.set.free_distance = {1e-3};
@@ -110,7 +110,7 @@ TEST(ContactMessage, HasNoFeaturesWhereNothingIsNear)
   EXPECT_EQ(read.set.free_distance, message.set.free_distance);
 }
 
-TEST(ContactMessage, RefusesASetThatSaysItHoldsMoreThanItDoes)
+TEST(StampedContactSetMessage, RejectsACountBeyondTheReceivedFeatures)
 {
   StampedContactSet empty;
   std::vector<std::uint8_t> bytes = bytesOf(empty);

@@ -49,14 +49,14 @@ protected:
   ActiveSet active_set_;
 };
 
-TEST_F(TwoSprings, StayAsTheyAreWhereTheSolutionAgrees)
+TEST_F(TwoSprings, RemainUnchangedIfConsistentWithTheSolution)
 {
   motion_[3].z() = -1e-6;
   motion_[5].z() = 0.5e-6;
   EXPECT_FALSE(active_set_.update(contacts_, motion_, 0, false));
 }
 
-TEST_F(TwoSprings, AreThoseInCompressionAtTheSolutionOfTheFirstSolve)
+TEST_F(TwoSprings, AreActiveWhereTheFirstSolutionCompressesThem)
 {
   motion_[3].z() = -3e-6;
   motion_[5].z() = 2e-6;
@@ -66,7 +66,7 @@ TEST_F(TwoSprings, AreThoseInCompressionAtTheSolutionOfTheFirstSolve)
   EXPECT_EQ(active_set_.firstChanged(), 3);
 }
 
-TEST_F(TwoSprings, AreOnlyAddedFromTheTwelfthPassOn)
+TEST_F(TwoSprings, AreNotDeactivatedFromTheTwelfthPassOn)
 {
   motion_[5].z() = 2e-6;
   EXPECT_FALSE(active_set_.update(contacts_, motion_, 12, true));
@@ -76,7 +76,7 @@ TEST_F(TwoSprings, AreOnlyAddedFromTheTwelfthPassOn)
   EXPECT_TRUE(contacts_.springs[1].active);
 }
 
-/** Number of passes until the active set of a stiff random quadratic problem is that of its solution. */
+/** Number of passes until the active set of a random, ill-conditioned quadratic problem converges. */
 int passesOnRandomProblem(unsigned seed)
 {
   constexpr int kNodes = 21;
@@ -97,13 +97,14 @@ int passesOnRandomProblem(unsigned seed)
     const Vector3d normal = Vector3d(uniform(random), uniform(random), uniform(random)).normalized();
     add(contacts, springAt(i, 1e-6 * uniform(random), 1e5), normal);
   }
-  const Eigen::MatrixXd rest = 1e3 * root * root.transpose() + 10.0 * Eigen::MatrixXd::Identity(kSize, kSize);
+  const Eigen::MatrixXd without_springs =
+      1e3 * root * root.transpose() + 10.0 * Eigen::MatrixXd::Identity(kSize, kSize);
   ActiveSet active_set;
   NodalMotion motion(kNodes);
   for (int pass = 0; pass < 12; ++pass)
   {
-    Eigen::MatrixXd matrix = rest;
-    Eigen::VectorXd right = load;
+    Eigen::MatrixXd matrix = without_springs;
+    Eigen::VectorXd rhs = load;
     for (std::size_t c = 0; c < contacts.springs.size(); ++c)
     {
       const ContactSpring& spring = contacts.springs[c];
@@ -111,9 +112,9 @@ int passesOnRandomProblem(unsigned seed)
         continue;
       const Vector3d& normal = contacts.set.features[c].normal;
       matrix.block<3, 3>(3 * spring.node, 3 * spring.node) += spring.stiffness * normal * normal.transpose();
-      right.segment<3>(3 * spring.node) -= spring.stiffness * spring.gap * normal;
+      rhs.segment<3>(3 * spring.node) -= spring.stiffness * spring.gap * normal;
     }
-    const Eigen::VectorXd solution = matrix.llt().solve(right);
+    const Eigen::VectorXd solution = matrix.llt().solve(rhs);
     for (int i = 0; i < kNodes; ++i)
       motion[i] = solution.segment<3>(3 * i);
     if (!active_set.update(contacts, motion, pass, pass > 0))
@@ -122,7 +123,7 @@ int passesOnRandomProblem(unsigned seed)
   return 13;
 }
 
-TEST(ActiveSet, OfAConvexProblemIsFoundBeforeSpringsAreOnlyAdded)
+TEST(ActiveSet, ConvergesOnConvexProblemsWithinTwelvePasses)
 {
   int most = 0;
   for (unsigned seed = 1; seed <= 200; ++seed)

@@ -78,7 +78,7 @@ TEST_F(TransferOfAWire, OffsetsTheWallAtAFreshNodeSoThatAContactKeepsItsForce)
   EXPECT_NEAR(settings_.contact_stiffness * (20e-6 - state.wall_offset[7]), 0.3, 1e-6);
 }
 
-TEST_F(TransferOfAWire, OffsetsTheWallAtAFreshNodeToNoForceWithoutAContactBefore)
+TEST_F(TransferOfAWire, OffsetsTheWallSoThatANewContactAtAFreshNodeHasNoForce)
 {
   State state = stateOfFreshNode(7);
   transfer_.settle(contactAt(7, 0.0, -20e-6), springs_, state);
@@ -88,7 +88,7 @@ TEST_F(TransferOfAWire, OffsetsTheWallAtAFreshNodeToNoForceWithoutAContactBefore
   EXPECT_EQ(state.wall_offset[7], 0.0);
 }
 
-TEST_F(TransferOfAWire, BoundsTheOffsetAndLeavesOldNodesAsTheyAre)
+TEST_F(TransferOfAWire, BoundsTheOffsetAndDoesNotChangeOldNodes)
 {
   State state = stateOfFreshNode(7);
   transfer_.settle(contactAt(7, 0.5, -200e-6), springs_, state);

@@ -34,7 +34,7 @@ protected:
           std::max(0.0, std::min(gap(i), gap(i + 1))) / std::max(motion[i].norm(), motion[i + 1].norm());
       factor = std::min(factor, std::max(margins, free));
     }
-    for (int i = 0; i < kNodes; ++i)  // nodes of edges with a listed contact keep to their margins
+    for (int i = 0; i < kNodes; ++i)  // a listed contact limits the nodes of its edges to their margins
       for (int k = std::max(0, i - 1); k <= std::min(i + 1, kNodes - 1); ++k)
         if (gap(i) <= marginOf(radius(i)))
           factor = std::min(factor, margin(k) / motion[k].norm());
@@ -189,7 +189,7 @@ TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOne
   EXPECT_EQ(contacts_.marginOf(11), before);
   EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
   contacts_.resample(discretiseUniformly(uniformWire(0.2, kEi, kRadius, 7900.0), kNodes));
-  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // nothing is known of another sampling
+  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // the queried margins do not apply to another sampling
 }
 
 TEST_F(TrustRegionOverAFloor, QueriesNoFreeDistancesWhereListedContactsDecide)
@@ -215,7 +215,7 @@ TEST_F(TrustRegionOverAFloor, SubtractsTheGrowthOfABalloonAndIgnoresItsShrinking
   EXPECT_NEAR(contacts_.marginOf(5), listed, 1e-12);
   place(0.1e-3, 0.1e-3);
   setBalloon(5, 1.05e-3);
-  EXPECT_LE(1e-3 * truncation(motionOf(5, 1e-3)), listed + 1e-12);  // a slender wire of that radius has more
+  EXPECT_LE(1e-3 * truncation(motionOf(5, 1e-3)), listed + 1e-12);  // less than the margin of a body of 1.05 mm
   setBalloon(5, 1.08e-3);
   place(0.1e-3, 0.1e-3);
   const double before = contacts_.marginOf(5);
@@ -226,7 +226,7 @@ TEST_F(TrustRegionOverAFloor, SubtractsTheGrowthOfABalloonAndIgnoresItsShrinking
 }
 
 /** A trust region without a contact solver. */
-TEST_F(TrustRegionOverAFloor, LeavesFreshMotionWithinTheReachAsItIs)
+TEST_F(TrustRegionOverAFloor, TruncatesMotionWithinTheReachOnAStaleSetOnly)
 {
   const WireSurface surface(rod_);
   ContactQueryBuilder query(rod_, boundary_, settings_, surface);

@@ -31,7 +31,7 @@ protected:
   PenetrationLimit limit_{rod_};
 };
 
-TEST_F(PenetrationLimitOfAWire, ToleratesEachNodesOwnDepthBeforeTheMotionOnly)
+TEST_F(PenetrationLimitOfAWire, ToleratesTheEarlierDepthOfANodeAtThatNodeOnly)
 {
   limit_.store(pressedIn(1.2 * kTolerated, 0.0), -1, 0.0);
   EXPECT_FALSE(limit_.isExceeded(pressedIn(1.2 * kTolerated, 0.9 * kTolerated)));

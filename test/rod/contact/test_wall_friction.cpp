@@ -270,7 +270,7 @@ class CapstanTest : public ::testing::TestWithParam<Capstan>
 {
 };
 
-TEST_P(CapstanTest, WithBendingStiffnessHasTheReferencesRatio)
+TEST_P(CapstanTest, WithBendingStiffnessHasTheReferenceTensionRatio)
 {
   const Capstan& c = GetParam();
   EXPECT_NEAR(capstan(c.friction, c.degrees, c.stiffness, c.ratio), c.ratio, 1e-3 * c.ratio);

@@ -97,7 +97,7 @@ TEST(StackFriction, AWireTurnedInATightCatheterTurnsItUntilItSlips)
     fit.moveTo(0.15, turn * slip);
   EXPECT_NEAR(fit.state.layers[0].hand_torque, limit, 1e-2 * limit);
   EXPECT_NEAR(fit.state.layers[1].hand_torque, -limit, 1e-2 * limit);
-  fit.moveTo(0.15, 9.0 * slip);  // back by the half of what reverses it
+  fit.moveTo(0.15, 9.0 * slip);  // half of the rotation that reverses the friction
   EXPECT_NEAR(fit.state.layers[0].hand_torque, 0.0, 0.02 * limit);
   fit.moveTo(0.15, 7.0 * slip);
   EXPECT_NEAR(fit.state.layers[0].hand_torque, -limit, 1e-2 * limit);

@@ -236,7 +236,7 @@ TEST(StackSliding, ACatheterOverAStiffWireStraightensAndRecoversItsShapeAsTheWir
   EXPECT_LT(layers[1].jump, 0.02 * layers[1].peak);
 }
 
-TEST(StackSliding, NothingJumpsWhenALongerLayerIsWithdrawnPastAShorterOne)
+TEST(StackSliding, ForcesAndShapeAreContinuousAtAChangeOfTheReference)
 {
   WireAndCatheter setup({{0.085, 0.0}, {0.08, 0.4}});
   std::vector<Smoothness> force(2), torque(2);

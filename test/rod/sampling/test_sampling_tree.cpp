@@ -49,7 +49,7 @@ int largestStep(const SamplingTree& tree)
   return largest;
 }
 
-TEST(SamplingTree, HasThePapersEdgesForAWireOfWholeRoots)
+TEST(SamplingTree, HasThePublishedEdgeLengthsIfTheWireIsAMultipleOfTheRootLength)
 {
   const SamplingTree tree(0.150, settings());
   EXPECT_EQ(tree.coarsestLevel(), 2);

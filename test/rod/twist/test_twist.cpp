@@ -118,7 +118,7 @@ TEST(QuasiStaticTwist, TheRelaxedAnglesMinimiseTheEnergy)
 }
 
 // J tip pre-curved by k0 on a planar arc of curvature k, held at the proximal end: GJ φ'' = EI k k0 sin φ over the
-// whole wire has the start of a snap at √(EI k k0/GJ)·L = π/2 (Reference 07). Below it the tip follows the handle
+// whole wire. Snap-through begins at √(EI k k0/GJ)·L = π/2 (Reference 07). Below it the tip follows the handle
 // continuously.
 TEST(QuasiStaticTwist, ATurnedTipFollowsContinuouslyBelowTheSnapAndJumpsAboveIt)
 {

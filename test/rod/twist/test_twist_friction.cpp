@@ -242,8 +242,8 @@ TEST(TwistFriction, SpinningNeedsTheTorqueOfSlidingAndTheTipLagsByTheWindUp)
   EXPECT_TRUE(spindle.report.solved);
 }
 
-/** A wire turned by φ at its end, a uniform torque of friction τ per length on it from h on, which slides as far as
- *  h + l: φ = τ l h/GJ + τ l²/2GJ. (Without h: l = √(2 GJ φ/τ).) */
+/** Partial slip of a wire rotated by φ at its proximal end. A uniform friction torque τ per length acts beyond h, and
+ * the wire slides up to h + l: φ = τ l h/GJ + τ l²/2GJ. (For h = 0: l = √(2 GJ φ/τ).) */
 struct PartialSlip
 {
   PartialSlip(double gj, double tau, double turn, double h)
@@ -289,8 +289,8 @@ TEST(TwistFriction, HoldsTheWindUpWithoutCreepAndRunsThroughTheLoopOfHysteresis)
   for (std::size_t j = 0; j < before.size(); ++j)
     EXPECT_NEAR(spindle.state.twist_angle[j], before[j], 1e-9) << j;
   EXPECT_NEAR(spindle.state.hand_torque, wound, 1e-6 * wound);
-  // Turned back, friction has to be reversed, twice of what it takes at first: T = T₀ (1 − 2 √(Δφ/2φ)), which is zero
-  // half the way back. The wire then rolls to the trough's other side (0.05 rad), which friction does not resist.
+  // Reversal changes the friction torque by twice its limit: T = T₀ (1 − 2 √(Δφ/2φ)), which is zero at Δφ = φ/2. The
+  // wire then rolls to the other side of the trough (0.05 rad), which friction does not resist.
   spindle.turnTo(0.5 * turn, 4.0);
   EXPECT_NEAR(spindle.state.hand_torque, 0.0, 0.05 * wound);
   spindle.turnTo(-turn, 4.0);
