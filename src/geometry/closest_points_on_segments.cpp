@@ -34,17 +34,17 @@ SegmentPair closestPointsOfSegments(const Eigen::Vector3d& p1, const Eigen::Vect
   const double b = d1.dot(d2);
   const double determinant = a * e - b * b;
   SegmentPair pair;
-  pair.first = determinant > 1e-12 * a * e ? clampedShare((b * f - c * e) / determinant) : 0.5;
+  pair.first = determinant > 1e-12 * a * e ? clampedParameter((b * f - c * e) / determinant) : 0.5;
   pair.second = (b * pair.first + f) / e;
   if (pair.second < 0.0)
   {
     pair.second = 0.0;
-    pair.first = clampedShare(-c / a);
+    pair.first = clampedParameter(-c / a);
   }
   else if (pair.second > 1.0)
   {
     pair.second = 1.0;
-    pair.first = clampedShare((b - c) / a);
+    pair.first = clampedParameter((b - c) / a);
   }
   return pair;
 }
@@ -65,7 +65,7 @@ SegmentPair closestPointsOfCone(const TaperedSegment& cone, const Eigen::Vector3
   const Eigen::Vector3d from = p1 - p2;
   const double cosine = u.dot(v);
   const double squared_sine = 1.0 - cosine * cosine;
-  const auto nearestOnSecond = [&](double along) { return clampedShare((from + along * u).dot(v) / length2); };
+  const auto nearestOnSecond = [&](double along) { return clampedParameter((from + along * u).dot(v) / length2); };
   const auto closestToPoint = [&](const Eigen::Vector3d& point)  // coordinate on the axis
   {
     const double foot = (point - p1).dot(u);

@@ -8,7 +8,7 @@ namespace endovascular_sim::geometry
 {
 
 /** Parameter on a segment, clamped to [0,1]. */
-inline double clampedShare(double value)
+inline double clampedParameter(double value)
 {
   return std::max(0.0, std::min(1.0, value));
 }

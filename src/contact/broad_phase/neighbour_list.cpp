@@ -58,7 +58,7 @@ bool mayContact(const AxisSegment& segment, const EdgeBounds& bounds, double cut
   const Eigen::Vector3d from_end = segment.end - bounds.middle;
   if (from_begin.dot(bounds.normal) > cutoff && from_end.dot(bounds.normal) > cutoff)
     return false;
-  const double t = geometry::clampedShare(-from_begin.dot(segment.along) * segment.inverse_square);
+  const double t = geometry::clampedParameter(-from_begin.dot(segment.along) * segment.inverse_square);
   const double far = cutoff + bounds.half_length;
   return (from_begin + t * segment.along).squaredNorm() <= far * far;
 }

@@ -120,7 +120,7 @@ Eigen::Vector3d NarrowPhase::closestPointOnEdge(const Eigen::Vector3d& point, in
   const WallEdge& edge = wall_.edges[wall_edge];
   const Eigen::Vector3d& begin = wall_.vertices[edge.vertices[0]];
   const Eigen::Vector3d along = wall_.vertices[edge.vertices[1]] - begin;
-  return begin + geometry::clampedShare((point - begin).dot(along) / along.squaredNorm()) * along;
+  return begin + geometry::clampedParameter((point - begin).dot(along) / along.squaredNorm()) * along;
 }
 
 /** Normal-cone test of a vertex: no edge at the vertex leads closer to the point. */
