@@ -27,7 +27,7 @@ public:
   OfflineSession& operator=(const OfflineSession&) = delete;
 
   /** Advances one time step with the motion of the scene's drives. The scripted operator of a procedure is not part of
-   *  this session: such a scene needs simulation().stepAll(commands). */
+   *  this class: such a scene needs simulation().stepAll(commands). */
   void step();
 
   bool isOver() const;  ///< true once the scene's duration is simulated
