@@ -105,8 +105,8 @@ os.execvp(sys.argv[2], sys.argv[2:])' "$@"
 # Selects progress, warnings and errors from the nodes' output, without colours and time stamps.
 readable_log() {
   sed -u -n -E 's/\x1b\[[0-9;]*m//g
-    s/^\[ INFO\] \[[0-9., ]+\]: \[session\] /   /p; t
-    s/^\[ ?(WARN|ERROR|FATAL)\] \[[0-9., ]+\]: /   \1: /p; t
+    s/^\[ INFO\] \[[0-9., ]+\] [^ ]*\/session: /   /p; t
+    s/^\[ ?(WARN|ERROR|FATAL)\] \[[0-9., ]+\] ([^ ]*): /   \1: \2: /p; t
     /RLException|^error|has died \[|exit code [1-9]/p'
 }
 
