@@ -6,7 +6,8 @@ namespace endovascular_sim::fluoroscopy
 {
 
 /** Response of the flat-panel detector: intensity to pixel values. Intensities are relative to the central ray behind
- *  the tissue slab, without vessel and wire. The automatic exposure control keeps that intensity at 1.
+ *  the tissue slab, without vessel and wire. The automatic exposure control keeps the intensity of this reference ray
+ * constant.
  *
  *  image_raw is linear in intensity: half of full scale at 1, saturated at 2 (little or no tissue).
  *

@@ -47,7 +47,7 @@ struct Equilibrium
   std::vector<double> tension;            ///< Lagrange multiplier of every edge [N]
   std::vector<double> reaction;           ///< reaction force of every support on the wire [N]
   double torque = 0.0;                    ///< uniform torque along the wire [N·m]
-  double transport = 0.0;                 ///< twist due to the centreline, continuous over full turns [rad]
+  double transport = 0.0;  ///< writhe contribution of the centreline to the twist, continuous over full turns [rad]
   int iterations = 0;
 };
 
@@ -79,7 +79,7 @@ public:
   /** Gradient of transport() with respect to the nodes; size 3n [rad/m]. */
   Eigen::VectorXd transportGradient(const Equilibrium& e) const;
 
-  /** Twist due to the centreline, on the branch nearest to e.transport [rad]. */
+  /** Writhe contribution of the centreline to the twist, on the branch nearest to e.transport [rad]. */
   double transport(const Equilibrium& e) const;
 
   /** Torsional compliance ∫ds/GJ between the centres of the end edges, or around the ring [1/(N·m)]. */

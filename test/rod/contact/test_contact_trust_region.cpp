@@ -52,7 +52,7 @@ TEST_F(TrustRegionOverAFloor, TruncatesForTheTightestEdgeByListedContactsAndByFr
     const NodalMotion motion = randomMotion(1e-3 * (1 + trial % 10));
     EXPECT_NEAR(truncation(motion), expected(motion), 1e-9) << trial;
     queries += static_cast<int>(passes_);
-    if (trial % 20 == 19)  // a wide body elsewhere
+    if (trial % 20 == 19)  // place the balloon at other nodes
     {
       least_radius_.assign(kNodes, 0.0);
       for (int i = trial / 20; i < trial / 20 + 5; ++i)
@@ -189,7 +189,7 @@ TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOne
   EXPECT_EQ(contacts_.marginOf(11), before);
   EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
   contacts_.resample(discretiseUniformly(uniformWire(0.2, kEi, kRadius, 7900.0), kNodes));
-  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // the queried margins do not apply to another sampling
+  EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // a new discretisation resets the margins
 }
 
 TEST_F(TrustRegionOverAFloor, QueriesNoFreeDistancesWhereListedContactsDecide)
@@ -215,7 +215,7 @@ TEST_F(TrustRegionOverAFloor, SubtractsTheGrowthOfABalloonAndIgnoresItsShrinking
   EXPECT_NEAR(contacts_.marginOf(5), listed, 1e-12);
   place(0.1e-3, 0.1e-3);
   setBalloon(5, 1.05e-3);
-  EXPECT_LE(1e-3 * truncation(motionOf(5, 1e-3)), listed + 1e-12);  // less than the margin of a body of 1.05 mm
+  EXPECT_LE(1e-3 * truncation(motionOf(5, 1e-3)), listed + 1e-12);  // less than the margin at a radius of 1.05 mm
   setBalloon(5, 1.08e-3);
   place(0.1e-3, 0.1e-3);
   const double before = contacts_.marginOf(5);

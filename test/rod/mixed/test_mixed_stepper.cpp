@@ -64,7 +64,8 @@ TEST(MixedStepper, HeavyCantileverComesToRestWithinAMillionthAt25Nodes)
       1e-12);
 }
 
-// Coarse edges with a soft bow: without the bow's compliance in L the tension of this motion is unstable.
+// Coarse edges bend considerably between their nodes. Without the term −½ λ² b of the functional (compliance of the
+// chord due to bending of the arc) the tension is unstable in this test.
 TEST(MixedStepper, CoarseFallingWireStaysStableAndFollowsTheFineOneWithFourthOrder)
 {
   const auto tip = [](int nodes)
@@ -111,7 +112,7 @@ TEST(MixedStepper, VibratesAtTheFrequenciesOfTheBeamWithFourthOrder)
     rod.assemble(state, gradient, banded);
     const auto entry = [&](int row, int col)
     { return std::abs(row - col) <= MixedRod::kBandwidth ? banded.at(std::max(row, col), std::min(row, col)) : 0.0; };
-    const int n = nodes - 1;  // deflections y of the free nodes against moments z of all but the tip
+    const int n = nodes - 1;  // deflections along y of the free nodes; moments about z of all nodes except the tip
     Eigen::MatrixXd coupling(n, n), flexibility(n, n), mass = Eigen::MatrixXd::Zero(n, n);
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k)
