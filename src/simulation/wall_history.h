@@ -13,7 +13,7 @@ namespace endovascular_sim::simulation
  *  interval later, so the wall has that long to respond. */
 constexpr std::uint64_t kBalloonLoadPeriod = 8;
 
-/** Most versions by which the wall of contact detection lags behind the newest one [1]: the version that the last load
+/** Largest lag of the wall of contact detection behind the newest version [versions]: the version that the last load
  *  announced, and the one before it until the next interval begins. */
 constexpr std::size_t kWallLag = 2;
 

@@ -10,8 +10,8 @@ namespace endovascular_sim::contact
 // only inside the cone that the normals of the triangles around it span. Bounds and exact tests share these constants.
 
 constexpr double kReflexAngle = 1e-4;  ///< rad: edges that bulge less are tested against the wire's nodes only
-constexpr double kConeSlack = 1e-3;    ///< share of the distance by which the cone of an edge is widened
-/** Share of the reflex angle by which the cone of an edge is widened close to the wire. A wire that lies along a facet
+constexpr double kConeSlack = 1e-3;    ///< widening of the cone of an edge, relative to the distance
+/** Widening of the cone of an edge close to the wire, relative to the reflex angle. A wire that lies along a facet
  *  also touches the facet's border. If that contact depended on the wire's exact direction, it would appear and
  *  disappear from pass to pass and the solver would oscillate. */
 constexpr double kConeSlackOfAngle = 0.1;

@@ -186,7 +186,7 @@ double InterlayerFriction::meanTurn(int k, int outer, const State& state) const
   return sum / weight;
 }
 
-/** Mean angle by which the whole friction torque would turn two straight layers back [rad]. */
+/** Mean relative rotation of two straight layers under the whole friction torque [rad]. */
 double InterlayerFriction::turnCompliance(int k, int outer, double held) const
 {
   const std::vector<double>& limit = torque_limit_[k];

@@ -11,7 +11,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kTipTolerance = 1e-9;  // m by which a layer may reach further than the reference
+constexpr double kTipTolerance = 1e-9;  // excess length of a layer over the reference [m]
 constexpr int kFrictionIterations = 3;  // on the friction torques between layers, in one solve
 constexpr double kOffsetTime = 0.1;     // s in which an offset of a handle's force fades to 1/e
 constexpr double kNoOffset = 1e-9;      // N
