@@ -21,7 +21,7 @@ namespace
 VesselScene tubeScene()
 {
   VesselScene scene;
-  scene.tube.emplace();
+  scene.tube = VesselScene::Tube();
   scene.tube->radius = 3e-3;
   scene.tube->facet_length = 1e-3;
   scene.tube->pieces = {{0.05, 0.0, 0.0}};

@@ -144,8 +144,8 @@ TEST_F(QueriesOverAFloor, RenumberTheNodesOfASnapThrough)
 TEST(QueriesInTheIntroducersMouth, HaveParametersOfTheWholeEdge)
 {
   const Discretisation rod = discretiseUniformly(uniformWire(0.1, 5e-5, 1.8e-4, 7900.0), 21);
-  const Boundary boundary;
-  const StepperSettings settings;
+  const Boundary boundary{};
+  const StepperSettings settings{};
   const WireSurface surface(rod);
   ContactQueryBuilder query(rod, boundary, settings, surface);
   const State state = KktStepper(rod, boundary, Environment(), settings).initialState(0.042, 0.0);

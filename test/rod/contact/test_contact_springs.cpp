@@ -132,7 +132,7 @@ protected:
   }
 
   const Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
-  const StepperSettings settings_;
+  const StepperSettings settings_{};
   ContactSprings springs_{rod_, settings_};
   ContactList contacts_;
   State state_;

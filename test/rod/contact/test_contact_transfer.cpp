@@ -42,7 +42,7 @@ protected:
   }
 
   const Discretisation rod_ = withNodes(21);
-  const StepperSettings settings_;
+  const StepperSettings settings_{};
   ContactTransfer transfer_{rod_};
   ContactSprings springs_{rod_, settings_};
 };

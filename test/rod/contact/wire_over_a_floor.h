@@ -91,7 +91,7 @@ protected:
   static constexpr int kNodes = 21;
   const Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
   const Boundary boundary_ = freeEnds();
-  const StepperSettings settings_;
+  const StepperSettings settings_{};
   ContactSolver contacts_{rod_, boundary_, settings_};
   PlaneWall floor_{kFriction};
   State state_ = KktStepper(rod_, boundary_, Environment(), StepperSettings()).initialState(0.0, 0.0);
