@@ -52,7 +52,7 @@ double rayBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse, con
 
 }  // namespace
 
-MeshDistance::MeshDistance(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size())
+MeshDistance::MeshDistance(const TriangleMesh& mesh) : order_(mesh.triangles.size())
 {
   std::iota(order_.begin(), order_.end(), 0);
   std::vector<Eigen::Vector3d> centres;
@@ -61,10 +61,13 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.
     centres.emplace_back((corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0);
   nodes_.reserve(order_.size());
   if (!order_.empty())
-    build(0, static_cast<int>(order_.size()), centres);
+    build(0, static_cast<int>(order_.size()), mesh, centres);
+  corners_.reserve(order_.size());
+  for (int t : order_)
+    corners_.push_back({corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)});
 }
 
-int MeshDistance::build(int begin, int end, const std::vector<Eigen::Vector3d>& centres)
+int MeshDistance::build(int begin, int end, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& centres)
 {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
@@ -74,7 +77,7 @@ int MeshDistance::build(int begin, int end, const std::vector<Eigen::Vector3d>& 
   {
     const int t = order_[static_cast<std::size_t>(k)];
     for (int i = 0; i < 3; ++i)
-      box.extend(corner(mesh_, t, i));
+      box.extend(corner(mesh, t, i));
     spread.extend(centres[static_cast<std::size_t>(t)]);
   }
   int right = -1;
@@ -90,8 +93,8 @@ int MeshDistance::build(int begin, int end, const std::vector<Eigen::Vector3d>& 
                        const double y = centres[static_cast<std::size_t>(b)][axis];
                        return x < y || (x == y && a < b);
                      });
-    build(begin, middle, centres);
-    right = build(middle, end, centres);
+    build(begin, middle, mesh, centres);
+    right = build(middle, end, mesh, centres);
   }
   nodes_[static_cast<std::size_t>(index)] = {box, begin, end, right};
   return index;
@@ -123,18 +126,50 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
     }
     for (int k = node.begin; k < node.end; ++k)
     {
-      const int t = order_[static_cast<std::size_t>(k)];
-      const Eigen::Vector3d q =
-          closestPointOnTriangle(p, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2)).point;
+      const auto& [a, b, c] = corners_[static_cast<std::size_t>(k)];
+      const Eigen::Vector3d q = closestPointOnTriangle(p, a, b, c).point;
       const double squared = (q - p).squaredNorm();
       if (squared < best_squared)
       {
         best_squared = squared;
-        best = {q, std::sqrt(squared), t};
+        best = {q, std::sqrt(squared), order_[static_cast<std::size_t>(k)]};
       }
     }
   }
   return best;
+}
+
+bool MeshDistance::isNearer(const Eigen::Vector3d& p, double limit) const
+{
+  // Boxes are compared by squares: a margin above their rounding keeps the result equal to that of closest().
+  const double squared_limit = limit * limit * (1.0 + 1e-12);
+  std::array<int, 96> stack;
+  std::size_t depth = 0;
+  if (!nodes_.empty() && nodes_[0].box.squaredExteriorDistance(p) <= squared_limit)
+    stack[depth++] = 0;
+  while (depth > 0)
+  {
+    const int index = stack[--depth];
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (node.right >= 0)
+    {
+      const double left = nodes_[static_cast<std::size_t>(index) + 1].box.squaredExteriorDistance(p);
+      const double right = nodes_[static_cast<std::size_t>(node.right)].box.squaredExteriorDistance(p);
+      const bool left_first = left <= right;
+      if (std::max(left, right) <= squared_limit)
+        stack[depth++] = left_first ? node.right : index + 1;
+      if (std::min(left, right) <= squared_limit)
+        stack[depth++] = left_first ? index + 1 : node.right;
+      continue;
+    }
+    for (int k = node.begin; k < node.end; ++k)
+    {
+      const auto& [a, b, c] = corners_[static_cast<std::size_t>(k)];
+      if ((closestPointOnTriangle(p, a, b, c).point - p).norm() < limit)
+        return true;
+    }
+  }
+  return false;
 }
 
 double MeshDistance::rayHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const
@@ -159,8 +194,8 @@ double MeshDistance::rayHit(const Eigen::Vector3d& origin, const Eigen::Vector3d
     }
     for (int k = node.begin; k < node.end; ++k)
     {
-      const int t = order_[static_cast<std::size_t>(k)];
-      const double hit = rayTriangle(origin, direction, corner(mesh_, t, 0), corner(mesh_, t, 1), corner(mesh_, t, 2));
+      const auto& [a, b, c] = corners_[static_cast<std::size_t>(k)];
+      const double hit = rayTriangle(origin, direction, a, b, c);
       if (hit >= 0.0 && hit < best)
         best = hit;
     }

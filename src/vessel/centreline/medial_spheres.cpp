@@ -42,20 +42,20 @@ MedialSphere ascendToRidge(const Eigen::Vector3d& p, const Eigen::Vector3d& inwa
     return {};
   Eigen::Vector3d centre = p + 0.5 * across * inward;
   geometry::ClosestPoint wall = distance.closest(centre);
-  Eigen::Vector3d other_wall = wall.point;
+  Eigen::Vector3d rejected = centre;
   for (double step = 0.3 * wall.distance; step > 0.03 * wall.distance && wall.distance > 0.0;)
   {
     const Eigen::Vector3d trial = centre + step * (centre - wall.point) / wall.distance;
-    const geometry::ClosestPoint trial_wall = distance.closest(trial);
-    if (trial_wall.distance < wall.distance + kMinGain * step)
+    if (distance.isNearer(trial, wall.distance + kMinGain * step))
     {
-      other_wall = trial_wall.point;
+      rejected = trial;
       step *= 0.5;
       continue;
     }
     centre = trial;
-    wall = trial_wall;
+    wall = distance.closest(trial);
   }
+  const Eigen::Vector3d other_wall = distance.closest(rejected).point;
   const Eigen::Vector3d to_wall = (wall.point - centre).normalized();
   const Eigen::Vector3d to_other = (other_wall - centre).normalized();
   const bool in_groove = to_wall.dot(to_other) > kWidestGroove || wall.distance < kNarrowestLumen;
