@@ -20,8 +20,8 @@ struct ClosestPoint
 };
 
 /** Distance and ray queries against a fixed mesh by a bounding volume hierarchy of axis-aligned boxes. Used by mesh
- *  preparation and by checks; contact detection has its own search structures (contact/broad_phase). Keeps a copy of the
- *  triangles in the order of the hierarchy. */
+ *  preparation and by checks; contact detection has its own search structures (contact/broad_phase). Keeps a copy of
+ * the triangles in the order of the hierarchy. */
 class MeshDistance
 {
 public:

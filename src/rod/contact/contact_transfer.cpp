@@ -1,6 +1,7 @@
 #include "rod/contact/contact_transfer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "common/archive.h"
@@ -19,6 +20,7 @@ constexpr double kLeastWeight = 0.01;  // squared weight of the fresh nodes in a
 
 double ContactTransfer::positionOf(const contact::Feature& feature) const
 {
+  assert(feature.edge >= 0 && feature.edge + 1 < rod_.nodes());  // the rod is that of the contacts, not yet the new one
   return rod_.position[feature.edge] + feature.parameter * rod_.rest_length[feature.edge];
 }
 

@@ -184,8 +184,12 @@ TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOne
   const double before = contacts_.marginOf(9);
   ASSERT_EQ(contacts_.marginOf(12), settings_.contact_margin);
   Discretisation longer = rod_;
-  longer.position.insert(longer.position.begin(), 2, -1.0);
+  longer.position.insert(longer.position.begin(), {-0.01, -0.005});
+  longer.rest_length.insert(longer.rest_length.begin(), 2, 0.005);
+  for (std::vector<double>* values : {&longer.cell_length, &longer.mass, &longer.radius, &longer.friction})
+    values->insert(values->begin(), 2, values->front());
   contacts_.resample(longer);
+  rod_ = longer;
   EXPECT_EQ(contacts_.marginOf(11), before);
   EXPECT_EQ(contacts_.marginOf(14), settings_.contact_margin);
   contacts_.resample(discretiseUniformly(uniformWire(0.2, kEi, kRadius, 7900.0), kNodes));

@@ -89,7 +89,7 @@ protected:
   static constexpr double kRadius = 1.8e-4;
   static constexpr double kFriction = 0.2;
   static constexpr int kNodes = 21;
-  const Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
+  Discretisation rod_ = discretiseUniformly(uniformWire(0.1, kEi, kRadius, 7900.0), kNodes);
   const Boundary boundary_ = freeEnds();
   const StepperSettings settings_{};
   ContactSolver contacts_{rod_, boundary_, settings_};
