@@ -38,18 +38,19 @@ vessel::TubeShape tubeShape(const VesselScene::Tube& tube, const EntryPose& star
   return shape;
 }
 
-vessel::Vessel vesselFromMeshFile(const VesselScene& scene)
+vessel::Vessel vesselFromMeshFile(const VesselScene& scene, const ProgressReport& progress)
 {
   vessel::Vessel vessel;
   vessel.source = scene.mesh;
-  vessel.mesh = vessel::readMesh(scene.mesh, scene.unit);
+  vessel.mesh = vessel::readMesh(scene.mesh, scene.unit, progress);
+  reportProgress(progress, "check of the mesh");
   const vessel::MeshReport report = vessel::checkMesh(vessel.mesh);
   vessel::requirePlausibleSize(report, scene.unit, scene.mesh);
   if (!scene.repair)
     vessel::requireClean(report, scene.mesh);
   else if (!report.clean())
   {
-    vessel::RepairedMesh repaired = vessel::repairMesh(std::move(vessel.mesh), scene.mesh);
+    vessel::RepairedMesh repaired = vessel::repairMesh(std::move(vessel.mesh), scene.mesh, progress);
     vessel.mesh = std::move(repaired.mesh);
     vessel.notes = std::move(repaired.notes);
   }
@@ -158,7 +159,7 @@ contact::WallLaw wallLaw(const VesselScene& scene)
 }
 
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
-                           CentrelineUse centreline)
+                           CentrelineUse centreline, const ProgressReport& progress)
 {
   vessel::Vessel vessel;
   if (scene.tube)
@@ -171,17 +172,18 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
   else if (!scene.anatomy.empty())
     vessel = vessel::loadAnatomy(scene.anatomy);
   else
-    vessel = vesselFromMeshFile(scene);
+    vessel = vesselFromMeshFile(scene, progress);
 
   if (scene.smoothing > 0)
   {
+    reportProgress(progress, "subdivision of the mesh");
     vessel.mesh = geometry::loopSubdivision(std::move(vessel.mesh), scene.smoothing);
     vessel.notes.push_back("smoothed by " + std::to_string(scene.smoothing) + " Loop subdivisions");
   }
   const bool required = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
   if (required && vessel.centreline.branches.empty())
-    vessel.centreline = vessel::extractCentreline(vessel.mesh);
-  vessel::addLesions(vessel, scene.lesions, origin);
+    vessel.centreline = vessel::extractCentreline(vessel.mesh, progress);
+  vessel::addLesions(vessel, scene.lesions, origin, progress);
   return vessel;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "common/progress.h"
 #include "contact/wall/wall_law.h"
 #include "scene/model/scene.h"
 #include "vessel/model/vessel.h"
@@ -27,9 +28,10 @@ contact::WallLaw wallLaw(const VesselScene& scene);
 
 /** Loads or generates the vessel of a scene: unit, validation and repair, transform, smoothing, lesions.
  *  @param origin scene file, for errors
+ *  @param progress receives the progress of large meshes
  *  @throws InputError if the mesh or the anatomy is invalid */
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
-                           CentrelineUse centreline = CentrelineUse::kIfCheap);
+                           CentrelineUse centreline = CentrelineUse::kIfCheap, const ProgressReport& progress = {});
 
 /** Pose of the wire at the entry into the vessel. */
 struct EntryPose

@@ -22,7 +22,8 @@ std::string sceneFile(const std::string& scene)
 
 }  // namespace
 
-OfflineSession::OfflineSession(const std::string& scene, const std::vector<std::string>& overrides)
+OfflineSession::OfflineSession(const std::string& scene, const std::vector<std::string>& overrides,
+                               const ProgressReport& progress)
   : scene_(scene::loadScene(sceneFile(scene), overrides))
 {
   scene::EntryPose entry;
@@ -30,7 +31,7 @@ OfflineSession::OfflineSession(const std::string& scene, const std::vector<std::
   if (scene_.vessel)
   {
     vessel_ = std::make_unique<vessel::Vessel>(
-        scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::centrelineUse(scene_)));
+        scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::centrelineUse(scene_), progress));
     entry = scene::resolveStart(scene_, *vessel_);
     detector_ = std::make_unique<contact::Detector>(vessel_->mesh, scene::wallLaw(*scene_.vessel));
     wall_ = makeLocalDeformableWall(scene_, *vessel_, *detector_);

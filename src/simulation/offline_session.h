@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/progress.h"
 #include "contact/detector.h"
 #include "scene/model/scene.h"
 #include "simulation/local_deformable_wall.h"
@@ -20,8 +21,10 @@ class OfflineSession
 public:
   /** @param scene path of a scene file, or the name of one in the package's config/scenes, e.g. "tube"
    *  @param overrides `key.path=value` texts, applied in order
+   *  @param progress receives the progress of the preparation of large meshes
    *  @throws InputError when the scene or its vessel is refused */
-  explicit OfflineSession(const std::string& scene, const std::vector<std::string>& overrides = {});
+  explicit OfflineSession(const std::string& scene, const std::vector<std::string>& overrides = {},
+                          const ProgressReport& progress = {});
 
   OfflineSession(const OfflineSession&) = delete;
   OfflineSession& operator=(const OfflineSession&) = delete;

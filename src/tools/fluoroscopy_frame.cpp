@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/progress.h"
 #include "fluoroscopy/attenuation.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/png_writer.h"
@@ -153,7 +154,7 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Attenu
 
 geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
-  geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit);
+  geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit, progressOnErrorStream());
   for (Eigen::Vector3d& vertex : mesh.vertices)
     vertex = patient_from_mesh * vertex;
   if (mesh.signedVolume() < 0.0)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/progress.h"
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
 #include "results/session_run.h"
@@ -91,8 +92,8 @@ int study(const Options& options)
     throw InputError(scene.file, "procedure", "missing; give procedure: FILE");
   if (!options.through.empty())
     scene = procedure::endingWith(std::move(scene), options.through);
-  const vessel::Vessel vessel =
-      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file,
+                                                   scene::CentrelineUse::kRequired, progressOnErrorStream());
   const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
   std::filesystem::create_directories(options.out);
   std::ofstream table = tools::openFile(options.out + "/study.csv");

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/hash.h"
+#include "common/progress.h"
 #include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
@@ -39,7 +40,8 @@ void checkVessel(const scene::Scene& scene)
 {
   if (!scene.vessel)
     return;
-  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
+  const vessel::Vessel vessel =
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progressOnErrorStream());
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);

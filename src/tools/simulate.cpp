@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/error.h"
+#include "common/progress.h"
 #include "contact/detector.h"
 #include "procedure/phase_pictures.h"
 #include "results/run_result.h"
@@ -185,7 +186,7 @@ struct Surroundings
   std::uint64_t mesh_hash = 0;
 };
 
-Surroundings build(const scene::Scene& scene)
+Surroundings build(const scene::Scene& scene, const ProgressReport& progress)
 {
   Surroundings made;
   if (!scene.vessel)
@@ -193,7 +194,8 @@ Surroundings build(const scene::Scene& scene)
     made.entry = scene::resolveEntry(scene.entry, scene.file);
     return made;
   }
-  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
+  const vessel::Vessel vessel =
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progress);
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
   made.entry = scene::resolveStart(scene, vessel);
@@ -201,6 +203,7 @@ Surroundings build(const scene::Scene& scene)
   made.wall_points = vessel.mesh.vertices;
   made.wall_forces = std::make_unique<results::WallForceMap>(scene.record.wall_force_threshold, vessel);
   made.mesh_hash = vessel.mesh.hash();
+  reportProgress(progress, "search tree of the wall");
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
   made.moving_wall = simulation::makeLocalDeformableWall(scene, vessel, *made.wall);
   made.session = std::make_unique<results::SessionRun>(scene, vessel, made.entry.position);
@@ -360,7 +363,7 @@ int simulate(const Options& options)
 {
   const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   std::filesystem::create_directories(options.out);
-  Surroundings surroundings = build(scene);
+  Surroundings surroundings = build(scene, options.quiet ? ProgressReport() : progressOnErrorStream());
   if (options.pictures)
   {
     if (!surroundings.session || !surroundings.session->scriptedOperator())

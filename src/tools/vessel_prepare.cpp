@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/progress.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy_mesh.h"
@@ -106,7 +107,7 @@ int prepare(Options a)
 {
   for (const std::string& plug : a.plugs)
     a.prepare.plugs.push_back(plugOf(plug));
-  geometry::TriangleMesh input = vessel::readMesh(a.in, a.unit);
+  geometry::TriangleMesh input = vessel::readMesh(a.in, a.unit, a.quiet ? ProgressReport() : progressOnErrorStream());
   vessel::requirePlausibleSize(vessel::checkMesh(input), a.unit, a.in);
   std::string source = a.in;
   for (const std::string& anatomy : a.joins)

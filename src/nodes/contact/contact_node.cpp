@@ -55,6 +55,7 @@ void ContactNode::receiveVessel(const VesselMeshConstPtr& message)
   // The latched mesh may be newer than the wall that the rod requests: the service also returns the versions between.
   const bool moved = message->version != 1 && ros::service::call(node_.resolveName(names::kGetVessel), vessel);
   const VesselMesh& mesh = moved ? vessel.response.mesh : *message;
+  ROS_INFO("preparing contact detection in %zu triangles", mesh.mesh.triangles.size());
   auto detector = std::make_unique<contact::Detector>(fromMessage(mesh), law_, mesh.version);
   triangles_ = mesh.mesh.triangles.size();
   ROS_INFO("vessel version %lu, %zu triangles", static_cast<unsigned long>(mesh.version), mesh.mesh.triangles.size());

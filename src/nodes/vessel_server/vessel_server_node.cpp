@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "common/progress.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/real_time.h"
@@ -48,7 +49,8 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   }
   ROS_INFO("preparing the vessel of %s", scene.file.c_str());
   const vessel::Vessel vessel =
-      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired,
+                         progressLines([](const std::string& line) { ROS_INFO("%s", line.c_str()); }));
   for (const std::string& note : vessel.notes)
     ROS_INFO("%s: %s", vessel.source.c_str(), note.c_str());
   notes_ = vessel.notes;

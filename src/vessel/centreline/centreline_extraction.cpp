@@ -116,9 +116,9 @@ void centreLine(Line& line, const geometry::MeshDistance& distance)
 class Extractor
 {
 public:
-  explicit Extractor(const geometry::TriangleMesh& mesh) : distance_(mesh)
+  Extractor(const geometry::TriangleMesh& mesh, const ProgressReport& progress) : distance_(mesh)
   {
-    spheres_ = thinSpheres(medialSpheres(mesh, distance_), kSphereSpacing);
+    spheres_ = thinSpheres(medialSpheres(mesh, distance_, progress), kSphereSpacing);
     std::vector<std::vector<int>> neighbours = overlappingSpheres(spheres_);
     connectComponents(spheres_, distance_, neighbours);
     skeleton_ = medialSkeleton(spheres_, neighbours);
@@ -244,9 +244,10 @@ private:
 
 }  // namespace
 
-CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh)
+CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh, const ProgressReport& progress)
 {
-  CentrelineTree tree = Extractor(mesh).run();
+  reportProgress(progress, "centreline");
+  CentrelineTree tree = Extractor(mesh, progress).run();
   if (tree.branches.empty())
     throw InputError("vessel", "centreline", "no lumen was found in the mesh; specify the entry as a pose");
   return tree;

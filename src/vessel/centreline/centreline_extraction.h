@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/progress.h"
 #include "geometry/triangle_mesh.h"
 #include "vessel/centreline/centreline.h"
 
@@ -18,6 +19,6 @@ namespace endovascular_sim::vessel
  *  branch. The result is deterministic; the cost is linear in the number of triangles.
  *  @pre the mesh has passed checkMesh
  *  @throws InputError if no lumen is found */
-CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh);
+CentrelineTree extractCentreline(const geometry::TriangleMesh& mesh, const ProgressReport& progress = {});
 
 }  // namespace endovascular_sim::vessel

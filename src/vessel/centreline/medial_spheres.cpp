@@ -1,7 +1,10 @@
 #include "vessel/centreline/medial_spheres.h"
 
 #include <algorithm>
+#include <atomic>
+#include <future>
 #include <numeric>
+#include <thread>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -26,6 +29,9 @@ constexpr double kMinGain = 0.3;
 constexpr double kWidestGroove = -0.34;
 /** Smallest radius of a lumen [m]. It admits no instrument: a 0.014" wire has a radius of 0.18 mm. */
 constexpr double kNarrowestLumen = 0.2e-3;
+constexpr std::size_t kSamplesPerBlock = 256;
+constexpr std::size_t kBlocksPerThread = 8;  ///< least number of blocks that a thread is started for
+constexpr std::size_t kMaxThreads = 8;
 /** Bisection depth of a triangle without any medial sphere. */
 constexpr int kDeepestBlindSplit = 3;
 
@@ -115,15 +121,37 @@ std::vector<Eigen::Vector3d> centresOf(const std::vector<MedialSphere>& spheres)
 
 }  // namespace
 
-std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance)
+std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance,
+                                        const ProgressReport& progress)
 {
-  std::vector<MedialSphere> spheres;
   const std::size_t stride = mesh.triangles.size() / kMaxTriangles + 1;
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += stride)
+  const std::size_t samples = (mesh.triangles.size() + stride - 1) / stride;
+  std::vector<std::vector<MedialSphere>> blocks((samples + kSamplesPerBlock - 1) / kSamplesPerBlock);
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](const ProgressReport& report)
   {
-    const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    sampleFacet({at(0), at(1), at(2), 0, 0.0}, distance, spheres);
-  }
+    for (std::size_t block = next++; block < blocks.size(); block = next++)
+    {
+      reportProgress(report, "centreline", static_cast<double>(block) / static_cast<double>(blocks.size()));
+      const std::size_t end = std::min(samples, (block + 1) * kSamplesPerBlock);
+      for (std::size_t sample = block * kSamplesPerBlock; sample < end; ++sample)
+      {
+        const Eigen::Vector3i& t = mesh.triangles[sample * stride];
+        const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+        sampleFacet({at(0), at(1), at(2), 0, 0.0}, distance, blocks[block]);
+      }
+    }
+  };
+  std::vector<std::future<void>> helpers;
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t k = 1; k < std::min({processors, blocks.size() / kBlocksPerThread, kMaxThreads}); ++k)
+    helpers.push_back(std::async(std::launch::async, work, ProgressReport()));
+  work(progress);
+  for (std::future<void>& helper : helpers)
+    helper.get();
+  std::vector<MedialSphere> spheres;
+  for (const std::vector<MedialSphere>& block : blocks)
+    spheres.insert(spheres.end(), block.begin(), block.end());
   return spheres;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "common/progress.h"
 #include "geometry/mesh_distance.h"
 #include "geometry/triangle_mesh.h"
 
@@ -19,8 +20,10 @@ struct MedialSphere
 
 /** Medial spheres of the lumen. From each sample of the wall, the distance to the wall is maximised from the midpoint
  *  of the chord across the lumen. Spheres in grooves between facets are discarded. Triangles longer than the local
- *  radius are sampled several times. The order follows the triangles. */
-std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance);
+ *  radius are sampled several times. The order follows the triangles and is independent of the number of threads that
+ *  share the samples. */
+std::vector<MedialSphere> medialSpheres(const geometry::TriangleMesh& mesh, const geometry::MeshDistance& distance,
+                                        const ProgressReport& progress = {});
 
 /** Thins spheres by decreasing radius. A retained sphere of radius r removes spheres with a centre within @p cover·r of
  *  its centre, and spheres with a radius below @p cover·r and a centre inside it. */

@@ -86,6 +86,9 @@ geometry::TriangleMesh MeshBuilder::build()
   mesh_vertex_.assign(positions_.size(), -1);
   for (std::size_t f = 0; f < faces_.size(); ++f)
   {
+    if (f % kRecordsPerReport == 0)
+      reportProgress(progress_, "joining the vertices of the mesh",
+                     static_cast<double>(f) / static_cast<double>(faces_.size()));
     const Face& face = faces_[f];
     for (std::size_t k = face.begin; k < face.end; ++k)
       if (corners_[k] < 0 || corners_[k] >= count)

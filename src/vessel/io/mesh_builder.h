@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/progress.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::vessel
@@ -24,8 +26,20 @@ public:
   static constexpr std::size_t kMaxCorners = 1024;
 
   /** @param path file, named in errors
-   *  @param unit metres per unit of the file */
-  MeshBuilder(std::string path, double unit) : path_(std::move(path)), unit_(unit) {}
+   *  @param unit metres per unit of the file
+   *  @param bytes of the file, for the progress */
+  MeshBuilder(std::string path, double unit, std::size_t bytes = 1, ProgressReport progress = {})
+    : path_(std::move(path)), unit_(unit), bytes_(static_cast<double>(bytes)), progress_(std::move(progress))
+  {
+  }
+
+  /** Reports the progress of reading, from time to time.
+   *  @param rest bytes of the file that are not read yet */
+  void reportRest(std::size_t rest)
+  {
+    if (++reports_ % kRecordsPerReport == 0)
+      reportProgress(progress_, "reading the mesh file", 1.0 - static_cast<double>(rest) / bytes_);
+  }
 
   /** Adds a vertex of the file.
    *  @param position in units of the file
@@ -45,6 +59,8 @@ public:
   geometry::TriangleMesh build();
 
 private:
+  static constexpr std::size_t kRecordsPerReport = 20000;
+
   /** Range of corners_ of one face. */
   struct Face
   {
@@ -60,6 +76,9 @@ private:
 
   std::string path_;
   double unit_;
+  double bytes_;  ///< size of the file
+  ProgressReport progress_;
+  std::size_t reports_ = 0;
   std::vector<Eigen::Vector3d> positions_;  ///< vertices of the file [units of the file]
   std::vector<long long> corners_;          ///< vertex numbers of all faces
   std::vector<Face> faces_;

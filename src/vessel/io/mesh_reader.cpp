@@ -52,7 +52,7 @@ std::string readFile(const std::string& path)
 
 }  // namespace
 
-geometry::TriangleMesh readMesh(const std::string& path, double unit)
+geometry::TriangleMesh readMesh(const std::string& path, double unit, const ProgressReport& progress)
 {
   if (!(unit > 0.0) || !std::isfinite(unit))
     throw InputError(path, "unit", "must be positive, e.g. 0.001 for a mesh in millimetres");
@@ -60,7 +60,7 @@ geometry::TriangleMesh readMesh(const std::string& path, double unit)
   if (extension != ".obj" && extension != ".stl" && extension != ".ply")
     throw InputError(path, "", "unknown mesh format \"" + extension + "\"; give an .obj, .stl or .ply file");
   const std::string bytes = readFile(path);
-  MeshBuilder builder(path, unit);
+  MeshBuilder builder(path, unit, bytes.size(), progress);
   if (extension == ".obj")
     readObj(bytes, path, builder);
   else if (extension == ".stl")

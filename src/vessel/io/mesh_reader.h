@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/progress.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::vessel
@@ -15,7 +16,7 @@ namespace endovascular_sim::vessel
  *  @param path file; its extension determines the format
  *  @param unit metres per unit of the file (0.001 for millimetres)
  *  @throws InputError if the file is missing, of another format, damaged, or without triangles */
-geometry::TriangleMesh readMesh(const std::string& path, double unit);
+geometry::TriangleMesh readMesh(const std::string& path, double unit, const ProgressReport& progress = {});
 
 /** Writes a mesh as an OBJ file in metres.
  *  @throws InputError if the file cannot be written */

@@ -1,5 +1,6 @@
 #include "vessel/io/obj_reader.h"
 
+#include <set>
 #include <vector>
 
 #include "common/error.h"
@@ -32,8 +33,9 @@ public:
         readVertex();
       else if (keyword == "f")
         readFace();
-      else if (!keyword.empty() && keyword.back() == '\\' && keyword.size() > 1)
-        refuse(path_, text_.lineNumber(), "a keyword continues on the next line; the file is damaged");
+      else
+        skipStatement(keyword);
+      mesh_.reportRest(text_.restOfText().size());
     }
   }
 
@@ -47,6 +49,24 @@ private:
     return !word.empty() && word.front() == '#' ? std::string_view() : word;
   }
 
+  /** Skips a statement without vertices or faces. An unknown keyword is an error: in a damaged file it may have been a
+   * vertex, whose loss would renumber all later ones. */
+  void skipStatement(std::string_view keyword)
+  {
+    static const std::set<std::string_view> kKnown{
+        "vt",     "vn",         "vp",        "p",     "l",        "curv",     "curv2", "surf",   "deg",    "bmat",
+        "step",   "cstype",     "parm",      "trim",  "hole",     "scrv",     "sp",    "end",    "con",    "g",
+        "s",      "mg",         "o",         "bevel", "c_interp", "d_interp", "lod",   "usemtl", "mtllib", "usemap",
+        "maplib", "shadow_obj", "trace_obj", "ctech", "stech",    "call",     "csh"};
+    if (!keyword.empty() && keyword.front() != '#' && kKnown.count(keyword) == 0)
+      refuse(path_, text_.lineNumber(),
+             "'" + std::string(keyword.substr(0, 20)) + "' is no statement of an OBJ file; the file is damaged");
+    if (keyword.empty() || keyword.front() == '#')
+      return;
+    while (!word().empty())  // to the end of continued lines
+      continue;
+  }
+
   void readVertex()
   {
     const std::size_t line = text_.lineNumber();
@@ -54,6 +74,11 @@ private:
     for (int k = 0; k < 3; ++k)
       if (!parseNumber(word(), position[k]))
         refuse(path_, line, "a vertex needs three numbers");
+    // A weight, or a colour with or without it, may follow.
+    std::size_t others = 0;
+    for (std::string_view other = word(); !other.empty(); other = word(), ++others)
+      if (double value = 0.0; others == 4 || !parseNumber(other, value))
+        refuse(path_, line, "a vertex has three numbers, and at most four more for weight and colour");
     mesh_.addVertex(position, line);
   }
 
@@ -64,7 +89,8 @@ private:
     for (std::string_view corner = word(); !corner.empty(); corner = word())
     {
       long long number = 0;
-      if (!parseNumber(corner.substr(0, corner.find('/')), number) || number == 0)
+      if (!parseNumber(corner.substr(0, corner.find('/')), number) || number == 0 ||
+          corner.find_first_not_of("+-/0123456789") != std::string_view::npos)
         refuse(path_, line, "a face needs vertex numbers from 1, or negative ones relative to the last vertex");
       corners_.push_back(number > 0 ? number - 1 : static_cast<long long>(mesh_.vertices()) + number);
     }

@@ -37,6 +37,26 @@ public:
     } while (pending_.empty());
   }
 
+  /** Ends a record.
+   *  @throws InputError for further values on the line of an ASCII file */
+  void endRecord()
+  {
+    if (storage_ == PlyStorage::kAscii && (!pending_.empty() || !text_.word().empty()))
+      malformed("has more values than the header announces; the file is damaged");
+  }
+
+  /** @throws InputError for data after the last element */
+  void end()
+  {
+    const bool more = storage_ == PlyStorage::kAscii
+                          ? text_.restOfText().find_first_not_of(" \t\r\n\v\f") != std::string_view::npos
+                          : data_.size() > kMaxRest;
+    if (more)
+      throw InputError(path_, "", "has more data than its header announces; the file is damaged");
+  }
+
+  std::size_t rest() const { return storage_ == PlyStorage::kAscii ? text_.restOfText().size() : data_.size(); }
+
   double next(PlyType type) { return storage_ == PlyStorage::kAscii ? nextWord() : nextBinary(type); }
 
   /** Number of items of a list, at most as many as the data can hold. */
@@ -61,6 +81,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t kMaxRest = 2;  ///< a line end that some programs add to binary data
+
   [[noreturn]] void truncated() const { malformed("the data end before the header's counts; the file is truncated"); }
 
   double nextWord()
@@ -161,7 +183,9 @@ void readVertices(const PlyElement& element, PlyValues& values, MeshBuilder& mes
         position[k] = values.next(property.type);
       else
         skip(property, values);
+    values.endRecord();
     mesh.addVertex(position, values.line());
+    mesh.reportRest(values.rest());
   }
 }
 
@@ -191,6 +215,8 @@ void readFaces(const PlyElement& element, PlyValues& values, MeshBuilder& mesh)
       }
       mesh.addFace(corners, values.line());
     }
+    values.endRecord();
+    mesh.reportRest(values.rest());
   }
 }
 
@@ -201,6 +227,7 @@ void skipElement(const PlyElement& element, PlyValues& values)
     values.beginRecord(element.name);
     for (const PlyProperty& property : element.properties)
       skip(property, values);
+    values.endRecord();
   }
 }
 
@@ -235,6 +262,7 @@ void readPly(std::string_view bytes, const std::string& path, MeshBuilder& mesh)
     else
       skipElement(element, values);
   }
+  values.end();
 }
 
 }  // namespace endovascular_sim::vessel

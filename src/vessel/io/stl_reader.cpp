@@ -52,49 +52,78 @@ void readBinary(std::string_view bytes, MeshBuilder& mesh)
     for (std::size_t k = 0; k < 9; ++k)
       corner[k / 3][static_cast<Eigen::Index>(k % 3)] = littleEndian<float>(bytes, begin + 4 * k);
     addFacet(corner[0], corner[1], corner[2], 0, mesh);
+    mesh.reportRest(bytes.size() - begin);
   }
 }
 
-void readAscii(std::string_view text, const std::string& path, MeshBuilder& mesh)
+/** Statements of an ASCII STL text. */
+class AsciiReader
 {
-  TextCursor cursor(text);
-  std::vector<Eigen::Vector3d> corners;
-  bool in_loop = false;
-  while (cursor.nextLine())
+public:
+  AsciiReader(std::string_view text, const std::string& path, MeshBuilder& mesh)
+    : cursor_(text), path_(path), mesh_(mesh)
   {
-    const std::string_view keyword = cursor.word();
-    const std::string line = "line " + std::to_string(cursor.lineNumber());
-    if (keyword == "outer")
+  }
+
+  void read()
+  {
+    while (cursor_.nextLine())
     {
-      if (in_loop)
-        throw InputError(path, line, "a loop begins before the previous one has ended");
-      in_loop = true;
-      corners.clear();
+      readStatement(cursor_.word());
+      mesh_.reportRest(cursor_.restOfText().size());
     }
-    else if (keyword == "vertex")
+    if (in_loop_ || !ended_)
+      throw InputError(path_, "", "has no endsolid; the file is truncated");
+  }
+
+private:
+  [[noreturn]] void refuse(const std::string& reason) const
+  {
+    throw InputError(path_, "line " + std::to_string(cursor_.lineNumber()), reason);
+  }
+
+  void readStatement(std::string_view keyword)
+  {
+    if (keyword == "vertex")
+      readVertex();
+    else if (keyword == "outer")
     {
-      Eigen::Vector3d position;
-      for (int k = 0; k < 3; ++k)
-        if (!parseNumber(cursor.word(), position[k]))
-          throw InputError(path, line, "a vertex needs three numbers");
-      if (!in_loop || corners.size() == 3)
-        throw InputError(path, line, "a facet of an STL file has exactly three vertices");
-      corners.push_back(position);
+      if (in_loop_)
+        refuse("a loop begins before the previous one has ended");
+      in_loop_ = true;
+      corners_.clear();
     }
     else if (keyword == "endloop")
     {
-      if (!in_loop || corners.size() != 3)
-        throw InputError(path, line, "a facet of an STL file has exactly three vertices");
-      addFacet(corners[0], corners[1], corners[2], cursor.lineNumber(), mesh);
-      in_loop = false;
+      if (!in_loop_ || corners_.size() != 3)
+        refuse("a facet of an STL file has exactly three vertices");
+      addFacet(corners_[0], corners_[1], corners_[2], cursor_.lineNumber(), mesh_);
+      in_loop_ = false;
     }
-    else if (!keyword.empty() && keyword != "solid" && keyword != "facet" && keyword != "endfacet" &&
-             keyword != "endsolid")
-      throw InputError(path, line, "is no statement of an ASCII STL file; the file is damaged");
+    else if (keyword == "solid" || keyword == "endsolid")
+      ended_ = keyword == "endsolid";
+    else if (!keyword.empty() && keyword != "facet" && keyword != "endfacet")
+      refuse("is no statement of an ASCII STL file; the file is damaged");
   }
-  if (in_loop)
-    throw InputError(path, "", "ends within a facet; the file is truncated");
-}
+
+  void readVertex()
+  {
+    Eigen::Vector3d position;
+    for (int k = 0; k < 3; ++k)
+      if (!parseNumber(cursor_.word(), position[k]))
+        refuse("a vertex needs three numbers");
+    if (!in_loop_ || corners_.size() == 3 || !cursor_.word().empty())
+      refuse("a facet of an STL file has exactly three vertices, each of three numbers");
+    corners_.push_back(position);
+  }
+
+  TextCursor cursor_;
+  const std::string& path_;
+  MeshBuilder& mesh_;
+  std::vector<Eigen::Vector3d> corners_;  ///< of the present loop
+  bool in_loop_ = false;
+  bool ended_ = false;
+};
 
 }  // namespace
 
@@ -104,7 +133,7 @@ void readStl(std::string_view bytes, const std::string& path, MeshBuilder& mesh)
   if (facets > 0 && bytes.size() == kHeader + 4 + facets * kFacet)
     readBinary(bytes, mesh);
   else if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos)
-    readAscii(bytes, path, mesh);
+    AsciiReader(bytes, path, mesh).read();
   else if (bytes.size() >= kHeader + 4)
     throw InputError(path, "",
                      "cannot be read as a mesh: a binary STL file of " + std::to_string(facets) + " triangles has " +

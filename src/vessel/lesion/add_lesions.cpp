@@ -201,7 +201,8 @@ std::string noteOf(const PlacedLesion& placed)
 
 }  // namespace
 
-void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin)
+void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin,
+                const ProgressReport& progress)
 {
   if (lesions.empty())
     return;
@@ -217,6 +218,7 @@ void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::s
   for (std::size_t k = 0; k < all.size(); ++k)
   {
     const std::string key = "vessel.lesions." + std::to_string(k);
+    reportProgress(progress, "lesions", static_cast<double>(k) / static_cast<double>(all.size()));
     PlacedLesion& placed = all[k];
     const CentrelineBranch& branch = healthy.branches[static_cast<std::size_t>(placed.branch)];
     const LesionShape shape(branch, placed.lesion, placed.middle);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/progress.h"
 #include "vessel/model/lesion.h"
 #include "vessel/model/vessel.h"
 
@@ -19,6 +20,7 @@ namespace endovascular_sim::vessel
  *  @param origin file of the scene, for errors
  *  @throws InputError for an unknown branch, a point outside of the lumen, a lesion that extends beyond its branch, an
  *          invalid grade, or a location where the branch has no separate wall (inside its parent) */
-void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin);
+void addLesions(Vessel& vessel, const std::vector<Lesion>& lesions, const std::string& origin,
+                const ProgressReport& progress = {});
 
 }  // namespace endovascular_sim::vessel

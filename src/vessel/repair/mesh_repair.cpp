@@ -289,7 +289,7 @@ void requireRepairable(const MeshReport& report, const std::string& source)
 
 }  // namespace
 
-RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source)
+RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source, const ProgressReport& progress)
 {
   RepairedMesh result;
   const auto note = [&result](int count, const std::string& singular, const std::string& plural)
@@ -297,21 +297,27 @@ RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source)
     if (count > 0)
       result.notes.push_back(counted(count, singular, plural));
   };
+  const auto stage = [&progress](double fraction) { reportProgress(progress, "repair of the mesh", fraction); };
+  stage(0.0);
   note(weld(mesh), "vertex welded", "vertices welded");
   // Before edges are flipped: collapsed and duplicate faces would make their edges non-manifold.
   int without_area = dropCollapsed(mesh);
   const int duplicates = dropDuplicates(mesh);
+  stage(0.3);
   note(removeCaps(mesh, kWeldDistance), "edge of a cap triangle flipped", "edges of cap triangles flipped");
   without_area += dropDegenerate(mesh);
   note(without_area, "degenerate face dropped", "degenerate faces dropped");
   note(duplicates, "duplicate face dropped", "duplicate faces dropped");
+  stage(0.5);
   note(dropCrumbs(mesh), "face of a component without volume dropped", "faces of components without volume dropped");
   dropUnused(mesh);
   if (mesh.triangles.empty())
     throw InputError(source, "", "has only degenerate triangles");
+  stage(0.6);
   note(closeFlatEnds(mesh), "planar end closed by a lid", "planar ends closed by lids");
   requireRepairable(checkMesh(mesh), source);
 
+  stage(0.8);
   note(separateTouchingSheets(mesh), "vertex shared by two sheets split", "vertices shared by two sheets split");
   const int inverted = alignFaces(mesh);
   if (inverted < 0)
@@ -322,6 +328,7 @@ RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source)
     std::for_each(mesh.triangles.begin(), mesh.triangles.end(), invert);
     result.notes.emplace_back("all faces inverted: they pointed into the lumen");
   }
+  stage(0.9);
   requireClean(checkMesh(mesh), source);
   result.mesh = std::move(mesh);
   return result;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/progress.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::vessel
@@ -29,7 +30,7 @@ constexpr double kWeldDistance = 1e-7;
  *  Other holes, non-manifold edges and several lumens are rejected, because their repair would invent geometry.
  *  @param source name of the mesh in errors
  *  @throws InputError with number and location of every remaining defect */
-RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source);
+RepairedMesh repairMesh(geometry::TriangleMesh mesh, const std::string& source, const ProgressReport& progress = {});
 
 /** Orients the faces of each component like its first face.
  *  @return number of misoriented faces (the minority); −1 for a one-sided surface, which is unchanged */

@@ -11,7 +11,10 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_reader.h"
+#include "vessel/repair/mesh_check.h"
+#include "vessel/repair/mesh_repair.h"
 
 // Damaged mesh files: the reader returns a mesh with valid indices and finite coordinates, or throws InputError.
 
@@ -21,12 +24,6 @@ namespace
 {
 
 constexpr int kMutations = 2000;
-
-std::string contentOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /** Changes, removes, repeats or inserts bytes at random positions. */
 std::string mutated(std::string bytes, std::mt19937& random)
@@ -61,22 +58,29 @@ std::string mutated(std::string bytes, std::mt19937& random)
   return bytes;
 }
 
-class DamagedMesh : public testing::TestWithParam<const char*>
+/** Passes a mesh that was read through the checks and repairs of a scene.
+ *  @throws InputError where they reject it */
+void prepare(geometry::TriangleMesh mesh, const std::string& file)
+{
+  requirePlausibleSize(checkMesh(mesh), 1e-3, file);
+  repairMesh(std::move(mesh), file);
+}
+
+class DamagedMesh : public testing::TestWithParam<MeshFormat>
 {
 };
 
 TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
 {
-  const std::string source = std::string(TEST_DATA_DIR) + "/meshes/" + GetParam();
-  const std::string original = contentOf(source);
+  const std::string small = meshFile(capsule(16, 10), GetParam());
+  const std::string large = meshFile(capsule(64, 38), GetParam());
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() /
-      ("damaged_" + std::to_string(::getpid()) + std::filesystem::path(source).extension().string());
+      std::filesystem::temp_directory_path() / ("damaged_" + std::to_string(::getpid()) + extensionOf(GetParam()));
   std::mt19937 random(1);
   int accepted = 0;
   for (int k = 0; k < kMutations; ++k)
   {
-    std::ofstream(file, std::ios::binary) << mutated(original, random);
+    std::ofstream(file, std::ios::binary) << mutated(k % 20 == 0 ? large : small, random);
     try
     {
       const geometry::TriangleMesh mesh = readMesh(file.string(), 1e-3);
@@ -89,6 +93,7 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
       }
       for (const Eigen::Vector3d& vertex : mesh.vertices)
         ASSERT_TRUE(vertex.allFinite()) << k;
+      prepare(mesh, file.string());
     }
     catch (const InputError& error)
     {
@@ -99,8 +104,25 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
   std::filesystem::remove(file);
 }
 
+TEST_P(DamagedMesh, IsAcceptedUndamaged)
+{
+  const geometry::TriangleMesh mesh = capsule(64, 38);
+  ASSERT_LE(mesh.triangles.size(), 5000U);
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("undamaged_" + std::to_string(::getpid()) + extensionOf(GetParam()));
+  std::ofstream(file, std::ios::binary) << meshFile(mesh, GetParam());
+  const geometry::TriangleMesh read = readMesh(file.string(), 1e-3);
+  EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
+  EXPECT_TRUE(checkMesh(read).clean());
+  std::filesystem::remove(file);
+}
+
 INSTANTIATE_TEST_SUITE_P(MeshReader, DamagedMesh,
-                         testing::Values("box_mm.obj", "box_ascii.stl", "box_binary.stl", "box.ply"));
+                         testing::Values(MeshFormat::kObj, MeshFormat::kRelativeObj, MeshFormat::kAsciiStl,
+                                         MeshFormat::kBinaryStl, MeshFormat::kAsciiPly, MeshFormat::kLittleEndianPly,
+                                         MeshFormat::kBigEndianPly),
+                         [](const auto& info) { return std::string(nameOf(info.param)); });
 
 /** Error of reading a file with this content; empty if it is accepted. */
 std::string errorOf(const std::string& content, const std::string& extension)
@@ -141,6 +163,50 @@ TEST(MeshReader, RejectsCountsThatExceedTheFile)
   EXPECT_NE(errorOf(header + "0 0 0\n", ".ply").find("more than the file holds"), std::string::npos);
   EXPECT_NE(errorOf(std::string(80, 'x') + std::string("\xff\xff\xff\x7f", 4), ".stl").find("truncated"),
             std::string::npos);
+}
+
+TEST(MeshReader, RejectsMoreDataThanTheHeaderAnnounces)
+{
+  const std::string content = std::string(kPlyHeader) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(errorOf(content + "\n", ".ply"), "");
+  EXPECT_NE(errorOf(content + "3 0 1 2\n", ".ply").find("more data than its header"), std::string::npos);
+  EXPECT_NE(errorOf(std::string(kPlyHeader) + "0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n", ".ply").find("more values"),
+            std::string::npos);
+}
+
+TEST(MeshReader, RejectsStatementsThatAreNotOfTheFormat)
+{
+  const std::string triangle = "v 0 0 0\nv 1 0 0 1\nv 0 1 0 0.5 0.5 0.5 # red\nusemtl wall\n";
+  EXPECT_EQ(errorOf(triangle + "f 1/1/1 2//2 \\\n 3/3\n", ".obj"), "");
+  EXPECT_NE(errorOf(triangle + "w 1 0 0\nf 1 2 3\n", ".obj").find("line 5"), std::string::npos);
+  EXPECT_NE(errorOf(triangle + "f 1/x 2 3\n", ".obj").find("line 5"), std::string::npos);
+  EXPECT_NE(errorOf(triangle + "v 1 2 3 4 5 6 7 8\nf 1 2 3\n", ".obj").find("line 5"), std::string::npos);
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  EXPECT_EQ(errorOf("solid a\n" + facet + "endsolid a\n", ".stl"), "");
+  EXPECT_NE(errorOf("solid a\n" + facet, ".stl").find("truncated"), std::string::npos);
+}
+
+TEST(MeshReader, ReportsItsProgressOnALargeMesh)
+{
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("progress_" + std::to_string(::getpid()) + ".obj");
+  std::ofstream(file, std::ios::binary) << meshFile(capsule(200, 200), MeshFormat::kObj);
+  double last = 0.0;
+  int reports = 0;
+  readMesh(file.string(), 1e-3,
+           [&](const char* task, double fraction)
+           {
+             EXPECT_GE(fraction, 0.0);
+             EXPECT_LE(fraction, 1.0);
+             if (std::string(task) != "reading the mesh file")
+               return;
+             EXPECT_GE(fraction, last);
+             last = fraction;
+             ++reports;
+           });
+  EXPECT_GE(reports, 3);
+  std::filesystem::remove(file);
 }
 
 TEST(MeshReader, KeepsDoublePrecision)
