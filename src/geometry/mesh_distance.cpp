@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr int kLeafSize = 4;
+constexpr int kDiscSize = 64;          // largest number of triangles of a node with a disc
+constexpr double kDiscMargin = 1e-12;  // above the rounding of distances [m]
 
 const Eigen::Vector3d& corner(const TriangleMesh& mesh, int t, int k)
 {
@@ -60,6 +62,7 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) : order_(mesh.triangles.siz
   for (int t : order_)
     centres.emplace_back((corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0);
   nodes_.reserve(order_.size());
+  discs_.reserve(order_.size());
   if (!order_.empty())
     build(0, static_cast<int>(order_.size()), mesh, centres);
   corners_.reserve(order_.size());
@@ -67,10 +70,50 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) : order_(mesh.triangles.siz
     corners_.push_back({corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)});
 }
 
+double MeshDistance::Disc::squaredDistance(const Eigen::Vector3d& p) const
+{
+  const Eigen::Vector3d from = p - centre;
+  const double height = from.dot(axis);
+  const double above = std::max(0.0, std::abs(height) - half_thickness);
+  const double beside = std::max(0.0, std::sqrt(std::max(0.0, from.squaredNorm() - height * height)) - radius);
+  return above * above + beside * beside;
+}
+
+MeshDistance::Disc MeshDistance::discOf(int begin, int end, const TriangleMesh& mesh) const
+{
+  Disc disc;
+  Eigen::AlignedBox3d box;
+  for (int k = begin; k < end; ++k)
+  {
+    const int t = order_[static_cast<std::size_t>(k)];
+    for (int i = 0; i < 3; ++i)
+      box.extend(corner(mesh, t, i));
+    disc.axis += (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
+  }
+  const double length = disc.axis.norm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    return {};
+  disc.axis /= length;
+  disc.centre = box.center();
+  double squared_radius = 0.0;
+  for (int k = begin; k < end; ++k)
+    for (int i = 0; i < 3; ++i)
+    {
+      const Eigen::Vector3d from = corner(mesh, order_[static_cast<std::size_t>(k)], i) - disc.centre;
+      const double height = from.dot(disc.axis);
+      disc.half_thickness = std::max(disc.half_thickness, std::abs(height));
+      squared_radius = std::max(squared_radius, (from - height * disc.axis).squaredNorm());
+    }
+  disc.half_thickness += kDiscMargin;
+  disc.radius = std::sqrt(squared_radius) + kDiscMargin;
+  return disc;
+}
+
 int MeshDistance::build(int begin, int end, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& centres)
 {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
+  discs_.push_back(end - begin <= kDiscSize ? discOf(begin, end, mesh) : Disc());
   Eigen::AlignedBox3d box;
   Eigen::AlignedBox3d spread;
   for (int k = begin; k < end; ++k)
@@ -112,6 +155,9 @@ ClosestPoint MeshDistance::closest(const Eigen::Vector3d& p, double limit) const
   {
     const auto [nearest, index] = stack[--depth];
     if (nearest >= best_squared)
+      continue;
+    const Disc& disc = discs_[static_cast<std::size_t>(index)];
+    if (disc.radius >= 0.0 && disc.squaredDistance(p) >= best_squared)
       continue;
     const Node& node = nodes_[static_cast<std::size_t>(index)];
     if (node.right >= 0)

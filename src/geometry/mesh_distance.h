@@ -48,10 +48,25 @@ private:
     int right = -1;  ///< index of the second child; −1 for a leaf. The first child is the next node.
   };
 
+  /** Flat cylinder around the triangles of a small node. Where much of the wall is about equally far from a point, it
+   *  excludes nodes that their boxes do not exclude. */
+  struct Disc
+  {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< mean normal of the triangles
+    double half_thickness = 0.0;                     ///< [m]
+    double radius = -1.0;                            ///< negative: not known [m]
+
+    /** Lower bound of the squared distance from a point to the triangles [m²]. */
+    double squaredDistance(const Eigen::Vector3d& p) const;
+  };
+
+  Disc discOf(int begin, int end, const TriangleMesh& mesh) const;
   int build(int begin, int end, const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& centres);
 
   std::vector<Node> nodes_;
-  std::vector<int> order_;  ///< triangle indices, permuted so that every node has a contiguous range
+  std::vector<Disc> discs_;  ///< one per node
+  std::vector<int> order_;   ///< triangle indices, permuted so that every node has a contiguous range
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  ///< of the triangles in this order [m]
 };
 
