@@ -30,11 +30,12 @@ TESTS_PER_SHARD = 10  # a program with fewer is not divided
 class Run:
     """One process: a shard of a gtest program, a rostest or a script."""
 
-    def __init__(self, kind, name, command, environment=None):
+    def __init__(self, kind, name, command, environment=None, alone=False):
         self.kind = kind
         self.name = name
         self.command = command
         self.environment = environment or {}
+        self.alone = alone  # nothing runs beside it
 
 
 class Runner:
@@ -43,8 +44,13 @@ class Runner:
         self.repository = os.path.realpath(arguments.repository)
         self.workspace = os.path.join(self.repository, "catkin_ws")
         self.programs = os.path.join(self.workspace, "devel", "lib", "endovascular_sim")
-        self.results = os.path.join(self.workspace, "build", "test_results")
-        self.logs = os.path.join(self.workspace, "build", "test_logs")
+        self.results_in(os.path.join(self.workspace, "build"))
+
+    def results_in(self, build):
+        """Empty folders of results and logs below a build folder."""
+        self.build = build
+        self.results = os.path.join(build, "test_results")
+        self.logs = os.path.join(build, "test_logs")
         for folder in (self.results, self.logs):
             shutil.rmtree(folder, ignore_errors=True)
             os.makedirs(folder)
@@ -93,7 +99,7 @@ class Runner:
             for shard in range(shards):
                 name = "test_" + folder + ("" if shards == 1 else "_%d_of_%d" % (shard + 1, shards))
                 runs.append(Run("gtest", name, [program, "--gtest_color=no", "--gtest_filter=" + gtest_filter],
-                                {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard)}))
+                                {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard)}, folder in ALONE))
         return runs
 
     def rostests(self):
@@ -132,7 +138,7 @@ class Runner:
     def run(self, run):
         """Runs one process to its end and writes its results."""
         log = os.path.join(self.logs, run.name + ".log")
-        scratch = os.path.join(self.workspace, "build", "test_scratch", run.name)
+        scratch = os.path.join(self.build, "test_scratch", run.name)
         shutil.rmtree(scratch, ignore_errors=True)
         os.makedirs(scratch)
         environment = dict(os.environ, ROS_HOME=os.path.join(scratch, "ros"), **run.environment)
@@ -236,8 +242,8 @@ class Runner:
         if self.arguments.only and not self.known(self.arguments.only):
             raise SystemExit("error: there is no folder test/%s with tests" % self.arguments.only)
         gtests, rostests, scripts = self.gtests(), self.rostests(), self.scripts()
-        alone = [run for run in gtests if run.name[len("test_"):] in ALONE]
-        parallel = [run for run in gtests if run not in alone]
+        alone = [run for run in gtests if run.alone]
+        parallel = [run for run in gtests if not run.alone]
         if parallel:
             print("== gtest, %d at once; logs: %s" % (processors(), self.logs), flush=True)
             with concurrent.futures.ThreadPoolExecutor(processors()) as pool:
@@ -278,15 +284,19 @@ def end_group(process):
             continue
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def parser_of(description):
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("repository")
     parser.add_argument("--only", default="")
     parser.add_argument("--filter", default="")
     parser.add_argument("--no-rostest", action="store_true")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--ceiling", type=int, default=SECONDS_PER_GTEST, help="seconds of one gtest case at most")
-    return Runner(parser.parse_args()).run_all()
+    return parser
+
+
+def main():
+    return Runner(parser_of(__doc__).parse_args()).run_all()
 
 
 if __name__ == "__main__":

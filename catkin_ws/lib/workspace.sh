@@ -190,3 +190,11 @@ setup_workspace() {
   . "$workspace/devel/setup.bash"
   set -u
 }
+
+# Exports the folder of the meshes outside of the repository, if there is one.
+find_meshes() {
+  if [ -z "${ENDOVASCULAR_DATA_DIR:-}" ] && [ -d "$repository/../shared/vessels" ]; then
+    ENDOVASCULAR_DATA_DIR=$(cd -P "$repository/../shared/vessels" && pwd -P)
+    export ENDOVASCULAR_DATA_DIR
+  fi
+}

@@ -94,7 +94,7 @@ private:
 
   bool isOnMesh(const simulation::WallContact& contact) const;
   WallForce& recordOf(int triangle, int region);
-  Account& accountOf(int region) { return regions_[static_cast<std::size_t>(region + 1)]; }
+  Account& accountOf(int region) { return regions_[static_cast<std::size_t>(region) + 1]; }
   void add(Account& account, const simulation::WallContact& contact, int region, double force, double dt);
 
   double threshold_;

@@ -149,13 +149,15 @@ std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation
   const rod::Discretisation& wire = simulation.discretisation();
   std::vector<Eigen::Vector3d> points;
   int edge = wire.nodes() - 2;
-  for (double back = 0.0; back < state.inserted_length; back += spacing)
+  double back = 0.0;
+  while (back < state.inserted_length)
   {
     const double at = wire.length() - back;
     while (edge > state.first_node && wire.position[edge] > at)
       --edge;
     const double t = (at - wire.position[edge]) / wire.rest_length[edge];
     points.push_back((1.0 - t) * state.position[edge] + t * state.position[edge + 1]);
+    back += spacing;
   }
   return points;
 }

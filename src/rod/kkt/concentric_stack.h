@@ -42,7 +42,11 @@ public:
   void place(const std::vector<double>& behind, Discretisation& rod);
 
   /** Part of a node's outer surface that belongs to a layer, 0 to 1; the parts of all layers add up to 1. */
-  double outerShare(int k, int node) const { return outer_share_[static_cast<std::size_t>(node * count() + k)]; }
+  double outerShare(int k, int node) const
+  {
+    return outer_share_[static_cast<std::size_t>(node) * static_cast<std::size_t>(count()) +
+                        static_cast<std::size_t>(k)];
+  }
 
   /** Layer in contact with the wall at a node: the outermost one that covers half of the node. */
   int surfaceLayer(int node) const { return surface_layer_[node]; }

@@ -65,7 +65,7 @@ public:
     begin_ = (mark + 1) * kMarkEvery;
     marks_ = mark + 1;
     negative_ = negative_before_[mark];
-    std::copy_n(windows_.data() + mark * kWindowSize, kWindowSize, column(begin_));
+    std::copy_n(windows_.data() + static_cast<std::ptrdiff_t>(mark) * kWindowSize, kWindowSize, column(begin_));
     const int copied = begin_ + kWindow;
     std::copy(other.band_.begin() + static_cast<std::ptrdiff_t>(copied) * kStride, other.band_.end(), column(copied));
     return copied;
@@ -140,7 +140,7 @@ private:
       return;
     windows_.resize(std::max(windows_.size(), static_cast<std::size_t>(marks_ + 1) * kWindowSize));
     negative_before_.resize(std::max(negative_before_.size(), static_cast<std::size_t>(marks_ + 1)));
-    std::copy_n(column(col), kWindowSize, windows_.data() + marks_ * kWindowSize);
+    std::copy_n(column(col), kWindowSize, windows_.data() + static_cast<std::ptrdiff_t>(marks_) * kWindowSize);
     negative_before_[marks_++] = negative_;
   }
 
