@@ -3,7 +3,7 @@
 programs="$workspace/devel/lib/endovascular_sim"
 # Speed of the simulated device's line [bit/s]. 1 kHz needs 230400; the faster line halves the transmission time.
 device_baud=460800
-launch_pid='' device_pid='' virtual_display_pid='' session_status=1
+launch_pid='' device_pid='' virtual_display_pid='' session_status=1 session_interrupted=false session_phase=starting
 
 # The scene's file, by name in config/scenes or by path.
 find_scene() {
@@ -76,11 +76,14 @@ end_process() {
   wait "$pid" 2>/dev/null || true
 }
 
+# Ends every process of the session, those included whose number is not stored yet.
 clean_up() {
   trap '' INT TERM
+  local pid
   [ -n "$launch_pid" ] && end_process "$launch_pid" 25
   [ -n "$device_pid" ] && end_process "$device_pid" 3
   [ -n "$virtual_display_pid" ] && end_process "$virtual_display_pid" 3
+  for pid in $(jobs -p); do end_process "$pid" 3; done
   rm -f "${results:-/nonexistent}/device"
   launch_pid='' device_pid='' virtual_display_pid=''
 }
@@ -90,6 +93,11 @@ interrupted() {
   say "Interrupted: closing the recording and ending every node"
   clean_up
   session_interrupted=true
+  # Before the graph runs there is nothing to report.
+  if [ "$session_phase" = starting ]; then
+    trap - EXIT
+    exit 130
+  fi
 }
 
 # become own|same COMMAND…: replaces a background subshell by the command, so that $! is the command's process. Restores
@@ -141,7 +149,7 @@ stolen_note() {
 
 # Runs the graph until the scene's duration is over. Sets session_status.
 run_session() {
-  session_interrupted=false
+  session_interrupted=false session_phase=starting
   all_overrides=("${overrides[@]}")
   [ -n "$seconds" ] && all_overrides+=("duration=$seconds")
   local check_arguments=() override
@@ -186,6 +194,7 @@ run_session() {
       > >(tee "$results/log/launch.log" | readable_log) 2>&1 &
   fi
   launch_pid=$!
+  session_phase=running
   local stolen_before
   stolen_before=$(stolen_time)
   while kill -0 "$launch_pid" 2>/dev/null; do
@@ -201,7 +210,10 @@ run_session() {
   trap - EXIT INT TERM
   stolen_note "$stolen_before"
 
-  if [ ! -s "$results/report.json" ]; then
+  if $session_interrupted && [ ! -s "$results/report.json" ]; then
+    note "the session was interrupted before its first step: there is no report"
+    session_status=130
+  elif [ ! -s "$results/report.json" ]; then
     printf '%s\n' "error: the session wrote no report; the last lines of the graph's log:" >&2
     tail -n 20 "$results/log/launch.log" >&2
     session_status=1
@@ -216,7 +228,8 @@ run_session() {
 after_session() {
   [ -s "$results/report.json" ] || return 0
   if $with_rviz; then
-    draw_rviz || { warn "rviz.png could not be drawn (see $results/log/rviz.log)"; }
+    draw_rviz || $session_interrupted || warn "rviz.png could not be drawn (see $results/log/rviz.log)"
+    if $session_interrupted; then session_status=130; fi
   fi
   "$programs"/plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
     { cat "$results/log/plots.log" >&2; warn "the plots could not be drawn"; }
@@ -241,14 +254,16 @@ open(sys.argv[3], "w").write(text)
 PYTHON
 }
 
-# Plays the bag into rviz on a virtual screen and saves a picture of its end.
+# Plays the bag into rviz on a virtual screen and saves a picture of its end. An interruption ends the drawing.
 draw_rviz() {
+  session_phase=drawing
   local display_file="$results/log/display" display waited=0
   become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
   virtual_display_pid=$!
   trap clean_up EXIT
   trap interrupted INT TERM
-  while [ ! -s "$display_file" ] && [ $waited -lt 50 ]; do sleep 0.1; waited=$((waited + 1)); done
+  while [ ! -s "$display_file" ] && [ $waited -lt 50 ] && ! $session_interrupted; do sleep 0.1; waited=$((waited + 1)); done
+  ! $session_interrupted || { trap - EXIT INT TERM; return 1; }
   [ -s "$display_file" ] || return 1
   display=":$(cat "$display_file")"
   ros_environment
@@ -260,11 +275,12 @@ draw_rviz() {
   waited=0
   # The player ends with the bag; rviz then has 2 s to draw the last state.
   until grep -q 'player.*has finished cleanly' "$results/log/rviz.log"; do
-    kill -0 "$launch_pid" 2>/dev/null || break
+    [ -n "$launch_pid" ] && kill -0 "$launch_pid" 2>/dev/null || break
     [ $waited -lt 120 ] || break
     sleep 1
     waited=$((waited + 1))
   done
+  ! $session_interrupted || { trap - EXIT INT TERM; return 1; }
   sleep 2
   DISPLAY="$display" import -window root "$results/rviz.png" 2>> "$results/log/rviz.log" || true
   clean_up

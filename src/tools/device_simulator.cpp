@@ -23,6 +23,7 @@
 #include "haptics/device/motion_script.h"
 #include "haptics/serial/serial_port.h"
 #include "nodes/haptic_device/haptic_topics.h"
+#include "nodes/runtime/processor_claim.h"
 #include "nodes/runtime/real_time.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
@@ -333,7 +334,11 @@ int run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-  endovascular_sim::nodes::avoidLockStepProcessor();
+  namespace nodes = endovascular_sim::nodes;
+  // Without a ROS master the simulator belongs to no session and leaves the processors of the present ones.
+  const char* const master = std::getenv("ROS_MASTER_URI");
+  const nodes::ProcessorClaim claim(master != nullptr ? master : "no master", nodes::allowedProcessors());
+  nodes::avoidProcessor(claim.choice().processor);
   Arguments arguments;
   CommandLine line(
       "device_simulator", "Emulates a haptic device on a pseudo-terminal: rosserial bytes at the speed of a real line.",

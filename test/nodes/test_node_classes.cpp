@@ -60,9 +60,9 @@ TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
   const scene::Scene scene = sceneFromParameters(node);
   const StepListener listener;
   const VesselServerNode server(node, scene);
-  const ContactNode contact(node, scene, SchedulingGrant());
+  const ContactNode contact(node, scene);
   const VisualizationNode visualization(node, ros::NodeHandle("~"));
-  RodDynamicsNode rod(node, ros::NodeHandle("~rod"), scene, SchedulingGrant());
+  RodDynamicsNode rod(node, ros::NodeHandle("~rod"), scene);
   ASSERT_TRUE(rod.run());
   for (int k = 0; k < 200 && listener.steps().size() < 300; ++k)
     ros::WallDuration(0.01).sleep();

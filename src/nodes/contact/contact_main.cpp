@@ -6,9 +6,10 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"contact", NodeScheduling::kLockStep, 60},
-                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   const ContactNode contact(node, sceneFromParameters(node), grant);
+                   ContactNode contact(node, sceneFromParameters(node));
+                   contact.setScheduling(request());
                    spinUntilShutdown();
                    return true;
                  });

@@ -6,6 +6,7 @@
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_vessel.h"
 
@@ -19,8 +20,7 @@ constexpr int kDisplacementQueue = 1000;  ///< none may be lost
 
 }  // namespace
 
-ContactNode::ContactNode(ros::NodeHandle node, const scene::Scene& scene, SchedulingGrant grant)
-  : node_(node), grant_(std::move(grant))
+ContactNode::ContactNode(ros::NodeHandle node, const scene::Scene& scene) : node_(node)
 {
   if (!scene.vessel)
   {
@@ -132,6 +132,7 @@ void ContactNode::respond(const RodStateConstPtr& message)
   response_.header.frame_id = names::kPatientFrame;
   publisher_.publish(response_);
   ++responses_;
+  reportProgress();
   features_ = response_.set.features.size();
 }
 

@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
@@ -29,7 +30,10 @@ class ContactNode
 {
 public:
   /** Without a vessel in the scene the node does nothing. */
-  ContactNode(ros::NodeHandle node, const scene::Scene& scene, SchedulingGrant grant);
+  ContactNode(ros::NodeHandle node, const scene::Scene& scene);
+
+  /** Sets the scheduling that the diagnostics report. */
+  void setScheduling(SchedulingGrant grant) { grant_ = std::move(grant); }
 
 private:
   void subscribe();

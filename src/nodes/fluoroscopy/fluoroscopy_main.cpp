@@ -8,9 +8,9 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"fluoroscopy", NodeScheduling::kIdle},
-                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   const FluoroscopyNode fluoroscopy(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   const FluoroscopyNode fluoroscopy(node, ros::NodeHandle("~"), sceneFromParameters(node), request());
                    ros::spin();
                    return true;
                  });

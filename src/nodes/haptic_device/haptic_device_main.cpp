@@ -7,9 +7,10 @@ int main(int argc, char** argv)
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   // The lowest real-time priority: above ordinary threads, below those of the simulation.
   return runNode(argc, argv, {"haptic_device", NodeScheduling::kRealTime, 1},
-                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   const HapticDeviceNode device(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   HapticDeviceNode device(node, ros::NodeHandle("~"), sceneFromParameters(node));
+                   device.setScheduling(request());
                    spinUntilShutdown();
                    return true;
                  });

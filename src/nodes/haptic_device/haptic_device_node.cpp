@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "nodes/haptic_device/haptic_parameters.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -68,8 +69,8 @@ void addPassivity(const std::string& name, const haptics::PassivityReport& repor
 }  // namespace
 
 HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters,
-                                   const scene::Scene& scene, SchedulingGrant grant)
-  : grant_(std::move(grant)), link_(linkOptions(parameters, scene)), wake_up_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
+                                   const scene::Scene& scene)
+  : link_(linkOptions(parameters, scene)), wake_up_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
 {
   const std::string instrument = names::kInstruments + deviceInstrument(scene).instrument.name;
   const std::string channel = names::kHaptic + parameters.param<std::string>("channel", "hand");
@@ -170,6 +171,7 @@ void HapticDeviceNode::receiveForce(const sensor_msgs::JointState& state)
 
 void HapticDeviceNode::publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force)
 {
+  reportProgress();
   sensor_msgs::JointState message;
   message.header.stamp = ros::Time::now();
   message.header.frame_id = names::kIntroducerFrame;

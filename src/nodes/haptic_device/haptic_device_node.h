@@ -3,8 +3,10 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -32,11 +34,17 @@ public:
   /** Opens the line and starts the threads.
    *  @param parameters handle of the private parameters
    *  @throws InputError when a parameter is invalid */
-  HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const scene::Scene& scene,
-                   SchedulingGrant grant);
+  HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters, const scene::Scene& scene);
   ~HapticDeviceNode();
   HapticDeviceNode(const HapticDeviceNode&) = delete;
   HapticDeviceNode& operator=(const HapticDeviceNode&) = delete;
+
+  /** Sets the scheduling that the diagnostics report. */
+  void setScheduling(SchedulingGrant grant)
+  {
+    const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
+    grant_ = std::move(grant);
+  }
 
 private:
   void servePort();

@@ -6,9 +6,9 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"rod_dynamics", NodeScheduling::kLockStep, 70},
-                 [](ros::NodeHandle& node, const SchedulingGrant& grant)
+                 [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   RodDynamicsNode rod(node, ros::NodeHandle("~"), sceneFromParameters(node), grant);
+                   RodDynamicsNode rod(node, ros::NodeHandle("~"), sceneFromParameters(node), request);
                    return rod.run();
                  });
 }

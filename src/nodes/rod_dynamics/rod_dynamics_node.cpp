@@ -14,6 +14,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 #include "simulation/local_deformable_wall.h"
 
@@ -81,15 +82,15 @@ private:
 }  // namespace
 
 RodDynamicsNode::RodDynamicsNode(ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene,
-                                 SchedulingGrant grant)
+                                 std::function<SchedulingGrant()> request)
   : node_(node),
     parameters_(parameters),
     scene_(std::move(scene)),
-    grant_(std::move(grant)),
+    request_(std::move(request)),
     pause_after_(parameters_.param("pause_after", kPauseAfter)),
     seconds_(parameters_.param("seconds", 0.0)),
     publisher_(node_, scene_),
-    throttle_guard_(grant_.granted ? requiredIdleShare() : 0.0, kRest),
+    throttle_guard_(requiredIdleShare(), kRest),
     drives_(node_, scene_),
     renderer_(scene_.instruments.size())
 {
@@ -138,6 +139,9 @@ bool RodDynamicsNode::run()
   publisher_.publishOperatingState("DISABLED", "waiting for the vessel and the contact node");
   if (!makeSimulation())
     return false;
+  grant_ = request_();  // before the thread of the diagnostics, which has ordinary scheduling
+  if (!grant_.granted)
+    throttle_guard_ = RtThrottleGuard(0.0, kRest);
   {
     const DiagnosticsThread diagnostics([this](diagnostic_updater::DiagnosticStatusWrapper& status)
                                         { statistics_.diagnose(grant_, status); });
@@ -179,6 +183,7 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
   scheduler.start(Clock::now());
   while (ros::ok() && simulation_->steps() < last_step)
   {
+    reportProgress();
     const Clock::time_point awake = Clock::now();
     sleepUntil(scheduler.next());
     if (isContactLost())
@@ -232,6 +237,7 @@ void RodDynamicsNode::pause()
   {
     const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
     publisher_.publishHands(renderer_.hands(), share);
+    reportProgress();
     sleepUntil(Clock::now() + StepScheduler::period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
   statistics_.setPaused(false);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include <ros/ros.h>
@@ -29,8 +30,11 @@ namespace endovascular_sim::nodes
 class RodDynamicsNode
 {
 public:
-  /** @param parameters handle of the private parameters */
-  RodDynamicsNode(ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene, SchedulingGrant grant);
+  /** @param parameters handle of the private parameters
+   *  @param request requests the scheduling of the process; called after set-up */
+  RodDynamicsNode(
+      ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene,
+      std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
   /** Runs until ROS shuts down, or for the parameter `seconds` of simulated time.
    *  @return false when ROS shut down before the first step */
@@ -50,6 +54,7 @@ private:
   ros::NodeHandle node_;
   ros::NodeHandle parameters_;
   scene::Scene scene_;
+  std::function<SchedulingGrant()> request_;
   SchedulingGrant grant_;
   double pause_after_;                             ///< silence of the contact node that causes a pause [s]
   double seconds_;                                 ///< simulated time until the end; 0: no end [s]

@@ -44,11 +44,15 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
                    "the solver rejects steps: the wire is held, without force");
   else if (!grant.granted)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant.message);
+  else if (const std::size_t others = grant.other_sessions(); others > 0)
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
+                   std::to_string(others) + " other session(s) use the same processor: steps may be late");
   else if (on_time < 99.0)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "more than 1 % of the steps are late");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   status.add("scheduling", grant.message);
+  status.add("other sessions on the processor", grant.other_sessions());
   status.add("steps", steps);
   status.add("deadline misses", late);
   status.add("on time [%]", on_time);

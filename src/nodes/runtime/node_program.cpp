@@ -1,45 +1,130 @@
 #include "nodes/runtime/node_program.h"
 
+#include <atomic>
 #include <exception>
+#include <memory>
 
 #include <ros/ros.h>
+
+#include "nodes/runtime/processor_claim.h"
+#include "nodes/runtime/progress_watchdog.h"
 
 namespace endovascular_sim::nodes
 {
 namespace
 {
 
-SchedulingGrant requestScheduling(const NodeProgram& program)
+std::atomic<unsigned long>& progressCounter()
 {
-  if (program.scheduling == NodeScheduling::kLockStep)
-    return requestLockStepScheduling(program.priority);
-  avoidLockStepProcessor();
-  if (program.scheduling == NodeScheduling::kIdle)
-    return requestIdleScheduling();
-  if (program.scheduling == NodeScheduling::kRealTime)
-    return requestRealTimeScheduling(program.priority);
-  return {};
+  static std::atomic<unsigned long> counter{0};
+  return counter;
 }
+
+/** Scheduling of one process: its processors at the start, its policy on request. */
+class ProcessScheduling
+{
+public:
+  explicit ProcessScheduling(const NodeProgram& program)
+    : program_(program), claim_(ros::master::getURI(), allowedProcessors())
+  {
+    if (program_.scheduling == NodeScheduling::kLockStep)
+      pinned_ = useProcessor(claim_.choice().processor);
+    else
+      avoidProcessor(claim_.choice().processor);
+  }
+
+  SchedulingGrant request()
+  {
+    SchedulingGrant grant = requestPolicy();
+    if (isRealTime() && grant.granted)
+      watchdog_ = std::make_unique<ProgressWatchdog>(progressCounter(), program_.priority + 1,
+                                                     []
+                                                     {
+                                                       leaveRealTimeInProcess();
+                                                       ROS_ERROR(
+                                                           "scheduling: the loop makes no progress; real-time "
+                                                           "scheduling is given up until the node restarts");
+                                                     });
+    if (pinned_)
+    {
+      grant.message += ", processor " + std::to_string(claim_.choice().processor);
+      grant.other_sessions = [this] { return claim_.otherSessions(); };
+    }
+    report(grant);
+    return grant;
+  }
+
+  /** Ends real-time scheduling before ROS shuts down, which may wait for a master that is gone. */
+  void leave()
+  {
+    watchdog_.reset();
+    if (isRealTime())
+      leaveRealTimeInProcess();
+  }
+
+private:
+  bool isRealTime() const
+  {
+    return program_.scheduling == NodeScheduling::kLockStep || program_.scheduling == NodeScheduling::kRealTime;
+  }
+
+  SchedulingGrant requestPolicy() const
+  {
+    switch (program_.scheduling)
+    {
+      case NodeScheduling::kLockStep:
+        return requestLockStepScheduling(program_.priority);
+      case NodeScheduling::kRealTime:
+        return requestRealTimeScheduling(program_.priority);
+      case NodeScheduling::kIdle:
+        return requestIdleScheduling();
+      case NodeScheduling::kDefault:
+        break;
+    }
+    return {};
+  }
+
+  void report(const SchedulingGrant& grant) const
+  {
+    if (!grant.granted)
+      ROS_WARN("scheduling: %s", grant.message.c_str());
+    else if (program_.scheduling != NodeScheduling::kDefault)
+      ROS_INFO("scheduling: %s", grant.message.c_str());
+    if (pinned_ && claim_.choice().other_sessions > 0)
+      ROS_WARN(
+          "scheduling: %zu other session(s) use processor %d too, because every processor is in use; steps may be "
+          "late",
+          claim_.choice().other_sessions, claim_.choice().processor);
+  }
+
+  NodeProgram program_;
+  ProcessorClaim claim_;
+  bool pinned_ = false;
+  std::unique_ptr<ProgressWatchdog> watchdog_;
+};
 
 }  // namespace
 
-int runNode(int argc, char** argv, const NodeProgram& program,
-            const std::function<bool(ros::NodeHandle& node, const SchedulingGrant& grant)>& run)
+void reportProgress()
 {
-  // Before ROS starts its threads: they inherit the scheduling.
-  const SchedulingGrant grant = requestScheduling(program);
+  ++progressCounter();
+}
+
+int runNode(int argc, char** argv, const NodeProgram& program,
+            const std::function<bool(ros::NodeHandle& node, const SchedulingRequest& request)>& run)
+{
   ros::init(argc, argv, program.name);
+  ProcessScheduling scheduling(program);  // ROS starts its threads with the node handle: they inherit the processors
   ros::NodeHandle node;
-  if (!grant.granted)
-    ROS_WARN("scheduling: %s", grant.message.c_str());
-  else if (program.scheduling != NodeScheduling::kDefault)
-    ROS_INFO("scheduling: %s", grant.message.c_str());
   try
   {
-    return run(node, grant) ? 0 : 1;
+    const bool succeeded = run(node, [&scheduling] { return scheduling.request(); });
+    scheduling.leave();
+    return succeeded ? 0 : 1;
   }
   catch (const std::exception& error)
   {
+    scheduling.leave();
     ROS_FATAL("%s", error.what());
     return 1;
   }

@@ -26,13 +26,21 @@ struct NodeProgram
   int priority = 0;  ///< real-time priority, 1 to 99; unused without one
 };
 
-/** Main function of a node: requests scheduling, initialises ROS and runs the node.
+/** Requests the scheduling of the node's program and logs the result. A node calls it once, after its set-up. */
+using SchedulingRequest = std::function<SchedulingGrant()>;
+
+/** Main function of a node: claims the session's processor, initialises ROS and runs the node.
  *
- *  An exception ends the process with a log line and exit code 1. Log lines of nodes contain no name of their node: the
- *  launch files set ROSCONSOLE_FORMAT, which prints it.
- *  @param run constructs the node and returns when it has ended; false: it failed
+ *  The processes of a session share one claim on the processor of its real-time nodes; see ProcessorClaim. A watchdog
+ *  gives up real-time scheduling when the node makes no progress; see reportProgress(). An exception ends the process
+ *  with a log line and exit code 1. Log lines of nodes contain no name of their node: the launch files set
+ *  ROSCONSOLE_FORMAT, which prints it.
+ *  @param run constructs the node, requests its scheduling, and returns when it has ended; false: it failed
  *  @return exit code */
 int runNode(int argc, char** argv, const NodeProgram& program,
-            const std::function<bool(ros::NodeHandle& node, const SchedulingGrant& grant)>& run);
+            const std::function<bool(ros::NodeHandle& node, const SchedulingRequest& request)>& run);
+
+/** Reports progress of a real-time loop to the process's watchdog. Callable from any thread. */
+void reportProgress();
 
 }  // namespace endovascular_sim::nodes

@@ -1,11 +1,13 @@
 #include "nodes/runtime/real_time.h"
 
+#include <dirent.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <time.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -17,35 +19,33 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-/** Number of the last processor that this thread may use, −1 on failure. @param[out] allowed all of them */
-int lastProcessor(cpu_set_t& allowed)
+/** Sets a policy for every thread of the process. A thread that ends meanwhile is no failure.
+ *  @return false when one was refused; errno is then the reason */
+bool setPolicyOfAllThreads(int policy, int priority)
 {
-  CPU_ZERO(&allowed);
-  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0)
-    return -1;
-  int last = CPU_SETSIZE - 1;
-  while (last > 0 && !CPU_ISSET(last, &allowed))
-    --last;
-  return last;
-}
-
-/** Moves this thread and its children to the last processor. @return its number, −1 when refused */
-int moveToLastProcessor()
-{
-  cpu_set_t allowed;
-  const int last = lastProcessor(allowed);
-  cpu_set_t chosen;
-  CPU_ZERO(&chosen);
-  if (last >= 0)
-    CPU_SET(last, &chosen);
-  if (last < 0 || sched_setaffinity(0, sizeof chosen, &chosen) != 0)
-    return -1;
-  return last;
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  DIR* const tasks = opendir("/proc/self/task");
+  if (tasks == nullptr)
+    return false;
+  int failure = 0;
+  while (const dirent* const task = readdir(tasks))
+  {
+    const int thread = std::atoi(task->d_name);
+    if (thread > 0 && sched_setscheduler(thread, policy, &parameters) != 0 && errno != ESRCH)
+      failure = errno;
+  }
+  closedir(tasks);
+  errno = failure;
+  return failure == 0;
 }
 
 SchedulingGrant refusal(const std::string& consequence, const std::string& remedy)
 {
-  return {false, std::string("refused (") + std::strerror(errno) + "): " + consequence + "; " + remedy};
+  SchedulingGrant grant;
+  grant.granted = false;
+  grant.message = std::string("refused (") + std::strerror(errno) + "): " + consequence + "; " + remedy;
+  return grant;
 }
 
 constexpr auto kRealTimeRemedy =
@@ -56,20 +56,28 @@ constexpr auto kRealTimeRemedy =
 
 SchedulingGrant requestLockStepScheduling(int priority)
 {
-  if (!makeThreadRealTime(priority))
+  if (!setPolicyOfAllThreads(SCHED_FIFO, priority))
     return refusal("steps are late when the machine is busy", kRealTimeRemedy);
-  std::string message =
-      "SCHED_FIFO, priority " + std::to_string(priority) + ", processor " + std::to_string(moveToLastProcessor());
+  std::string message = "SCHED_FIFO, priority " + std::to_string(priority);
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     message += std::string("; memory is not locked (") + std::strerror(errno) + "): raise 'memlock' in limits.d";
-  return {true, message};
+  SchedulingGrant grant;
+  grant.message = message;
+  return grant;
 }
 
 SchedulingGrant requestRealTimeScheduling(int priority)
 {
-  if (!makeThreadRealTime(priority))
+  if (!setPolicyOfAllThreads(SCHED_FIFO, priority))
     return refusal("forces are late when the machine is busy", kRealTimeRemedy);
-  return {true, "SCHED_FIFO, priority " + std::to_string(priority)};
+  SchedulingGrant grant;
+  grant.message = "SCHED_FIFO, priority " + std::to_string(priority);
+  return grant;
+}
+
+void leaveRealTimeInProcess()
+{
+  setPolicyOfAllThreads(SCHED_OTHER, 0);
 }
 
 SchedulingGrant requestIdleScheduling()
@@ -78,7 +86,9 @@ SchedulingGrant requestIdleScheduling()
   if (sched_setscheduler(0, SCHED_IDLE, &parameters) != 0)
     return refusal("SCHED_IDLE is not in force and this node may delay the simulation",
                    "start it with `chrt --idle 0` or `nice -n 19`");
-  return {true, "SCHED_IDLE"};
+  SchedulingGrant grant;
+  grant.message = "SCHED_IDLE";
+  return grant;
 }
 
 double requiredIdleShare()
@@ -99,14 +109,25 @@ bool makeThreadRealTime(int priority)
   return errno == 0;
 }
 
-void avoidLockStepProcessor()
+bool useProcessor(int processor)
+{
+  cpu_set_t chosen;
+  CPU_ZERO(&chosen);
+  if (processor < 0 || processor >= CPU_SETSIZE)
+    return false;
+  CPU_SET(processor, &chosen);
+  return sched_setaffinity(0, sizeof chosen, &chosen) == 0;
+}
+
+void avoidProcessor(int processor)
 {
   cpu_set_t allowed;
-  const int last = lastProcessor(allowed);
-  if (last < 0 || CPU_COUNT(&allowed) < 2)
+  CPU_ZERO(&allowed);
+  if (processor < 0 || sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) < 2)
     return;
-  CPU_CLR(last, &allowed);
-  sched_setaffinity(0, sizeof allowed, &allowed);
+  CPU_CLR(processor, &allowed);
+  if (CPU_COUNT(&allowed) > 0)
+    sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
 void spinUntilShutdown()

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <string>
 
 namespace endovascular_sim::nodes
@@ -11,19 +13,20 @@ struct SchedulingGrant
 {
   bool granted = true;
   std::string message = "default";  ///< scheduling in force; when refused, the reason and the remedy
+  /** Number of other sessions with real-time nodes on the same processor at present. */
+  std::function<std::size_t()> other_sessions = [] { return std::size_t{0}; };
 };
 
-/** Requests SCHED_FIFO and locked memory for the calling thread and all threads that it starts later; call it before
- *  ros::init.
- *
- *  When granted, all of them stay on the last allowed processor. The rod and the contact node run in turns, never at
- * the same time. On one processor a turn is a switch between threads. On two it is an inter-processor interrupt, which
- *  costs several times as much, above all in a virtual machine.
+/** Requests SCHED_FIFO and locked memory for all present threads of the process and those that they start later. Call
+ *  it after set-up, so that a node that waits or fails before has ordinary scheduling.
  *  @param priority 1 to 99 */
 SchedulingGrant requestLockStepScheduling(int priority);
 
-/** Requests SCHED_FIFO for the calling thread and the threads that it starts later, on any processor. */
+/** Requests SCHED_FIFO for all present threads of the process and those that they start later. Call it after set-up. */
 SchedulingGrant requestRealTimeScheduling(int priority);
+
+/** Restores ordinary scheduling for all threads of the process. */
+void leaveRealTimeInProcess();
 
 /** Requests SCHED_IDLE for the calling thread and the threads that it starts later: they yield to all others. */
 SchedulingGrant requestIdleScheduling();
@@ -38,9 +41,16 @@ bool makeThreadRealTime(int priority);
 /** Restores ordinary scheduling for the calling thread, for example for diagnostics and files. */
 void leaveRealTime();
 
-/** Excludes the processor of the rod and the contact node, if this process may use another one. Call it before
- *  ros::init. */
-void avoidLockStepProcessor();
+/** Restricts the calling thread, and the threads that it starts later, to one processor. Call it before ROS starts its
+ *  threads.
+ *
+ *  The rod and the contact node run in turns, never at the same time. On one processor a turn is a switch between
+ *  threads. On two it is an inter-processor interrupt, which costs several times as much, above all in a virtual
+ *  machine. @return false when it was refused */
+bool useProcessor(int processor);
+
+/** Excludes a processor, if this process may use another one. Call it before ROS starts its threads. */
+void avoidProcessor(int processor);
 
 /** Equivalent of ros::spin() for a process with real-time scheduling.
  *

@@ -6,7 +6,7 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"session"},
-                 [](ros::NodeHandle& node, const SchedulingGrant& /*grant*/)
+                 [](ros::NodeHandle& node, const SchedulingRequest& /*request*/)
                  {
                    SessionNode session(node, ros::NodeHandle("~"), sceneFromParameters(node));
                    return session.run();

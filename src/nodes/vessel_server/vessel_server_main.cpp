@@ -8,7 +8,7 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"vessel_server"},
-                 [](ros::NodeHandle& node, const SchedulingGrant& /*grant*/)
+                 [](ros::NodeHandle& node, const SchedulingRequest& /*request*/)
                  {
                    const VesselServerNode server(node, sceneFromParameters(node));
                    ros::spin();

@@ -7,7 +7,7 @@ int main(int argc, char** argv)
 {
   using namespace endovascular_sim::nodes;  // NOLINT: a program's main file
   return runNode(argc, argv, {"visualization"},
-                 [](ros::NodeHandle& node, const SchedulingGrant& /*grant*/)
+                 [](ros::NodeHandle& node, const SchedulingRequest& /*request*/)
                  {
                    const VisualizationNode visualization(node, ros::NodeHandle("~"));
                    ros::spin();

@@ -1,0 +1,44 @@
+#include "nodes/runtime/processor_choice.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+std::vector<int> firstProcessors(int count)
+{
+  std::vector<int> processors(static_cast<std::size_t>(count));
+  std::iota(processors.begin(), processors.end(), 0);
+  return processors;
+}
+
+TEST(ProcessorChoice, SpreadsSessionsOverAllProcessorsBeforeItSharesOne)
+{
+  for (int count = 2; count <= 64; ++count)
+  {
+    std::vector<int> held;
+    for (int session = 0; session < 2 * count; ++session)
+    {
+      const ProcessorChoice choice = chooseProcessor(firstProcessors(count), held);
+      ASSERT_EQ(choice.processor, count - 1 - session % count) << count << " processors, session " << session;
+      ASSERT_EQ(choice.other_sessions, static_cast<std::size_t>(session / count));
+      held.push_back(choice.processor);
+    }
+  }
+}
+
+TEST(ProcessorChoice, UsesAllowedProcessorsOnly)
+{
+  EXPECT_EQ(chooseProcessor({2, 5}, {}).processor, 5);
+  EXPECT_EQ(chooseProcessor({2, 5}, {5}).processor, 2);
+  EXPECT_EQ(chooseProcessor({2, 5}, {0, 1, 3, 4}).processor, 5);
+  EXPECT_EQ(chooseProcessor({3}, {3, 3}).other_sessions, 2U);
+  EXPECT_EQ(chooseProcessor({}, {}).processor, -1);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::nodes
