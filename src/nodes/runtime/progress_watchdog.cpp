@@ -24,8 +24,11 @@ double processorTime()
 }  // namespace
 
 ProgressWatchdog::ProgressWatchdog(const std::atomic<unsigned long>& progress, int priority,
-                                   std::function<void()> give_up)
-  : progress_(progress), give_up_(std::move(give_up)), thread_([this, priority] { watch(priority); })
+                                   std::function<void()> give_up, StallCriterion criterion)
+  : progress_(progress),
+    give_up_(std::move(give_up)),
+    criterion_(criterion),
+    thread_([this, priority] { watch(priority); })
 {
 }
 
@@ -38,7 +41,6 @@ ProgressWatchdog::~ProgressWatchdog()
 void ProgressWatchdog::watch(int priority)
 {
   makeThreadRealTime(priority);
-  StallCriterion criterion;
   auto last = std::chrono::steady_clock::now();
   double used = processorTime();
   while (!stop_)
@@ -50,7 +52,7 @@ void ProgressWatchdog::watch(int priority)
     const double share = elapsed > 0.0 ? (total - used) / elapsed : 0.0;
     last = now;
     used = total;
-    if (!criterion.observe(progress_, share))
+    if (!criterion_.observe(progress_, share))
       continue;
     give_up_();
     return;

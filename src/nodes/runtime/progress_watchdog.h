@@ -15,19 +15,23 @@ public:
   static constexpr int kObservations = 8;    ///< consecutive observations without progress
   static constexpr double kBusyShare = 0.8;  ///< processor time over elapsed time above which a process is busy [1]
 
+  /** @param busy_share share above which a process is busy [1] */
+  explicit StallCriterion(double busy_share = kBusyShare) : busy_share_(busy_share) {}
+
   /** Adds an observation.
    *  @param progress counter of the loop
    *  @param busy_share processor time of the process over the elapsed time since the last observation [1]
    *  @return true when real-time scheduling must be given up */
   bool observe(unsigned long progress, double busy_share)
   {
-    const bool stalled = progress == last_progress_ && busy_share >= kBusyShare;
+    const bool stalled = progress == last_progress_ && busy_share >= busy_share_;
     last_progress_ = progress;
     stalled_ = stalled ? stalled_ + 1 : 0;
     return stalled_ >= kObservations;
   }
 
 private:
+  double busy_share_;
   unsigned long last_progress_ = 0;
   int stalled_ = 0;
 };
@@ -40,7 +44,8 @@ public:
   /** @param progress counter of the loop
    *  @param priority of the watchdog's thread
    *  @param give_up called once, in the watchdog's thread */
-  ProgressWatchdog(const std::atomic<unsigned long>& progress, int priority, std::function<void()> give_up);
+  ProgressWatchdog(const std::atomic<unsigned long>& progress, int priority, std::function<void()> give_up,
+                   StallCriterion criterion = StallCriterion());
   ~ProgressWatchdog();
   ProgressWatchdog(const ProgressWatchdog&) = delete;
   ProgressWatchdog& operator=(const ProgressWatchdog&) = delete;
@@ -50,6 +55,7 @@ private:
 
   const std::atomic<unsigned long>& progress_;
   std::function<void()> give_up_;
+  StallCriterion criterion_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
