@@ -16,6 +16,7 @@ inline const std::string kForceMd5 = "f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0";
 inline HostOptions hostOptions()
 {
   HostOptions options;
+  options.limits.return_time = 1e-3;  // tests of the return set their own
   options.types = {
       {PayloadFormat::kHapticSample, "endovascular_sim/HapticSample", kSampleMd5},
       {PayloadFormat::kJointState, "sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd"},

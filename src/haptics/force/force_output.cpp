@@ -37,7 +37,7 @@ void ForceOutput::release(double now)
 {
   if (releasing_)
     return;
-  releasing_ = true;
+  releasing_ = returning_ = true;
   release_from_ = value_;
   release_time_ = now;
   target_ = HandForce();
@@ -45,7 +45,7 @@ void ForceOutput::release(double now)
 
 void ForceOutput::cut()
 {
-  releasing_ = true;
+  releasing_ = returning_ = true;
   value_ = target_ = release_from_ = HandForce();
 }
 
@@ -59,8 +59,17 @@ HandForce ForceOutput::advance(double now)
   else
   {
     const double step = std::clamp(now - time_, 0.0, kLongestStep);
-    value_.force = approach(value_.force, target_.force, limits_.force_rate * step);
-    value_.torque = approach(value_.torque, target_.torque, limits_.torque_rate * step);
+    double force_rate = limits_.force_rate;
+    double torque_rate = limits_.torque_rate;
+    if (returning_)
+    {
+      force_rate = std::min(force_rate, limits_.force / limits_.return_time);
+      torque_rate = std::min(torque_rate, limits_.torque / limits_.return_time);
+    }
+    value_.force = approach(value_.force, target_.force, force_rate * step);
+    value_.torque = approach(value_.torque, target_.torque, torque_rate * step);
+    if (step > 0.0 && !isMoving())
+      returning_ = false;
   }
   time_ = now;
   return value_;

@@ -18,10 +18,13 @@ struct ForceLimits
   double force_rate = 500.0;  ///< largest rate of change of the force [N/s]
   double torque_rate = 5.0;   ///< largest rate of change of the torque [N·m/s]
   double ramp_time = 15e-3;   ///< duration of the ramp from any force to zero after release() [s]
+  double return_time = 0.25;  ///< duration of the return from zero to the largest force after a release [s]
 };
 
 /** Safety stage before the device: clamps the force, limits its rate of change, and ramps it to zero on release.
- *  Its output is always finite and within the limits. */
+ *
+ *  After a release the force returns from zero at the rate `force / return_time` until it meets its target; then the
+ *  ordinary rate applies. The output is always finite and within the limits. */
 class ForceOutput
 {
 public:
@@ -49,6 +52,7 @@ private:
   HandForce target_;
   double time_ = 0.0;  ///< time of value_ [s]
   bool releasing_ = true;
+  bool returning_ = true;  ///< true after a release, until the value meets its target
   HandForce release_from_;
   double release_time_ = 0.0;
 };

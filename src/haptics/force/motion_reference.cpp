@@ -1,25 +1,13 @@
 #include "haptics/force/motion_reference.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace endovascular_sim::haptics
 {
 
-namespace
-{
-
-bool isNear(const HandMotion& a, const HandMotion& b)
-{
-  return std::abs(a.insertion - b.insertion) <= MotionReference::kLargestInsertionStep &&
-         std::abs(a.rotation - b.rotation) <= MotionReference::kLargestRotationStep;
-}
-
-}  // namespace
-
 std::optional<HandMotion> MotionReference::update(const HandMotion& count)
 {
-  if (!std::isfinite(count.insertion) || !std::isfinite(count.rotation))
+  if (!isFinite(count))
   {
     ++rejected_;
     return std::nullopt;
@@ -29,11 +17,11 @@ std::optional<HandMotion> MotionReference::update(const HandMotion& count)
     anchor(count);
     return command_;
   }
-  if (!isNear(count, last_))
+  if (isJump(last_, count))
   {
     // A single outlier is a corrupt sample that passed the 8-bit checksum. A second, consistent one indicates a device
     // restart.
-    if (!suspect_ || !isNear(count, *suspect_))
+    if (!suspect_ || isJump(*suspect_, count))
     {
       suspect_ = count;
       ++rejected_;

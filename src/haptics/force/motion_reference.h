@@ -5,15 +5,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "haptics/force/hand_motion.h"
+
 namespace endovascular_sim::haptics
 {
-
-/** Position of the user's hand on the instrument. */
-struct HandMotion
-{
-  double insertion = 0.0;  ///< [m]
-  double rotation = 0.0;   ///< [rad]
-};
 
 /** Continuous motion command from the device's position count.
  *
@@ -21,17 +16,19 @@ struct HandMotion
 class MotionReference
 {
 public:
-  /** Largest change of the insertion between samples; a larger one is a glitch or a restart [m]. */
-  static constexpr double kLargestInsertionStep = 20e-3;
-  /** Largest change of the rotation between samples [rad]. */
-  static constexpr double kLargestRotationStep = 3.0;
-
   /** @param start command at the first sample */
   explicit MotionReference(const HandMotion& start = {}) : command_(start), base_(start) {}
 
-  /** Converts the device's count.
+  /** Converts the device's count. A jump is measured from the last accepted sample (isJump()).
    *  @return command; none if the sample is rejected (not finite, or an isolated jump) */
   std::optional<HandMotion> update(const HandMotion& count);
+
+  /** Replaces the command; the next sample anchors the count at it. */
+  void startAt(const HandMotion& command)
+  {
+    command_ = base_ = command;
+    anchored_ = false;
+  }
 
   /** Holds the command; the next sample re-anchors the count. */
   void hold() { anchored_ = false; }

@@ -72,6 +72,15 @@ void HapticLink::commandForce(const HandForce& force, const HandMotion& caused_b
   flush(now);
 }
 
+void HapticLink::setSimulationState(const std::string& reason, double now, const WallTime& wall)
+{
+  host_.setSimulationState(reason, now);
+  if (!port_.isOpen())
+    return;
+  host_.tick(now, wall);
+  flush(now);
+}
+
 void HapticLink::shutDown(double now, const WallTime& wall)
 {
   host_.shutDown(now, wall);

@@ -28,6 +28,8 @@ public:
   void service(double now, const WallTime& wall);
   /** Sets the force computed for the motion @p caused_by, and sends it at once if the line is free. */
   void commandForce(const HandForce& force, const HandMotion& caused_by, double now, const WallTime& wall);
+  /** Sets the state of the simulation (RosserialHost::setSimulationState()), and notifies the device at once. */
+  void setSimulationState(const std::string& reason, double now, const WallTime& wall);
   /** Queues zero force and TX_STOP; call flush() afterwards until isIdle(). */
   void shutDown(double now, const WallTime& wall);
   /** Writes queued frames to the line. */

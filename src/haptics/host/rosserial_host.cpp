@@ -38,10 +38,11 @@ std::size_t jointIndex(const JointState& state, const char* name, std::size_t fa
 RosserialHost::RosserialHost(HostOptions options)
   : options_(std::move(options)),
     topics_(options_.types),
-    motion_(options_.start),
+    motion_(options_.start.value_or(HandMotion())),
     shaper_(options_.shaping),
     force_(options_.limits),
     output_(options_.baud),
+    is_placed_(options_.start.has_value()),
     sample_at_(kNever),
     force_at_(kNever),
     not_finite_at_(kNever),
@@ -181,7 +182,7 @@ void RosserialHost::takeSample(const HandMotion& count, std::uint32_t time, std:
   linked_ = true;
   flags_ = flags;
   const bool is_held = (flags & HapticSample::kEnabled) != 0 && (flags & HapticSample::kFault) == 0;
-  if (!is_held)
+  if (!is_held || !is_placed_)
   {
     motion_.hold();
     shaper_.reset();
@@ -208,6 +209,11 @@ void RosserialHost::commandForce(const HandForce& force, const HandMotion& cause
   else
   {
     force_at_ = now;
+    if (!is_placed_ && isFinite(caused_by))
+    {
+      motion_.startAt(caused_by);
+      is_placed_ = true;
+    }
     answered_time_ = sample_times_.find(caused_by).value_or(answered_time_);
     const HandForce shaped = shaper_.shape(force, now);
     if (isTrusted(now))
@@ -218,10 +224,18 @@ void RosserialHost::commandForce(const HandForce& force, const HandMotion& cause
   urgent_ = true;
 }
 
+void RosserialHost::setSimulationState(const std::string& reason, double now)
+{
+  standstill_reason_ = reason;
+  if (!isTrusted(now))
+    force_.release(now);
+  updateState(now);
+}
+
 bool RosserialHost::isTrusted(double now) const
 {
   const bool is_held = (flags_ & HapticSample::kEnabled) != 0 && (flags_ & HapticSample::kFault) == 0;
-  return open_ && linked_ && is_held && topics_.samples() && topics_.force() &&
+  return open_ && linked_ && is_held && standstill_reason_.empty() && topics_.samples() && topics_.force() &&
          now < sample_at_ + options_.timing.sample_ramp_age && now < force_at_ + options_.timing.force_ramp_age &&
          now >= not_finite_at_ + options_.timing.fault_hold;
 }
@@ -325,6 +339,8 @@ void RosserialHost::updateState(double now)
     enter(DeviceState::kDisabled, "the hand does not hold the instrument");
   else if (!topics_.force())
     enter(DeviceState::kPaused, "the device has not subscribed to the force");
+  else if (!standstill_reason_.empty())
+    enter(DeviceState::kPaused, standstill_reason_);
   else if (now >= force_at_ + timing.force_timeout)
     enter(DeviceState::kPaused, "no force from the simulation for " + milliseconds(timing.force_timeout));
   else

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct HostOptions
   ForceLimits limits;
   ShaperSettings shaping;
   HostTiming timing;
-  HandMotion start;   ///< command at the first sample
+  /** Command at the first sample; none: the position of the instrument, of the first force. Samples before that force
+   *  cause no motion. */
+  std::optional<HandMotion> start = HandMotion();
   double baud = 0.0;  ///< speed of the line, for pacing the frames [bit/s]; 0: no pacing
 };
 
@@ -77,6 +80,9 @@ public:
   void receive(const std::uint8_t* data, std::size_t size, double now, const WallTime& wall);
   /** Sets the force from the simulation, computed for the motion @p caused_by. */
   void commandForce(const HandForce& force, const HandMotion& caused_by, double now);
+  /** Sets the state of the simulation. While it does not run, the force is released and the device is paused.
+   *  @param reason reason of the standstill, shown to the user; empty: the simulation runs */
+  void setSimulationState(const std::string& reason, double now);
   /** Runs the watchdogs and queues due frames; to be called at wakeAt() or earlier. */
   void tick(double now, const WallTime& wall);
   /** Time at which tick() is due [s]. */
@@ -129,9 +135,11 @@ private:
   HostCounters counters_;
 
   bool open_ = false;
-  bool linked_ = false;   ///< samples arrive within the timeout
-  bool trusted_ = false;  ///< isTrusted() at the last tick
-  bool urgent_ = false;   ///< a force frame is due immediately
+  bool linked_ = false;            ///< samples arrive within the timeout
+  bool trusted_ = false;           ///< isTrusted() at the last tick
+  bool urgent_ = false;            ///< a force frame is due immediately
+  bool is_placed_;                 ///< the command at the first sample is known
+  std::string standstill_reason_;  ///< reason for which the simulation does not run; empty while it runs
   std::string closed_reason_ = "the line was not opened yet";
   DeviceState state_ = DeviceState::kDisabled;
   std::string reason_;

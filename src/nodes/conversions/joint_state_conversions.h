@@ -1,11 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
 #include <sensor_msgs/JointState.h>
 
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
 {
+
+/** Index of a joint by its name; none if the message lacks it. */
+inline std::optional<std::size_t> jointOf(const sensor_msgs::JointState& message, const char* name)
+{
+  const auto joint = std::find(message.name.begin(), message.name.end(), name);
+  if (joint == message.name.end())
+    return std::nullopt;
+  return static_cast<std::size_t>(joint - message.name.begin());
+}
 
 /** Converts the command and the rendered force of one instrument to the joints of CRTK.
  *  @param insertion, rotation, pressure command in use [m], [rad], [Pa]

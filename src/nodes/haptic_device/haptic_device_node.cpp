@@ -11,6 +11,7 @@
 #include <mutex>
 #include <utility>
 
+#include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/haptic_device/haptic_parameters.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
@@ -83,6 +84,9 @@ HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeH
   force_handle.setCallbackQueue(&force_queue_);
   force_subscriber_ = force_handle.subscribe(instrument + names::kMeasuredJs, 1, &HapticDeviceNode::receiveForce, this,
                                              ros::TransportHints().tcpNoDelay());
+  simulation_subscriber_ =
+      force_handle.subscribe(instrument + names::kOperatingState, 10, &HapticDeviceNode::receiveSimulationState, this,
+                             ros::TransportHints().tcpNoDelay());
 
   diagnostics_.setHardwareID(link_.portName());
   diagnostics_.add("haptic device", this, &HapticDeviceNode::diagnose);
@@ -154,19 +158,31 @@ void HapticDeviceNode::wake() const
 
 void HapticDeviceNode::receiveForce(const sensor_msgs::JointState& state)
 {
-  if (state.effort.size() < 2)
+  const std::optional<std::size_t> insertion = jointOf(state, names::kInsertionJoint);
+  const std::optional<std::size_t> rotation = jointOf(state, names::kRotationJoint);
+  if (!insertion || !rotation || std::max(*insertion, *rotation) >= state.effort.size())
   {
     ++forces_without_effort_;
     return;
   }
   haptics::HandMotion cause{std::nan(""), std::nan("")};
-  if (state.position.size() >= 2)
-    cause = {state.position[0], state.position[1]};
+  if (std::max(*insertion, *rotation) < state.position.size())
+    cause = {state.position[*insertion], state.position[*rotation]};
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
   const DeviceState before = link_.host().state();
-  link_.commandForce({state.effort[0], state.effort[1]}, cause, steadyNow(), wallNow());
+  link_.commandForce({state.effort[*insertion], state.effort[*rotation]}, cause, steadyNow(), wallNow());
   if (!link_.isIdle() || link_.host().state() != before)
     wake();
+}
+
+/** Pauses the device while the simulation does not run. */
+void HapticDeviceNode::receiveSimulationState(const OperatingState& state)
+{
+  const bool is_running = state.state == stateName(DeviceState::kEnabled);
+  const std::string reason = state.reason.empty() ? "the simulation is " + state.state : "simulation: " + state.reason;
+  const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
+  link_.setSimulationState(is_running ? "" : reason, steadyNow(), wallNow());
+  wake();
 }
 
 void HapticDeviceNode::publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force)

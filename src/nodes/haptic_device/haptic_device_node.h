@@ -50,6 +50,7 @@ private:
   void servePort();
   void waitForPort(double until, int descriptor, bool wants_write) const;
   void receiveForce(const sensor_msgs::JointState& state);
+  void receiveSimulationState(const OperatingState& state);
   void publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force);
   void publishState(haptics::DeviceState state, const std::string& reason, const haptics::HandMotion& command);
   void publishInvalidMeasurement(const haptics::HandMotion& command);
@@ -74,7 +75,7 @@ private:
   ros::Publisher servo_publisher_, measured_publisher_, state_publisher_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber force_subscriber_;
+  ros::Subscriber force_subscriber_, simulation_subscriber_;
   ros::WallTimer diagnostics_timer_;
   ros::AsyncSpinner force_spinner_{1, &force_queue_};
   std::thread thread_;

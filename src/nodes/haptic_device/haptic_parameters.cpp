@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ros/topic.h>
-#include <sensor_msgs/JointState.h>
-
 #include "common/error.h"
 #include "nodes/haptic_device/haptic_topics.h"
 #include "nodes/runtime/ros_names.h"
@@ -17,20 +14,6 @@ namespace
 
 constexpr double kFrameBits = 210.0;   ///< length of a sample or a force on the line [bit]
 constexpr double kDeviceDelay = 2e-3;  ///< upper estimate of the delay in the device and this computer [s]
-constexpr double kStartTimeout = 1.0;  ///< longest wait for a running simulation, which publishes at 1 kHz [s]
-
-/** Position of the instrument. In a running simulation, after a restart of this node, measured_js holds it; before the
- *  start of a simulation it is the scene's initial position. */
-haptics::HandMotion startPosition(const scene::Scene& scene)
-{
-  const scene::DrivenInstrument& driven = deviceInstrument(scene);
-  const auto state = ros::topic::waitForMessage<sensor_msgs::JointState>(
-      names::kInstruments + driven.instrument.name + names::kMeasuredJs, ros::Duration(kStartTimeout));
-  if (state && state->position.size() == 2 && std::isfinite(state->position[0]) && std::isfinite(state->position[1]))
-    return {state->position[0], state->position[1]};
-  return {driven.drive.initial_insertion, driven.drive.initial_rotation};
-}
-
 }  // namespace
 
 const scene::DrivenInstrument& deviceInstrument(const scene::Scene& scene)
@@ -48,7 +31,7 @@ haptics::LinkOptions linkOptions(const ros::NodeHandle& parameters, const scene:
   options.baud = parameters.param("baud", options.baud);
   haptics::SerialPort::checkBaud(options.baud, parameters.resolveName("baud"));
   options.host.types = hapticTopicTypes();
-  options.host.start = startPosition(scene);
+  options.host.start = std::nullopt;  // the position of the instrument, which comes with its force
   haptics::ForceLimits& limits = options.host.limits;
   const auto positive = [&parameters](const char* name, double fallback)
   {

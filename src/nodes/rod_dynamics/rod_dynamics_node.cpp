@@ -44,6 +44,28 @@ std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
   return vessel.response.mesh.version + vessel.response.moved.size();
 }
 
+/** Adds the commands of the topics. A topic without a publisher, or with rejected commands, is a warning. */
+void diagnoseTopics(const std::vector<TopicReport>& reports, diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  using diagnostic_msgs::DiagnosticStatus;
+  for (const TopicReport& report : reports)
+  {
+    const std::uint64_t rejected = report.malformed + report.rejected.total();
+    if (!report.has_publisher)
+      status.mergeSummary(DiagnosticStatus::WARN, "no publisher on " + report.topic);
+    else if (report.accepted == 0)
+      status.mergeSummary(DiagnosticStatus::WARN, "no command accepted on " + report.topic);
+    if (rejected > 0)
+      status.mergeSummary(DiagnosticStatus::WARN, std::to_string(rejected) + " rejected commands on " + report.topic);
+    status.add(report.topic + ": accepted commands", report.accepted);
+    status.add(report.topic + ": rejected, malformed", report.malformed);
+    status.add(report.topic + ": rejected, not finite", report.rejected.not_finite);
+    status.add(report.topic + ": rejected, out of range", report.rejected.out_of_range);
+    status.add(report.topic + ": rejected, jumps", report.rejected.jumps);
+    status.add(report.topic + ": time since the last command [s]", report.silence);
+  }
+}
+
 /** Thread with ordinary scheduling that publishes diagnostics periodically, and a last time when it ends. */
 class DiagnosticsThread
 {
@@ -143,8 +165,12 @@ bool RodDynamicsNode::run()
   if (!grant_.granted)
     throttle_guard_ = RtThrottleGuard(0.0, kRest);
   {
-    const DiagnosticsThread diagnostics([this](diagnostic_updater::DiagnosticStatusWrapper& status)
-                                        { statistics_.diagnose(grant_, status); });
+    const DiagnosticsThread diagnostics(
+        [this](diagnostic_updater::DiagnosticStatusWrapper& status)
+        {
+          statistics_.diagnose(grant_, status);
+          diagnoseTopics(drives_.reports(), status);
+        });
     const auto last_step = seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step))
                                           : ~std::uint64_t{0};
     publisher_.publishOperatingState("ENABLED", "");

@@ -16,7 +16,7 @@ TEST(ForceOutput, ClampsToTheLimits)
   limits.force = 2.0;
   limits.torque = 0.01;
   ForceOutput output(limits);
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 300; ++i)
   {
     output.command({100.0, -1.0}, 1e-3 * i);
     output.advance(1e-3 * i);
@@ -37,9 +37,37 @@ TEST(ForceOutput, LimitsTheRateAfterAPauseToo)
   EXPECT_NEAR(output.advance(1.002).force - output.advance(1.001).force, 0.0, 1e-12) << "time does not run backwards";
 }
 
+TEST(ForceOutput, ReturnsWithinTheReturnTimeAfterARelease)
+{
+  ForceLimits limits;
+  limits.force = 5.0;
+  limits.return_time = 0.25;
+  ForceOutput output(limits);
+  double time = 0.0;
+  const auto follow = [&output, &time](double force, int steps)
+  {
+    for (int k = 0; k < steps; ++k, time += 1e-3)
+    {
+      output.command({force, 0.0}, time);
+      output.advance(time);
+    }
+    return output.value().force;
+  };
+  EXPECT_NEAR(follow(2.0, 11), 0.2, 1e-9) << "the force returns at 20 N/s from the start";
+  EXPECT_EQ(follow(2.0, 200), 2.0);
+  EXPECT_NEAR(follow(2.4, 2), 2.4, 1e-9) << "once it has met its target, the ordinary rate applies";
+  output.release(time);
+  time += 0.1;
+  output.advance(time);
+  EXPECT_TRUE(output.isZero());
+  EXPECT_LE(follow(2.4, 5), 0.11) << "half a newton within one frame would be felt as an impact";
+  EXPECT_EQ(follow(2.4, 200), 2.4);
+}
+
 TEST(ForceOutput, RampsToExactlyZeroWithinTheRampTime)
 {
-  const ForceLimits limits;
+  ForceLimits limits;
+  limits.return_time = 0.01;
   ForceOutput output(limits);
   for (int i = 0; i < 100; ++i)
     output.command({3.0, 0.02}, 1e-3 * i);

@@ -103,6 +103,38 @@ TEST(RosserialHost, RemovesTheForceWhenTheSimulationBecomesSilent)
   EXPECT_EQ(bench.device.watchdogTrips(), 0U);
 }
 
+TEST(RosserialHost, IsPausedWithoutForceWhileTheSimulationIs)
+{
+  Bench bench;
+  bench.run(100);
+  ASSERT_EQ(bench.host.state(), DeviceState::kEnabled);
+  bench.host.setSimulationState("no response of the contact node", bench.now);
+  bench.run(50);  // the simulation still publishes forces
+  EXPECT_EQ(bench.host.state(), DeviceState::kPaused);
+  EXPECT_EQ(bench.host.reason(), "no response of the contact node");
+  EXPECT_EQ(bench.forces.back().force, 0.0F);
+  bench.host.setSimulationState("", bench.now);
+  bench.run(50);
+  EXPECT_EQ(bench.host.state(), DeviceState::kEnabled);
+  EXPECT_EQ(bench.forces.back().force, 1.0F);
+}
+
+TEST(RosserialHost, StartsAtThePositionOfTheInstrumentAndMovesNothingBefore)
+{
+  HostOptions options = test::hostOptions();
+  options.start = std::nullopt;
+  Bench bench(options);
+  bench.simulation_active = false;
+  bench.insertion = 0.3F;  // the device's count does not start at zero
+  bench.run(100);
+  EXPECT_TRUE(bench.motions.empty());
+  bench.host.commandForce({0.0, 0.0}, {0.06, 1.5}, bench.now);
+  bench.run(1);
+  ASSERT_FALSE(bench.motions.empty());
+  EXPECT_EQ(bench.motions.front().command.insertion, 0.06);
+  EXPECT_EQ(bench.motions.front().command.rotation, 1.5);
+}
+
 TEST(RosserialHost, HoldsTheCommandWhileTheHandDoesNotHoldTheWire)
 {
   Bench bench;
