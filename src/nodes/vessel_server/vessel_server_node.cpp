@@ -49,6 +49,8 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   ROS_INFO("preparing the vessel of %s", scene.file.c_str());
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  for (const std::string& warning : vessel.warnings)
+    ROS_WARN("%s", warning.c_str());
   for (const std::string& note : vessel.notes)
     ROS_INFO("%s: %s", vessel.source.c_str(), note.c_str());
   notes_ = vessel.notes;
