@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/quantities.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -68,11 +69,25 @@ AttenuationTable AttenuationTable::load(const std::string& file)
       throw InputError(file, name + ".mass_attenuation", "must have one value per energy");
     if (!std::is_sorted(material.energy.begin(), material.energy.end()))
       throw InputError(file, name + ".energy", "must increase");
+    table.judge(name + ".density", quantities::kMaterialDensity, material.density / kGramPerCubicCentimetre);
+    table.judge(name + ".energy", quantities::kTableEnergy, material.energy.front());
+    table.judge(name + ".energy", quantities::kTableEnergy, material.energy.back());
+    for (const double value : material.mass)
+      table.judge(name + ".mass_attenuation", quantities::kMassAttenuation, value);
     for (double& value : material.mass)
       value *= kSquareCentimetrePerGram;
     table.materials_[name] = material;
   }
   return table;
+}
+
+void AttenuationTable::judge(const std::string& key, const Quantity& quantity, double value)
+{
+  const Plausibility result = plausibility(quantity, value);
+  if (result == Plausibility::kImpossible)
+    throw InputError(file_, key, plausibilityMessage(quantity, value));
+  if (result == Plausibility::kUnusual)
+    warnings_.push_back(file_ + ": " + key + ": " + plausibilityMessage(quantity, value));
 }
 
 const AttenuationTable::Material& AttenuationTable::find(const std::string& material) const

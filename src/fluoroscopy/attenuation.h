@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/quantity.h"
+
 namespace endovascular_sim::fluoroscopy
 {
 
@@ -29,6 +31,9 @@ public:
    *  edge. */
   double mass(const std::string& material, double energy) const;
 
+  /** Unusual values of the file, each with file, key and likely unit. */
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
 private:
   struct Material
   {
@@ -38,9 +43,13 @@ private:
   };
 
   const Material& find(const std::string& material) const;
+  /** Warns of an unusual value.
+   *  @throws InputError for an impossible value */
+  void judge(const std::string& key, const Quantity& quantity, double value);
 
   std::string file_;
   std::map<std::string, Material> materials_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -129,7 +129,8 @@ void expandInstrument(SceneNode& node, const std::string& path, const std::strin
     expandStent(node, joined(path, "stent"), scene_file);
 }
 
-instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides)
+instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides,
+                                      std::vector<std::string>* warnings)
 {
   SceneNode root = readSceneTree(file);
   expandInstrument(root, "", file);
@@ -139,9 +140,12 @@ instrument::Instrument loadInstrument(const std::string& file, const std::vector
     expandInstrument(root, "", file);
   }
   instrument::Instrument instrument;
-  SceneReader reader(&root, root, "");
+  ReadingReport report;
+  SceneReader reader(&root, root, "", &report);
   visitInstrument(reader, instrument);
   reader.finish();
+  if (warnings != nullptr)
+    *warnings = report.warnings;
   return instrument;
 }
 

@@ -27,8 +27,10 @@ void expandInstrument(SceneNode& node, const std::string& path, const std::strin
 /** Loads one instrument.
  *  @param file path of the YAML file
  *  @param overrides texts `key.path=value`, applied in order before validation
+ *  @param warnings receives the unusual values, as Scene::warnings; may be null
  *  @throws InputError with file, key and remedy */
-instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides = {});
+instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides = {},
+                                      std::vector<std::string>* warnings = nullptr);
 
 /** Names of all instruments in the library, sorted. */
 std::vector<std::string> libraryNames();

@@ -61,14 +61,15 @@ void resolveVesselPaths(Scene& scene, const SceneNode& root)
     scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
 }
 
-enum class VesselFiles
+/** Origin of a scene's text. */
+enum class Origin
 {
-  kResolved,
-  kNotNeeded,
+  kUser,       ///< values are judged; the vessel's files must exist
+  kRecording,  ///< values were judged before recording; the recording contains the vessel
 };
 
 Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides,
-                 VesselFiles files = VesselFiles::kResolved)
+                 Origin origin = Origin::kUser)
 {
   normalise(root, file);
   for (const std::string& override_text : overrides)
@@ -79,13 +80,15 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   Scene scene;
   scene.file = file;
   scene.name = std::filesystem::path(file).stem().string();
-  SceneReader reader(&root, root, "");
+  ReadingReport report;
+  SceneReader reader(&root, root, "", origin == Origin::kUser ? &report : nullptr);
   visitScene(reader, scene);
   reader.finish();
+  scene.warnings = report.warnings;
   SceneWriter writer;
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();
-  if (files == VesselFiles::kResolved)
+  if (origin == Origin::kUser)
     resolveVesselPaths(scene, root);
   return scene;
 }
@@ -104,7 +107,7 @@ Scene parseScene(const std::string& yaml, const std::string& origin, const std::
 
 Scene parseRecordedScene(const std::string& yaml, const std::string& origin)
 {
-  return buildScene(parseSceneTree(yaml, origin), origin, {}, VesselFiles::kNotNeeded);
+  return buildScene(parseSceneTree(yaml, origin), origin, {}, Origin::kRecording);
 }
 
 }  // namespace endovascular_sim::scene

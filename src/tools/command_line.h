@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/quantity.h"
 #include "common/version.h"
 
 namespace endovascular_sim::tools
@@ -106,6 +107,26 @@ public:
                       const std::string& description)
   {
     return app_.add_option(name, value, description)->type_name(value_name);
+  }
+
+  /** Option with a physical quantity. An unusual value causes a warning, an impossible one is wrong.
+   *  @param value default, replaced by the argument */
+  CLI::Option* quantity(const std::string& name, double& value, const std::string& value_name, const Quantity& quantity,
+                        const std::string& description)
+  {
+    const auto check = [this, name, quantity](const std::string& text) -> std::string
+    {
+      char* end = nullptr;
+      const double number = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0' || plausibility(quantity, number) == Plausibility::kUsual)
+        return "";
+      const std::string message = plausibilityMessage(quantity, number);
+      if (plausibility(quantity, number) == Plausibility::kImpossible)
+        return message;
+      std::cerr << name_ << ": warning: " << name << ": " << message << "\n";
+      return "";
+    };
+    return option(name, value, value_name, description)->check(CLI::Validator(check, ""));
   }
 
   /** Option that may be repeated, with one value each time. */

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/quantities.h"
 #include "haptics/device/device_simulator.h"
 #include "haptics/device/motion_script.h"
 #include "haptics/serial/serial_port.h"
@@ -100,18 +101,22 @@ void addOptions(CommandLine& line, Arguments& arguments)
           "start of the motion: after the host's subscription (subscribed), or after the first enabled force of the "
           "simulation (enabled) [subscribed]")
       ->check(CLI::IsMember({"subscribed", "enabled"}));
-  line.option("--seconds", arguments.seconds, "T", "ends T seconds after the start of the motion; default: no end")
+  line.quantity("--seconds", arguments.seconds, "T", endovascular_sim::quantities::kDuration,
+                "ends T seconds after the start of the motion; default: no end")
       ->check(nonNegativeNumber());
-  line.option("--rate", arguments.rate, "HZ", "samples per second, 1 to 10000 [1000]")->check(CLI::Range(1.0, 10000.0));
+  line.quantity("--rate", arguments.rate, "HZ", endovascular_sim::quantities::kRate,
+                "samples per second, 1 to 10000 [1000]")
+      ->check(CLI::Range(1.0, 10000.0));
   line.option("--baud", arguments.baud, "N", "speed of the line [230400 bit/s]");
   line.option("--sample", arguments.sample, "KIND",
               "message of a sample: haptic (13 bytes), or joint_state with a Wrench for the force (about 100 bytes) "
               "[haptic]")
       ->check(CLI::IsMember({"haptic", "joint_state"}));
-  line.option("--unplug-at", arguments.unplug_at, "T", "unplugs the device T seconds after the start of the motion")
+  line.quantity("--unplug-at", arguments.unplug_at, "T", endovascular_sim::quantities::kDuration,
+                "unplugs the device T seconds after the start of the motion")
       ->check(nonNegativeNumber());
-  line.option("--replug-after", arguments.replug_after, "T",
-              "plugs the restarted device in again T seconds later; default: never")
+  line.quantity("--replug-after", arguments.replug_after, "T", endovascular_sim::quantities::kDuration,
+                "plugs the restarted device in again T seconds later; default: never")
       ->check(nonNegativeNumber());
   line.option("--out", arguments.out, "FILE", "writes the measurements as JSON");
   line.require([&arguments] { return conflict(arguments); });
@@ -225,6 +230,7 @@ SimulatorOptions simulatorOptions(const Arguments& arguments, KeyboardOperator* 
   else
   {
     const auto scene = endovascular_sim::scene::loadScene(arguments.scene, arguments.overrides);
+    endovascular_sim::tools::printWarnings("device_simulator", scene.warnings);
     const auto drive = scene.instruments.front().drive;
     options.duration = scene.duration;
     // The device reports displacements from its start; scene and host define the initial insertion of the wire.

@@ -8,10 +8,12 @@
 
 #include "common/error.h"
 #include "common/progress.h"
+#include "common/quantities.h"
 #include "fluoroscopy/attenuation.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/png_writer.h"
 #include "tools/command_line.h"
+#include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
 
 namespace
@@ -68,7 +70,8 @@ void addOptions(tools::CommandLine& line, Options& options)
       ->required();
   line.option("--table", options.table, "FILE", "attenuation table (config/xray/attenuation.yaml)")->required();
   line.option("--out", options.out, "FILE.png", "image to write")->required();
-  line.option("--unit", options.unit, "U", "length of a unit of the mesh and the wire [0.001 m]");
+  line.quantity("--unit", options.unit, "U", quantities::kMeshUnit,
+                "length of a unit of the mesh and the wire [0.001 m]");
   line.option("--left", options.left, "AXIS", "axis of the mesh towards the patient's left: x, -x, y, -y, z or -z [x]")
       ->check(axes);
   line.option("--head", options.head, "AXIS",
@@ -76,21 +79,26 @@ void addOptions(tools::CommandLine& line, Options& options)
       ->check(axes);
   line.option("--wire", options.wire, "FILE.csv",
               "wire: a row x,y,z per node, proximal to distal, in the frame and unit of the mesh");
-  line.option("--radius", options.radius, "R", "radius of the wire [0.00018 m]");
-  line.option("--tip", options.tip_length, "L", "length of the platinum tip; the rest is nitinol [0.03 m]");
-  line.option("--lao", options.lao, "DEG", "primary angle, LAO positive [0]");
-  line.option("--cranial", options.cranial, "DEG", "secondary angle, cranial positive [0]");
+  line.quantity("--radius", options.radius, "R", quantities::kWireRadius, "radius of the wire [0.00018 m]");
+  line.quantity("--tip", options.tip_length, "L", quantities::kTipLeg,
+                "length of the platinum tip; the rest is nitinol [0.03 m]");
+  line.quantity("--lao", options.lao, "DEG", quantities::kImagingDegrees, "primary angle, LAO positive [0]");
+  line.quantity("--cranial", options.cranial, "DEG", quantities::kImagingDegrees,
+                "secondary angle, cranial positive [0]");
   line.option("--isocentre", options.isocentre, "X,Y,Z",
               "isocentre in the patient frame, in units of the mesh [the wire's tip, else the centre of the mesh]")
       ->check([](const std::string& text)
               { return pointOf(text) ? "" : "requires three numbers separated by commas"; });
-  line.option("--sid", options.source_to_detector, "M", "distance from source to detector [1.2]");
-  line.option("--sod", options.source_to_patient, "M", "distance from source to isocentre [0.75]");
-  line.option("--detector", options.detector_width, "M", "width of the detector [0.3]");
+  line.quantity("--sid", options.source_to_detector, "M", quantities::kSourceToDetector,
+                "distance from source to detector [1.2]");
+  line.quantity("--sod", options.source_to_patient, "M", quantities::kSourceToPatient,
+                "distance from source to isocentre [0.75]");
+  line.quantity("--detector", options.detector_width, "M", quantities::kDetectorWidth, "width of the detector [0.3]");
   line.option("--pixels", options.pixels, "N", "pixels along a side [512]");
-  line.option("--energy", options.energy, "KEV", "photon energy [60]");
-  line.option("--iodine", options.iodine, "MG", "iodine concentration in the vessel [150 mg/ml]");
-  line.option("--tissue", options.tissue, "M", "thickness of soft tissue [0.2]");
+  line.quantity("--energy", options.energy, "KEV", quantities::kPhotonEnergy, "photon energy [60]");
+  line.quantity("--iodine", options.iodine, "MG", quantities::kIodine,
+                "iodine concentration in the vessel [150 mg/ml]");
+  line.quantity("--tissue", options.tissue, "M", quantities::kTissue, "thickness of soft tissue [0.2]");
   line.flag("--raw", options.raw, "writes the linear 16-bit detector signal instead of the display image");
   line.require(
       [&options] {
@@ -186,6 +194,7 @@ fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleM
 int run(const Options& options)
 {
   const auto table = fluoroscopy::AttenuationTable::load(options.table);
+  tools::printWarnings("fluoroscopy_frame", table.warnings());
   const Eigen::Matrix3d patient_from_mesh = patientFromMesh(options);
   const fluoroscopy::XRayWire wire = makeWire(options, table, patient_from_mesh);
   const geometry::TriangleMesh mesh = readVessel(options, patient_from_mesh);

@@ -157,8 +157,12 @@ std::vector<Drawn> readAll(const Options& options)
       files.push_back(fs::is_regular_file(word) || fs::path(word).has_extension() ? word
                                                                                   : scene::libraryInstrument(word));
   std::vector<Drawn> all;
+  std::vector<std::string> warnings;
   for (const std::string& file : files)
-    all.push_back({fs::path(file).stem().string(), scene::loadInstrument(file, options.overrides)});
+  {
+    all.push_back({fs::path(file).stem().string(), scene::loadInstrument(file, options.overrides, &warnings)});
+    tools::printWarnings("instrument_shape", warnings);
+  }
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/progress.h"
+#include "common/quantities.h"
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
 #include "results/session_run.h"
@@ -48,9 +49,12 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--through", options.through, "PHASE", "ends every run after this phase of the procedure");
   line.option("--at-least", options.at_least, "N", "number of successful runs required for exit code 0 [all]")
       ->check(CLI::Range(0, 1000000));
-  line.option("--insertion", options.spread.insertion, "M", "half range of the initial insertion [0.005 m]");
-  line.option("--rotation", options.spread.rotation, "RAD", "half range of the initial rotation [0.5 rad]");
-  line.option("--speed", options.spread.speed, "SHARE", "half range of the speed, as a share of it, below 1 [0.2]");
+  line.quantity("--insertion", options.spread.insertion, "M", quantities::kInsertion,
+                "half range of the initial insertion [0.005 m]");
+  line.quantity("--rotation", options.spread.rotation, "RAD", quantities::kRotation,
+                "half range of the initial rotation [0.5 rad]");
+  line.quantity("--speed", options.spread.speed, "SHARE", quantities::kFraction,
+                "half range of the speed, as a share of it, below 1 [0.2]");
   line.overrides(options.overrides, "replaces a value of the scene");
   line.require([&options] { return options.spread.speed < 1.0 ? "" : "--speed requires a share below 1"; });
 }
@@ -88,6 +92,7 @@ std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
 int study(const Options& options)
 {
   scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+  tools::printWarnings("procedure_study", scene.warnings);
   if (!scene.procedure)
     throw InputError(scene.file, "procedure", "missing; give procedure: FILE");
   if (!options.through.empty())

@@ -6,9 +6,11 @@
 #include "common/progress.h"
 #include "results/session_run.h"
 #include "scene/model/scene.h"
+#include "scene/numeric_keys.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "tools/command_line.h"
+#include "tools/tool_output.h"
 
 namespace
 {
@@ -22,17 +24,20 @@ struct Options
   bool vessel = false;
   bool nodes = false;
   bool hash = false;
+  bool keys = false;
 };
 
 void addOptions(tools::CommandLine& line, Options& options)
 {
-  line.argument("SCENE.yaml", options.scene, "scene to check");
+  line.argument("SCENE.yaml", options.scene, "scene to check")->required(false);
   line.overrides(options.overrides,
                  "replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003");
   line.flag("--vessel", options.vessel,
             "also builds the vessel and checks the mesh, the entry and the branches' names");
   line.flag("--nodes", options.nodes, "prints the ROS nodes that the scene requires instead, one per line");
   line.flag("--hash", options.hash, "prints the scene's hash instead");
+  line.flag("--keys", options.keys, "prints all numeric keys with unit, usual and accepted values as a Markdown table");
+  line.require([&options] { return options.keys || !options.scene.empty() ? "" : "SCENE.yaml is required"; });
 }
 
 /** @throws InputError for a mesh, an entry or a branch that cannot be used */
@@ -42,6 +47,7 @@ void checkVessel(const scene::Scene& scene)
     return;
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progressOnErrorStream());
+  tools::printWarnings("scene_check", vessel.warnings);
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
@@ -50,7 +56,13 @@ void checkVessel(const scene::Scene& scene)
 
 int check(const Options& options)
 {
+  if (options.keys)
+  {
+    std::cout << scene::numericKeysTable();
+    return 0;
+  }
   const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+  tools::printWarnings("scene_check", scene.warnings);
   if (options.vessel)
     checkVessel(scene);
   if (options.hash)

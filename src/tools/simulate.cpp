@@ -12,6 +12,7 @@
 
 #include "common/error.h"
 #include "common/progress.h"
+#include "common/quantities.h"
 #include "contact/detector.h"
 #include "procedure/phase_pictures.h"
 #include "results/run_result.h"
@@ -59,7 +60,8 @@ void addOptions(tools::CommandLine& line, Options& options)
           "folder for the results, created if missing: result.json, trajectory.csv, hand_force.csv and plots; with a "
           "vessel also wall_forces.csv, metrics.json, metrics.html and instruments.csv")
       ->required();
-  line.option("--seconds", options.seconds, "T", "simulated time [s]; default: the scene's duration")
+  line.quantity("--seconds", options.seconds, "T", quantities::kDuration,
+                "simulated time [s]; default: the scene's duration")
       ->check(tools::positiveNumber());
   line.overrides(options.overrides,
                  "replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05");
@@ -71,8 +73,9 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.flag("--pictures", options.pictures,
             "writes fluoroscopy/phase_01.png and so on: the C-arm's image at the end of each phase of a procedure");
   CLI::Option* save = line.option("--save-state", options.save_state, "FILE", "saves the state at the time of --at");
-  CLI::Option* at = line.option("--at", options.save_at, "T", "simulated time of the saved state [s]")
-                        ->check(tools::positiveNumber());
+  CLI::Option* at =
+      line.quantity("--at", options.save_at, "T", quantities::kDuration, "simulated time of the saved state [s]")
+          ->check(tools::positiveNumber());
   save->needs(at);
   at->needs(save);
   line.option("--from-state", options.from_state, "FILE",
@@ -196,6 +199,7 @@ Surroundings build(const scene::Scene& scene, const ProgressReport& progress)
   }
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progress);
+  tools::printWarnings("simulate", vessel.warnings);
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
   made.entry = scene::resolveStart(scene, vessel);
@@ -362,6 +366,7 @@ void printProcedure(const Surroundings& surroundings)
 int simulate(const Options& options)
 {
   const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+  tools::printWarnings("simulate", scene.warnings);
   std::filesystem::create_directories(options.out);
   Surroundings surroundings = build(scene, options.quiet ? ProgressReport() : progressOnErrorStream());
   if (options.pictures)

@@ -13,6 +13,13 @@
 namespace endovascular_sim::tools
 {
 
+/** Prints warnings on the error stream, one per line. */
+inline void printWarnings(const std::string& program, const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+    std::cerr << program << ": warning: " << warning << "\n";
+}
+
 /** @throws InputError when the file cannot be opened */
 inline std::ofstream openFile(const std::filesystem::path& path)
 {

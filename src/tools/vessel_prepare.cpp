@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/progress.h"
+#include "common/quantities.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy_mesh.h"
@@ -39,6 +40,12 @@ vessel::Plug plugOf(const std::string& text)
   if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &plug.centre.x(), &plug.centre.y(), &plug.centre.z(), &plug.radius,
                   &rest) != 4)
     throw InputError("command line", "--plug", "requires x,y,z,radius in metres, not '" + text + "'");
+  const std::pair<Quantity, double> checks[] = {{quantities::kPosition, plug.centre.cwiseAbs().maxCoeff()},
+                                                {quantities::kVesselRadius, plug.radius}};
+  for (const auto& [quantity, value] : checks)
+    if (plausibility(quantity, value) != Plausibility::kUsual)
+      throw InputError("command line", "--plug",
+                       "requires x,y,z,radius in metres, not '" + text + "'; " + plausibilityMessage(quantity, value));
   return plug;
 }
 
@@ -49,9 +56,9 @@ std::string plugError(const std::string& text)
     plugOf(text);
     return "";
   }
-  catch (const InputError&)
+  catch (const InputError& error)
   {
-    return "requires x,y,z,radius in metres, not '" + text + "'";
+    return error.what();
   }
 }
 
@@ -60,7 +67,8 @@ void addOptions(tools::CommandLine& line, Options& options)
   const CLI::Range count(0, 1000000);
   vessel::PrepareOptions& prepare = options.prepare;
   line.argument("IN", options.in, "mesh to prepare: OBJ, STL or PLY");
-  line.option("--unit", options.unit, "METRES", "length of a unit of IN [m]: 0.001 for millimetres, 1 for metres")
+  line.quantity("--unit", options.unit, "METRES", quantities::kMeshUnit,
+                "length of a unit of IN [m]: 0.001 for millimetres, 1 for metres")
       ->required()
       ->check(tools::positiveNumber());
   line.option("--out", options.out, "OUT.obj",
@@ -69,13 +77,13 @@ void addOptions(tools::CommandLine& line, Options& options)
       ->required()
       ->check([](const std::string& name)
               { return std::filesystem::path(name).extension() == ".obj" ? "" : "requires a name that ends in .obj"; });
-  line.option("--max-distance", prepare.max_distance, "M",
-              "largest distance between the walls of input and result, in both directions [0.0002]");
-  line.option(
-      "--voxel", prepare.voxel, "M",
+  line.quantity("--max-distance", prepare.max_distance, "M", quantities::kSurfaceDistance,
+                "largest distance between the walls of input and result, in both directions [0.0002]");
+  line.quantity(
+      "--voxel", prepare.voxel, "M", quantities::kSurfaceDistance,
       "edge of the grid's cells [2/3 of max-distance]; walls between lumens thinner than two cells may be lost");
-  line.option("--bridge", prepare.bridge, "M",
-              "joins loose pieces within this distance of the vessel by a tube of their own width [0]");
+  line.quantity("--bridge", prepare.bridge, "M", quantities::kGap,
+                "joins loose pieces within this distance of the vessel by a tube of their own width [0]");
   line.repeated(
       "--join", options.joins, "ANATOMY.yaml",
       "unites the vessel with an overlapping generated one (an anatomy file in the axes of IN), e.g. the vessels "
@@ -92,14 +100,15 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--smoothing-rounds", prepare.smoothing_rounds, "N", "number of smoothing passes [30]")->check(count);
   line.option("--facets-around", prepare.facets_around, "N", "facets around every lumen of the result [24]")
       ->check(count);
-  line.option("--longest-facet", prepare.longest_facet, "M", "longest facet edge of the result [0.0025]");
+  line.quantity("--longest-facet", prepare.longest_facet, "M", quantities::kFacetLength,
+                "longest facet edge of the result [0.0025]");
   line.repeated(
       "--open", prepare.open, "WHICH",
       "leaves an end open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end), or a branch's "
       "name from the report. Default: all ends are closed. A scene closes flat open ends itself when it "
       "reads the mesh");
-  line.option("--cut-back", prepare.cut_back, "R",
-              "distance of the cut from the tip of an open end, in radii of the lumen [1]");
+  line.quantity("--cut-back", prepare.cut_back, "R", quantities::kScale,
+                "distance of the cut from the tip of an open end, in radii of the lumen [1]");
   line.flag("--quiet", options.quiet, "prints the report only");
 }
 

@@ -22,7 +22,10 @@ constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
 fluoroscopy::AttenuationTable attenuationTable(const ros::NodeHandle& parameters)
 {
   const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/attenuation.yaml";
-  return fluoroscopy::AttenuationTable::load(parameters.param<std::string>("attenuation_table", own));
+  auto table = fluoroscopy::AttenuationTable::load(parameters.param<std::string>("attenuation_table", own));
+  for (const std::string& warning : table.warnings())
+    ROS_WARN("%s", warning.c_str());
+  return table;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ int main(int argc, char** argv)
   return runNode(argc, argv, {"rod_dynamics", NodeScheduling::kLockStep, 70},
                  [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   RodDynamicsNode rod(node, ros::NodeHandle("~"), sceneFromParameters(node), request);
+                   RodDynamicsNode rod(node, ros::NodeHandle("~"), sceneWithLoggedWarnings(node), request);
                    return rod.run();
                  });
 }

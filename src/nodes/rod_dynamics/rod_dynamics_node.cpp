@@ -15,6 +15,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/node_program.h"
+#include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
 #include "simulation/local_deformable_wall.h"
 
@@ -109,15 +110,16 @@ RodDynamicsNode::RodDynamicsNode(ros::NodeHandle node, const ros::NodeHandle& pa
     parameters_(parameters),
     scene_(std::move(scene)),
     request_(std::move(request)),
-    pause_after_(parameters_.param("pause_after", kPauseAfter)),
-    seconds_(parameters_.param("seconds", 0.0)),
+    pause_after_(numericParameter(parameters_, "pause_after", kPauseAfter, quantities::kWait)),
+    seconds_(numericParameter(parameters_, "seconds", 0.0, quantities::kDuration)),
     publisher_(node_, scene_),
     throttle_guard_(requiredIdleShare(), kRest),
     drives_(node_, scene_),
     renderer_(scene_.instruments.size())
 {
   if (scene_.vessel)
-    contacts_ = std::make_unique<RemoteContactSource>(node_, parameters_.param("contact_patience", kContactTimeout));
+    contacts_ = std::make_unique<RemoteContactSource>(
+        node_, numericParameter(parameters_, "contact_patience", kContactTimeout, quantities::kWait));
 }
 
 bool RodDynamicsNode::waitForVessel(scene::EntryPose& entry, vessel::Vessel& vessel)

@@ -11,4 +11,8 @@ namespace endovascular_sim::nodes
  *  @throws InputError when the parameter is missing or the scene is invalid */
 scene::Scene sceneFromParameters(const ros::NodeHandle& node);
 
+/** The same scene, with its unusual values logged as warnings. Only rod_dynamics logs them, since it is part of every
+ *  graph. */
+scene::Scene sceneWithLoggedWarnings(const ros::NodeHandle& node);
+
 }  // namespace endovascular_sim::nodes

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "nodes/runtime/parameters.h"
+
 namespace endovascular_sim::nodes
 {
 namespace
@@ -36,8 +38,9 @@ RecorderSettings settingsFrom(const ros::NodeHandle& parameters, const std::stri
   if (settings.folder.empty())
     settings.folder = defaultFolder(scene_name);
   settings.stop_at_duration = parameters.param("stop_at_duration", settings.stop_at_duration);
-  settings.patience = parameters.param("patience", settings.patience);
-  settings.start_patience = parameters.param("start_patience", settings.start_patience);
+  settings.patience = numericParameter(parameters, "patience", settings.patience, quantities::kWait);
+  settings.start_patience =
+      numericParameter(parameters, "start_patience", settings.start_patience, quantities::kDuration);
   settings.picture_interval = parameters.param("picture_interval", settings.picture_interval);
   return settings;
 }

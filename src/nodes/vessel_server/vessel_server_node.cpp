@@ -51,6 +51,8 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired,
                          progressLines([](const std::string& line) { ROS_INFO("%s", line.c_str()); }));
+  for (const std::string& warning : vessel.warnings)
+    ROS_WARN("%s", warning.c_str());
   for (const std::string& note : vessel.notes)
     ROS_INFO("%s: %s", vessel.source.c_str(), note.c_str());
   notes_ = vessel.notes;

@@ -7,6 +7,7 @@
 #include "intervention/stent_placement.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
 #include "visualization/tube_mesh.h"
 
@@ -75,10 +76,10 @@ void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& p
 }  // namespace
 
 VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle& parameters)
-  : full_scale_(parameters.param("force_full_scale", 0.1)),
-    radius_scale_(parameters.param("radius_scale", 1.5)),
+  : full_scale_(numericParameter(parameters, "force_full_scale", 0.1, quantities::kWallForce)),
+    radius_scale_(numericParameter(parameters, "radius_scale", 1.5, quantities::kScale)),
     heat_of_(parameters.param<std::string>("heat_of", "peak")),
-    heat_full_scale_(parameters.param("heat_full_scale", 0.1)),
+    heat_full_scale_(numericParameter(parameters, "heat_full_scale", 0.1, quantities::kHeatScale)),
     wire_publisher_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
     tip_path_publisher_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
     balloon_publisher_(node.advertise<visualization_msgs::Marker>(names::kBalloonMarker, 1, true)),

@@ -257,7 +257,8 @@ struct Scene
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
   RecordScene record;
-  std::string resolved_yaml;  ///< canonical text of the scene, with overrides and included files merged
+  std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
+  std::string resolved_yaml;          ///< canonical text of the scene, with overrides and included files merged
 
   /** Length of the longest instrument [m]. */
   double longest() const;

@@ -18,12 +18,12 @@ std::string inMillimetres(double length)
 /** Visits a table of two columns, stored as a vector of structures with two numbers. */
 template <typename Row>
 void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& table, double Row::*x, double Row::*y,
-                const std::string& unit)
+                const Quantity& x_quantity, const Quantity& y_quantity)
 {
   std::vector<std::vector<double>> rows;
   for (const Row& row : table)
     rows.push_back({row.*x, row.*y});
-  fields.rows(key, rows, 2, unit, Need::kRequired);
+  fields.rows(key, rows, {x_quantity, y_quantity}, Need::kRequired);
   if (!fields.reading())
     return;
   table.clear();
@@ -39,17 +39,17 @@ void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& t
 void checkCompliance(const SceneFields& fields, const instrument::Balloon& balloon)
 {
   if (balloon.compliance.size() < 2)
-    fields.refuse("compliance", "needs two rows or more of [pressure in Pa, diameter in m]");
+    fields.reject("compliance", "needs two rows or more of [pressure in Pa, diameter in m]");
   instrument::Balloon::Compliance previous{0.0, balloon.folded_diameter};
   for (std::size_t k = 0; k < balloon.compliance.size(); ++k)
   {
     const instrument::Balloon::Compliance& row = balloon.compliance[k];
     const std::string key = "compliance." + std::to_string(k);
     if (row.pressure <= previous.pressure)
-      fields.refuse(key, k == 0 ? "the pressure must be positive, in Pa above blood pressure"
+      fields.reject(key, k == 0 ? "the pressure must be positive, in Pa above blood pressure"
                                 : "pressures must increase from row to row; sort the rows");
     if (row.diameter <= previous.diameter)
-      fields.refuse(
+      fields.reject(
           key, k == 0 ? "the diameter must be greater than folded_diameter, " + inMillimetres(balloon.folded_diameter)
                       : "a balloon does not shrink under pressure: diameters must increase from row to row");
     previous = row;
@@ -60,11 +60,11 @@ void checkPressures(const SceneFields& fields, const instrument::Balloon& balloo
 {
   if (balloon.nominal_pressure < balloon.compliance.front().pressure ||
       balloon.nominal_pressure > balloon.compliance.back().pressure)
-    fields.refuse("nominal_pressure", "lies outside the compliance table; must be between its first and last pressure");
+    fields.reject("nominal_pressure", "lies outside the compliance table; must be between its first and last pressure");
   if (balloon.rated_burst_pressure < balloon.nominal_pressure)
-    fields.refuse("rated_burst_pressure", "must be at least nominal_pressure");
+    fields.reject("rated_burst_pressure", "must be at least nominal_pressure");
   if (balloon.burst_pressure < balloon.rated_burst_pressure)
-    fields.refuse("burst_pressure", "must be at least rated_burst_pressure");
+    fields.reject("burst_pressure", "must be at least rated_burst_pressure");
 }
 
 void checkStent(const SceneFields& fields, const instrument::Stent& stent)
@@ -74,22 +74,22 @@ void checkStent(const SceneFields& fields, const instrument::Stent& stent)
     const auto& row = stent.expansion[k];
     const std::string key = "expansion." + std::to_string(k);
     if (row.diameter <= 0.0 || row.length <= 0.0)
-      fields.refuse(key, "diameter and length must be positive, in m");
+      fields.reject(key, "diameter and length must be positive, in m");
     if (k > 0 && row.diameter <= stent.expansion[k - 1].diameter)
-      fields.refuse(key, "diameters must increase from row to row; sort the rows");
+      fields.reject(key, "diameters must increase from row to row; sort the rows");
     if (k > 0 && row.length > stent.expansion[k - 1].length)
-      fields.refuse(key, "a stent does not lengthen as it opens: lengths must not increase from row to row");
+      fields.reject(key, "a stent does not lengthen as it opens: lengths must not increase from row to row");
   }
   if (stent.expansion.size() < 2)
-    fields.refuse("expansion", "needs two rows or more of [inner diameter in m, length in m]");
+    fields.reject("expansion", "needs two rows or more of [inner diameter in m, length in m]");
   if (stent.nominal_diameter <= stent.expansion.front().diameter || stent.nominal_diameter > stent.largestDiameter())
-    fields.refuse("nominal_diameter",
+    fields.reject("nominal_diameter",
                   "lies outside the table; must be greater than the first and at most the last "
                   "diameter of expansion");
   if (stent.crimped_diameter >= stent.nominal_diameter)
-    fields.refuse("crimped_diameter", "must be less than nominal_diameter, " + inMillimetres(stent.nominal_diameter));
+    fields.reject("crimped_diameter", "must be less than nominal_diameter, " + inMillimetres(stent.nominal_diameter));
   if (2.0 * stent.strut_thickness >= stent.crimped_diameter)
-    fields.refuse("strut_thickness", "must be less than half of crimped_diameter");
+    fields.reject("strut_thickness", "must be less than half of crimped_diameter");
 }
 
 }  // namespace
@@ -103,20 +103,20 @@ void visitBalloon(SceneFields& fields, instrument::Instrument& instrument)
   const auto visit = [&balloon, shaft](SceneFields& keys)
   {
     const Range positive = Range::positive();
-    keys.number("from_tip", balloon.from_tip, "m", Range::nonNegative(), Need::kRequired);
-    keys.number("length", balloon.length, "m", positive, Need::kRequired);
-    keys.number("folded_diameter", balloon.folded_diameter, "m", positive, Need::kRequired);
+    keys.number("from_tip", balloon.from_tip, quantities::kFromTip, Range::nonNegative(), Need::kRequired);
+    keys.number("length", balloon.length, quantities::kBalloonLength, positive, Need::kRequired);
+    keys.number("folded_diameter", balloon.folded_diameter, quantities::kBalloonDiameter, positive, Need::kRequired);
     visitTable(keys, "compliance", balloon.compliance, &instrument::Balloon::Compliance::pressure,
-               &instrument::Balloon::Compliance::diameter, "Pa and m");
-    keys.number("nominal_pressure", balloon.nominal_pressure, "Pa", positive, Need::kRequired);
-    keys.number("rated_burst_pressure", balloon.rated_burst_pressure, "Pa", positive, Need::kRequired);
-    keys.number("burst_pressure", balloon.burst_pressure, "Pa", positive, Need::kRequired);
-    keys.number("inflation_time", balloon.inflation_time, "s", positive, Need::kRequired);
-    keys.number("deflation_time", balloon.deflation_time, "s", positive, Need::kRequired);
+               &instrument::Balloon::Compliance::diameter, quantities::kPressure, quantities::kBalloonDiameter);
+    keys.number("nominal_pressure", balloon.nominal_pressure, quantities::kPressure, positive, Need::kRequired);
+    keys.number("rated_burst_pressure", balloon.rated_burst_pressure, quantities::kPressure, positive, Need::kRequired);
+    keys.number("burst_pressure", balloon.burst_pressure, quantities::kPressure, positive, Need::kRequired);
+    keys.number("inflation_time", balloon.inflation_time, quantities::kWait, positive, Need::kRequired);
+    keys.number("deflation_time", balloon.deflation_time, quantities::kWait, positive, Need::kRequired);
     if (!keys.reading())
       return;
     if (balloon.from_tip + balloon.length > shaft)
-      keys.refuse("from_tip", "the balloon lies beyond the shaft; from_tip + length must be at most its length, " +
+      keys.reject("from_tip", "the balloon lies beyond the shaft; from_tip + length must be at most its length, " +
                                   std::to_string(shaft) + " m");
     checkCompliance(keys, balloon);
     checkPressures(keys, balloon);
@@ -132,17 +132,17 @@ void visitStent(SceneFields& fields, instrument::Instrument& instrument)
   const auto visit = [&instrument, &stent](SceneFields& keys)
   {
     const Range positive = Range::positive();
-    keys.number("crimped_diameter", stent.crimped_diameter, "m", positive, Need::kRequired);
-    keys.number("nominal_diameter", stent.nominal_diameter, "m", positive, Need::kRequired);
-    keys.number("strut_thickness", stent.strut_thickness, "m", positive, Need::kRequired);
-    keys.number("recoil", stent.recoil, "1", Range::between(0.0, 0.5), Need::kRequired);
+    keys.number("crimped_diameter", stent.crimped_diameter, quantities::kBalloonDiameter, positive, Need::kRequired);
+    keys.number("nominal_diameter", stent.nominal_diameter, quantities::kBalloonDiameter, positive, Need::kRequired);
+    keys.number("strut_thickness", stent.strut_thickness, quantities::kStrutThickness, positive, Need::kRequired);
+    keys.number("recoil", stent.recoil, quantities::kFraction, Range::between(0.0, 0.5), Need::kRequired);
     visitTable(keys, "expansion", stent.expansion, &instrument::Stent::Expansion::diameter,
-               &instrument::Stent::Expansion::length, "m");
+               &instrument::Stent::Expansion::length, quantities::kBalloonDiameter, quantities::kStentLength);
     if (!keys.reading())
       return;
     checkStent(keys, stent);
     if (instrument.balloon && stent.crimpedLength() > instrument.balloon->length)
-      keys.refuse("", "the stent is longer than its balloon, " + inMillimetres(instrument.balloon->length) +
+      keys.reject("", "the stent is longer than its balloon, " + inMillimetres(instrument.balloon->length) +
                           "; give a longer balloon or a shorter stent");
   };
   fields.map("stent", visit);

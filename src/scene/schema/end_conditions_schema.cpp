@@ -15,7 +15,7 @@ const std::vector<std::string> kTwists = {"free", "held"};
 void requireZeroStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
 {
   if (profile.at(0.0) != 0.0)
-    fields.refuse(key, "is not 0 at time 0, but the wire is straight at the start; start the profile at [0, 0]");
+    fields.reject(key, "is not 0 at time 0, but the wire is straight at the start; start the profile at [0, 0]");
 }
 
 void checkDistalEnd(SceneFields& fields, const Scene& scene)
@@ -23,15 +23,15 @@ void checkDistalEnd(SceneFields& fields, const Scene& scene)
   const DistalScene& distal = scene.distal;
   const bool clamped = scene.distal_end == rod::EndHold::kClamped;
   if (distal.twist_held && !clamped)
-    fields.refuse("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
+    fields.reject("twist", "can be held by a clamp only; set hold: clamped, or twist: free");
   if (!distal.displacement.isTrivial() && scene.distal_end == rod::EndHold::kFree)
-    fields.refuse("displacement", "requires a held end; set hold: pinned or hold: clamped");
+    fields.reject("displacement", "requires a held end; set hold: pinned or hold: clamped");
   if (!distal.tilt.isTrivial() && !clamped)
-    fields.refuse("tilt", "requires a held direction; set hold: clamped");
+    fields.reject("tilt", "requires a held direction; set hold: clamped");
   if (!distal.rotation.isTrivial() && !distal.twist_held)
-    fields.refuse("rotation", "requires a held twist; set hold: clamped and twist: held");
+    fields.reject("rotation", "requires a held twist; set hold: clamped and twist: held");
   if (!distal.tilt.isTrivial() && distal.tilt_axis.isZero())
-    fields.refuse("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
+    fields.reject("tilt.axis", "missing; give the axis about which the clamp tilts, e.g. [0, 0, 1]");
   requireZeroStart(fields, "displacement", distal.displacement);
   requireZeroStart(fields, "tilt", distal.tilt);
 }
@@ -46,16 +46,17 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
   fields.map("displacement",
              [&distal](SceneFields& motion)
              {
-               visitProfile(motion, distal.displacement, "m");
-               motion.vector3("direction", distal.direction, "1");
+               visitProfile(motion, distal.displacement, quantities::kDisplacement);
+               motion.vector3("direction", distal.direction, quantities::kDirection);
              });
   fields.map("tilt",
              [&distal](SceneFields& motion)
              {
-               visitProfile(motion, distal.tilt, "rad");
-               motion.vector3("axis", distal.tilt_axis, "1");
+               visitProfile(motion, distal.tilt, quantities::kAngle);
+               motion.vector3("axis", distal.tilt_axis, quantities::kDirection);
              });
-  fields.map("rotation", [&distal](SceneFields& motion) { visitProfile(motion, distal.rotation, "rad"); });
+  fields.map("rotation",
+             [&distal](SceneFields& motion) { visitProfile(motion, distal.rotation, quantities::kRotation); });
   if (fields.reading())
     checkDistalEnd(fields, scene);
 }
@@ -81,11 +82,11 @@ void checkDisplacement(const SceneFields& fields, const Scene& scene)
   const auto [low, high] = bounds(scene.distal.displacement);
   for (const double value : {low, high})
     if ((length * along + value * direction).norm() > length + 1e-9)
-      fields.refuse("distal_end.displacement",
+      fields.reject("distal_end.displacement",
                     "would stretch the wire; keep its ends no further apart than its length, " +
                         std::to_string(length) + " m; negative values compress it");
   if (direction.cross(along).isZero(1e-9) && !hasBendingCause(scene, along))
-    fields.refuse("distal_end.displacement",
+    fields.reject("distal_end.displacement",
                   "compresses a perfectly straight wire, whose buckling direction is undefined; add "
                   "loads.gravity, or a small force in loads.point_loads");
 }
@@ -104,22 +105,22 @@ void visitEnds(SceneFields& fields, Scene& scene)
 void checkEnds(const SceneFields& fields, const Scene& scene)
 {
   if (scene.introducer && scene.distal_end != rod::EndHold::kFree && !scene.solver.traits().holds_inserted_end)
-    fields.refuse("distal_end",
+    fields.reject("distal_end",
                   "scheme '" + scene.solver.scheme +
                       "' does not hold a distal end together with an introducer; set distal_end: free, or "
                       "solver.scheme: kkt");
   if (scene.distal.isDriven() && !scene.solver.traits().moves_distal_end)
-    fields.refuse("solver.scheme",
+    fields.reject("solver.scheme",
                   "'" + scene.solver.scheme + "' does not move a distal end or hold its twist; use kkt");
   if (scene.distal_end == rod::EndHold::kClamped && !scene.solver.traits().clamped_tip_torque)
     for (const PointLoad& load : scene.loads.point_loads)
       if (load.torque != 0.0)
-        fields.refuse("solver.scheme",
+        fields.reject("solver.scheme",
                       "'" + scene.solver.scheme + "' does not simulate a torque at a clamped tip; use kkt");
   if (scene.distal.twist_held)
     for (std::size_t k = 0; k < scene.loads.point_loads.size(); ++k)
       if (scene.loads.point_loads[k].torque != 0.0)
-        fields.refuse("loads.point_loads." + std::to_string(k) + ".torque",
+        fields.reject("loads.point_loads." + std::to_string(k) + ".torque",
                       "acts on a tip whose twist is held; remove it, or set distal_end.twist: free");
   const bool entry_known = scene.entry.centreline_end.empty() && !scene.entry.nearest_centreline_end;
   if (!scene.introducer && entry_known && !scene.distal.displacement.isTrivial())

@@ -11,10 +11,7 @@ namespace endovascular_sim::scene
 namespace
 {
 
-// Plausibility limits. Larger values are probably millimetres or degrees.
-constexpr double kLongest = 10.0;    // largest length [m]
-constexpr double kThickest = 20e-3;  // largest radius [m]
-constexpr double kFullTurn = 6.284;  // largest angle [rad]
+constexpr double kFullTurn = 6.284;  // largest angle [rad]; a larger one is probably in degrees
 
 // Words of instrument::Material and instrument::Kind, in the order of the enumerators.
 const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer", "filled_polymer"};
@@ -31,66 +28,66 @@ void readStiffness(SceneFields& fields, rod::Section& section, double inner_radi
     for (const std::string& key : keys)
       words += (words.empty() ? "" : " or ") + key;
     if (given != 1)
-      fields.refuse(given == 0 ? keys.front() : keys.back(),
+      fields.reject(given == 0 ? keys.front() : keys.back(),
                     given == 0 ? "missing; give " + words : "conflicts; keep one of " + words);
   };
   exactly_one({"bending_stiffness", "young_modulus"});
   exactly_one({"torsional_stiffness", "shear_modulus", "poisson_ratio"});
 
   double young = 0.0;
-  fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
-  fields.number("young_modulus", young, "Pa", Range::positive());
+  fields.number("bending_stiffness", section.bending_stiffness, quantities::kFlexuralRigidity, Range::positive());
+  fields.number("young_modulus", young, quantities::kModulus, Range::positive());
   if (fields.has("bending_stiffness"))
     young = instrument::equivalentYoungModulus(section.bending_stiffness, section.radius, inner_radius);
   double poisson = 0.0;
-  fields.number("poisson_ratio", poisson, "1", {-1.0, 0.5, true, false});
+  fields.number("poisson_ratio", poisson, quantities::kPoisson, {-1.0, 0.5, true, false});
   double shear = instrument::shearModulus(young, poisson);
-  fields.number("shear_modulus", shear, "Pa", Range::positive());
+  fields.number("shear_modulus", shear, quantities::kModulus, Range::positive());
 
   const instrument::Stiffness derived = instrument::hollowSection(young, shear, section.radius, inner_radius);
   if (!fields.has("bending_stiffness"))
     section.bending_stiffness = derived.bending;
   section.torsional_stiffness = derived.torsional;
   section.axial_stiffness = derived.axial;
-  fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
-  fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
+  fields.number("torsional_stiffness", section.torsional_stiffness, quantities::kFlexuralRigidity, Range::positive());
+  fields.number("axial_stiffness", section.axial_stiffness, quantities::kAxialStiffness, Range::positive());
 }
 
 void visitRestCurvature(SceneFields& fields, rod::Section& section)
 {
   const std::string key = "rest_curvature";
   if (!fields.hasMap(key))
-    fields.numbers(key, section.rest_curvature.data(), 2, "1/m");
+    fields.numbers(key, section.rest_curvature.data(), 2, quantities::kWireCurvature);
   else
     fields.map(key,
                [&section](SceneFields& arc)
                {
                  double radius = 0.0;
                  double direction = 0.0;
-                 arc.number("radius", radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
-                 arc.number("direction", direction, "rad", Range::between(-kFullTurn, kFullTurn));
+                 arc.number("radius", radius, quantities::kBendRadius, Range::positive(), Need::kRequired);
+                 arc.number("direction", direction, quantities::kAngle, Range::between(-kFullTurn, kFullTurn));
                  section.rest_curvature = instrument::arcCurvature(radius, direction);
                });
   if (fields.reading() && section.rest_curvature.norm() * section.radius >= 1.0)
-    fields.refuse(key, "exceeds the curvature limit of the wire; must be less than 1/radius in 1/m");
+    fields.reject(key, "exceeds the curvature limit of the wire; must be less than 1/radius in 1/m");
 }
 
 void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
 {
-  fields.number("length", section.length, "m", Range::positiveUpTo(kLongest), Need::kRequired);
-  fields.number("radius", section.radius, "m", Range::positiveUpTo(kThickest), Need::kRequired);
+  fields.number("length", section.length, quantities::kSectionLength, Range::positive(), Need::kRequired);
+  fields.number("radius", section.radius, quantities::kWireRadius, Range::positive(), Need::kRequired);
   if (fields.reading() && section.radius <= inner_radius)
-    fields.refuse("radius", "is not larger than the lumen; must be greater than inner_radius, " +
+    fields.reject("radius", "is not larger than the lumen; must be greater than inner_radius, " +
                                 std::to_string(1e3 * inner_radius) + "e-3 m");
   fields.option("material", material, kMaterials, Need::kRequired);
-  fields.number("density", section.density, "kg/m³", Range::positive(), Need::kRequired);
+  fields.number("density", section.density, quantities::kDensity, Range::positive(), Need::kRequired);
   if (fields.reading())
     readStiffness(fields, section, inner_radius);
   else
   {
-    fields.number("bending_stiffness", section.bending_stiffness, "N·m²", Range::positive());
-    fields.number("torsional_stiffness", section.torsional_stiffness, "N·m²", Range::positive());
-    fields.number("axial_stiffness", section.axial_stiffness, "N", Range::positive());
+    fields.number("bending_stiffness", section.bending_stiffness, quantities::kFlexuralRigidity, Range::positive());
+    fields.number("torsional_stiffness", section.torsional_stiffness, quantities::kFlexuralRigidity, Range::positive());
+    fields.number("axial_stiffness", section.axial_stiffness, quantities::kAxialStiffness, Range::positive());
   }
   visitFriction(fields, section.friction, Need::kOptional);
   visitRestCurvature(fields, section);
@@ -108,18 +105,18 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
   if (straight || semicircle)
     for (const char* key : {"angle", "radius", "straight", "direction"})
       if (fields.has(key) && (straight || std::string(key) == "angle"))
-        fields.refuse(key, "does not apply to a " + shapes[static_cast<std::size_t>(shape)] + " tip; remove it");
+        fields.reject(key, "does not apply to a " + shapes[static_cast<std::size_t>(shape)] + " tip; remove it");
   if (straight)
     return;
   instrument::TipShape tip;
   tip.angle = M_PI;
-  fields.number("radius", tip.radius, "m", Range::positiveUpTo(kLongest), Need::kRequired);
+  fields.number("radius", tip.radius, quantities::kBendRadius, Range::positive(), Need::kRequired);
   if (!semicircle)
-    fields.number("angle", tip.angle, "rad", {0.0, 2.0 * M_PI, true, false}, Need::kRequired);
-  fields.number("straight", tip.straight, "m", Range::nonNegative());
-  fields.number("direction", tip.direction, "rad", Range::between(-kFullTurn, kFullTurn));
+    fields.number("angle", tip.angle, quantities::kAngle, {0.0, 2.0 * M_PI, true, false}, Need::kRequired);
+  fields.number("straight", tip.straight, quantities::kTipLeg, Range::nonNegative());
+  fields.number("direction", tip.direction, quantities::kAngle, Range::between(-kFullTurn, kFullTurn));
   if (tip.length() > instrument.wire.length())
-    fields.refuse("", "the tip is longer than the wire: radius·angle + straight = " + std::to_string(tip.length()) +
+    fields.reject("", "the tip is longer than the wire: radius·angle + straight = " + std::to_string(tip.length()) +
                           " m, wire " + std::to_string(instrument.wire.length()) + " m; shorten the tip");
   try
   {
@@ -127,7 +124,7 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
   }
   catch (const std::invalid_argument& error)
   {
-    fields.refuse("", std::string(error.what()) + "; give either tip or the sections' rest_curvature");
+    fields.reject("", std::string(error.what()) + "; give either tip or the sections' rest_curvature");
   }
 }
 
@@ -141,11 +138,11 @@ void visitMarkers(SceneFields& fields, instrument::Instrument& instrument)
       [&](SceneFields& ring, std::size_t k)
       {
         instrument::Marker& marker = markers[k];
-        ring.number("from_tip", marker.from_tip, "m", Range::nonNegative(), Need::kRequired);
-        ring.number("length", marker.length, "m", Range::positive(), Need::kRequired);
+        ring.number("from_tip", marker.from_tip, quantities::kFromTip, Range::nonNegative(), Need::kRequired);
+        ring.number("length", marker.length, quantities::kMarkerLength, Range::positive(), Need::kRequired);
         ring.option("material", marker.material, kMaterials);
         if (ring.reading() && marker.from_tip + marker.length > instrument.wire.length())
-          ring.refuse("from_tip", "the marker lies beyond the shaft; from_tip + length must be at most its length, " +
+          ring.reject("from_tip", "the marker lies beyond the shaft; from_tip + length must be at most its length, " +
                                       std::to_string(instrument.wire.length()) + " m");
       });
 }
@@ -161,9 +158,9 @@ void visitShaft(SceneFields& fields, instrument::Instrument& instrument)
 {
   const bool solid = instrument.kind == instrument::Kind::kGuidewire;
   if (!solid)
-    fields.number("inner_radius", instrument.inner_radius, "m", Range::positive(), Need::kRequired);
+    fields.number("inner_radius", instrument.inner_radius, quantities::kWireRadius, Range::positive(), Need::kRequired);
   else if (fields.has("inner_radius"))
-    fields.refuse("inner_radius", "a guidewire has no lumen; remove it, or set kind: catheter");
+    fields.reject("inner_radius", "a guidewire has no lumen; remove it, or set kind: catheter");
   auto& wire = instrument.wire;
   fields.list(
       "sections", wire.sections.size(),
@@ -186,7 +183,7 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
 {
   fields.text("name", instrument.name, Need::kRequired);
   if (fields.reading() && !isTopicName(instrument.name))
-    fields.refuse("name", "names topics; must consist of letters, digits and _, with a letter first");
+    fields.reject("name", "names topics; must consist of letters, digits and _, with a letter first");
   fields.option("kind", instrument.kind, kKinds);
   const bool is_stent = instrument.kind == instrument::Kind::kStent;
   const bool is_balloon = instrument.kind == instrument::Kind::kBalloonCatheter;
@@ -195,18 +192,18 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
   if (is_balloon)
     visitBalloon(fields, instrument);
   else if (fields.has("balloon"))
-    fields.refuse("balloon", "does not apply to this kind; remove it, or set kind: balloon_catheter");
+    fields.reject("balloon", "does not apply to this kind; remove it, or set kind: balloon_catheter");
   if (is_stent || (is_balloon && (fields.reading() ? fields.has("stent") : instrument.stent.has_value())))
     visitStent(fields, instrument);
   else if (!is_balloon && fields.has("stent"))
-    fields.refuse("stent", "requires a balloon; set kind: balloon_catheter, or stent");
+    fields.reject("stent", "requires a balloon; set kind: balloon_catheter, or stent");
 }
 
 void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument)
 {
   visitInstrument(fields, instrument);
   if (fields.reading() && instrument.kind == instrument::Kind::kStent)
-    fields.refuse("kind", "a stent has no shaft to drive; name a balloon_catheter that carries it");
+    fields.reject("kind", "a stent has no shaft to drive; name a balloon_catheter that carries it");
 }
 
 }  // namespace endovascular_sim::scene

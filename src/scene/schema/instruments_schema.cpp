@@ -16,12 +16,12 @@ const Range kStackInsertion = {-1.0, std::numeric_limits<double>::max(), false, 
 void visitLayer(SceneFields& fields, DrivenInstrument& driven)
 {
   if (fields.reading() && !fields.has("instrument"))
-    fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
+    fields.reject("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
   fields.map("instrument", [&driven](SceneFields& wire) { visitDrivenInstrument(wire, driven.instrument); });
   fields.map("drive", [&driven](SceneFields& drive)
              { visitDrive(drive, driven.drive, kStackInsertion, driven.instrument.balloon.has_value()); });
-  fields.number("friction", driven.friction, "1", Range::nonNegative());
-  fields.number("fit_load", driven.fit_load, "N/m", Range::nonNegative());
+  fields.number("friction", driven.friction, quantities::kFriction, Range::nonNegative());
+  fields.number("fit_load", driven.fit_load, quantities::kFitLoad, Range::nonNegative());
 }
 
 std::string number(std::size_t k)
@@ -37,7 +37,7 @@ void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, 
   if (in.drive.insertionAt(0.0) < -scene.solver.guide_length ||
       out.drive.insertionAt(0.0) < -scene.solver.guide_length || instrument::fitsInside(in.instrument, out.instrument))
     return;
-  fields.refuse(
+  fields.reject(
       number(outer) + ".drive.initial_insertion",
       "'" + in.instrument.name + "' does not fit through '" + out.instrument.name +
           "', so only one of the two can be inside; list instruments from the inside out, and start the other "
@@ -53,7 +53,7 @@ void visitInstruments(SceneFields& fields, Scene& scene)
     scene.instruments.resize(1);
     DrivenInstrument& only = scene.instruments.front();
     if (fields.reading() && !fields.has("instrument"))
-      fields.refuse("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
+      fields.reject("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
     fields.map("instrument", [&only](SceneFields& wire) { visitDrivenInstrument(wire, only.instrument); });
     fields.map("drive", [&only](SceneFields& drive)
                { visitDrive(drive, only.drive, Range::nonNegative(), only.instrument.balloon.has_value()); });
@@ -61,13 +61,13 @@ void visitInstruments(SceneFields& fields, Scene& scene)
   }
   for (const char* key : {"instrument", "drive"})
     if (fields.has(key))
-      fields.refuse(key,
+      fields.reject(key,
                     "conflicts with instruments; list all of them there (instruments.N.instrument, counted from 0)");
   fields.list(
       "instruments", scene.instruments.size(), [&scene](std::size_t size) { scene.instruments.resize(size); },
       [&scene](SceneFields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });
   if (fields.reading() && scene.instruments.empty())
-    fields.refuse("instruments", "is empty; list at least one, from the inside out");
+    fields.reject("instruments", "is empty; list at least one, from the inside out");
 }
 
 std::string drivePath(const Scene& scene, std::size_t k)
@@ -82,30 +82,30 @@ void checkStack(const SceneFields& fields, const Scene& scene)
   {
     const DrivenInstrument& driven = scene.instruments[k];
     if (driven.drive.source == DriveSource::kNone)
-      fields.refuse(number(k) + ".drive.source",
+      fields.reject(number(k) + ".drive.source",
                     "missing; each of several instruments needs a drive: script, topic, device or procedure");
     devices += driven.drive.source == DriveSource::kDevice;
     if (devices > 1)
-      fields.refuse(number(k) + ".drive.source", "is device for a second instrument; a device drives one instrument");
+      fields.reject(number(k) + ".drive.source", "is device for a second instrument; a device drives one instrument");
     for (std::size_t inner = 0; inner < k; ++inner)
     {
       if (scene.instruments[inner].instrument.name == driven.instrument.name)
-        fields.refuse(number(k) + ".instrument.name",
+        fields.reject(number(k) + ".instrument.name",
                       "is not unique; give each instrument its own name, which names topics");
       checkFit(fields, scene, inner, k);
     }
   }
   if (!scene.solver.traits().stack)
-    fields.refuse("solver.scheme", "'" + scene.solver.scheme + "' simulates one instrument; use kkt for several");
+    fields.reject("solver.scheme", "'" + scene.solver.scheme + "' simulates one instrument; use kkt for several");
   if (std::none_of(scene.instruments.begin(), scene.instruments.end(),
                    [](const DrivenInstrument& driven) { return driven.drive.insertionAt(0.0) >= 0.0; }))
-    fields.refuse("instruments.0.drive.initial_insertion",
+    fields.reject("instruments.0.drive.initial_insertion",
                   "leaves no instrument in the introducer; start one at 0 or more");
   if (scene.entry.valve_friction > 0.0)
-    fields.refuse("entry.valve_friction",
+    fields.reject("entry.valve_friction",
                   "applies to a single instrument; remove it, or set the friction between the instruments");
   if (!scene.introducer)
-    fields.refuse("introducer", "is required for several instruments; set introducer: true");
+    fields.reject("introducer", "is required for several instruments; set introducer: true");
 }
 
 }  // namespace endovascular_sim::scene

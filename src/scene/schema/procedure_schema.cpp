@@ -21,18 +21,18 @@ void visitGoal(SceneFields& fields, GoalScene& goal)
   if (fields.reading() || !goal.balloon_in.empty())
     fields.text("balloon_in", goal.balloon_in);
   if (fields.reading() || !goal.tip_in.empty() || !goal.balloon_in.empty())
-    fields.optionalNumber("beyond", goal.beyond, "m", Range::any());
+    fields.optionalNumber("beyond", goal.beyond, quantities::kInsertion, Range::any());
   fields.boolean("outside", goal.outside);
-  fields.optionalNumber("insertion", goal.insertion, "m", Range::any());
-  fields.optionalNumber("by", goal.by, "m", Range::positive());
-  fields.optionalNumber("turned", goal.turned, "rad", Range::any());
-  fields.number("held", goal.held, "s", Range::nonNegative());
+  fields.optionalNumber("insertion", goal.insertion, quantities::kInsertion, Range::any());
+  fields.optionalNumber("by", goal.by, quantities::kInsertion, Range::positive());
+  fields.optionalNumber("turned", goal.turned, quantities::kRotation, Range::any());
+  fields.number("held", goal.held, quantities::kWait, Range::nonNegative());
   if (!fields.reading())
     return;
   if (!goal.tip_in.empty() && !goal.balloon_in.empty())
-    fields.refuse("balloon_in", "conflicts with tip_in; keep one of the two");
+    fields.reject("balloon_in", "conflicts with tip_in; keep one of the two");
   if (fields.has("beyond") && goal.tip_in.empty() && goal.balloon_in.empty())
-    fields.refuse("beyond", "requires a branch; give tip_in or balloon_in, or remove it");
+    fields.reject("beyond", "requires a branch; give tip_in or balloon_in, or remove it");
 }
 
 bool isEmpty(const GoalScene& goal)
@@ -44,14 +44,14 @@ bool isEmpty(const GoalScene& goal)
 void visitRetry(SceneFields& fields, StepScene& step)
 {
   RetryScene& retry = step.retry;
-  fields.number("back", retry.back, "m", Range::nonNegative());
-  fields.number("turn", retry.turn, "rad", Range::any());
+  fields.number("back", retry.back, quantities::kInsertion, Range::nonNegative());
+  fields.number("turn", retry.turn, quantities::kRotation, Range::any());
   fields.integer("times", retry.times, 0, 1000);
-  fields.optionalNumber("deepest", retry.deepest, "m", Range::positive());
+  fields.optionalNumber("deepest", retry.deepest, quantities::kInsertion, Range::positive());
   if (fields.has("deepest") && step.action != StepAction::kAdvance)
-    fields.refuse("deepest", "applies to advance only; remove it");
+    fields.reject("deepest", "applies to advance only; remove it");
   if (fields.has("deepest") && retry.deepest <= step.until.insertion)
-    fields.refuse("deepest", "is not deeper than until.insertion; give a larger value, or remove it");
+    fields.reject("deepest", "is not deeper than until.insertion; give a larger value, or remove it");
 }
 
 void visitSupport(SceneFields& fields, SupportScene& support)
@@ -73,17 +73,17 @@ void visitAction(SceneFields& fields, StepScene& step)
       if (!fields.has(kActions[k]))
         continue;
       if (found >= 0)
-        fields.refuse(kActions[k], "conflicts with " + kActions[static_cast<std::size_t>(found)] +
+        fields.reject(kActions[k], "conflicts with " + kActions[static_cast<std::size_t>(found)] +
                                        "; a step has one action, split it into two");
       found = static_cast<int>(k);
     }
     if (found < 0)
-      fields.refuse("", "has no action; give one of advance, withdraw, rotate, inflate, exchange, wait");
+      fields.reject("", "has no action; give one of advance, withdraw, rotate, inflate, exchange, wait");
     step.action = static_cast<StepAction>(found);
   }
   const std::string& key = kActions[static_cast<std::size_t>(step.action)];
   if (step.action == StepAction::kWait)
-    fields.number(key, step.duration, "s", Range::nonNegative(), Need::kRequired);
+    fields.number(key, step.duration, quantities::kWait, Range::nonNegative(), Need::kRequired);
   else
     fields.text(key, step.instrument, Need::kRequired);
 }
@@ -97,21 +97,22 @@ void visitStep(SceneFields& fields, StepScene& step)
     return;
   if (step.action == StepAction::kInflate)
   {
-    fields.number("pressure", step.pressure, "Pa", {-101325.0, std::numeric_limits<double>::max()}, Need::kRequired);
-    fields.number("for", step.duration, "s", Range::nonNegative(), Need::kRequired);
+    fields.number("pressure", step.pressure, quantities::kPressure, {-101325.0, std::numeric_limits<double>::max()},
+                  Need::kRequired);
+    fields.number("for", step.duration, quantities::kWait, Range::nonNegative(), Need::kRequired);
     return;
   }
   if (step.action == StepAction::kExchange)
     fields.text("for", step.replacement, Need::kRequired);
   fields.map("until", [&step](SceneFields& goal) { visitGoal(goal, step.until); });
   if (fields.reading() && isEmpty(step.until))
-    fields.refuse("until", "missing; give the goal of the step, e.g. until: {tip_in: aortic_arch}");
+    fields.reject("until", "missing; give the goal of the step, e.g. until: {tip_in: aortic_arch}");
   if (step.action != StepAction::kRotate)
-    fields.number("speed", step.speed, "m/s", Range::positive());
+    fields.number("speed", step.speed, quantities::kSpeed, Range::positive());
   else if (fields.reading())
     step.turn_speed = 1.0;
-  fields.number("turn_speed", step.turn_speed, "rad/s", Range::any());
-  fields.number("time_limit", step.time_limit, "s", Range::positive());
+  fields.number("turn_speed", step.turn_speed, quantities::kAngularSpeed, Range::any());
+  fields.number("time_limit", step.time_limit, quantities::kDuration, Range::positive());
   fields.boolean("any_branch", step.any_branch);
   fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });
   if (fields.reading() ? fields.has("support") : !step.support.instrument.empty())
@@ -120,15 +121,15 @@ void visitStep(SceneFields& fields, StepScene& step)
 
 void visitHand(SceneFields& fields, HandScene& hand)
 {
-  fields.number("max_speed", hand.max_speed, "m/s", Range::positive());
-  fields.number("max_turn", hand.max_turn, "rad/s", Range::positive());
-  fields.number("acceleration", hand.acceleration, "m/s²", Range::positive());
-  fields.number("turn_acceleration", hand.turn_acceleration, "rad/s²", Range::positive());
-  fields.number("reaction", hand.reaction, "s", Range::positive());
-  fields.number("push_force", hand.push_force, "N", Range::positive());
-  fields.number("pull_force", hand.pull_force, "N", Range::positive());
-  fields.number("patience", hand.patience, "s", Range::positive());
-  fields.number("speed_scale", hand.speed_scale, "1", Range::positive());
+  fields.number("max_speed", hand.max_speed, quantities::kSpeed, Range::positive());
+  fields.number("max_turn", hand.max_turn, quantities::kAngularSpeed, Range::positive());
+  fields.number("acceleration", hand.acceleration, quantities::kAcceleration, Range::positive());
+  fields.number("turn_acceleration", hand.turn_acceleration, quantities::kAngularAcceleration, Range::positive());
+  fields.number("reaction", hand.reaction, quantities::kReaction, Range::positive());
+  fields.number("push_force", hand.push_force, quantities::kHandForce, Range::positive());
+  fields.number("pull_force", hand.pull_force, quantities::kHandForce, Range::positive());
+  fields.number("patience", hand.patience, quantities::kWait, Range::positive());
+  fields.number("speed_scale", hand.speed_scale, quantities::kSpeedScale, Range::positive());
 }
 
 /** Instrument of this name if the procedure drives it, otherwise null. */
@@ -148,17 +149,17 @@ void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
     return;
   const std::string path = "procedure.steps." + std::to_string(k) + ".support.";
   if (steps[k].action != StepAction::kAdvance)
-    fields.refuse(path + "instrument", "applies to advance only; remove it");
+    fields.reject(path + "instrument", "applies to advance only; remove it");
   // Instruments are listed from the inside out, so the supporting one must come later.
   const auto named = [](const std::string& name)
   { return [&name](const DrivenInstrument& driven) { return driven.instrument.name == name; }; };
   const auto inner = std::find_if(scene.instruments.begin(), scene.instruments.end(), named(steps[k].instrument));
   if (std::none_of(inner + 1, scene.instruments.end(), named(support.instrument)))
-    fields.refuse(path + "instrument", "'" + support.instrument + "' is not outside '" + steps[k].instrument +
+    fields.reject(path + "instrument", "'" + support.instrument + "' is not outside '" + steps[k].instrument +
                                            "'; name an instrument that the scene lists after it");
   const auto end = steps.begin() + static_cast<std::ptrdiff_t>(k + 1);
   if (std::none_of(steps.begin(), end, [&support](const StepScene& step) { return step.phase == support.again_from; }))
-    fields.refuse(path + "again_from",
+    fields.reject(path + "again_from",
                   "no step so far has the phase '" + support.again_from + "'; name an earlier phase");
 }
 
@@ -175,7 +176,7 @@ void visitProcedure(SceneFields& fields, ProcedureScene& procedure)
         [&procedure](SceneFields& branch, std::size_t k)
         {
           branch.text("name", procedure.branches[k].name, Need::kRequired);
-          branch.vector3("at", procedure.branches[k].at, "m", Need::kRequired);
+          branch.vector3("at", procedure.branches[k].at, quantities::kPosition, Need::kRequired);
         });
   fields.list(
       "steps", procedure.steps.size(), [&procedure](std::size_t size) { procedure.steps.resize(size); },
@@ -186,12 +187,12 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kProcedure && !scene.procedure)
-      fields.refuse(drivePath(scene, k) + "drive.source",
+      fields.reject(drivePath(scene, k) + "drive.source",
                     "is procedure, but the scene has no procedure; give procedure: FILE, or another source");
   if (!scene.procedure)
     return;
   if (!scene.vessel)
-    fields.refuse("procedure", "requires a vessel, because its goals are branches");
+    fields.reject("procedure", "requires a vessel, because its goals are branches");
   for (std::size_t k = 0; k < scene.procedure->steps.size(); ++k)
   {
     const StepScene& step = scene.procedure->steps[k];
@@ -200,11 +201,11 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
         "' is not driven by the procedure; name an instrument of the scene and set its "
         "drive.source: procedure";
     if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
-      fields.refuse(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
+      fields.reject(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
     if (step.action == StepAction::kInflate && !scripted(scene, step.instrument)->instrument.balloon)
-      fields.refuse(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
+      fields.reject(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
     if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
-      fields.refuse(path + "for", "'" + step.replacement + remedy);
+      fields.reject(path + "for", "'" + step.replacement + remedy);
     checkSupport(fields, scene, k);
   }
 }

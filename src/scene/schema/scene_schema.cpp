@@ -25,35 +25,35 @@ void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_len
   const bool adaptive = sampling.kind == SamplingKind::kAdaptive;
   for (const char* key : {"min_edge", "max_edge", "turn_per_edge", "min_age"})
     if (fields.reading() && !adaptive && fields.has(key))
-      fields.refuse(key, "belongs to adaptive sampling; set kind: adaptive, or remove it");
+      fields.reject(key, "belongs to adaptive sampling; set kind: adaptive, or remove it");
   if (!adaptive)
   {
     fields.integer("nodes", sampling.nodes, 3, 100000);
     return;
   }
   if (fields.reading() && fields.has("nodes"))
-    fields.refuse("nodes", "belongs to uniform sampling; remove it, or set kind: uniform");
-  fields.number("min_edge", sampling.min_edge, "m", Range::positive());
-  fields.number("max_edge", sampling.max_edge, "m", Range::positive());
-  fields.number("turn_per_edge", sampling.turn_per_edge, "rad", {0.0, 1.0, true, false});
-  fields.number("min_age", sampling.min_age, "s", Range::nonNegative());
+    fields.reject("nodes", "belongs to uniform sampling; remove it, or set kind: uniform");
+  fields.number("min_edge", sampling.min_edge, quantities::kEdge, Range::positive());
+  fields.number("max_edge", sampling.max_edge, quantities::kEdge, Range::positive());
+  fields.number("turn_per_edge", sampling.turn_per_edge, quantities::kTurnPerEdge, {0.0, 1.0, true, false});
+  fields.number("min_age", sampling.min_age, quantities::kReaction, Range::nonNegative());
   if (!fields.reading())
     return;
   if (sampling.max_edge < sampling.min_edge)
-    fields.refuse("max_edge", "is less than min_edge");
+    fields.reject("max_edge", "is less than min_edge");
   if (sampling.min_edge < kShortestEdge * wire_length)
-    fields.refuse("min_edge", "gives more than 100000 nodes; must be at least " +
+    fields.reject("min_edge", "gives more than 100000 nodes; must be at least " +
                                   std::to_string(kShortestEdge * wire_length) + " m");
   if (sampling.max_edge > 0.5 * wire_length)
-    fields.refuse("max_edge",
+    fields.reject("max_edge",
                   "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) + " m");
 }
 
 void visitRecord(SceneFields& fields, RecordScene& record)
 {
-  fields.number("pose_rate", record.pose_rate, "Hz", Range::positive());
-  fields.number("trajectory_rate", record.trajectory_rate, "Hz", Range::positive());
-  fields.number("wall_force_threshold", record.wall_force_threshold, "N", Range::nonNegative());
+  fields.number("pose_rate", record.pose_rate, quantities::kRate, Range::positive());
+  fields.number("trajectory_rate", record.trajectory_rate, quantities::kRate, Range::positive());
+  fields.number("wall_force_threshold", record.wall_force_threshold, quantities::kWallForce, Range::nonNegative());
 }
 
 /** Rejects a drive that inserts a wire beyond its length, or that pulls a single wire out of the introducer.
@@ -66,10 +66,10 @@ void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, c
   const double length = driven.instrument.wire.length();
   const std::string key = path + (by_speed ? "drive.travel" : "drive.insertion");
   if (drive.initial_insertion + high > length + kSameLength)
-    fields.refuse(key, "inserts the wire by " + std::to_string(drive.initial_insertion + high) + " m, but it is " +
+    fields.reject(key, "inserts the wire by " + std::to_string(drive.initial_insertion + high) + " m, but it is " +
                            std::to_string(length) + " m long; must be at most the wire's length");
   if (path.empty() && drive.initial_insertion + low < -kSameLength)
-    fields.refuse(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
+    fields.reject(key, "pulls the wire out of its introducer; the insertion must stay zero or positive");
 }
 
 /** Rejects an insertion in a bench scene. Without an introducer, the drive can only rotate the proximal clamp. */
@@ -77,10 +77,10 @@ void checkBenchDrive(const SceneFields& fields, const Scene& scene)
 {
   const DriveScene& drive = scene.instruments.front().drive;
   if (!std::isnan(drive.speed) || !drive.insertion.isTrivial() || drive.initial_insertion != 0.0)
-    fields.refuse(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
+    fields.reject(std::isnan(drive.speed) ? "drive.insertion" : "drive.speed",
                   "nothing can be inserted without an introducer; set introducer: true, or drive the rotation only");
   if (drive.source != DriveSource::kNone && scene.proximal_end != rod::EndHold::kClamped)
-    fields.refuse("proximal_end", "is not clamped, so that the drive has no effect; set proximal_end: clamped");
+    fields.reject("proximal_end", "is not clamped, so that the drive has no effect; set proximal_end: clamped");
 }
 
 /** Rejects edge lengths that do not suit the introducer's guide.
@@ -96,20 +96,20 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
   {
     const auto fewest = static_cast<int>(std::ceil(scene.longest() / longest)) + 1;
     if (scene.sampling.nodes < fewest)
-      fields.refuse("sampling.nodes",
+      fields.reject("sampling.nodes",
                     "makes edges too long for the introducer's guide, which must contain two; must be "
                     "at least " +
                         std::to_string(fewest));
     return;
   }
   if (scene.sampling.max_edge > longest)
-    fields.refuse("sampling.max_edge",
+    fields.reject("sampling.max_edge",
                   "is too long for the introducer's guide, which must contain two edges; must be at "
                   "most half of solver.guide_length, " +
                       std::to_string(longest) + " m");
   const double shortest = kTravelsPerEdge * scene.solver.max_travel_per_substep;
   if (scene.sampling.min_edge < shortest - kSameLength)
-    fields.refuse("sampling.min_edge",
+    fields.reject("sampling.min_edge",
                   "is too short for the travel per sub-step; must be at least 4 times "
                   "solver.max_travel_per_substep, " +
                       std::to_string(shortest) + " m");
@@ -120,18 +120,18 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   checkEdges(fields, scene);
   const bool held_twice = scene.introducer && scene.proximal_end != rod::EndHold::kFree;
   if (held_twice)
-    fields.refuse("proximal_end",
+    fields.reject("proximal_end",
                   "the introducer holds the wire already; set introducer: false, or proximal_end: free");
   if (!scene.introducer && scene.entry.valve_friction > 0.0)
-    fields.refuse("entry.valve_friction", "requires an introducer; set introducer: true, or 0");
+    fields.reject("entry.valve_friction", "requires an introducer; set introducer: true, or 0");
   for (std::size_t k = 0; k < scene.instruments.size() && scene.introducer; ++k)
     checkInsertion(fields, scene.instruments[k], drivePath(scene, k));
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (!scene.instruments[k].drive.pressure.isTrivial() && !scene.solver.traits().balloons)
-      fields.refuse(drivePath(scene, k) + "drive.pressure",
+      fields.reject(drivePath(scene, k) + "drive.pressure",
                     "scheme '" + scene.solver.scheme + "' simulates no balloon; set solver.scheme: kkt");
   if (scene.sampling.kind == SamplingKind::kAdaptive && !scene.solver.traits().adaptive)
-    fields.refuse("sampling.kind", "scheme '" + scene.solver.scheme +
+    fields.reject("sampling.kind", "scheme '" + scene.solver.scheme +
                                        "' does not support adaptive sampling; set sampling.kind: uniform");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
@@ -141,39 +141,40 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   checkEnds(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
-      fields.refuse(drivePath(scene, k) + "drive.source",
+      fields.reject(drivePath(scene, k) + "drive.source",
                     "is device, but haptic_device is not true; set haptic_device: true");
   if (scene.duration < scene.solver.time_step)
-    fields.refuse("duration", "is shorter than one step; must be at least solver.time_step");
+    fields.reject("duration", "is shorter than one step; must be at least solver.time_step");
   if (!scene.vessel || !scene.vessel->tube)
     return;
   for (const DrivenInstrument& driven : scene.instruments)
     for (const rod::Section& section : driven.instrument.wire.sections)
       if (section.radius >= scene.vessel->tube->radius)
-        fields.refuse("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
+        fields.reject("vessel.tube.radius", "the tube is narrower than the wire; must be greater than " +
                                                 std::to_string(section.radius) + " m");
 }
 
 }  // namespace
 
-void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit)
+void visitProfile(SceneFields& fields, DriveProfile& profile, const Quantity& quantity)
 {
   std::vector<std::vector<double>> rows;
   for (const DriveProfile::Point& point : profile.points)
     rows.push_back({point.time, point.value});
-  fields.rows("points", rows, 2, "s and " + unit);
+  fields.rows("points", rows, {quantities::kProfileTime, quantity});
   profile.points.clear();
   for (const std::vector<double>& row : rows)
   {
     if (fields.reading() && !profile.points.empty() && row[0] <= profile.points.back().time)
-      fields.refuse("points", "times must be increasing; each row is [time in s, value in " + unit + "]");
+      fields.reject("points",
+                    "times must be increasing; each row is [time in s, value in " + std::string(quantity.unit) + "]");
     profile.points.push_back({row[0], row[1]});
   }
-  fields.number("amplitude", profile.amplitude, unit, Range::any());
-  fields.number("frequency", profile.frequency, "Hz", Range::nonNegative());
-  fields.number("phase", profile.phase, "rad", Range::any());
+  fields.number("amplitude", profile.amplitude, quantity, Range::any());
+  fields.number("frequency", profile.frequency, quantities::kFrequency, Range::nonNegative());
+  fields.number("phase", profile.phase, quantities::kAngle, Range::any());
   if (fields.reading() && profile.amplitude != 0.0 && !fields.has("frequency"))
-    fields.refuse("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
+    fields.reject("frequency", "missing; a sine with an amplitude needs its frequency in Hz");
 }
 
 std::pair<double, double> bounds(const DriveProfile& profile)
@@ -195,9 +196,9 @@ namespace
 /** Schema of the pressure at a balloon's inflator. */
 void visitPressure(SceneFields& fields, DriveProfile& pressure)
 {
-  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, "Pa"); });
+  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, quantities::kPressure); });
   if (fields.reading() && bounds(pressure).first < -kAtmosphere)
-    fields.refuse("pressure", "is less than a vacuum; must be at least -101325 Pa");
+    fields.reject("pressure", "is less than a vacuum; must be at least -101325 Pa");
 }
 
 }  // namespace
@@ -205,38 +206,40 @@ void visitPressure(SceneFields& fields, DriveProfile& pressure)
 void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
 {
   fields.option("source", drive.source, kDriveSources);
-  fields.optionalNumber("speed", drive.speed, "m/s", Range::nonNegative());
+  fields.optionalNumber("speed", drive.speed, quantities::kSpeed, Range::nonNegative());
   const bool by_speed = !std::isnan(drive.speed);
   if (by_speed)
-    fields.number("travel", drive.travel, "m", Range::nonNegative(), Need::kRequired);
+    fields.number("travel", drive.travel, quantities::kInsertion, Range::nonNegative(), Need::kRequired);
   else if (fields.has("travel"))
-    fields.refuse("travel", "requires speed; give speed in m/s, or remove it");
-  fields.number("initial_insertion", drive.initial_insertion, "m", initial_insertion);
-  fields.number("initial_rotation", drive.initial_rotation, "rad", Range::any());
+    fields.reject("travel", "requires speed; give speed in m/s, or remove it");
+  fields.number("initial_insertion", drive.initial_insertion, quantities::kInsertion, initial_insertion);
+  fields.number("initial_rotation", drive.initial_rotation, quantities::kRotation, Range::any());
   if (fields.reading() && by_speed && fields.has("insertion"))
-    fields.refuse("insertion",
+    fields.reject("insertion",
                   "conflicts with speed; keep one of the two (null removes a key: --set drive.insertion=null)");
   if (!by_speed)
-    fields.map("insertion", [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, "m"); });
-  fields.map("rotation", [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, "rad"); });
+    fields.map("insertion",
+               [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, quantities::kInsertion); });
+  fields.map("rotation",
+             [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, quantities::kRotation); });
   if (balloon)
     visitPressure(fields, drive.pressure);
   else if (fields.has("pressure"))
-    fields.refuse("pressure", "requires a balloon; use a balloon_catheter, or remove it");
-  fields.number("force_limit", drive.force_limit, "N", Range::positive());
-  fields.number("torque_limit", drive.torque_limit, "N·m", Range::positive());
+    fields.reject("pressure", "requires a balloon; use a balloon_catheter, or remove it");
+  fields.number("force_limit", drive.force_limit, quantities::kForceLimit, Range::positive());
+  fields.number("torque_limit", drive.torque_limit, quantities::kTorqueLimit, Range::positive());
   const bool moves =
       by_speed || !drive.insertion.isTrivial() || !drive.rotation.isTrivial() || !drive.pressure.isTrivial();
   if (fields.reading() && drive.source == DriveSource::kNone && moves)
-    fields.refuse("source", "is none, but a motion is given; set source: script");
+    fields.reject("source", "is none, but a motion is given; set source: script");
 }
 
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
 {
-  fields.vector3("gravity", loads.gravity, "m/s²");
-  fields.number("fluid_density", loads.fluid_density, "kg/m³", Range::nonNegative());
-  fields.number("drag_coefficient", loads.drag_coefficient, "1", Range::nonNegative());
-  fields.number("damping", loads.damping, "1/s", Range::nonNegative());
+  fields.vector3("gravity", loads.gravity, quantities::kGravity);
+  fields.number("fluid_density", loads.fluid_density, quantities::kFluidDensity, Range::nonNegative());
+  fields.number("drag_coefficient", loads.drag_coefficient, quantities::kDrag, Range::nonNegative());
+  fields.number("damping", loads.damping, quantities::kMassDamping, Range::nonNegative());
   fields.list(
       "point_loads", loads.point_loads.size(), [&loads](std::size_t size) { loads.point_loads.resize(size); },
       [&loads, wire_length](SceneFields& load_fields, std::size_t k)
@@ -244,17 +247,17 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
         PointLoad& load = loads.point_loads[k];
         if (load_fields.reading())
           load.position = wire_length;
-        load_fields.number("position", load.position, "m", Range::nonNegative());
-        load_fields.vector3("force", load.force, "N");
-        load_fields.number("torque", load.torque, "N·m", Range::any());
-        load_fields.number("ramp_time", load.ramp_time, "s", Range::nonNegative());
+        load_fields.number("position", load.position, quantities::kLoadPosition, Range::nonNegative());
+        load_fields.vector3("force", load.force, quantities::kPointForce);
+        load_fields.number("torque", load.torque, quantities::kPointTorque, Range::any());
+        load_fields.number("ramp_time", load.ramp_time, quantities::kDuration, Range::nonNegative());
         if (!load_fields.reading())
           return;
         if (load.position > wire_length + kSameLength)
-          load_fields.refuse("position", "lies beyond the tip; must be at most the wire's length, " +
+          load_fields.reject("position", "lies beyond the tip; must be at most the wire's length, " +
                                              std::to_string(wire_length) + " m");
         if (load.torque != 0.0 && load.position < wire_length - kSameLength)
-          load_fields.refuse("torque", "acts at the tip only; remove position, or torque");
+          load_fields.reject("torque", "acts at the tip only; remove position, or torque");
       });
 }
 
@@ -267,37 +270,38 @@ void visitSolver(SceneFields& fields, SolverScene& solver)
   fields.choice("scheme", scheme, names);
   solver.scheme = names.at(static_cast<std::size_t>(scheme));
   fields.option("linear_solver", solver.stepper.linear_solver, kLinearSolvers);
-  fields.number("time_step", solver.time_step, "s", {0.0, 0.1, true, false});
+  fields.number("time_step", solver.time_step, quantities::kTimeStep, {0.0, 0.1, true, false});
   fields.integer("max_newton", solver.stepper.max_iterations, 1, 1000);
-  fields.number("strain_tolerance", solver.stepper.strain_tolerance, "1", Range::positive());
-  fields.number("contact_stiffness", solver.stepper.contact_stiffness, "N/m", Range::positive());
-  fields.number("contact_margin", solver.stepper.contact_margin, "m", Range::positive());
-  fields.number("max_travel_per_substep", solver.max_travel_per_substep, "m", Range::positive());
-  fields.number("guide_length", solver.guide_length, "m", Range::nonNegative());
+  fields.number("strain_tolerance", solver.stepper.strain_tolerance, quantities::kStrain, Range::positive());
+  fields.number("contact_stiffness", solver.stepper.contact_stiffness, quantities::kContactStiffness,
+                Range::positive());
+  fields.number("contact_margin", solver.stepper.contact_margin, quantities::kMargin, Range::positive());
+  fields.number("max_travel_per_substep", solver.max_travel_per_substep, quantities::kTravel, Range::positive());
+  fields.number("guide_length", solver.guide_length, quantities::kGuideLength, Range::nonNegative());
 }
 
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
 {
   const Range turn = Range::between(-M_PI, M_PI);
-  fields.number("rate", fluoroscopy.rate, "Hz", {0.0, 60.0, true, false});
+  fields.number("rate", fluoroscopy.rate, quantities::kFrameRate, {0.0, 60.0, true, false});
   fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
-  fields.number("primary_angle", fluoroscopy.primary_angle, "rad", turn);
-  fields.number("secondary_angle", fluoroscopy.secondary_angle, "rad", turn);
-  fields.number("source_to_detector", fluoroscopy.source_to_detector, "m", Range::positive());
-  fields.number("source_to_patient", fluoroscopy.source_to_patient, "m", Range::positive());
+  fields.number("primary_angle", fluoroscopy.primary_angle, quantities::kImagingAngle, turn);
+  fields.number("secondary_angle", fluoroscopy.secondary_angle, quantities::kImagingAngle, turn);
+  fields.number("source_to_detector", fluoroscopy.source_to_detector, quantities::kSourceToDetector, Range::positive());
+  fields.number("source_to_patient", fluoroscopy.source_to_patient, quantities::kSourceToPatient, Range::positive());
   if (fields.reading() && fluoroscopy.source_to_patient >= fluoroscopy.source_to_detector)
-    fields.refuse("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
-  fields.number("detector_width", fluoroscopy.detector_width, "m", Range::positive());
+    fields.reject("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
+  fields.number("detector_width", fluoroscopy.detector_width, quantities::kDetectorWidth, Range::positive());
   if (fields.reading() ? fields.has("isocentre") : fluoroscopy.isocentre.has_value())
   {
     if (!fluoroscopy.isocentre)
       fluoroscopy.isocentre = Eigen::Vector3d::Zero();
-    fields.vector3("isocentre", *fluoroscopy.isocentre, "m");
+    fields.vector3("isocentre", *fluoroscopy.isocentre, quantities::kPosition);
   }
   // The limits are those of the attenuation tables.
-  fields.number("energy", fluoroscopy.energy, "keV", Range::between(30.0, 100.0));
-  fields.number("iodine", fluoroscopy.iodine, "mgI/ml", Range::between(0.0, 500.0));
-  fields.number("tissue_thickness", fluoroscopy.tissue_thickness, "m", Range::nonNegative());
+  fields.number("energy", fluoroscopy.energy, quantities::kPhotonEnergy, Range::between(30.0, 100.0));
+  fields.number("iodine", fluoroscopy.iodine, quantities::kIodine, Range::between(0.0, 500.0));
+  fields.number("tissue_thickness", fluoroscopy.tissue_thickness, quantities::kTissue, Range::nonNegative());
   fields.boolean("follow_tip", fluoroscopy.follow_tip);
 }
 
@@ -305,7 +309,7 @@ void visitScene(SceneFields& fields, Scene& scene)
 {
   fields.text("name", scene.name);
   fields.bigInteger("seed", scene.seed);
-  fields.number("duration", scene.duration, "s", Range::positive());
+  fields.number("duration", scene.duration, quantities::kDuration, Range::positive());
   if (fields.reading() ? fields.has("vessel") : scene.vessel.has_value())
   {
     if (!scene.vessel)

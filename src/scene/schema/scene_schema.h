@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "common/quantities.h"
 #include "scene/model/scene.h"
 #include "scene/yaml/fields.h"
 
@@ -36,7 +37,7 @@ void checkStack(const SceneFields& fields, const Scene& scene);
  *  @param initial_insertion valid range of the initial insertion [m]
  *  @param balloon true if the instrument has a balloon that the drive can inflate */
 void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
-void visitProfile(SceneFields& fields, DriveProfile& profile, const std::string& unit);
+void visitProfile(SceneFields& fields, DriveProfile& profile, const Quantity& quantity);
 void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);

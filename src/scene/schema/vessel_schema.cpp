@@ -18,10 +18,10 @@ Eigen::Matrix3d rotationFromBody(SceneFields& fields)
 {
   Eigen::Vector3d head = Eigen::Vector3d::Zero();
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
-  fields.vector3("head", head, "the mesh's axes", Need::kRequired);
-  fields.vector3("left", left, "the mesh's axes", Need::kRequired);
+  fields.vector3("head", head, quantities::kDirection, Need::kRequired);
+  fields.vector3("left", left, quantities::kDirection, Need::kRequired);
   if (head.norm() < 1e-9 || left.norm() < 1e-9 || std::abs(head.normalized().dot(left.normalized())) > 1e-6)
-    fields.refuse("left", "must be a direction at right angles to head, e.g. head: [0, 1, 0] with left: [1, 0, 0]");
+    fields.reject("left", "must be a direction at right angles to head, e.g. head: [0, 1, 0] with left: [1, 0, 0]");
   Eigen::Matrix3d rotation;
   rotation.row(0) = left.normalized();
   rotation.row(2) = head.normalized();
@@ -34,43 +34,44 @@ void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
   if (fields.has("head") || fields.has("left"))
   {
     if (fields.has("rotation"))
-      fields.refuse("rotation", "conflicts with head and left; keep one of the two");
+      fields.reject("rotation", "conflicts with head and left; keep one of the two");
     transform.linear() = rotationFromBody(fields);
     return;
   }
   std::vector<std::vector<double>> rows(3);
   for (int i = 0; i < 3; ++i)
     rows[static_cast<std::size_t>(i)] = {transform(i, 0), transform(i, 1), transform(i, 2)};
-  fields.rows("rotation", rows, 3, "1");
+  fields.rows("rotation", rows,
+              {quantities::kRotationMatrix, quantities::kRotationMatrix, quantities::kRotationMatrix});
   if (!fields.reading())
     return;
   if (rows.size() != 3)
-    fields.refuse("rotation", "expected three rows of three numbers, e.g. [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+    fields.reject("rotation", "expected three rows of three numbers, e.g. [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       transform(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   const Eigen::Matrix3d& r = transform.linear();
   if (!(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
-    fields.refuse("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
+    fields.reject("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
 }
 
 void visitTube(SceneFields& fields, VesselScene::Tube& tube)
 {
-  fields.number("radius", tube.radius, "m", Range::positive(), Need::kRequired);
+  fields.number("radius", tube.radius, quantities::kVesselRadius, Range::positive(), Need::kRequired);
   if (fields.reading())
     tube.facet_length = tube.radius;
-  fields.number("facet_length", tube.facet_length, "m", Range::positive());
+  fields.number("facet_length", tube.facet_length, quantities::kFacetLength, Range::positive());
   fields.integer("facets_around", tube.facets_around, 6, 1024);
   fields.list(
       "pieces", tube.pieces.size(), [&tube](std::size_t size) { tube.pieces.resize(size); },
       [&tube](SceneFields& piece_fields, std::size_t k)
       {
         VesselScene::TubePiece& piece = tube.pieces[k];
-        piece_fields.number("length", piece.length, "m", Range::positive(), Need::kRequired);
-        piece_fields.number("curvature", piece.curvature, "1/m", Range::nonNegative());
-        piece_fields.number("plane_angle", piece.plane_angle, "rad", Range::any());
+        piece_fields.number("length", piece.length, quantities::kVesselLength, Range::positive(), Need::kRequired);
+        piece_fields.number("curvature", piece.curvature, quantities::kVesselCurvature, Range::nonNegative());
+        piece_fields.number("plane_angle", piece.plane_angle, quantities::kAngle, Range::any());
         if (piece_fields.reading() && piece.curvature * tube.radius >= 1.0)
-          piece_fields.refuse("curvature", "exceeds the curvature limit of the tube; must be less than 1/radius");
+          piece_fields.reject("curvature", "exceeds the curvature limit of the tube; must be less than 1/radius");
       },
       Need::kRequired);
 }
@@ -78,11 +79,12 @@ void visitTube(SceneFields& fields, VesselScene::Tube& tube)
 void visitMesh(SceneFields& fields, VesselScene& vessel)
 {
   fields.text("mesh", vessel.mesh);
-  fields.number("unit", vessel.unit, "metres per unit of the mesh file (0.001 for millimetres)", Range::positive(),
-                Need::kRequired);
+  if (fields.reading() && !fields.has("unit"))
+    fields.reject("unit", "missing; give the metres per unit of the mesh file, e.g. 0.001 for millimetres");
+  fields.number("unit", vessel.unit, quantities::kMeshUnit, Range::positive(), Need::kRequired);
   visitRotation(fields, vessel.transform);
   Eigen::Vector3d translation = vessel.transform.translation();
-  fields.vector3("translation", translation, "m");
+  fields.vector3("translation", translation, quantities::kPosition);
   vessel.transform.translation() = translation;
   fields.boolean("repair", vessel.repair);
 }
@@ -96,8 +98,8 @@ void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
       "friction_regions", regions.size(), [&regions](std::size_t size) { regions.resize(size); },
       [&regions](SceneFields& region, std::size_t k)
       {
-        region.vector3("centre", regions[k].centre, "m", Need::kRequired);
-        region.number("radius", regions[k].radius, "m", Range::positive(), Need::kRequired);
+        region.vector3("centre", regions[k].centre, quantities::kPosition, Need::kRequired);
+        region.number("radius", regions[k].radius, quantities::kRegionRadius, Range::positive(), Need::kRequired);
         visitFriction(region, regions[k].friction, Need::kRequired);
       });
 }
@@ -108,18 +110,18 @@ void visitPosition(SceneFields& keys, vessel::Lesion& lesion)
   {
     for (const char* other : {"branch", "from_start", "fraction"})
       if (keys.has(other))
-        keys.refuse(other, "conflicts with at; keep one of the two");
+        keys.reject(other, "conflicts with at; keep one of the two");
     Eigen::Vector3d at = lesion.at.value_or(Eigen::Vector3d::Zero());
-    keys.vector3("at", at, "m", Need::kRequired);
+    keys.vector3("at", at, quantities::kPosition, Need::kRequired);
     lesion.at = at;
     return;
   }
   keys.text("branch", lesion.branch, Need::kRequired);
   if (keys.has("from_start") && keys.has("fraction"))
-    keys.refuse("fraction", "conflicts with from_start; keep one of the two");
-  keys.optionalNumber("from_start", lesion.from_start, "m", Range::nonNegative());
+    keys.reject("fraction", "conflicts with from_start; keep one of the two");
+  keys.optionalNumber("from_start", lesion.from_start, quantities::kVesselLength, Range::nonNegative());
   if (std::isnan(lesion.from_start))
-    keys.number("fraction", lesion.fraction, "1", Range::between(0.0, 1.0));
+    keys.number("fraction", lesion.fraction, quantities::kFraction, Range::between(0.0, 1.0));
 }
 
 void visitLesions(SceneFields& fields, VesselScene& vessel)
@@ -133,34 +135,34 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
       {
         vessel::Lesion& lesion = lesions[k];
         visitPosition(keys, lesion);
-        keys.number("length", lesion.length, "m", Range::positive(), Need::kRequired);
-        keys.number("grade", lesion.grade, "share of the diameter", Range::between(0.0, 0.99), Need::kRequired);
-        keys.number("eccentricity", lesion.eccentricity, "1", Range::between(0.0, 1.0));
-        keys.number("angle", lesion.angle, "rad", Range::any());
+        keys.number("length", lesion.length, quantities::kLesionLength, Range::positive(), Need::kRequired);
+        keys.number("grade", lesion.grade, quantities::kFraction, Range::between(0.0, 0.99), Need::kRequired);
+        keys.number("eccentricity", lesion.eccentricity, quantities::kFraction, Range::between(0.0, 1.0));
+        keys.number("angle", lesion.angle, quantities::kAngle, Range::any());
       });
 }
 
 /** Rejects keys that apply to a mesh file only, with a more specific message than for unknown keys. */
-void refuseMeshKeys(SceneFields& fields)
+void rejectMeshKeys(SceneFields& fields)
 {
   for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair"})
     if (fields.has(key))
-      fields.refuse(key, "applies to a mesh file only; remove it, or give vessel.mesh");
+      fields.reject(key, "applies to a mesh file only; remove it, or give vessel.mesh");
 }
 
 void readDirection(SceneFields& fields, EntryScene& entry)
 {
-  fields.vector3("direction", entry.direction, "1");
+  fields.vector3("direction", entry.direction, quantities::kDirection);
   if (entry.direction.norm() < 1e-9)
-    fields.refuse("direction", "is zero; give a direction into the vessel, e.g. [0, 0, 1]");
+    fields.reject("direction", "is zero; give a direction into the vessel, e.g. [0, 0, 1]");
   // A unit vector is not normalised again, so that the resolved text reads back to the same bits.
   if (std::abs(entry.direction.squaredNorm() - 1.0) > 1e-12)
     entry.direction.normalize();
   // The default of up must not be parallel to the direction.
   entry.up = std::abs(entry.direction.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-  fields.vector3("up", entry.up, "1");
+  fields.vector3("up", entry.up, quantities::kDirection);
   if (entry.up.cross(entry.direction).norm() < 1e-6 * entry.up.norm() || entry.up.norm() < 1e-9)
-    fields.refuse("up", "must not be parallel to direction; give a direction across the wire");
+    fields.reject("up", "must not be parallel to direction; give a direction across the wire");
 }
 
 }  // namespace
@@ -172,13 +174,13 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   const bool is_anatomy = reading ? fields.has("anatomy") : !vessel.anatomy.empty();
   const bool is_tube = reading ? fields.has("tube") : vessel.tube.has_value();
   if (int{is_mesh} + int{is_anatomy} + int{is_tube} != 1)
-    fields.refuse(is_mesh || is_anatomy ? "mesh" : "",
+    fields.reject(is_mesh || is_anatomy ? "mesh" : "",
                   "needs exactly one of mesh, anatomy, tube; e.g. --set vessel.mesh=/path/vessel.stl "
                   "--set vessel.anatomy=null, or vessel: none");
   if (is_mesh)
     visitMesh(fields, vessel);
   else if (reading)
-    refuseMeshKeys(fields);
+    rejectMeshKeys(fields);
   if (is_anatomy)
     fields.text("anatomy", vessel.anatomy);
   if (is_tube)
@@ -188,7 +190,8 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
     fields.map("tube", [&vessel](SceneFields& tube) { visitTube(tube, *vessel.tube); });
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);
-  fields.number("stiffness", vessel.stiffness, "N/m²", {0.0, std::numeric_limits<double>::max(), true, true});
+  fields.number("stiffness", vessel.stiffness, quantities::kWallStiffness,
+                {0.0, std::numeric_limits<double>::max(), true, true});
   visitFriction(fields, vessel.friction, Need::kRequired);
   visitFrictionRegions(fields, vessel);
   visitLesions(fields, vessel);
@@ -203,9 +206,9 @@ void visitFriction(SceneFields& fields, double& friction, Need need)
     friction = kSurfaceFriction[static_cast<std::size_t>(surface)];
   }
   else if (need == Need::kRequired)
-    fields.number("friction", friction, "1", Range::nonNegative(), need);
+    fields.number("friction", friction, quantities::kFriction, Range::nonNegative(), need);
   else
-    fields.optionalNumber("friction", friction, "1", Range::nonNegative());
+    fields.optionalNumber("friction", friction, quantities::kFriction, Range::nonNegative());
 }
 
 void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)
@@ -215,26 +218,26 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
   fields.boolean("nearest_centreline_end", entry.nearest_centreline_end);
   const bool at_end = entry.nearest_centreline_end || !entry.centreline_end.empty();
   if (fields.reading() && entry.nearest_centreline_end && !entry.centreline_end.empty())
-    fields.refuse("centreline_end", "conflicts with nearest_centreline_end; keep one of the two");
+    fields.reject("centreline_end", "conflicts with nearest_centreline_end; keep one of the two");
   if (fields.reading() && at_end && !real_vessel)
-    fields.refuse(entry.nearest_centreline_end ? "nearest_centreline_end" : "centreline_end",
+    fields.reject(entry.nearest_centreline_end ? "nearest_centreline_end" : "centreline_end",
                   "needs a vessel with a centreline (vessel.mesh or vessel.anatomy); give position and direction");
   if (fields.reading() && real_vessel && !at_end && (!fields.has("position") || !fields.has("direction")))
-    fields.refuse(fields.has("position") ? "direction" : "position",
+    fields.reject(fields.has("position") ? "direction" : "position",
                   "missing; give position and direction, or nearest_centreline_end: true, or centreline_end");
   const bool needs_point = real_vessel && entry.nearest_centreline_end;
-  fields.vector3("position", entry.position, "m", needs_point ? Need::kRequired : Need::kOptional);
+  fields.vector3("position", entry.position, quantities::kPosition, needs_point ? Need::kRequired : Need::kOptional);
   if (fields.reading())
     readDirection(fields, entry);
   else
   {
-    fields.vector3("direction", entry.direction, "1");
-    fields.vector3("up", entry.up, "1");
+    fields.vector3("direction", entry.direction, quantities::kDirection);
+    fields.vector3("up", entry.up, quantities::kDirection);
   }
-  fields.number("offset", entry.offset, "m", Range::nonNegative());
+  fields.number("offset", entry.offset, quantities::kVesselLength, Range::nonNegative());
   if (fields.reading() && entry.offset != 0.0 && !at_end)
-    fields.refuse("offset", "applies to a centreline end only; move position instead");
-  fields.number("valve_friction", entry.valve_friction, "N", Range::nonNegative());
+    fields.reject("offset", "applies to a centreline end only; move position instead");
+  fields.number("valve_friction", entry.valve_friction, quantities::kValveFriction, Range::nonNegative());
 }
 
 }  // namespace endovascular_sim::scene

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "common/quantity.h"
+
 namespace endovascular_sim::scene
 {
 
@@ -40,7 +42,7 @@ enum class Need
  *
  *  The schema is written once against this interface, for both reading and writing. Reading throws InputError for a
  *  value that is missing, of the wrong type or out of range. Each key that the schema visits counts as known. Units are
- *  SI and appear in messages only. */
+ *  SI. The quantity of a number gives its unit, and its usual magnitudes for messages about mistakes of unit. */
 class SceneFields
 {
 public:
@@ -54,10 +56,10 @@ public:
   /** True if the value of @p key is a word, i.e. text that begins with a letter. */
   virtual bool hasWord(const std::string& key) = 0;
 
-  virtual void number(const std::string& key, double& value, const std::string& unit, const Range& range,
+  virtual void number(const std::string& key, double& value, const Quantity& quantity, const Range& range,
                       Need need = Need::kOptional) = 0;
   /** Visits a number that may be missing; NaN represents a missing one. */
-  virtual void optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range) = 0;
+  virtual void optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range) = 0;
   virtual void integer(const std::string& key, int& value, int min, int max, Need need = Need::kOptional) = 0;
   virtual void bigInteger(const std::string& key, std::uint64_t& value) = 0;
   virtual void boolean(const std::string& key, bool& value) = 0;
@@ -66,11 +68,11 @@ public:
   virtual void choice(const std::string& key, int& value, const std::vector<std::string>& words,
                       Need need = Need::kOptional) = 0;
   /** Visits a list of @p size numbers, e.g. [0, 0, 1]. */
-  virtual void numbers(const std::string& key, double* values, int size, const std::string& unit,
+  virtual void numbers(const std::string& key, double* values, int size, const Quantity& quantity,
                        Need need = Need::kOptional) = 0;
-  /** Visits a table of rows with @p width numbers each, e.g. [[0, 0], [1, 0.03]]. */
-  virtual void rows(const std::string& key, std::vector<std::vector<double>>& values, int width,
-                    const std::string& unit, Need need = Need::kOptional) = 0;
+  /** Visits a table of rows with one number per column, e.g. [[0, 0], [1, 0.03]]. */
+  virtual void rows(const std::string& key, std::vector<std::vector<double>>& values,
+                    const std::vector<Quantity>& columns, Need need = Need::kOptional) = 0;
 
   using Visit = std::function<void(SceneFields&)>;
   /** Visits a map. A missing map is visited as an empty one, so that its missing required keys are reported. */
@@ -80,11 +82,11 @@ public:
                     const std::function<void(SceneFields&, std::size_t)>& visit, Need need = Need::kOptional) = 0;
 
   /** Throws InputError for @p key, which may be a path below this map; an empty key denotes the map itself. */
-  [[noreturn]] virtual void refuse(const std::string& key, const std::string& remedy) const = 0;
+  [[noreturn]] virtual void reject(const std::string& key, const std::string& remedy) const = 0;
 
-  void vector3(const std::string& key, Eigen::Vector3d& value, const std::string& unit, Need need = Need::kOptional)
+  void vector3(const std::string& key, Eigen::Vector3d& value, const Quantity& quantity, Need need = Need::kOptional)
   {
-    numbers(key, value.data(), 3, unit, need);
+    numbers(key, value.data(), 3, quantity, need);
   }
 
   template <typename Enum>

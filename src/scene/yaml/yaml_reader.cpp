@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "common/error.h"
@@ -13,10 +14,17 @@ namespace endovascular_sim::scene
 namespace
 {
 
-std::string inUnit(const std::string& unit)
+bool isPureNumber(const Quantity& quantity)
 {
-  return unit == "1" ? "" : " in " + unit;
+  return std::string(quantity.unit) == "1";
 }
+
+std::string inUnit(const Quantity& quantity)
+{
+  return isPureNumber(quantity) ? "" : std::string(" in ") + quantity.unit;
+}
+
+const Quantity kCount{"counts", "1", Dimension::kOther, 0.0, 1e300, 0.0, 1e300};
 
 std::string listed(const std::vector<std::string>& words)
 {
@@ -26,15 +34,47 @@ std::string listed(const std::vector<std::string>& words)
   return text;
 }
 
-[[noreturn]] void refuseNode(const SceneNode& node, const std::string& path, const std::string& remedy)
+[[noreturn]] void rejectNode(const SceneNode& node, const std::string& path, const std::string& remedy)
 {
   throw InputError(node.file, path + node.location(), remedy);
 }
 
-double toNumber(const SceneNode& node, const std::string& path, const std::string& unit, const Range& range)
+/** Key path with N in place of list indices. */
+std::string withoutIndices(const std::string& path)
+{
+  std::string result;
+  std::istringstream words(path);
+  for (std::string word; std::getline(words, word, '.');)
+  {
+    const bool is_index = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    result += (result.empty() ? "" : ".") + (is_index ? "N" : word);
+  }
+  return result;
+}
+
+std::string number(double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
+
+/** Values that pass both the validity range and the accepted magnitudes of the quantity. */
+std::string acceptedText(const Quantity& quantity, const Range& range)
+{
+  const std::string infinity = range.infinite ? ", .inf" : "";
+  const double high = std::min(range.max, quantity.highest);
+  if (range.min < 0.0)
+    return number(std::max(range.min, -quantity.highest)) + " to " + number(high) + infinity;
+  const double low = std::max(range.min, quantity.lowest);
+  const bool zero = range.min == 0.0 && !range.open && low > 0.0;
+  return (zero ? "0, " : "") + number(low) + " to " + number(high) + infinity;
+}
+
+double toNumber(const SceneNode& node, const std::string& path, const Quantity& quantity, const Range& range)
 {
   if (node.kind != SceneNode::Kind::kScalar)
-    refuseNode(node, path, "expected one number" + inUnit(unit));
+    rejectNode(node, path, "expected one number" + inUnit(quantity));
   const std::string& text = node.text;
   const bool signed_text = !text.empty() && (text[0] == '+' || text[0] == '-');
   const std::string magnitude = signed_text ? text.substr(1) : text;
@@ -42,7 +82,7 @@ double toNumber(const SceneNode& node, const std::string& path, const std::strin
   if (magnitude == ".inf" || magnitude == ".Inf" || magnitude == ".INF")
     value = std::numeric_limits<double>::infinity();
   else if (magnitude == ".nan" || magnitude == ".NaN" || magnitude == ".NAN")
-    refuseNode(node, path, "is not a number (NaN); expected a finite number" + inUnit(unit));
+    rejectNode(node, path, "is not a number (NaN); expected a finite number" + inUnit(quantity));
   else
   {
     // std::from_chars also accepts "inf" and "nan", which are plain words in YAML.
@@ -51,24 +91,43 @@ double toNumber(const SceneNode& node, const std::string& path, const std::strin
     const char* end = magnitude.data() + magnitude.size();
     const auto result = std::from_chars(magnitude.data(), end, value);
     if (!starts_with_digit || result.ec != std::errc() || result.ptr != end)
-      refuseNode(node, path,
-                 "\"" + text + "\" is not a number; expected a number" + inUnit(unit) +
-                     (unit == "1" ? "" : ", written without the unit"));
+      rejectNode(node, path,
+                 "\"" + text + "\" is not a number; expected a number" + inUnit(quantity) +
+                     (isPureNumber(quantity) ? "" : ", written without the unit"));
   }
   if (signed_text && text[0] == '-')
     value = -value;
   if (!range.contains(value))
-    refuseNode(node, path, "is " + text + "; must be " + range.description() + inUnit(unit));
+  {
+    const std::string question = unitQuestion(quantity, value);
+    rejectNode(node, path,
+               "is " + text + "; must be " + range.description() + inUnit(quantity) +
+                   (question.empty() ? "" : "; " + question));
+  }
   return value;
 }
 
-std::vector<double> toNumbers(const SceneNode& node, const std::string& path, int size, const std::string& unit)
+/** Units of the columns of a table, e.g. " in s and m". */
+std::string inUnits(const std::vector<Quantity>& columns)
 {
-  if (node.kind != SceneNode::Kind::kSequence || node.items.size() != static_cast<std::size_t>(size))
-    refuseNode(node, path, "expected a list of " + std::to_string(size) + " numbers" + inUnit(unit));
+  std::vector<std::string> units;
+  for (const Quantity& column : columns)
+    if (!isPureNumber(column) && std::find(units.begin(), units.end(), column.unit) == units.end())
+      units.emplace_back(column.unit);
+  std::string text;
+  for (const std::string& unit : units)
+    text += (text.empty() ? " in " : " and ") + unit;
+  return text;
+}
+
+/** @param columns quantity of each number */
+std::vector<double> toNumbers(const SceneNode& node, const std::string& path, const std::vector<Quantity>& columns)
+{
+  if (node.kind != SceneNode::Kind::kSequence || node.items.size() != columns.size())
+    rejectNode(node, path, "expected a list of " + std::to_string(columns.size()) + " numbers" + inUnits(columns));
   std::vector<double> values;
   for (std::size_t i = 0; i < node.items.size(); ++i)
-    values.push_back(toNumber(node.items[i], path + "." + std::to_string(i), unit, Range::any()));
+    values.push_back(toNumber(node.items[i], path + "." + std::to_string(i), columns[i], Range::any()));
   return values;
 }
 
@@ -135,11 +194,11 @@ std::string nearestWord(const std::string& word, const std::vector<std::string>&
   return nearest;
 }
 
-SceneReader::SceneReader(const SceneNode* node, const SceneNode& parent, std::string path)
-  : node_(node), parent_(parent), path_(std::move(path))
+SceneReader::SceneReader(const SceneNode* node, const SceneNode& parent, std::string path, ReadingReport* report)
+  : node_(node), parent_(parent), path_(std::move(path)), report_(report)
 {
   if (node_ != nullptr && node_->kind != SceneNode::Kind::kMap)
-    refuseNode(*node_, path_, "expected a map of `key: value` lines");
+    rejectNode(*node_, path_, "expected a map of `key: value` lines");
 }
 
 void SceneReader::finish() const
@@ -151,7 +210,7 @@ void SceneReader::finish() const
     if (std::find(known_.begin(), known_.end(), key) != known_.end())
       continue;
     const std::string nearest = nearestWord(key, known_);
-    refuseNode(
+    rejectNode(
         value, pathOf(key),
         "unknown key; " + (nearest.empty() ? "known keys: " + listed(known_) : "did you mean \"" + nearest + "\"?"));
   }
@@ -169,7 +228,7 @@ const SceneNode* SceneReader::visit(const std::string& key, Need need, const std
   const SceneNode* found = node_ == nullptr ? nullptr : node_->find(key);
   if (found == nullptr && need == Need::kRequired)
   {
-    refuse(key, "missing; give " + expected);
+    reject(key, "missing; give " + expected);
   }
   return found;
 }
@@ -192,25 +251,50 @@ bool SceneReader::hasWord(const std::string& key)
          std::isalpha(static_cast<unsigned char>(node->text.front())) != 0;
 }
 
-void SceneReader::number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need)
+void SceneReader::list(const std::string& key, const Quantity& quantity, const Range& range)
 {
-  if (const SceneNode* node = visit(key, need, "a number" + inUnit(unit)))
-    value = toNumber(*node, pathOf(key), unit, range);
+  if (report_ != nullptr)
+    report_->keys.push_back({withoutIndices(pathOf(key)), isPureNumber(quantity) ? "" : quantity.unit,
+                             intervalText(quantity.low, std::min(quantity.high, range.max)),
+                             acceptedText(quantity, range)});
 }
 
-void SceneReader::optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
+void SceneReader::judge(const SceneNode& node, const std::string& path, const Quantity& quantity, double value)
 {
-  number(key, value, unit, range, Need::kOptional);
+  if (report_ == nullptr || plausibility(quantity, value) == Plausibility::kUsual)
+    return;
+  const std::string message = plausibilityMessage(quantity, value);
+  if (plausibility(quantity, value) == Plausibility::kImpossible)
+    rejectNode(node, path, message);
+  report_->warnings.push_back(node.file + ": " + path + node.location() + ": " + message);
+}
+
+void SceneReader::number(const std::string& key, double& value, const Quantity& quantity, const Range& range, Need need)
+{
+  list(key, quantity, range);
+  const SceneNode* node = visit(key, need, "a number" + inUnit(quantity));
+  if (node == nullptr)
+    return;
+  value = toNumber(*node, pathOf(key), quantity, range);
+  judge(*node, pathOf(key), quantity, value);
+}
+
+void SceneReader::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
+{
+  number(key, value, quantity, range, Need::kOptional);
 }
 
 void SceneReader::integer(const std::string& key, int& value, int min, int max, Need need)
 {
+  const std::string interval = std::to_string(min) + " to " + std::to_string(max);
+  if (report_ != nullptr)
+    report_->keys.push_back({withoutIndices(pathOf(key)), "", interval, interval});
   const SceneNode* node = visit(key, need, "a whole number");
   if (node == nullptr)
     return;
-  const double number = toNumber(*node, pathOf(key), "1", Range::any());
+  const double number = toNumber(*node, pathOf(key), kCount, Range::any());
   if (number != std::floor(number) || number < min || number > max)
-    refuseNode(
+    rejectNode(
         *node, pathOf(key),
         "is " + node->text + "; must be a whole number between " + std::to_string(min) + " and " + std::to_string(max));
   value = static_cast<int>(number);
@@ -218,6 +302,8 @@ void SceneReader::integer(const std::string& key, int& value, int min, int max, 
 
 void SceneReader::bigInteger(const std::string& key, std::uint64_t& value)
 {
+  if (report_ != nullptr)
+    report_->keys.push_back({withoutIndices(pathOf(key)), "", "0 to 2^64 - 1", "0 to 2^64 - 1"});
   const SceneNode* node = visit(key, Need::kOptional, "");
   if (node == nullptr)
     return;
@@ -225,7 +311,7 @@ void SceneReader::bigInteger(const std::string& key, std::uint64_t& value)
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   if (node->kind != SceneNode::Kind::kScalar || text.empty() || result.ec != std::errc() || result.ptr != end)
-    refuseNode(*node, pathOf(key), "must be a whole number, zero or positive, below 2^64");
+    rejectNode(*node, pathOf(key), "must be a whole number, zero or positive, below 2^64");
 }
 
 void SceneReader::boolean(const std::string& key, bool& value)
@@ -234,7 +320,7 @@ void SceneReader::boolean(const std::string& key, bool& value)
   if (node == nullptr)
     return;
   if (node->kind != SceneNode::Kind::kScalar || (node->text != "true" && node->text != "false"))
-    refuseNode(*node, pathOf(key), "is \"" + node->text + "\"; must be true or false");
+    rejectNode(*node, pathOf(key), "is \"" + node->text + "\"; must be true or false");
   value = node->text == "true";
 }
 
@@ -244,7 +330,7 @@ void SceneReader::text(const std::string& key, std::string& value, Need need)
   if (node == nullptr)
     return;
   if (node->kind != SceneNode::Kind::kScalar || node->text.empty())
-    refuseNode(*node, pathOf(key), "expected one word or path");
+    rejectNode(*node, pathOf(key), "expected one word or path");
   value = node->text;
 }
 
@@ -255,36 +341,49 @@ void SceneReader::choice(const std::string& key, int& value, const std::vector<s
     return;
   const auto found = std::find(words.begin(), words.end(), node->text);
   if (node->kind != SceneNode::Kind::kScalar || found == words.end())
-    refuseNode(*node, pathOf(key), "is \"" + node->text + "\"; must be one of " + listed(words));
+    rejectNode(*node, pathOf(key), "is \"" + node->text + "\"; must be one of " + listed(words));
   value = static_cast<int>(found - words.begin());
 }
 
-void SceneReader::numbers(const std::string& key, double* values, int size, const std::string& unit, Need need)
+void SceneReader::numbers(const std::string& key, double* values, int size, const Quantity& quantity, Need need)
 {
-  const SceneNode* node = visit(key, need, "a list of " + std::to_string(size) + " numbers" + inUnit(unit));
+  list(key, quantity, Range::any());
+  const SceneNode* node = visit(key, need, "a list of " + std::to_string(size) + " numbers" + inUnit(quantity));
   if (node == nullptr)
     return;
-  const std::vector<double> read = toNumbers(*node, pathOf(key), size, unit);
+  const std::vector<Quantity> components(static_cast<std::size_t>(size), quantity);
+  const std::vector<double> read = toNumbers(*node, pathOf(key), components);
   std::copy(read.begin(), read.end(), values);
+  // The largest component decides. The others may be small in a vector along an axis.
+  judge(*node, pathOf(key), quantity,
+        *std::max_element(read.begin(), read.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
 }
 
-void SceneReader::rows(const std::string& key, std::vector<std::vector<double>>& values, int width,
-                       const std::string& unit, Need need)
+void SceneReader::rows(const std::string& key, std::vector<std::vector<double>>& values,
+                       const std::vector<Quantity>& columns, Need need)
 {
-  const SceneNode* node = visit(key, need, "a list of lists of " + std::to_string(width) + " numbers" + inUnit(unit));
+  for (std::size_t column = 0; column < columns.size(); ++column)
+    list(key + "[" + std::to_string(column) + "]", columns[column], Range::any());
+  const std::string expected = "a list of lists of " + std::to_string(columns.size()) + " numbers" + inUnits(columns);
+  const SceneNode* node = visit(key, need, expected);
   if (node == nullptr)
     return;
   if (node->kind != SceneNode::Kind::kSequence)
-    refuseNode(*node, pathOf(key), "expected a list of lists of " + std::to_string(width) + " numbers" + inUnit(unit));
+    rejectNode(*node, pathOf(key), "expected " + expected);
   values.clear();
   for (std::size_t i = 0; i < node->items.size(); ++i)
-    values.push_back(toNumbers(node->items[i], pathOf(key) + "." + std::to_string(i), width, unit));
+  {
+    const std::string path = pathOf(key) + "." + std::to_string(i);
+    values.push_back(toNumbers(node->items[i], path, columns));
+    for (std::size_t column = 0; column < columns.size(); ++column)
+      judge(node->items[i], path, columns[column], values.back()[column]);
+  }
 }
 
 void SceneReader::map(const std::string& key, const Visit& visit_fields)
 {
   const SceneNode* node = visit(key, Need::kOptional, "");
-  SceneReader child(node, node_ == nullptr ? parent_ : *node_, pathOf(key));
+  SceneReader child(node, node_ == nullptr ? parent_ : *node_, pathOf(key), report_);
   visit_fields(child);
   child.finish();
 }
@@ -296,19 +395,19 @@ void SceneReader::list(const std::string& key, std::size_t /*size*/, const std::
   if (node == nullptr)
     return;
   if (node->kind != SceneNode::Kind::kSequence || (need == Need::kRequired && node->items.empty()))
-    refuseNode(*node, pathOf(key), "expected a list, one `- ` entry each");
+    rejectNode(*node, pathOf(key), "expected a list, one `- ` entry each");
   resize(node->items.size());
   for (std::size_t i = 0; i < node->items.size(); ++i)
   {
-    SceneReader child(&node->items[i], *node, pathOf(key) + "." + std::to_string(i));
+    SceneReader child(&node->items[i], *node, pathOf(key) + "." + std::to_string(i), report_);
     visit_fields(child, i);
     child.finish();
   }
 }
 
-void SceneReader::refuse(const std::string& key, const std::string& remedy) const
+void SceneReader::reject(const std::string& key, const std::string& remedy) const
 {
-  refuseMisspeltKey();
+  rejectMisspeltKey();
   // The key may be a path below this map. The deepest existing value on the path supplies file and line.
   const SceneNode* deepest = node_ == nullptr ? &parent_ : node_;
   std::istringstream path(key);
@@ -320,7 +419,7 @@ void SceneReader::refuse(const std::string& key, const std::string& remedy) cons
   throw InputError(deepest->file, (key.empty() ? path_ : pathOf(key)) + deepest->location(), remedy);
 }
 
-void SceneReader::refuseMisspeltKey() const
+void SceneReader::rejectMisspeltKey() const
 {
   if (node_ == nullptr)
     return;
@@ -329,7 +428,7 @@ void SceneReader::refuseMisspeltKey() const
   for (const auto& [key, value] : node_->fields)
     for (const std::string& known : known_)
       if (!is_known(key) && editDistance(key, known) <= 2 && node_->find(known) == nullptr)
-        refuseNode(value, pathOf(key), "unknown key; did you mean \"" + known + "\"?");
+        rejectNode(value, pathOf(key), "unknown key; did you mean \"" + known + "\"?");
 }
 
 }  // namespace endovascular_sim::scene

@@ -53,18 +53,18 @@ void SceneWriter::line(const std::string& key, const std::string& value)
       std::string(static_cast<std::size_t>(depth_) * 2, ' ') + key + ":" + (value.empty() ? "" : " ") + value + "\n";
 }
 
-void SceneWriter::number(const std::string& key, double& value, const std::string& /*unit*/, const Range& range,
+void SceneWriter::number(const std::string& key, double& value, const Quantity& /*quantity*/, const Range& range,
                          Need /*need*/)
 {
   if (!range.contains(value))
-    refuse(key, "is " + std::to_string(value) + "; must be " + range.description());
+    reject(key, "is " + std::to_string(value) + "; must be " + range.description());
   line(key, formatted(value));
 }
 
-void SceneWriter::optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range)
+void SceneWriter::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
 {
   if (!std::isnan(value))
-    number(key, value, unit, range, Need::kOptional);
+    number(key, value, quantity, range, Need::kOptional);
 }
 
 void SceneWriter::integer(const std::string& key, int& value, int /*min*/, int /*max*/, Need /*need*/)
@@ -93,13 +93,13 @@ void SceneWriter::choice(const std::string& key, int& value, const std::vector<s
   line(key, words.at(static_cast<std::size_t>(value)));
 }
 
-void SceneWriter::numbers(const std::string& key, double* values, int size, const std::string& /*unit*/, Need /*need*/)
+void SceneWriter::numbers(const std::string& key, double* values, int size, const Quantity& /*quantity*/, Need /*need*/)
 {
   line(key, formatted(values, static_cast<std::size_t>(size)));
 }
 
-void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>& values, int /*width*/,
-                       const std::string& /*unit*/, Need /*need*/)
+void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>& values,
+                       const std::vector<Quantity>& /*columns*/, Need /*need*/)
 {
   std::string text;
   for (const std::vector<double>& row : values)
@@ -128,7 +128,7 @@ void SceneWriter::list(const std::string& key, std::size_t size, const std::func
   }
 }
 
-void SceneWriter::refuse(const std::string& key, const std::string& remedy) const
+void SceneWriter::reject(const std::string& key, const std::string& remedy) const
 {
   throw InputError("scene", key, remedy);
 }

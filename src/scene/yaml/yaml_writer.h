@@ -20,20 +20,20 @@ public:
   bool has(const std::string& /*key*/) override { return false; }
   bool hasMap(const std::string& /*key*/) override { return false; }
   bool hasWord(const std::string& /*key*/) override { return false; }
-  void number(const std::string& key, double& value, const std::string& unit, const Range& range, Need need) override;
-  void optionalNumber(const std::string& key, double& value, const std::string& unit, const Range& range) override;
+  void number(const std::string& key, double& value, const Quantity& quantity, const Range& range, Need need) override;
+  void optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range) override;
   void integer(const std::string& key, int& value, int min, int max, Need need) override;
   void bigInteger(const std::string& key, std::uint64_t& value) override;
   void boolean(const std::string& key, bool& value) override;
   void text(const std::string& key, std::string& value, Need need) override;
   void choice(const std::string& key, int& value, const std::vector<std::string>& words, Need need) override;
-  void numbers(const std::string& key, double* values, int size, const std::string& unit, Need need) override;
-  void rows(const std::string& key, std::vector<std::vector<double>>& values, int width, const std::string& unit,
+  void numbers(const std::string& key, double* values, int size, const Quantity& quantity, Need need) override;
+  void rows(const std::string& key, std::vector<std::vector<double>>& values, const std::vector<Quantity>& columns,
             Need need) override;
   void map(const std::string& key, const Visit& visit) override;
   void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
             const std::function<void(SceneFields&, std::size_t)>& visit, Need need) override;
-  [[noreturn]] void refuse(const std::string& key, const std::string& remedy) const override;
+  [[noreturn]] void reject(const std::string& key, const std::string& remedy) const override;
 
 private:
   void line(const std::string& key, const std::string& value);

@@ -48,7 +48,8 @@ struct Anatomy
   double longest_facet = 2e-3;          ///< longest edge of the mesh [m]
   std::vector<AnatomyBranch> branches;  ///< parents before their children
   std::vector<Bulge> bulges;
-  std::uint64_t content_hash = 0;  ///< hash of the file's bytes
+  std::uint64_t content_hash = 0;     ///< hash of the file's bytes
+  std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
 };
 
 /** Reads and validates an anatomy file. Lengths are in metres, or in the file's `unit` [m].

@@ -73,6 +73,7 @@ Vessel loadAnatomy(const std::string& file, const std::string& cache_folder)
   const std::vector<AnatomyChain> chains = sampleChains(anatomy);
   Vessel vessel;
   vessel.source = file;
+  vessel.warnings = anatomy.warnings;
   vessel.centreline = anatomyCentreline(anatomy, chains);
   vessel.lesions = lesionsOf(anatomy, vessel.centreline);
 

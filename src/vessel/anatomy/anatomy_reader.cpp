@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "common/quantities.h"
 #include "vessel/anatomy/anatomy.h"
 
 namespace endovascular_sim::vessel
@@ -20,8 +21,9 @@ namespace
 class YamlMap
 {
 public:
-  YamlMap(const std::string& file, const YAML::Node& node, std::string path)
-    : file_(file), node_(node), path_(std::move(path))
+  /** @param warnings receives unusual values */
+  YamlMap(const std::string& file, const YAML::Node& node, std::string path, std::vector<std::string>& warnings)
+    : file_(file), node_(node), path_(std::move(path)), warnings_(warnings)
   {
     if (!node_.IsMap())
       reject("", "expected keys and values");
@@ -29,11 +31,30 @@ public:
 
   [[noreturn]] void reject(const std::string& key, const std::string& remedy) const
   {
-    std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
-    const YAML::Mark mark = !key.empty() && node_.IsMap() && node_[key] ? node_[key].Mark() : node_.Mark();
-    if (mark.line >= 0)
-      where += std::string(where.empty() ? "" : " ") + "(line " + std::to_string(mark.line + 1) + ")";
-    throw InputError(file_, where, remedy);
+    throw InputError(file_, location(key), remedy);
+  }
+
+  /** Warns of an unusual value.
+   *  @param value value in the unit of the quantity, i.e. a length in metres
+   *  @throws InputError for an impossible value */
+  void judge(const std::string& key, const Quantity& quantity, double value) const
+  {
+    const Plausibility result = plausibility(quantity, value);
+    if (result == Plausibility::kUsual)
+      return;
+    const std::string message = "in metres " + plausibilityMessage(quantity, value) + "; check it and unit";
+    if (result == Plausibility::kImpossible)
+      reject(key, message);
+    warnings_.push_back(file_ + ": " + location(key) + ": " + message);
+  }
+
+  /** Positive length in the unit of the file, converted to metres.
+   *  @param unit unit of the file [m] */
+  double length(const std::string& key, double unit, const Quantity& quantity, const std::string& meaning) const
+  {
+    const double metres = unit * number(key, kTiny, kHuge, meaning);
+    judge(key, quantity, metres);
+    return metres;
   }
 
   /** Rejects keys that are not in the list. */
@@ -104,7 +125,7 @@ public:
       {
         const bool named = item.IsMap() && item["name"] && item["name"].IsScalar();
         const std::string label = named ? item["name"].Scalar() : std::to_string(k);
-        out.emplace_back(file_, item, prefix + "[" + label + "]");
+        out.emplace_back(file_, item, prefix + "[" + label + "]", warnings_);
         ++k;
       }
     return out;
@@ -114,6 +135,16 @@ public:
   static constexpr double kHuge = 1e12;
 
 private:
+  /** Key path with its line. */
+  std::string location(const std::string& key) const
+  {
+    std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
+    const YAML::Mark mark = !key.empty() && node_.IsMap() && node_[key] ? node_[key].Mark() : node_.Mark();
+    if (mark.line >= 0)
+      where += std::string(where.empty() ? "" : " ") + "(line " + std::to_string(mark.line + 1) + ")";
+    return where;
+  }
+
   void requirePresent(const std::string& key, const std::string& meaning) const
   {
     if (!has(key))
@@ -150,7 +181,13 @@ private:
   const std::string& file_;
   YAML::Node node_;
   std::string path_;
+  std::vector<std::string>& warnings_;
 };
+
+void judgePoint(const YamlMap& section, const std::string& key, const Eigen::Vector3d& metres)
+{
+  section.judge(key, quantities::kPosition, metres.cwiseAbs().maxCoeff());
+}
 
 void readDiameters(const YamlMap& section, double unit, AnatomyBranch& branch)
 {
@@ -160,6 +197,7 @@ void readDiameters(const YamlMap& section, double unit, AnatomyBranch& branch)
   for (std::size_t k = 0; k < branch.diameters.size(); ++k)
   {
     branch.diameters[k].second *= unit;
+    section.judge("diameters", quantities::kVesselDiameter, branch.diameters[k].second);
     if (k > 0 && !(branch.diameters[k].first > branch.diameters[k - 1].first))
       section.reject("diameters", "the fractions must increase from one entry to the next");
   }
@@ -173,7 +211,7 @@ void readStenoses(const YamlMap& section, double unit, AnatomyBranch& branch)
     Stenosis stenosis;
     stenosis.position =
         entry.number("position", 0.0, 1.0, "the position of the throat as a fraction of the branch's length, 0 to 1");
-    stenosis.length = unit * entry.number("length", YamlMap::kTiny, YamlMap::kHuge, "a positive length");
+    stenosis.length = entry.length("length", unit, quantities::kLesionLength, "a positive length");
     stenosis.reduction =
         entry.number("reduction", 0.0, 0.95, "the reduction of the diameter, 0 to 0.95 (an occlusion has no lumen)");
     branch.stenoses.push_back(stenosis);
@@ -210,7 +248,10 @@ AnatomyBranch readBranch(const YamlMap& section, double unit, const Anatomy& ana
 
   branch.points = section.vectors("points", "a list of [x, y, z]");
   for (Eigen::Vector3d& point : branch.points)
+  {
     point *= unit;
+    judgePoint(section, "points", point);
+  }
   if (branch.points.size() < (branch.continues ? 1U : 2U))
     section.reject("points", "too few; a branch needs two points (one when it continues another)");
   for (std::size_t k = 1; k < branch.points.size(); ++k)
@@ -247,10 +288,10 @@ Anatomy readAnatomy(const std::string& file)
   }
   if (!root.IsMap())
     throw InputError(file, "", "is not an anatomy; see config/anatomies/default.yaml");
-  const YamlMap top(file, root, "");
+  Anatomy anatomy;
+  const YamlMap top(file, root, "", anatomy.warnings);
   top.allow({"name", "unit", "blend", "facets_around", "longest_facet", "branches", "bulges"});
 
-  Anatomy anatomy;
   anatomy.file = file;
   Hash64 hash;
   hash.add(text);
@@ -262,7 +303,7 @@ Anatomy readAnatomy(const std::string& file)
   if (top.has("facets_around"))
     anatomy.facets_around = static_cast<int>(top.number("facets_around", 8.0, 64.0, "a number from 8 to 64"));
   if (top.has("longest_facet"))
-    anatomy.longest_facet = unit * top.number("longest_facet", YamlMap::kTiny, YamlMap::kHuge, "a positive length");
+    anatomy.longest_facet = top.length("longest_facet", unit, quantities::kFacetLength, "a positive length");
   for (const YamlMap& section : top.maps("branches"))
     anatomy.branches.push_back(readBranch(section, unit, anatomy));
   if (anatomy.branches.empty())
@@ -271,7 +312,8 @@ Anatomy readAnatomy(const std::string& file)
   {
     section.allow({"name", "centre", "radius"});
     anatomy.bulges.push_back({section.text("name", "the bulge's name"), unit * section.vector("centre", "[x, y, z]"),
-                              unit * section.number("radius", YamlMap::kTiny, YamlMap::kHuge, "a positive radius")});
+                              section.length("radius", unit, quantities::kVesselRadius, "a positive radius")});
+    judgePoint(section, "centre", anatomy.bulges.back().centre);
   }
   return anatomy;
 }

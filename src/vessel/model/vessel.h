@@ -17,6 +17,7 @@ struct Vessel
   CentrelineTree centreline;          ///< patient frame [m]; empty if not requested
   std::string source;                 ///< file or generator
   std::vector<std::string> notes;     ///< repairs and modifications, as text
+  std::vector<std::string> warnings;  ///< unusual values of its file, each with key and likely unit
   std::vector<PlacedLesion> lesions;  ///< lesions of the anatomy, then added ones
 };
 

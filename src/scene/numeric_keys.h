@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/yaml/yaml_reader.h"
+
+namespace endovascular_sim::scene
+{
+
+/** Numeric keys of scenes, instruments and procedures, each once, in the order of the schema. */
+std::vector<NumericKey> numericKeys();
+
+/** Table of the numeric keys as Markdown: key, unit, usual and accepted values. docs/KEYS.md contains it. */
+std::string numericKeysTable();
+
+}  // namespace endovascular_sim::scene
