@@ -8,6 +8,7 @@ import glob
 import html
 import os
 import pathlib
+import resource
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -80,13 +81,19 @@ def problems(report):
         fatal.append("%d steps are missing from the recording" % report["steps_missing_from_recording"])
     if report["recording"]["error"]:
         fatal.append("the recording ended early: " + report["recording"]["error"])
-    if report["recording"]["dropped"] > 0:
+    elif report["recording"]["dropped"] > 0:
         fatal.append("%d messages were lost: the disk was too slow" % report["recording"]["dropped"])
     on_time = report["on_time_percent"]
     if isinstance(on_time, (int, float)) and on_time < 99.0:
-        remarks.append("fewer than 99 % of the steps were on time: allow real-time scheduling (docs/INSTALL.md) "
-                       "and end other programs")
+        remedy = "end other programs and sessions" if may_run_in_real_time() else \
+            "allow real-time scheduling (docs/INSTALL.md) and end other programs"
+        remarks.append("fewer than 99 % of the steps were on time: " + remedy)
     return fatal, remarks
+
+
+def may_run_in_real_time():
+    """True if this account may use real-time scheduling."""
+    return os.geteuid() == 0 or resource.getrlimit(resource.RLIMIT_RTPRIO)[1] != 0
 
 
 def write_html(report, rows, fatal, remarks, folder):
