@@ -13,7 +13,7 @@ namespace endovascular_sim::fuzz
 struct SmallSimulation
 {
   SmallSimulation()
-    : scene(scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml", {"sampling.nodes=8"})),
+    : scene(scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml", {"sampling.nodes=33"})),
       simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr)
   {
   }
