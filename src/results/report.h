@@ -54,7 +54,7 @@ struct RecordingOutcome
   std::string file;
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
-  std::uint64_t dropped = 0;  ///< messages dropped because the disk was too slow
+  std::uint64_t dropped = 0;  ///< messages dropped: after an early end, or because the disk was too slow
   std::string error;          ///< reason of an early end; empty: the recording is complete
 };
 

@@ -39,21 +39,6 @@ constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [H
 constexpr std::uint32_t kStepQueue = 10000;
 constexpr std::uint32_t kQueue = 100;
 
-results::SessionIdentity identityOf(const scene::Scene& scene)
-{
-  results::SessionIdentity identity;
-  identity.scene_name = scene.name;
-  identity.scene_file = scene.file;
-  identity.scene_hash = scene.hash();
-  identity.seed = scene.seed;
-  identity.time_step = scene.solver.time_step;
-  identity.duration = scene.duration;
-  identity.software_version = version();
-  identity.commit = commit();
-  identity.physics = kPhysicsNumber;
-  return identity;
-}
-
 SessionInfo infoOf(const scene::Scene& scene)
 {
   SessionInfo info;
