@@ -256,8 +256,7 @@ std::string metricsPage(const SessionMetrics& metrics)
 {
   const Json json = metrics.json();
   return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + errorTables(json) +
-         faultsTable(json) +
-         timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
+         faultsTable(json) + timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
 }
 
 }  // namespace endovascular_sim::results

@@ -101,9 +101,9 @@ private:
   procedure::BranchLocator locator_;
   std::vector<std::vector<bool>> on_way_;  ///< for each instrument and branch: true if the branch is allowed
   std::vector<Sample> samples_;
-  std::vector<bool> trusted_;    ///< for each sample: true if no fault affects its forces
-  std::int64_t interval_ = -1;   ///< sampling interval of the newest sample
-  double sampled_until_ = 0.0;   ///< time of the newest sample, a rejected one included [s]
+  std::vector<bool> trusted_;   ///< for each sample: true if no fault affects its forces
+  std::int64_t interval_ = -1;  ///< sampling interval of the newest sample
+  double sampled_until_ = 0.0;  ///< time of the newest sample, a rejected one included [s]
   std::vector<SimulatorFault> faults_;
   double untrusted_until_ = 0.0;  ///< time until which forces do not count as those of the trainee [s]
   std::vector<procedure::StepRecord> steps_;

@@ -39,9 +39,9 @@ results::Sample fromMessage(const SessionSample& message, std::size_t instrument
   for (const std::size_t size : {message.insertion.size(), message.rotation.size(), message.hand_force.size(),
                                  message.hand_torque.size(), message.pressure.size(), message.tip.size()})
     if (size != instruments)
-      throw InputError(names::kSessionSample, "insertion to tip",
-                       "must have one element for each of the " + std::to_string(instruments) +
-                           " instruments of the scene");
+      throw InputError(
+          names::kSessionSample, "insertion to tip",
+          "must have one element for each of the " + std::to_string(instruments) + " instruments of the scene");
   results::Sample sample;
   sample.observation.time = message.time;
   for (std::size_t k = 0; k < instruments; ++k)

@@ -22,8 +22,8 @@ const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulati
   return commands;
 }
 
-/** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last step
- *  the newest record is published in any case, with the time of its last observation. */
+/** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
+ * step the newest record is published in any case, with the time of its last observation. */
 void ProcedureDriver::publishProgress(const simulation::Simulation& simulation)
 {
   const std::vector<procedure::StepRecord>& records = operator_.records();

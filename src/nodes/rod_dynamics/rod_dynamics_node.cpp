@@ -155,8 +155,8 @@ bool RodDynamicsNode::run()
   return true;
 }
 
-/** Waits for the subscriber of drive/applied and session/sample, if the parameter `wait_for_recorder` announces one: a recording must
- * begin with the first step. */
+/** Waits for the subscriber of drive/applied and session/sample, if the parameter `wait_for_recorder` announces one: a
+ * recording must begin with the first step. */
 void RodDynamicsNode::waitForRecorder() const
 {
   if (!parameters_.param("wait_for_recorder", false))

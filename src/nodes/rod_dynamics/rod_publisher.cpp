@@ -80,7 +80,8 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   applied_.publish(applied_message_);
   const bool is_visual = simulation.steps() % visual_period_ == 0;
   // Events and the state at the scene's end are published without delay, so that no recording lacks them.
-  const bool is_event = simulation.events().size() != treatment_message_.event.size() || simulation.steps() == last_step_;
+  const bool is_event =
+      simulation.events().size() != treatment_message_.event.size() || simulation.steps() == last_step_;
   if (is_visual)
     publishVisual(simulation);
   if (treatment_ && (is_visual || is_event))

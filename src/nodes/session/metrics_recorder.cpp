@@ -39,7 +39,7 @@ void MetricsRecorder::begin()
 {
   if (vessel_.mesh.triangles.empty() || vessel_.centreline.branches.empty())
     return;
-  const scene::EntryPose entry = scene::resolveEntry(scene_.entry, vessel_, scene_.file);
+  const scene::EntryPose entry = scene::resolveStart(scene_, vessel_);
   metrics_ = std::make_unique<results::SessionMetrics>(scene_, vessel_.centreline, entry.position);
   for (results::Sample& sample : early_samples_)
     metrics_->add(std::move(sample));
@@ -90,8 +90,7 @@ void MetricsRecorder::followRisk(const WallDisplacement& moved)
 
 int MetricsRecorder::firstBalloon() const
 {
-  const auto hasBalloon = [](const scene::DrivenInstrument& driven)
-  { return driven.instrument.balloon.has_value(); };
+  const auto hasBalloon = [](const scene::DrivenInstrument& driven) { return driven.instrument.balloon.has_value(); };
   const auto first = std::find_if(scene_.instruments.begin(), scene_.instruments.end(), hasBalloon);
   return first == scene_.instruments.end() ? 0 : static_cast<int>(first - scene_.instruments.begin());
 }
@@ -109,8 +108,7 @@ void MetricsRecorder::add(const TreatmentVisual& treatment)
     if (treatment.event_instrument[k] >= scene_.instruments.size())
       throw InputError(names::kTreatmentVisual, "event_instrument", "must be an index of the scene's instruments");
     if (treatment.event[k] != simulation::nameOf(simulation::TreatmentEvent::kAtRisk))
-      events_.push_back(
-          {treatment.event[k], static_cast<int>(treatment.event_instrument[k]), treatment.event_time[k]});
+      events_.push_back({treatment.event[k], static_cast<int>(treatment.event_instrument[k]), treatment.event_time[k]});
   }
   stents_.clear();
   for (const TreatmentBody& stent : treatment.stents)
