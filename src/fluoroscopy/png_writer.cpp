@@ -20,7 +20,9 @@ void write(const std::string& file, int width, int height, const std::vector<Pix
   image.height = static_cast<png_uint_32>(height);
   image.format = format;
   if (png_image_write_to_file(&image, file.c_str(), 0, grey.data(), 0, nullptr) == 0)
-    throw InputError(file, "", std::string("cannot be written: ") + image.message);
+    throw InputError(
+        file, "",
+        std::string("cannot be written (") + image.message + "); choose an existing, writable folder with free space");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void markCovered(Observation& observation)
           observation.instruments[outer].hand.insertion > observation.instruments[k].hand.insertion;
 }
 
-Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchLocator& locator)
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation)
 {
   Observation observation;
   observation.time = simulation.time();
@@ -40,8 +40,6 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     view.hand = simulation.hand(k);
     view.outside = simulation.isOutside(k);
     view.tip = pointAt(simulation, std::max(0.0, view.hand.insertion));
-    if (view.hand.insertion > 0.0)
-      view.branch_position = locator.at(view.tip);
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)
@@ -49,6 +47,20 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     observation.instruments.push_back(view);
   }
   markCovered(observation);
+  return observation;
+}
+
+void locate(Observation& observation, const BranchLocator& locator)
+{
+  for (InstrumentView& view : observation.instruments)
+    if (view.hand.insertion > 0.0)
+      view.branch_position = locator.at(view.tip);
+}
+
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchLocator& locator)
+{
+  Observation observation = observe(scene, simulation);
+  locate(observation, locator);
   return observation;
 }
 

@@ -37,6 +37,12 @@ Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserte
 /** Sets InstrumentView::covered from the insertions. */
 void markCovered(Observation& observation);
 
+/** Observes a simulation, without the branches of the tips. */
+Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation);
+
+/** Sets the branches of all tips in the vessel. */
+void locate(Observation& observation, const BranchLocator& locator);
+
 /** Observes a simulation. */
 Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation, const BranchLocator& locator);
 

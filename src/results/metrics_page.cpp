@@ -139,12 +139,24 @@ std::string errorTables(const Json& json)
     wrong.add({one["instrument"], one["branch"], number("%.1f", one["begin"]), number("%.1f", one["end"]),
                number("%.1f", 1e3 * one["deepest"].get<double>())});
   html += json["wrong_branches"].empty() ? "<p class=\"good\">None.</p>\n" : wrong.text();
-  html += "<h2>Errors</h2>\n";
+  html += "<h2>Errors of the trainee</h2>\n";
   Table errors({"error", "instrument", "at [s]", "value"});
   for (const Json& one : json["errors"])
     errors.add({one["error"], one["instrument"], number("%.1f", one["time"]),
                 one.contains("value") ? number("%.3g", one["value"]) : ""});
   return html + (json["errors"].empty() ? "<p class=\"good\">None.</p>\n" : errors.text());
+}
+
+/** Table of the faults of the simulator; empty without a fault. */
+std::string faultsTable(const Json& json)
+{
+  if (json["simulator_faults"].empty())
+    return "";
+  Table table({"fault", "from [s]", "to [s]", "steps"});
+  for (const Json& one : json["simulator_faults"])
+    table.add({one["fault"], number("%.2f", one["begin"]), number("%.2f", one["end"]), number("%.0f", one["steps"])});
+  return "<h2>Faults of the simulator</h2>\n<p>Forces during these times do not count as errors of the trainee.</p>\n" +
+         table.text();
 }
 
 using Quantity = std::function<double(const procedure::InstrumentView&)>;
@@ -244,7 +256,7 @@ std::string metricsPage(const SessionMetrics& metrics)
 {
   const Json json = metrics.json();
   return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + errorTables(json) +
-         timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
+         faultsTable(json) + timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
 }
 
 }  // namespace endovascular_sim::results

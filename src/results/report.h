@@ -54,7 +54,7 @@ struct RecordingOutcome
   std::string file;
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
-  std::uint64_t dropped = 0;  ///< messages dropped because the disk was too slow
+  std::uint64_t dropped = 0;  ///< messages dropped: after an early end, or because the disk was too slow
   std::string error;          ///< reason of an early end; empty: the recording is complete
 };
 
@@ -97,8 +97,9 @@ public:
   void addDiagnostic(const std::string& node, const std::string& key, const std::string& value);
 
   std::uint64_t steps() const { return steps_; }
-  double simulatedTime() const;  ///< simulated time [s]
-  double wallTime() const;       ///< wall time between the first and the last step [s]
+  std::uint64_t lastStep() const { return steps_ > 0 ? last_step_ + 1 : 0; }  ///< number of the last step, from 1
+  double simulatedTime() const;                                               ///< simulated time [s]
+  double wallTime() const;  ///< wall time between the first and the last step [s]
   /** Ratio of simulated to elapsed time; empty before the second step. */
   std::optional<double> realTimeFactor() const;
   /** Latest value of a diagnostic of a node; empty if it is missing or not a number. */

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kCountedStrain = 1e-4;  // strain above which a step is counted, e.g. a snap-through over a ridge [1]
 
+constexpr std::size_t kReservedSteps = 1U << 20U;  // largest number of steps for which memory is reserved
+
 struct HandPart
 {
   const char* name;
@@ -71,9 +73,10 @@ DurationStatistics durationStatistics(std::vector<double> seconds)
 RunResult::RunResult(const scene::Scene& scene, std::uint64_t mesh_hash, std::size_t expected_steps)
   : scene_name_(scene.name), scene_hash_(scene.hash()), mesh_hash_(mesh_hash), time_step_(scene.solver.time_step)
 {
-  step_seconds_.reserve(expected_steps);
+  const std::size_t reserved = std::min(expected_steps, kReservedSteps);
+  step_seconds_.reserve(reserved);
   for (std::vector<double>& phase : phase_seconds_)
-    phase.reserve(expected_steps);
+    phase.reserve(reserved);
 }
 
 void RunResult::addStep(const simulation::Simulation& simulation, double seconds)

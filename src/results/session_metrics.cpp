@@ -19,6 +19,7 @@ constexpr double kEntryDepth = 3e-3;  // depth beyond an ostium that counts as a
 constexpr double kAhead = 2e-3;       // lead of a balloon catheter's tip over its wire that is an error [m]
 constexpr double kMoving = 0.5e-3;    // speed above which a handle counts as moving [m/s]
 constexpr double kSameTime = 1.0;     // interval within which a recurring force belongs to the same error [s]
+constexpr double kRecovery = 0.1;     // time after a fault until forces count as those of the trainee [s]
 constexpr double kTurning = 0.05;     // rotation speed above which a handle counts as moving [rad/s]
 
 /** Allowed branches of each instrument: those on the path to any of its goals in the procedure. An instrument without a
@@ -46,15 +47,6 @@ std::vector<std::vector<bool>> allowedBranches(const scene::Scene& scene, const 
   return allowed;
 }
 
-/** Instrument with the largest insertion. */
-int foremostOf(const procedure::Observation& observation)
-{
-  const auto further = [](const procedure::InstrumentView& a, const procedure::InstrumentView& b)
-  { return a.hand.insertion < b.hand.insertion; };
-  return static_cast<int>(std::max_element(observation.instruments.begin(), observation.instruments.end(), further) -
-                          observation.instruments.begin());
-}
-
 const char* outcomeName(procedure::Progress progress)
 {
   switch (progress)
@@ -73,16 +65,6 @@ const char* outcomeName(procedure::Progress progress)
 
 }  // namespace
 
-void Sample::addContact(const Eigen::Vector3d& position, double force)
-{
-  wall_force += force;
-  largest = std::max(largest, force);
-  const procedure::InstrumentView& foremost =
-      observation.instruments[static_cast<std::size_t>(foremostOf(observation))];
-  if ((position - foremost.tip).norm() < kTipReach)
-    at_tip += force;
-}
-
 SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::CentrelineTree& tree,
                                const Eigen::Vector3d& entry)
   : scene_(scene),
@@ -96,21 +78,49 @@ SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::Centreli
 {
 }
 
-bool SessionMetrics::isDue(double time) const
-{
-  return static_cast<std::int64_t>(std::floor(time * kRate + 1e-6)) > last_slot_;
-}
-
 void SessionMetrics::add(Sample sample)
 {
-  if (!isDue(sample.observation.time))
+  const double time = sample.observation.time;
+  if (SessionSampler::intervalAt(time) == interval_)
     return;
-  last_slot_ = static_cast<std::int64_t>(std::floor(sample.observation.time * kRate + 1e-6));
+  interval_ = SessionSampler::intervalAt(time);
+  followFaults(sample);
+  sampled_until_ = time;
+  if (!sample.isFinite())
+    return;
+  procedure::locate(sample.observation, locator_);
   followBranches(sample);
   followWires(sample);
   followExchanges(sample);
   followForces(sample);
   samples_.push_back(std::move(sample));
+  trusted_.push_back(time >= untrusted_until_);
+}
+
+void SessionMetrics::followFaults(const Sample& sample)
+{
+  const double time = sample.observation.time;
+  if (sample.faults.rejected_steps > 0)
+    addFault("rejected step", time, sample.faults.rejected_steps);
+  if (sample.faults.stale_steps > 0)
+    addFault("stale contact set", time, sample.faults.stale_steps);
+  if (!sample.isFinite())
+    addFault("non-finite value", time, 1);
+}
+
+/** Adds a fault since the previous sample, which continues a fault of the same kind until then. */
+void SessionMetrics::addFault(const char* kind, double time, std::uint64_t steps)
+{
+  untrusted_until_ = time + kRecovery;
+  const auto continues = [&](const SimulatorFault& fault) { return fault.kind == kind && fault.end == sampled_until_; };
+  const auto fault = std::find_if(faults_.rbegin(), faults_.rend(), continues);
+  if (fault == faults_.rend())
+  {
+    faults_.push_back({kind, sampled_until_, time, steps});
+    return;
+  }
+  fault->end = time;
+  fault->steps += steps;
 }
 
 void SessionMetrics::setSteps(std::vector<procedure::StepRecord> steps, std::string failure)
@@ -193,7 +203,7 @@ void SessionMetrics::followExchanges(const Sample& sample)
 void SessionMetrics::followForces(const Sample& sample)
 {
   const int foremost = foremostOf(sample.observation);
-  if (sample.at_tip <= kPerforation ||
+  if (sample.observation.time < untrusted_until_ || sample.at_tip <= kPerforation ||
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
   if (sample.observation.time > perforation_until_ + kSameTime)
@@ -238,7 +248,8 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
     const procedure::InstrumentView& now = samples_[i].observation.instruments[k];
     const double travel = (now.tip - before.tip).norm();
     path += travel;
-    peak = std::max(peak, std::abs(now.hand.force));
+    if (trusted_[i])
+      peak = std::max(peak, std::abs(now.hand.force));
     if (speed.empty() && travel < kMoving / kRate)
       continue;
     speed.push_back(travel * kRate);
@@ -262,6 +273,31 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
           {"wrong_branch_time", wrong},
           {"time_ahead_of_wire", ahead_time_[k]},
           {"peak_hand_force", peak}};
+}
+
+/** Errors of the trainee in the order of their times. */
+Json SessionMetrics::errorsJson() const
+{
+  std::vector<SessionError> errors = errors_;
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const SessionError& a, const SessionError& b) { return a.time < b.time; });
+  Json json = Json::array();
+  for (const SessionError& error : errors)
+  {
+    Json entry = {{"error", error.kind}, {"instrument", nameOf(error.instrument)}, {"time", error.time}};
+    if (!error.unit.empty())
+      entry["value"] = error.value;
+    json.push_back(entry);
+  }
+  return json;
+}
+
+Json SessionMetrics::faultsJson() const
+{
+  Json json = Json::array();
+  for (const SimulatorFault& fault : faults_)
+    json.push_back({{"fault", fault.kind}, {"begin", fault.begin}, {"end", fault.end}, {"steps", fault.steps}});
+  return json;
 }
 
 Json SessionMetrics::json() const
@@ -297,14 +333,8 @@ Json SessionMetrics::json() const
   if (wall_forces_)
     json["wall_forces"].erase("triangles");
   json["lesions"] = toJson(lesions_);
-  json["errors"] = Json::array();
-  for (const SessionError& error : errors_)
-  {
-    Json entry = {{"error", error.kind}, {"instrument", nameOf(error.instrument)}, {"time", error.time}};
-    if (!error.unit.empty())
-      entry["value"] = error.value;
-    json["errors"].push_back(entry);
-  }
+  json["errors"] = errorsJson();
+  json["simulator_faults"] = faultsJson();
   return json;
 }
 

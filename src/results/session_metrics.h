@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "procedure/branch_locator.h"
-#include "procedure/observation.h"
 #include "procedure/operator.h"
+#include "results/session_sample.h"
 #include "results/treatment_report.h"
 #include "results/wall_force_map.h"
 #include "scene/model/scene.h"
@@ -29,7 +29,7 @@ struct WrongBranch
   double deepest = 0.0;  ///< largest depth beyond the ostium of the branch [m]
 };
 
-/** Error of the user or adverse event in a session. */
+/** Error of the trainee or adverse event in a session. */
 struct SessionError
 {
   std::string kind;    ///< description, e.g. "balloon ahead of its wire"
@@ -39,21 +39,14 @@ struct SessionError
   std::string unit;    ///< unit of the value; empty: no value
 };
 
-/** Distance from the foremost tip within which contacts count as contacts of the tip [m]. */
-constexpr double kTipReach = 5e-3;
-
-/** Sample of a session at one time. */
-struct Sample
+/** Period with a fault of the simulator. Errors of the trainee that follow from forces are not counted during and
+ *  shortly after it. */
+struct SimulatorFault
 {
-  procedure::Observation observation;
-  double wall_force = 0.0;  ///< sum of the normal forces [N]
-  double largest = 0.0;     ///< largest normal force of one contact [N]
-  double at_tip = 0.0;      ///< sum of the normal forces within kTipReach of the foremost tip [N]
-
-  /** Adds a contact with the wall; `observation` must be complete.
-   *  @param position position of the contact [m]
-   *  @param force normal force [N] */
-  void addContact(const Eigen::Vector3d& position, double force);
+  std::string kind;         ///< "rejected step", "stale contact set" or "non-finite value"
+  double begin = 0.0;       ///< start of the period [s]
+  double end = 0.0;         ///< end of the period [s]
+  std::uint64_t steps = 0;  ///< number of steps with the fault; of samples for non-finite values
 };
 
 /** Training metrics of a session; docs/PROCEDURES.md defines them.
@@ -63,14 +56,13 @@ struct Sample
 class SessionMetrics
 {
 public:
-  static constexpr double kRate = 20.0;        ///< sampling rate [Hz]
+  static constexpr double kRate = SessionSampler::kRate;  ///< sampling rate [Hz]
   static constexpr double kPerforation = 0.5;  ///< force of a guidewire's tip that risks a perforation (assumed) [N]
 
   /** @param entry position of the introducer, patient frame [m] */
   SessionMetrics(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
 
-  /** True if a new sample is due at @p time [s]; add() ignores other samples. */
-  bool isDue(double time) const;
+  /** Adds a sample and locates its tips. Only the first sample of a sampling interval is used. */
   void add(Sample sample);
 
   /** Sets the records of the scripted operator. */
@@ -90,13 +82,18 @@ public:
   const std::vector<procedure::StepRecord>& steps() const { return steps_; }
   const std::vector<WrongBranch>& wrongBranches() const { return wrong_branches_; }
   const std::vector<SessionError>& errors() const { return errors_; }
+  const std::vector<SimulatorFault>& faults() const { return faults_; }
 
 private:
+  void followFaults(const Sample& sample);
+  void addFault(const char* kind, double time, std::uint64_t steps);
   void followBranches(const Sample& sample);
   void followWires(const Sample& sample);
   void followExchanges(const Sample& sample);
   void followForces(const Sample& sample);
   nlohmann::ordered_json instrumentJson(std::size_t k) const;
+  nlohmann::ordered_json errorsJson() const;
+  nlohmann::ordered_json faultsJson() const;
   double activeTime() const;
   const std::string& nameOf(int instrument) const;
 
@@ -104,7 +101,11 @@ private:
   procedure::BranchLocator locator_;
   std::vector<std::vector<bool>> on_way_;  ///< for each instrument and branch: true if the branch is allowed
   std::vector<Sample> samples_;
-  std::int64_t last_slot_ = -1;
+  std::vector<bool> trusted_;   ///< for each sample: true if no fault affects its forces
+  std::int64_t interval_ = -1;  ///< sampling interval of the newest sample
+  double sampled_until_ = 0.0;  ///< time of the newest sample, a rejected one included [s]
+  std::vector<SimulatorFault> faults_;
+  double untrusted_until_ = 0.0;  ///< time until which forces do not count as those of the trainee [s]
   std::vector<procedure::StepRecord> steps_;
   std::string failure_;
   std::optional<WallForceSummary> wall_forces_;

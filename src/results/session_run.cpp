@@ -3,27 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
-#include "common/error.h"
+#include "common/output_file.h"
 #include "results/metrics_page.h"
 
 namespace endovascular_sim::results
 {
-namespace
-{
-
-void writeFile(const std::string& path, const std::string& text)
-{
-  std::ofstream stream(path);
-  if (!(stream << text) || !stream.flush())
-    throw InputError(path, "", "cannot be written; free some disk space");
-}
-
-}  // namespace
-
 SessionRun::SessionRun(const scene::Scene& scene, vessel::Vessel vessel, const Eigen::Vector3d& entry)
   : scene_(scene), vessel_(std::move(vessel)), metrics_(scene, vessel_.centreline, entry)
 {
@@ -41,13 +28,8 @@ const std::vector<simulation::HandCommand>& SessionRun::commands(const simulatio
 
 void SessionRun::addStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts)
 {
-  if (!metrics_.isDue(simulation.time()))
-    return;
-  Sample sample;
-  sample.observation = procedure::observe(scene_, simulation, metrics_.locator());
-  for (const simulation::WallContact& contact : contacts)
-    sample.addContact(contact.position, contact.normal_force.norm());
-  metrics_.add(std::move(sample));
+  if (sampler_.addStep(scene_, simulation, contacts))
+    metrics_.add(sampler_.sample());
 }
 
 void SessionRun::finish(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall)
@@ -85,9 +67,9 @@ std::string instrumentsCsv(const SessionMetrics& metrics)
 
 void writeMetrics(const SessionMetrics& metrics, const std::string& folder)
 {
-  writeFile(folder + "/metrics.json", metrics.json().dump(2) + "\n");
-  writeFile(folder + "/metrics.html", metricsPage(metrics));
-  writeFile(folder + "/instruments.csv", instrumentsCsv(metrics));
+  writeTextFile(folder + "/metrics.json", metrics.json().dump(2) + "\n");
+  writeTextFile(folder + "/metrics.html", metricsPage(metrics));
+  writeTextFile(folder + "/instruments.csv", instrumentsCsv(metrics));
 }
 
 }  // namespace endovascular_sim::results

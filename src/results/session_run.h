@@ -55,6 +55,7 @@ private:
   scene::Scene scene_;
   vessel::Vessel vessel_;
   std::optional<procedure::Operator> operator_;
+  SessionSampler sampler_;
   SessionMetrics metrics_;
   std::vector<simulation::HandCommand> commands_;
 };

@@ -1,6 +1,6 @@
 #include "results/step_costs_csv.h"
 
-#include "common/error.h"
+#include "common/output_file.h"
 #include "common/phase_timer.h"
 
 namespace endovascular_sim::results
@@ -9,7 +9,7 @@ namespace endovascular_sim::results
 StepCostsFile::StepCostsFile(const std::string& file) : stream_(file)
 {
   if (!stream_)
-    throw InputError(file, "", "cannot be written; choose an existing folder with free space");
+    throw writeError(file);
   stream_ << "step,us,solves,factorisations,truncations,capped,contacts,detections";
   for (const char* phase : kPhaseNames)
     stream_ << ',' << phase << "_us";

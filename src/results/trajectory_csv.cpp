@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/error.h"
+#include "common/output_file.h"
 
 namespace endovascular_sim::results
 {
@@ -18,10 +18,10 @@ std::string toCsv(const TrajectoryRow& row)
   return {text.data(), static_cast<std::size_t>(length)};
 }
 
-TrajectoryFile::TrajectoryFile(const std::string& file, double rate) : stream_(file), rate_(rate)
+TrajectoryFile::TrajectoryFile(const std::string& file, double rate) : file_(file), stream_(file), rate_(rate)
 {
   if (!(stream_ << kTrajectoryColumns << '\n'))
-    throw InputError(file, "trajectory", "cannot be written; choose an existing folder with free space");
+    throw writeError(file);
 }
 
 bool TrajectoryFile::add(const TrajectoryRow& row)
@@ -32,12 +32,22 @@ bool TrajectoryFile::add(const TrajectoryRow& row)
   if (slot <= last_slot_)
     return true;
   last_slot_ = slot;
-  return static_cast<bool>(stream_ << toCsv(row) << '\n');
+  stream_ << toCsv(row) << '\n';
+  return isGood();
 }
 
 bool TrajectoryFile::flush()
 {
-  return static_cast<bool>(stream_.flush());
+  stream_.flush();
+  return isGood();
+}
+
+/** Saves the reason of the first failure. */
+bool TrajectoryFile::isGood()
+{
+  if (!stream_ && error_.empty())
+    error_ = writeError(file_).what();
+  return error_.empty();
 }
 
 }  // namespace endovascular_sim::results

@@ -43,7 +43,14 @@ public:
   /** Flushes the file to the operating system. @return false on failure */
   bool flush();
 
+  /** File, reason and remedy of the first failure; empty without one. */
+  const std::string& error() const { return error_; }
+
 private:
+  bool isGood();
+
+  std::string file_;
+  std::string error_;
   std::ofstream stream_;
   double rate_;
   double last_slot_ = -1.0;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "common/error.h"
+#include "common/file_name.h"
 #include "scene/instrument_library.h"
 #include "scene/schema/scene_schema.h"
 #include "scene/yaml/file_search.h"
@@ -79,7 +80,7 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   }
   Scene scene;
   scene.file = file;
-  scene.name = std::filesystem::path(file).stem().string();
+  scene.name = fileNameOf(std::filesystem::path(file).stem().string());
   ReadingReport report;
   SceneReader reader(&root, root, "", origin == Origin::kUser ? &report : nullptr);
   visitScene(reader, scene);

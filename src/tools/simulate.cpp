@@ -236,7 +236,7 @@ void saveState(const std::string& path, simulation::Simulation& simulation, cons
   if (stream)
     simulation.save(stream, surroundings.mesh_hash, sessionOf(surroundings));
   if (!stream.flush())
-    throw InputError(path, "", "cannot be written; choose an existing folder with free space");
+    throw writeError(path);
 }
 
 void loadState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
@@ -314,7 +314,7 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
     if (surroundings.wall_forces)
     {
       simulation::wallContacts(simulation, contacts);
-      surroundings.wall_forces->add(contacts, simulation.time(), scene.solver.time_step);
+      results::addStep(*surroundings.wall_forces, simulation, contacts, scene.solver.time_step);
       surroundings.session->addStep(simulation, contacts);
     }
     takePicture(surroundings, simulation);

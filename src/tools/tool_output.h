@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/child_process.h"
-#include "common/error.h"
+#include "common/output_file.h"
 
 namespace endovascular_sim::tools
 {
@@ -25,24 +25,22 @@ inline std::ofstream openFile(const std::filesystem::path& path)
 {
   std::ofstream stream(path);
   if (!stream)
-    throw InputError(path.string(), "", "cannot be written; check the folder's permissions and the disk's free space");
+    throw writeError(path.string());
   return stream;
 }
 
-/** Throws when a stream could not write everything.
- *  @throws InputError */
+/** Throws when a stream could not write everything; to be called directly after its last operation.
+ *  @throws InputError with the reason of the operating system */
 inline void requireWritten(bool written, const std::filesystem::path& path)
 {
   if (!written)
-    throw InputError(path.string(), "", "cannot be written; check the disk's free space");
+    throw writeError(path.string());
 }
 
 /** @throws InputError when the file cannot be written */
 inline void writeFile(const std::filesystem::path& path, const std::string& text)
 {
-  std::ofstream stream = openFile(path);
-  stream << text;
-  requireWritten(static_cast<bool>(stream.flush()), path);
+  writeTextFile(path.string(), text);
 }
 
 /** Draws a progress bar on the error stream, over the one drawn before.

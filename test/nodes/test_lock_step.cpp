@@ -14,6 +14,7 @@
 #include "endovascular_sim/OperatingState.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/runtime/scene_parameters.h"
+#include "results/session_sample.h"
 #include "results/wall_force_map.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
@@ -164,7 +165,7 @@ TEST_F(LockStep, A_GraphEqualsTheOfflineSimulationAtEveryStep)
       EXPECT_EQ(known->second.rotation.at(0), command.rotation);
     }
     simulation.step(command);
-    wall_forces.add(simulation::wallContacts(simulation), simulation.time(), scene_.solver.time_step);
+    results::addStep(wall_forces, simulation, simulation::wallContacts(simulation), scene_.solver.time_step);
     if (simulation.steps() - 1 == map->step)
     {
       maps_compared = true;

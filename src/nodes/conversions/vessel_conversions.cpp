@@ -85,8 +85,34 @@ std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& mes
   return lesions;
 }
 
+namespace
+{
+
+/** @throws InputError for a branch without a line, or whose parents form a circle */
+void requireTree(const VesselCentreline& message)
+{
+  const auto size = static_cast<std::int64_t>(message.branches.size());
+  for (const VesselCentrelineBranch& branch : message.branches)
+  {
+    if (branch.points.size() < 2 || branch.points.size() != branch.radii.size())
+      throw InputError(names::kVesselCentreline, branch.name,
+                       "must have at least two points, and one radius for each of them");
+    std::int64_t parent = branch.parent;
+    for (std::int64_t k = 0; k <= size && parent >= 0; ++k)
+    {
+      if (parent >= size || k == size)
+        throw InputError(names::kVesselCentreline, branch.name,
+                         "must have a parent among the branches, none of which is its own ancestor");
+      parent = message.branches[static_cast<std::size_t>(parent)].parent;
+    }
+  }
+}
+
+}  // namespace
+
 vessel::CentrelineTree fromMessage(const VesselCentreline& message)
 {
+  requireTree(message);
   vessel::CentrelineTree tree;
   for (const VesselCentrelineBranch& from : message.branches)
   {

@@ -29,6 +29,7 @@ ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene:
     forces_period_(periodInSteps(kForcesRate, time_step_)),
     map_period_(periodInSteps(kMapRate, time_step_)),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / time_step_))),
+    samples_(node, scene),
     map_(scene.record.wall_force_threshold, vessel),
     forces_publisher_(node.advertise<ContactForces>(names::kContactForces, 2)),
     map_publisher_(node.advertise<ContactForceMap>(names::kContactForceMap, 1, true))
@@ -37,10 +38,14 @@ ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene:
   map_message_.content_hash = content_hash;
 }
 
-void ContactForcePublisher::publishStep(const simulation::Simulation& simulation)
+void ContactForcePublisher::publishStep(const simulation::Simulation& simulation, bool counted)
 {
   simulation::wallContacts(simulation, contacts_);
-  map_.add(contacts_, simulation.time(), time_step_);
+  if (counted)
+  {
+    results::addStep(map_, simulation, contacts_, time_step_);
+    samples_.publishStep(simulation, contacts_);
+  }
   if (simulation.steps() % forces_period_ == 0 && forces_publisher_.getNumSubscribers() > 0)
     publishForces(simulation);
   // Always published at the scene's last step: a session that ends there would miss the next map.

@@ -7,6 +7,7 @@
 
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
+#include "nodes/rod_dynamics/sample_publisher.h"
 #include "results/wall_force_map.h"
 #include "simulation/simulation.h"
 
@@ -21,8 +22,13 @@ public:
   ContactForcePublisher(ros::NodeHandle& node, const scene::Scene& scene, const vessel::Vessel& vessel,
                         std::uint64_t content_hash);
 
-  /** Adds a step to the map, and publishes at the rates of the topics. Call it after every step. */
-  void publishStep(const simulation::Simulation& simulation);
+  /** Adds a step to the map and to the samples of the session, and publishes at the rates of the topics. Call it after
+   *  every step.
+   *  @param counted false after the end of the procedure: map and samples stay those of its end */
+  void publishStep(const simulation::Simulation& simulation, bool counted);
+
+  /** Reports whether the samples of the session have a subscriber. */
+  bool isSampled() const { return samples_.hasSubscriber(); }
 
   /** Publishes the current map, also without a subscriber: the topic is latched. */
   void publishMap(const simulation::Simulation& simulation);
@@ -32,6 +38,7 @@ private:
 
   double time_step_;                                      ///< duration of a step [s]
   std::uint64_t forces_period_, map_period_, last_step_;  ///< [steps]
+  SamplePublisher samples_;
   results::WallForceMap map_;
   std::vector<simulation::WallContact> contacts_;
   ros::Publisher forces_publisher_, map_publisher_;

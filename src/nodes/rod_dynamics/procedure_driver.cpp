@@ -1,5 +1,7 @@
 #include "nodes/rod_dynamics/procedure_driver.h"
 
+#include <cmath>
+
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -7,7 +9,9 @@ namespace endovascular_sim::nodes
 
 ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scene, const vessel::CentrelineTree& tree,
                                  const Eigen::Vector3d& entry)
-  : operator_(scene, tree, entry), publisher_(node.advertise<ProcedureStep>(names::kProcedureStep, 100, true))
+  : last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step))),
+    operator_(scene, tree, entry),
+    publisher_(node.advertise<ProcedureStep>(names::kProcedureStep, 100, true))
 {
 }
 
@@ -18,31 +22,47 @@ const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulati
   return commands;
 }
 
+/** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
+ * step the newest record is published in any case, with the time of its last observation. */
 void ProcedureDriver::publishProgress(const simulation::Simulation& simulation)
 {
-  const procedure::StepRecord& record = operator_.records().back();
-  const auto begun = static_cast<std::uint32_t>(operator_.records().size());
-  const auto outcome = static_cast<std::uint8_t>(record.outcome);
-  const bool is_new = begun != published_.begun;
-  if (!is_new && outcome == published_.outcome && static_cast<std::uint32_t>(record.retries) == published_.new_tries)
-    return;
+  const std::vector<procedure::StepRecord>& records = operator_.records();
+  const std::size_t newest = published_.begun == 0 ? 0 : published_.begun - 1;
+  for (std::size_t k = newest; k < records.size(); ++k)
+  {
+    const bool is_new = k + 1 != published_.begun;
+    const bool is_changed = static_cast<std::uint8_t>(records[k].outcome) != published_.outcome ||
+                            static_cast<std::uint32_t>(records[k].retries) != published_.new_tries ||
+                            static_cast<std::uint32_t>(records[k].wrong_branches) != published_.wrong_branches;
+    if (is_new || is_changed || simulation.steps() + 1 == last_step_)
+      publish(k, simulation);
+    if (is_new)
+      ROS_INFO("procedure step %zu: %s", k + 1, records[k].name.c_str());
+  }
+}
+
+void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& simulation)
+{
+  const bool was_over = !published_.failure.empty() || is_complete_;
+  const procedure::StepRecord& step = operator_.records()[record];
   published_.header.stamp = ros::Time::now();
   published_.step = simulation.steps();
-  published_.time = simulation.time();
-  published_.begun = begun;
-  published_.phase = record.phase;
-  published_.name = record.name;
-  published_.begin = record.begin;
-  published_.new_tries = static_cast<std::uint32_t>(record.retries);
-  published_.wrong_branches = static_cast<std::uint32_t>(record.wrong_branches);
-  published_.outcome = outcome;
+  published_.time = step.end;
+  published_.begun = static_cast<std::uint32_t>(record + 1);
+  published_.phase = step.phase;
+  published_.name = step.name;
+  published_.begin = step.begin;
+  published_.new_tries = static_cast<std::uint32_t>(step.retries);
+  published_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
+  published_.outcome = static_cast<std::uint8_t>(step.outcome);
   published_.failure = operator_.failure();
+  is_complete_ = operator_.progress() == procedure::Progress::kDone;
   publisher_.publish(published_);
-  if (is_new)
-    ROS_INFO("procedure step %u: %s", begun, record.name.c_str());
+  if (was_over)
+    return;
   if (!published_.failure.empty())
     ROS_ERROR("the procedure failed: %s", published_.failure.c_str());
-  else if (operator_.progress() == procedure::Progress::kDone)
+  else if (is_complete_)
     ROS_INFO("the procedure is complete after %.1f s", published_.time);
 }
 

@@ -22,12 +22,18 @@ public:
   /** Commands of the coming step, one per instrument. */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
 
+  /** True if the procedure is complete or has failed. */
+  bool isOver() const { return operator_.progress() != procedure::Progress::kRunning; }
+
 private:
   void publishProgress(const simulation::Simulation& simulation);
+  void publish(std::size_t record, const simulation::Simulation& simulation);
 
+  std::uint64_t last_step_;  ///< last step of the scene's duration
   procedure::Operator operator_;
   ros::Publisher publisher_;
-  ProcedureStep published_;  ///< last published progress
+  ProcedureStep published_;   ///< last published progress
+  bool is_complete_ = false;  ///< true after the publication of the last step's end
 };
 
 }  // namespace endovascular_sim::nodes

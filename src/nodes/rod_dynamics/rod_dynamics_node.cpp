@@ -187,14 +187,14 @@ bool RodDynamicsNode::run()
   return true;
 }
 
-/** Waits for the subscriber of drive/applied, if the parameter `wait_for_recorder` announces one: a recording must
- * begin with the first step. */
+/** Waits for the subscriber of drive/applied and session/sample, if the parameter `wait_for_recorder` announces one: a
+ * recording must begin with the first step. */
 void RodDynamicsNode::waitForRecorder() const
 {
   if (!parameters_.param("wait_for_recorder", false))
     return;
   const Clock::time_point end = Clock::now() + StepScheduler::period(kRecorderTimeout);
-  while (ros::ok() && !publisher_.isRecorded())
+  while (ros::ok() && (!publisher_.isRecorded() || (forces_ && !forces_->isSampled())))
   {
     if (Clock::now() > end)
     {
@@ -238,12 +238,13 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
 void RodDynamicsNode::step()
 {
   const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
+  const bool counted = !procedure_ || !procedure_->isOver();  // metrics end with the procedure, as those of `simulate`
   const std::vector<simulation::HandCommand>& commands =
       drives_.next(end, procedure_ ? &procedure_->next(*simulation_) : nullptr);
   simulation_->stepAll(commands);
   publisher_.publishStep(*simulation_, renderer_.render(*simulation_, commands, scene_.solver.time_step));
   if (forces_)
-    forces_->publishStep(*simulation_);
+    forces_->publishStep(*simulation_, counted);
 }
 
 bool RodDynamicsNode::isContactLost() const

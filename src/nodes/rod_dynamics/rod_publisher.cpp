@@ -20,12 +20,14 @@ namespace
 
 constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
 constexpr int kStepQueue = 1000;      ///< one second of steps: the recorder must not lose any
+constexpr int kTreatmentQueue = 100;  ///< the recorder must not lose an event
 constexpr int kHandQueue = 1;         ///< the device uses the newest force only
 
 }  // namespace
 
 RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
-  : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step)))))
+  : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step))))),
+    last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step)))
 {
   for (const scene::DrivenInstrument& driven : scene.instruments)
   {
@@ -37,7 +39,7 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
   if (simulation::hasBalloon(scene))
-    treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, 2);
+    treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
   applied_message_.insertion.resize(hand_.size());
   applied_message_.rotation.resize(hand_.size());
   applied_message_.pressure.resize(hand_.size());
@@ -76,12 +78,16 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
   applied_.publish(applied_message_);
-  if (simulation.steps() % visual_period_ != 0)
-    return;
-  publishVisual(simulation);
-  if (treatment_)
+  const bool is_visual = simulation.steps() % visual_period_ == 0;
+  // Events and the state at the scene's end are published without delay, so that no recording lacks them.
+  const bool is_event =
+      simulation.events().size() != treatment_message_.event.size() || simulation.steps() == last_step_;
+  if (is_visual)
+    publishVisual(simulation);
+  if (treatment_ && (is_visual || is_event))
     publishTreatment(simulation);
-  publishTip(simulation);
+  if (is_visual)
+    publishTip(simulation);
 }
 
 void RodPublisher::publishVisual(const simulation::Simulation& simulation)
@@ -122,9 +128,10 @@ void RodPublisher::publishVisual(const simulation::Simulation& simulation)
 
 void RodPublisher::publishTreatment(const simulation::Simulation& simulation)
 {
-  treatment_message_.header = visual_message_.header;
-  treatment_message_.step = visual_message_.step;
-  treatment_message_.time = visual_message_.time;
+  treatment_message_.header.frame_id = names::kPatientFrame;
+  treatment_message_.header.stamp = hand_message_.header.stamp;
+  treatment_message_.step = simulation.steps() - 1;
+  treatment_message_.time = simulation.time();
   toMessage(simulation, treatment_message_);
   treatment_.publish(treatment_message_);
 }

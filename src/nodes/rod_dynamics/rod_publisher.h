@@ -43,6 +43,7 @@ private:
   void publishTip(const simulation::Simulation& simulation);
 
   std::uint64_t visual_period_;                   ///< interval of the data for display [steps]
+  std::uint64_t last_step_;                       ///< last step of the scene's duration
   std::vector<ros::Publisher> hand_, operating_;  ///< one per instrument
   std::vector<bool> has_balloon_;                 ///< one per instrument
   ros::Publisher applied_, visual_, treatment_;

@@ -37,6 +37,8 @@ constexpr auto kContactForceMarker = "contact/force_marker";
 constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kProcedureStep = "procedure/step";
 constexpr auto kSessionInfo = "session/info";
+constexpr auto kSessionSample = "session/sample";
+constexpr auto kSessionEnd = "session/end";  ///< in recordings only
 constexpr auto kSessionStop = "session/stop";
 
 constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";

@@ -1,5 +1,6 @@
 #include "nodes/session/bag_writer.h"
 
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <utility>
@@ -7,7 +8,7 @@
 
 #include <ros/console.h>
 
-#include "common/error.h"
+#include "common/output_file.h"
 
 namespace endovascular_sim::nodes
 {
@@ -24,6 +25,8 @@ constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::uintmax_t kReserve = 64U << 20U;
 /** Written size between two checks of the free space [B]. */
 constexpr std::uint64_t kCheckInterval = 8U << 20U;
+/** Size of a chunk before compression, which is lost if the process is killed [B]. */
+constexpr std::uint32_t kChunkSize = 256U << 10U;
 
 }  // namespace
 
@@ -32,12 +35,17 @@ BagWriter::BagWriter(const std::string& file) : file_(file)
   checkSpace();
   if (!error_.empty())
     throw InputError(file_, "recording", error_);
+  errno = 0;
   try
   {
     bag_.open(file_, rosbag::bagmode::Write);
+    bag_.setCompression(rosbag::compression::LZ4);
+    bag_.setChunkThreshold(kChunkSize);
   }
   catch (const rosbag::BagException& exception)
   {
+    if (errno != 0)
+      throw writeError(file_);
     throw InputError(file_, "recording",
                      std::string(exception.what()) + "; choose an existing, writable folder with free space");
   }
@@ -106,6 +114,7 @@ void BagWriter::process(const Item& item)
     ++dropped_;
     return;
   }
+  errno = 0;
   try
   {
     item.work(bag_);
@@ -114,6 +123,12 @@ void BagWriter::process(const Item& item)
       const std::lock_guard<std::mutex> lock(mutex_);
       ++messages_;
     }
+  }
+  catch (const rosbag::BagException& exception)
+  {
+    fail(errno == 0 ? exception.what() : writeError(file_).what());
+    closeBag();
+    return;
   }
   catch (const std::exception& exception)
   {
@@ -133,10 +148,14 @@ void BagWriter::process(const Item& item)
 void BagWriter::checkSpace()
 {
   std::error_code ignored;
-  const auto folder = std::filesystem::absolute(file_).parent_path();
-  const std::filesystem::space_info space = std::filesystem::space(folder, ignored);
+  const std::filesystem::space_info space = std::filesystem::space(folder(), ignored);
   if (!ignored && space.available < kReserve)
-    fail("less than 64 MB are free on the disk of " + folder.string() + "; free some space or record elsewhere");
+    fail("less than 64 MB are free on the disk of " + folder() + "; free some space or record elsewhere");
+}
+
+std::string BagWriter::folder() const
+{
+  return std::filesystem::absolute(file_).parent_path().string();
 }
 
 void BagWriter::fail(const std::string& reason)
@@ -155,14 +174,15 @@ void BagWriter::closeBag()
   if (!bag_open_)
     return;
   bag_open_ = false;
+  errno = 0;
   try
   {
     bag_.close();
   }
   catch (const std::exception& exception)
   {
-    fail(std::string("the bag's index could not be written (") + exception.what() +
-         "); rosbag reindex recovers its messages");
+    fail("the index of the bag cannot be written (" + (errno == 0 ? std::string(exception.what()) : systemReason()) +
+         "); free some space, then recover its messages with rosbag reindex " + file_);
   }
 }
 

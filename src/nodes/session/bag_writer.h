@@ -17,8 +17,9 @@ namespace endovascular_sim::nodes
 
 /** Writer of a bag and other files of a session, in its own thread: a slow disk does not delay messages.
  *
- *  The queue is bounded; messages that do not fit are dropped and counted. Before the disk is full the bag is closed,
- *  while there is space for its index. From then on all messages are dropped, and error() holds the reason. */
+ *  The bag is compressed with LZ4. The queue is bounded; messages that do not fit are dropped and counted. Before the
+ *  disk is full the bag is closed, while there is space for its index. From then on, and after a failed write, all
+ *  messages are dropped, and error() holds the reason of the operating system. */
 class BagWriter
 {
 public:
@@ -67,7 +68,7 @@ public:
   const std::string& file() const { return file_; }
   std::uint64_t bytes() const;     ///< size of the bag [B]
   std::uint64_t messages() const;  ///< number of messages written
-  std::uint64_t dropped() const;   ///< number of messages dropped
+  std::uint64_t dropped() const;   ///< number of messages dropped, for whatever reason
   std::string error() const;       ///< reason of an early end; empty without one
 
 private:
@@ -84,6 +85,7 @@ private:
   void process(const Item& item);
   void checkSpace();
   void fail(const std::string& reason);
+  std::string folder() const;
   void closeBag();
 
   std::string file_;

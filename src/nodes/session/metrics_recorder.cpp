@@ -2,70 +2,19 @@
 
 #include <algorithm>
 
+#include "common/error.h"
 #include "nodes/conversions/procedure_conversions.h"
+#include "nodes/conversions/sample_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/ros_names.h"
 #include "results/session_run.h"
 #include "results/treatment_report.h"
 #include "scene/scene_vessel.h"
+#include "simulation/balloon_treatments.h"
 
 namespace endovascular_sim::nodes
 {
-namespace
-{
-
-constexpr double kOutside = 19e-3;  ///< distance in front of the introducer at which an instrument is outside [m]
-
-Eigen::Vector3d toVector(const geometry_msgs::Point& point)
-{
-  return {point.x, point.y, point.z};
-}
-
-double magnitude(const geometry_msgs::Vector3& v)
-{
-  return Eigen::Vector3d(v.x, v.y, v.z).norm();
-}
-
-/** Point of the wire at an arc length behind its tip [m]; the first node beyond the wire. */
-Eigen::Vector3d pointBehindTip(const RodStateVisual& rod, double length)
-{
-  for (std::size_t k = rod.nodes.size() - 1; k > 0; --k)
-  {
-    const Eigen::Vector3d end = toVector(rod.nodes[k]);
-    const Eigen::Vector3d edge = toVector(rod.nodes[k - 1]) - end;
-    if (length <= edge.norm())
-      return end + length / std::max(edge.norm(), 1e-12) * edge;
-    length -= edge.norm();
-  }
-  return toVector(rod.nodes.front());
-}
-
-}  // namespace
-
-procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
-                                       const procedure::BranchLocator& locator, const std::vector<double>& pressures)
-{
-  procedure::Observation observation;
-  observation.time = rod.time;
-  const double furthest = *std::max_element(rod.insertion.begin(), rod.insertion.end());
-  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
-  {
-    procedure::InstrumentView view;
-    view.hand = {rod.insertion.at(k), rod.rotation.at(k), rod.hand_force.at(k), rod.hand_torque.at(k),
-                 k < pressures.size() ? pressures[k] : 0.0};
-    view.outside = view.hand.insertion < -kOutside;
-    view.tip = pointBehindTip(rod, furthest - std::max(0.0, view.hand.insertion));
-    if (view.hand.insertion > 0.0)
-      view.branch_position = locator.at(view.tip);
-    const auto& balloon = scene.instruments[k].instrument.balloon;
-    const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
-    if (middle > 0.0)
-      view.balloon = pointBehindTip(rod, furthest - middle);
-    observation.instruments.push_back(view);
-  }
-  procedure::markCovered(observation);
-  return observation;
-}
 
 void MetricsRecorder::add(const VesselMesh& mesh)
 {
@@ -90,55 +39,77 @@ void MetricsRecorder::begin()
 {
   if (vessel_.mesh.triangles.empty() || vessel_.centreline.branches.empty())
     return;
-  const scene::EntryPose entry = scene::resolveEntry(scene_.entry, vessel_, scene_.file);
+  const scene::EntryPose entry = scene::resolveStart(scene_, vessel_);
   metrics_ = std::make_unique<results::SessionMetrics>(scene_, vessel_.centreline, entry.position);
+  for (results::Sample& sample : early_samples_)
+    metrics_->add(std::move(sample));
+  early_samples_.clear();
 }
 
-void MetricsRecorder::add(const RodStateVisual& rod)
+void MetricsRecorder::add(const SessionSample& message)
 {
-  if (!metrics_ || rod.nodes.empty() || rod.insertion.size() != scene_.instruments.size() || !metrics_->isDue(rod.time))
+  if (message.step >= steps_)
     return;
-  results::Sample sample;
-  sample.observation = observationFrom(rod, scene_, metrics_->locator(), pressures_);
-  for (const auto& [position, force] : contacts_)
-    sample.addContact(position, force);
-  metrics_->add(std::move(sample));
-}
-
-void MetricsRecorder::add(const ContactForces& forces)
-{
-  contacts_.clear();
-  for (const ContactForce& contact : forces.contacts)
-    contacts_.emplace_back(toVector(contact.position), magnitude(contact.normal_force));
+  results::Sample sample = fromMessage(message, scene_.instruments.size());
+  if (metrics_)
+    metrics_->add(std::move(sample));
+  else
+    early_samples_.push_back(std::move(sample));
 }
 
 void MetricsRecorder::add(const ProcedureStep& step)
 {
-  if (steps_.size() + 1 == step.begun)
-  {
-    if (!steps_.empty() && steps_.back().outcome == procedure::Progress::kRunning)
-    {
-      steps_.back().outcome = procedure::Progress::kDone;
-      steps_.back().end = step.begin;
-    }
-    steps_.push_back(fromMessage(step));
-  }
-  else if (steps_.size() == step.begun && !steps_.empty())
-    steps_.back() = fromMessage(step);
+  if (step.step >= steps_)
+    return;
+  if (procedure_steps_.size() + 1 == step.begun)
+    procedure_steps_.push_back(fromMessage(step));
+  else if (procedure_steps_.size() == step.begun && !procedure_steps_.empty())
+    procedure_steps_.back() = fromMessage(step);
   failure_ = step.failure;
 }
 
 void MetricsRecorder::add(const WallDisplacement& moved)
 {
-  if (wall_.vertices.empty())
+  if (wall_.vertices.empty() || moved.step >= steps_)
     return;
   const intervention::WallDisplacement vertices = fromMessage(moved, wall_.vertices.size());
   for (std::size_t k = 0; k < vertices.indices.size(); ++k)
     wall_.vertices[vertices.indices[k]] = vertices.positions[k];
+  followRisk(moved);
+}
+
+/** Adds an event when the wall comes at risk. The displacement holds the step of its balloon load, so that the time is
+ *  that of the offline simulation, whenever the message arrives. */
+void MetricsRecorder::followRisk(const WallDisplacement& moved)
+{
+  if (moved.at_risk && !at_risk_)
+    risks_.push_back({simulation::nameOf(simulation::TreatmentEvent::kAtRisk), firstBalloon(),
+                      static_cast<double>(moved.step + 1) * scene_.solver.time_step});
+  at_risk_ = moved.at_risk;
+}
+
+int MetricsRecorder::firstBalloon() const
+{
+  const auto hasBalloon = [](const scene::DrivenInstrument& driven) { return driven.instrument.balloon.has_value(); };
+  const auto first = std::find_if(scene_.instruments.begin(), scene_.instruments.end(), hasBalloon);
+  return first == scene_.instruments.end() ? 0 : static_cast<int>(first - scene_.instruments.begin());
 }
 
 void MetricsRecorder::add(const TreatmentVisual& treatment)
 {
+  if (treatment.step >= steps_)
+    return;
+  const std::size_t size = treatment.event.size();
+  if (treatment.event_time.size() != size || treatment.event_instrument.size() != size)
+    throw InputError(names::kTreatmentVisual, "event, event_time, event_instrument", "must have the same length");
+  events_.clear();  // every message holds all events so far
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    if (treatment.event_instrument[k] >= scene_.instruments.size())
+      throw InputError(names::kTreatmentVisual, "event_instrument", "must be an index of the scene's instruments");
+    if (treatment.event[k] != simulation::nameOf(simulation::TreatmentEvent::kAtRisk))
+      events_.push_back({treatment.event[k], static_cast<int>(treatment.event_instrument[k]), treatment.event_time[k]});
+  }
   stents_.clear();
   for (const TreatmentBody& stent : treatment.stents)
     if (stent.opened)
@@ -149,7 +120,10 @@ void MetricsRecorder::write(const std::string& folder, const results::WallForceS
 {
   if (!metrics_)
     return;
-  metrics_->setSteps(steps_, failure_);
+  metrics_->setSteps(procedure_steps_, failure_);
+  for (const std::vector<Event>* events : {&events_, &risks_})
+    for (const Event& event : *events)
+      metrics_->addEvent(event.kind, event.instrument, event.time);
   if (forces != nullptr)
     metrics_->setWallForces(*forces);
   metrics_->setLesions(results::lesionOutcomes(vessel_, wall_, stents_));

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "endovascular_sim/ContactForces.h"
 #include "endovascular_sim/ProcedureStep.h"
-#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
@@ -18,43 +19,57 @@
 namespace endovascular_sim::nodes
 {
 
-/** Metrics of a session from the messages of the graph, live or recorded. Messages before the vessel are ignored. */
+/** Metrics of a session from the messages of the graph, live or recorded. They equal those of `simulate` for the same
+ *  trajectory. */
 class MetricsRecorder
 {
 public:
-  explicit MetricsRecorder(scene::Scene scene) : scene_(std::move(scene)) {}
+  /** @param steps number of steps of the session; messages of later steps are ignored */
+  explicit MetricsRecorder(scene::Scene scene, std::uint64_t steps = std::numeric_limits<std::uint64_t>::max())
+    : scene_(std::move(scene)), steps_(steps)
+  {
+  }
 
   void add(const VesselMesh& mesh);
   void add(const VesselCentreline& centreline);
-  void add(const RodStateVisual& rod);
-  void add(const ContactForces& forces);
+  /** @throws InputError when a list does not match the instruments of the scene */
+  void add(const SessionSample& sample);
   void add(const ProcedureStep& step);
+  /** Displacements before the vessel are ignored.
+   *  @throws InputError for an invalid displacement */
   void add(const WallDisplacement& moved);
+  /** @throws InputError when lists of the message differ in length, or an event names no instrument of the scene */
   void add(const TreatmentVisual& treatment);
-  /** Sets the commanded pressure at the inflator of every instrument [Pa]. */
-  void setPressures(const std::vector<double>& pressures) { pressures_ = pressures; }
 
   /** Evaluates the lesions and writes metrics.json, metrics.html and instruments.csv; without a vessel it does nothing.
    *  @throws InputError when a file cannot be written */
   void write(const std::string& folder, const results::WallForceSummary* forces);
 
 private:
+  /** Event of a balloon or stent. */
+  struct Event
+  {
+    std::string kind;
+    int instrument = 0;
+    double time = 0.0;  ///< [s]
+  };
+
   void begin();
+  void followRisk(const WallDisplacement& moved);
+  int firstBalloon() const;
 
   scene::Scene scene_;
+  std::uint64_t steps_;
   vessel::Vessel vessel_;                             ///< initial vessel
   geometry::TriangleMesh wall_;                       ///< current wall
   std::vector<intervention::RoundBody> stents_;       ///< opened stents
+  std::vector<Event> events_;                         ///< events of balloons and stents, without those of the wall
+  std::vector<Event> risks_;                          ///< events of the wall
+  bool at_risk_ = false;                              ///< risk of the wall at its newest displacement
   std::unique_ptr<results::SessionMetrics> metrics_;  ///< null before the vessel
-  std::vector<procedure::StepRecord> steps_;
+  std::vector<results::Sample> early_samples_;        ///< samples before the vessel
+  std::vector<procedure::StepRecord> procedure_steps_;
   std::string failure_;
-  std::vector<double> pressures_;
-  std::vector<std::pair<Eigen::Vector3d, double>> contacts_;  ///< newest contacts: position [m] and normal force [N]
 };
-
-/** Observation in a message.
- *  @param pressures pressure at the inflator of every instrument [Pa]; may be empty */
-procedure::Observation observationFrom(const RodStateVisual& rod, const scene::Scene& scene,
-                                       const procedure::BranchLocator& locator, const std::vector<double>& pressures);
 
 }  // namespace endovascular_sim::nodes

@@ -1,14 +1,12 @@
 #include "nodes/session/session_bag.h"
 
 #include <optional>
-#include <vector>
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include "common/error.h"
+#include "common/hash.h"
 #include "common/version.h"
+#include "endovascular_sim/SessionEnd.h"
 #include "nodes/runtime/ros_names.h"
+#include "nodes/session/bag_records.h"
 
 namespace endovascular_sim::nodes
 {
@@ -24,12 +22,9 @@ bool isTopic(const std::string& topic, const std::string& name)
 
 /** Session info of another version. New fields are appended to the message only: the known ones are at its beginning.
  */
-SessionInfo infoOfOtherVersion(const rosbag::MessageInstance& message)
+SessionInfo infoOfOtherVersion(const BagMessage& message)
 {
-  std::vector<std::uint8_t> bytes(message.size());
-  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  message.write(out);
-  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  CheckedStream in(message.data, message.size);
   SessionInfo info;
   in.next(info.header);
   in.next(info.scene_name);
@@ -43,19 +38,6 @@ SessionInfo infoOfOtherVersion(const rosbag::MessageInstance& message)
     return info;  // recorded before the message had a commit and a physics number
   in.next(info.commit);
   in.next(info.physics_number);
-  return info;
-}
-
-std::optional<SessionInfo> readInfo(const rosbag::Bag& bag)
-{
-  rosbag::View view(
-      bag, [](const rosbag::ConnectionInfo* connection) { return isTopic(connection->topic, names::kSessionInfo); });
-  std::optional<SessionInfo> info;
-  for (const rosbag::MessageInstance& message : view)
-  {
-    const auto current = message.instantiate<SessionInfo>();
-    info = current ? *current : infoOfOtherVersion(message);
-  }
   return info;
 }
 
@@ -76,36 +58,100 @@ void requireSamePhysics(const std::string& file, const SessionInfo& info)
                        "; replay it with a build of commit " + info.commit);
 }
 
+/** Message of a type of this version.
+ *  @throws InputError when it has the fields of another version */
+template <typename Message>
+boost::shared_ptr<Message> readMessage(const std::string& file, const char* topic, const BagMessage& message)
+{
+  if (!message.is<Message>())
+    throw InputError(file, topic,
+                     "has the fields of another version; replay it with a build of the commit that recorded it "
+                     "(rostopic echo -b FILE -n 1 /session/info)");
+  return message.read<Message>();
+}
+
+/** Adds a message to the content of a session.
+ *  @param info set when the message is the session info */
+void addMessage(const std::string& file, const BagMessage& message, std::optional<SessionInfo>& info,
+                SessionBag& session)
+{
+  if (isTopic(message.topic, names::kSessionInfo))
+  {
+    info = message.is<SessionInfo>() ? *message.read<SessionInfo>() : infoOfOtherVersion(message);
+    requireSamePhysics(file, *info);  // first, so that it is reported before differences of other messages
+  }
+  else if (isTopic(message.topic, names::kDriveApplied))
+  {
+    const auto applied = readMessage<DriveApplied>(file, names::kDriveApplied, message);
+    session.steps[applied->step] = applied;
+  }
+  else if (isTopic(message.topic, names::kVesselMesh) && !session.mesh)
+    session.mesh = readMessage<VesselMesh>(file, names::kVesselMesh, message);
+  else if (isTopic(message.topic, names::kVesselCentreline) && !session.centreline)
+    session.centreline = readMessage<VesselCentreline>(file, names::kVesselCentreline, message);
+  else if (isTopic(message.topic, names::kSessionEnd))
+    session.recorded_steps = readMessage<SessionEnd>(file, names::kSessionEnd, message)->steps;
+}
+
+/** Checks the text of the scene against its hash, and the vessel against that of the session.
+ *  @throws InputError when they differ */
+void requireUndamaged(const std::string& file, const SessionBag& session)
+{
+  Hash64 hash;
+  hash.add(session.info.scene_yaml.data(), session.info.scene_yaml.size());
+  if (hash.value() != session.info.scene_hash)
+    throw InputError(file, names::kSessionInfo,
+                     "the scene does not match its hash: the bag is damaged; use a copy that is intact");
+  if (session.mesh && session.mesh->content_hash != session.info.mesh_hash)
+    throw InputError(file, names::kVesselMesh,
+                     "is not the vessel of session/info: the bag is damaged; use a copy that is intact");
+}
+
+std::string damageOf(const SessionBag& session)
+{
+  return session.damage.empty() ? "" : "; the bag is damaged: " + session.damage;
+}
+
 }  // namespace
 
 SessionBag readSessionBag(const std::string& file)
 {
-  rosbag::Bag bag;
-  bag.open(file, rosbag::bagmode::Read);
-  const std::optional<SessionInfo> info = readInfo(bag);
-  if (!info)
-    throw InputError(file, names::kSessionInfo, "missing; only bags of the session node can be replayed");
-  requireSamePhysics(file, *info);
   SessionBag session;
-  session.info = *info;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag))
+  std::optional<SessionInfo> info;
+  std::string unreadable;
+  const auto add = [&](const BagMessage& message)
   {
-    if (isTopic(message.getTopic(), names::kDriveApplied))
+    try
     {
-      const auto applied = message.instantiate<DriveApplied>();
-      if (!applied)
-        throw InputError(file, names::kDriveApplied,
-                         "has the fields of another version; replay it with a build of commit " + info->commit);
-      session.steps[applied->step] = applied;
+      addMessage(file, message, info, session);
     }
-    else if (isTopic(message.getTopic(), names::kVesselMesh) && !session.mesh)
-      session.mesh = message.instantiate<VesselMesh>();
-    else if (isTopic(message.getTopic(), names::kVesselCentreline))
-      session.centreline = message.instantiate<VesselCentreline>();
-  }
+    catch (const ros::Exception&)  // the bytes of the message are damaged
+    {
+      unreadable = "a message of " + message.topic.substr(0, 100) + " cannot be read";
+    }
+  };
+  session.damage = readBagMessages(file, add);
+  if (session.damage.empty())
+    session.damage = unreadable;
+  if (!info)
+    throw InputError(file, names::kSessionInfo,
+                     "missing; only bags of the session node can be replayed" + damageOf(session));
+  session.info = *info;
+  requireUndamaged(file, session);
   if (session.steps.empty())
-    throw InputError(file, names::kDriveApplied, "holds no step");
+    throw InputError(file, names::kDriveApplied, "holds no step; record a session that steps" + damageOf(session));
   return session;
+}
+
+std::string incompleteness(const SessionBag& session)
+{
+  const std::uint64_t found = session.steps.size();
+  if (session.recorded_steps && *session.recorded_steps == found && session.steps.rbegin()->first + 1 == found)
+    return session.damage.empty() ? "" : "the bag is damaged: " + session.damage;
+  std::string reason = session.recorded_steps ? "the bag holds " + std::to_string(found) + " of the session's " +
+                                                    std::to_string(*session.recorded_steps) + " steps"
+                                              : "the bag has no end (session/end)";
+  return reason + damageOf(session);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "endovascular_sim/DriveApplied.h"
@@ -19,11 +20,16 @@ struct SessionBag
   VesselMeshConstPtr mesh;              ///< initial wall; null without a vessel
   VesselCentrelineConstPtr centreline;  ///< null without a vessel
   std::map<std::uint64_t, DriveAppliedConstPtr> steps;
+  std::optional<std::uint64_t> recorded_steps;  ///< number of steps of the session; empty: the bag has no end
+  std::string damage;                           ///< first damage of the file; empty without one
 };
 
-/** Reads a bag of the session node.
+/** Reads a bag of the session node, as far as it is intact; the index of the bag is not needed.
  *  @throws InputError when it holds no session, or a session with another physics number than kPhysicsNumber: the error
  *          names the version and the commit that can replay it */
 SessionBag readSessionBag(const std::string& file);
+
+/** Reason for which a bag does not hold every step of its session; empty if it does. */
+std::string incompleteness(const SessionBag& session);
 
 }  // namespace endovascular_sim::nodes

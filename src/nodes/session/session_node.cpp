@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/file_name.h"
 #include "nodes/runtime/parameters.h"
 
 namespace endovascular_sim::nodes
@@ -19,7 +20,7 @@ constexpr double kPeriod = 5e-3;  // s
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-/** Default folder of the results, below ROS_HOME. */
+/** Default folder of the results, always a direct subfolder of ROS_HOME/endovascular_sim. */
 std::string defaultFolder(const std::string& scene_name)
 {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -27,7 +28,8 @@ std::string defaultFolder(const std::string& scene_name)
   std::ostringstream folder;
   folder << (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros");
   const std::time_t now = std::time(nullptr);
-  folder << "/endovascular_sim/" << scene_name << "-" << std::put_time(std::localtime(&now), "%Y%m%d-%H%M%S");
+  folder << "/endovascular_sim/" << fileNameOf(scene_name) << "-"
+         << std::put_time(std::localtime(&now), "%Y%m%d-%H%M%S");
   return folder.str();
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -14,18 +13,15 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "common/error.h"
-#include "common/hash.h"
 #include "common/version.h"
-#include "contact/contract/contact_set.h"
 #include "endovascular_sim/OperatingState.h"
+#include "endovascular_sim/SessionEnd.h"
+#include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/png_writer.h"
-#include "nodes/conversions/contact_force_conversions.h"
 #include "nodes/conversions/joint_state_conversions.h"
-#include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
-#include "results/wall_force_report.h"
 
 namespace endovascular_sim::nodes
 {
@@ -38,21 +34,10 @@ constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [H
 /** Queue length of topics at the step rate: 10 s of messages. */
 constexpr std::uint32_t kStepQueue = 10000;
 constexpr std::uint32_t kQueue = 100;
-
-results::SessionIdentity identityOf(const scene::Scene& scene)
-{
-  results::SessionIdentity identity;
-  identity.scene_name = scene.name;
-  identity.scene_file = scene.file;
-  identity.scene_hash = scene.hash();
-  identity.seed = scene.seed;
-  identity.time_step = scene.solver.time_step;
-  identity.duration = scene.duration;
-  identity.software_version = version();
-  identity.commit = commit();
-  identity.physics = kPhysicsNumber;
-  return identity;
-}
+/** Time from the last step to the end of the recording, and its largest value without the wall forces of that step [s].
+ */
+constexpr double kSettling = 0.2;
+constexpr double kLongestSettling = 3.0;
 
 SessionInfo infoOf(const scene::Scene& scene)
 {
@@ -68,6 +53,13 @@ SessionInfo infoOf(const scene::Scene& scene)
   return info;
 }
 
+/** Number of steps after which the session ends; the largest number without an end. */
+std::uint64_t stepsOf(const scene::Scene& scene, const RecorderSettings& settings)
+{
+  return settings.stop_at_duration ? static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step))
+                                   : std::numeric_limits<std::uint64_t>::max();
+}
+
 /** Creates the folder of a session, which must not contain an earlier one. @return the folder */
 std::string createFolder(const std::string& folder)
 {
@@ -81,18 +73,6 @@ std::string createFolder(const std::string& folder)
   return folder;
 }
 
-/** Name of the node in the name of a diagnostic status: "rod_dynamics" in "/rod_dynamics: simulation". */
-std::string nodeOf(const std::string& status_name)
-{
-  const std::string node = status_name.substr(0, status_name.find(':'));
-  return !node.empty() && node.front() == '/' ? node.substr(1) : node;
-}
-
-double magnitude(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b)
-{
-  return std::hypot(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-
 }  // namespace
 
 SessionRecorder::SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings)
@@ -100,16 +80,13 @@ SessionRecorder::SessionRecorder(ros::NodeHandle node, scene::Scene scene, Recor
     scene_(std::move(scene)),
     settings_(std::move(settings)),
     info_(infoOf(scene_)),
-    report_(identityOf(scene_)),
-    trajectory_(createFolder(settings_.folder) + "/trajectory.csv", scene_.record.trajectory_rate),
-    metrics_(scene_),
+    results_(scene_, createFolder(settings_.folder), stepsOf(scene_, settings_)),
     bag_(settings_.folder + "/session.bag"),
     pose_(scene_.record.pose_rate),
     joints_(kJointRate),
     contacts_(kContactRate),
     last_step_(ros::SteadyTime::now())
 {
-  std::ofstream(path("scene.yaml")) << scene_.resolved_yaml;
   info_publisher_ = node_.advertise<SessionInfo>(names::kSessionInfo, 1, true);
   if (!scene_.vessel)
     publishInfo();
@@ -161,7 +138,7 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
                     bag_.write(resolved, event);
                     try
                     {
-                      metrics_.add(*event.getMessage());
+                      results_.metrics().add(*event.getMessage());
                     }
                     catch (const InputError& error)
                     {
@@ -186,6 +163,7 @@ void SessionRecorder::subscribeToVessel()
   measure<WallDisplacement>(names::kWallDisplacement, kStepQueue);
   if (scene_.procedure)
     measure<ProcedureStep>(names::kProcedureStep, kStepQueue);
+  measure<SessionSample>(names::kSessionSample, kStepQueue);
   listen<ContactForces>(names::kContactForces, kQueue, [this](const auto& event) { onContacts(event); });
   listen<ContactForceMap>(names::kContactForceMap, kQueue, [this](const auto& event) { onForceMap(event); });
 }
@@ -219,10 +197,8 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   if (finished_ || durationIsOver())
     return;
   const DriveApplied& drive = *event.getMessage();
-  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
-                  drive.state_hash);
+  results_.add(drive);
   last_step_ = ros::SteadyTime::now();
-  metrics_.setPressures(drive.pressure);
   bag_.write(node_.resolveName(names::kDriveApplied), event);
   recordJointStates(drive, event.getReceiptTime());
 }
@@ -233,8 +209,6 @@ void SessionRecorder::recordJointStates(const DriveApplied& drive, ros::Time tim
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
                                       drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
-  for (std::size_t k = 0; k < hands; ++k)
-    report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
   if (!joints_.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
     return;
   for (std::size_t k = 0; k < hands; ++k)
@@ -253,29 +227,9 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   if (finished_)
     return;
   const RodStateVisual& rod = *event.getMessage();
-  metrics_.add(rod);
-  if (!rod.nodes.empty())
-  {
-    const geometry_msgs::Point& tip = rod.nodes.back();
-    results::TrajectoryRow row;
-    row.time = rod.time;
-    const auto furthest =
-        static_cast<std::size_t>(std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
-    row.insertion = rod.insertion.at(furthest);
-    row.rotation = rod.rotation.at(furthest);
-    row.hand_force = rod.hand_force.at(furthest);
-    row.hand_torque = rod.hand_torque.at(furthest);
-    row.tip = {tip.x, tip.y, tip.z};
-    row.nodes = rod.nodes.size();
-    for (double pressure : rod.pressure)
-      row.pressure = std::max(row.pressure, pressure);
-    report_.addTip(row.tip, row.insertion, row.nodes);
-    if (!trajectory_.add(row) && error_.empty())
-    {
-      error_ = path("trajectory.csv") + " cannot be written: is the disk full?";
-      ROS_ERROR("%s", error_.c_str());
-    }
-  }
+  results_.add(rod);
+  if (error_.empty())
+    error_ = results_.trajectoryError();
   if (pose_.passes(rod.time))
     bag_.write(node_.resolveName(names::kRodStateVisual), event);
 }
@@ -285,11 +239,7 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
   if (finished_)
     return;
   const ContactForces& forces = *event.getMessage();
-  metrics_.add(forces);
-  double largest = 0.0;
-  for (const ContactForce& contact : forces.contacts)
-    largest = std::max(largest, magnitude(contact.normal_force, contact.friction_force));
-  report_.addContacts(largest, forces.contacts.size());
+  results_.add(forces);
   if (contacts_.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
     bag_.write(node_.resolveName(names::kContactForces), event);
 }
@@ -298,8 +248,7 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 {
   if (finished_)
     return;
-  force_map_ = event.getConstMessage();
-  report_.setWallForces(summaryFromMessage(*force_map_), force_map_->triangles.size());
+  results_.add(event.getConstMessage());
   bag_.write(node_.resolveName(names::kContactForceMap), event);
 }
 
@@ -307,12 +256,8 @@ void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   if (info_published_)
     return;  // later meshes are in vessel/moved already
-  vessel_ = event.getConstMessage();
-  metrics_.add(*vessel_);
-  info_.mesh_hash = vessel_->content_hash;
-  report_.setMeshHash(info_.mesh_hash);
-  for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
-    report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+  results_.add(event.getConstMessage());
+  info_.mesh_hash = event.getConstMessage()->content_hash;
   publishInfo();
   bag_.write(node_.resolveName(names::kVesselMesh), event);
 }
@@ -321,8 +266,9 @@ void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>&
 {
   if (finished_)
     return;
-  report_.addFluoroscopyFrame();
-  bag_.write(node_.resolveName(names::kFluoroscopyImage), event);
+  results_.report().addFluoroscopyFrame();
+  if (scene_.record.x_ray_frames)
+    bag_.write(node_.resolveName(names::kFluoroscopyImage), event);
   if (settings_.picture_interval > 0 && frames_++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
     savePicture(event.getMessage());
 }
@@ -333,7 +279,7 @@ void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
     return;
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "frame_%06llu.png", static_cast<unsigned long long>(frames_ - 1));
-  report_.addFluoroscopyPicture();
+  results_.report().addFluoroscopyPicture();
   const std::string file = path("fluoroscopy/") + name.data();
   bag_.run(
       [image, file]
@@ -342,26 +288,23 @@ void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
 
 void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event)
 {
-  for (const diagnostic_msgs::DiagnosticStatus& status : event.getMessage()->status)
-    for (const diagnostic_msgs::KeyValue& value : status.values)
-      report_.addDiagnostic(nodeOf(status.name), value.key, value.value);
+  results_.add(*event.getMessage());
   bag_.write(node_.resolveName(names::kDiagnostics), event);
 }
 
 bool SessionRecorder::durationIsOver() const
 {
-  // Tolerance of half a step: the time is a multiple of the time step.
-  return settings_.stop_at_duration && report_.simulatedTime() > scene_.duration - 0.5 * scene_.solver.time_step;
+  return settings_.stop_at_duration && results_.report().lastStep() >= stepsOf(scene_, settings_);
 }
 
 void SessionRecorder::logProgress()
 {
-  const double now = report_.simulatedTime();
+  const double now = results_.report().simulatedTime();
   if (now < logged_time_ + 1.0)
     return;
   logged_time_ = std::floor(now);
   ROS_INFO("%.0f of %.0f s simulated, insertion %.1f mm, hand force %.3f N", now, scene_.duration,
-           1e3 * report_.insertedLength(), report_.handForce().final());
+           1e3 * results_.report().insertedLength(), results_.report().handForce().final());
 }
 
 void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
@@ -373,9 +316,13 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
   if (!settings_.stop_at_duration)
     return;
   const double silence = (ros::SteadyTime::now() - last_step_).toSec();
-  const double patience = report_.steps() == 0 ? settings_.start_patience : settings_.patience;
-  if (durationIsOver())
+  const double patience = results_.report().steps() == 0 ? settings_.start_patience : settings_.patience;
+  // Messages of the last steps on other topics may arrive after drive/applied.
+  const bool is_settled = silence > kLongestSettling || (silence > kSettling && results_.hasFinalMap());
+  if (durationIsOver() && is_settled)
     endWith("");
+  else if (durationIsOver())
+    return;
   else if (silence > patience)
     endWith("no step of the simulation for " + std::to_string(static_cast<int>(silence)) +
             " s; the diagnostics of rod_dynamics and contact hold the reason");
@@ -406,56 +353,14 @@ void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrappe
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "recording ended early: " + bag_error);
   else if (!error_.empty())
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, error_);
-  else if (bag_.dropped() > 0)
+  else if (bag_.dropped() > 0)  // without an error only the queue drops messages
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "messages were dropped: the disk is too slow");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, finished_ ? "finished" : "recording");
-  status.add("steps recorded", report_.steps());
+  status.add("steps recorded", results_.report().steps());
   status.add("messages recorded", bag_.messages());
   status.add("messages dropped", bag_.dropped());
   status.add("recording [bytes]", bag_.bytes());
-}
-
-bool SessionRecorder::writeWallForces() const
-{
-  if (!force_map_ || !vessel_ || force_map_->content_hash != vessel_->content_hash)
-    return true;
-  const geometry::TriangleMesh mesh = fromMessage(*vessel_);
-  std::vector<std::string> names(static_cast<std::size_t>(std::numeric_limits<std::uint16_t>::max()) + 1);
-  for (const ContactForceTotals& region : force_map_->regions)
-    names[region.region] = region.name;
-  std::vector<results::WallForceRow> rows;
-  for (const results::WallForce& force : touchedFromMessage(*force_map_))
-  {
-    if (force.triangle < 0 || force.triangle >= static_cast<int>(mesh.triangles.size()))
-      continue;
-    const Eigen::Vector3i& corners = mesh.triangles[static_cast<std::size_t>(force.triangle)];
-    const Eigen::Vector3d centre =
-        (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
-    rows.push_back({force, centre, names[regionToMessage(force.region)]});
-  }
-  std::ofstream forces(path("wall_forces.csv"));
-  std::ofstream points(path("vessel_points.csv"));
-  forces << results::wallForcesCsv(std::move(rows));
-  points << results::vesselPointsCsv(mesh.vertices);
-  return forces.flush() && points.flush();
-}
-
-bool SessionRecorder::writeMetrics()
-{
-  results::WallForceSummary forces;
-  if (force_map_)
-    forces = summaryFromMessage(*force_map_);
-  try
-  {
-    metrics_.write(settings_.folder, force_map_ ? &forces : nullptr);
-  }
-  catch (const InputError& error)
-  {
-    ROS_ERROR("%s", error.what());
-    return false;
-  }
-  return true;
 }
 
 bool SessionRecorder::finish()
@@ -464,26 +369,20 @@ bool SessionRecorder::finish()
     return complete_;
   finished_ = true;
   subscribers_.clear();
+  SessionEnd end;
+  end.header.stamp = ros::Time::now();
+  end.steps = results_.report().lastStep();
+  bag_.writeLatched(node_.resolveName(names::kSessionEnd), end);
   bag_.close();
-  const bool rows_written = trajectory_.flush();
   results::RecordingOutcome outcome;
   outcome.file = bag_.file();
   outcome.bytes = bag_.bytes();
   outcome.messages = bag_.messages();
   outcome.dropped = bag_.dropped();
   outcome.error = bag_.error();
-  std::ofstream file(path("report.json"));
-  file << report_.json(outcome, error_);
-  file.close();
-  const bool metrics_written = writeMetrics();
-  const bool map_written = writeWallForces();
-  if (!map_written)
-    ROS_ERROR("%s cannot be written: is the disk full?", path("wall_forces.csv").c_str());
-  if (!file)
-    ROS_ERROR("%s cannot be written: is the disk full?", path("report.json").c_str());
-  complete_ = static_cast<bool>(file) && rows_written && map_written && metrics_written && outcome.error.empty() &&
-              error_.empty();
-  ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(report_.steps()), settings_.folder.c_str());
+  complete_ = results_.write(outcome, error_) && outcome.error.empty() && error_.empty();
+  ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(results_.report().steps()),
+           settings_.folder.c_str());
   return complete_;
 }
 

@@ -19,10 +19,8 @@
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/session/bag_writer.h"
-#include "nodes/session/metrics_recorder.h"
+#include "nodes/session/session_results.h"
 #include "nodes/session/throttle.h"
-#include "results/report.h"
-#include "results/trajectory_csv.h"
 #include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes
@@ -77,10 +75,6 @@ private:
   void onTimer(const ros::SteadyTimerEvent&);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  /** Writes metrics.json, metrics.html and instruments.csv. @return false on failure */
-  bool writeMetrics();
-  /** Writes wall_forces.csv and vessel_points.csv. @return false on failure */
-  bool writeWallForces() const;
   void savePicture(const sensor_msgs::ImageConstPtr& image);
   /** Reports whether the last step of the scene is recorded and the session ends with it. */
   bool durationIsOver() const;
@@ -93,15 +87,11 @@ private:
   scene::Scene scene_;
   RecorderSettings settings_;
   SessionInfo info_;
-  results::SessionReport report_;
-  results::TrajectoryFile trajectory_;
-  MetricsRecorder metrics_;
+  SessionResults results_;
   BagWriter bag_;
   Throttle pose_;
   Throttle joints_;
   Throttle contacts_;
-  ContactForceMapConstPtr force_map_;  ///< newest map
-  VesselMeshConstPtr vessel_;
   std::uint64_t frames_ = 0;
   bool info_published_ = false;
   bool finished_ = false;

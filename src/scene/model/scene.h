@@ -234,6 +234,7 @@ struct RecordScene
   /** Normal force of one contact above which its duration is counted [N]. The default of 0.1 N is about the tip load
    *  (10 gf) of wires for penetrating occlusions. Navigation in a healthy vessel should stay well below it. */
   double wall_force_threshold = 0.1;
+  bool x_ray_frames = false;  ///< true: the bag contains every X-ray frame, at about 260 kB each before compression
 };
 
 /** Scene: all inputs of a run. docs/SCENES.md lists the keys of its YAML file. */

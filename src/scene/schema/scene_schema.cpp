@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/file_name.h"
+
 namespace endovascular_sim::scene
 {
 namespace
@@ -54,6 +56,17 @@ void visitRecord(SceneFields& fields, RecordScene& record)
   fields.number("pose_rate", record.pose_rate, quantities::kRate, Range::positive());
   fields.number("trajectory_rate", record.trajectory_rate, quantities::kRate, Range::positive());
   fields.number("wall_force_threshold", record.wall_force_threshold, quantities::kWallForce, Range::nonNegative());
+  fields.boolean("x_ray_frames", record.x_ray_frames);
+}
+
+/** Schema of the scene's name, which names the folder of the results. */
+void visitName(SceneFields& fields, std::string& name)
+{
+  fields.text("name", name);
+  if (fields.reading() && name != fileNameOf(name))
+    fields.reject("name", "names the folder of the results; must consist of at most " +
+                              std::to_string(kLongestFileName) +
+                              " letters, digits, _, - and ., with a letter, digit or _ first");
 }
 
 /** Rejects a drive that inserts a wire beyond its length, or that pulls a single wire out of the introducer.
@@ -313,7 +326,7 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
 
 void visitScene(SceneFields& fields, Scene& scene)
 {
-  fields.text("name", scene.name);
+  visitName(fields, scene.name);
   fields.bigInteger("seed", scene.seed);
   fields.number("duration", scene.duration, quantities::kDuration, Range::positive());
   if (fields.reading() ? fields.has("vessel") : scene.vessel.has_value())

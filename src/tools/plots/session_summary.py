@@ -80,7 +80,8 @@ def problems(report):
     if report["steps_missing_from_recording"] > 0:
         fatal.append("%d steps are missing from the recording" % report["steps_missing_from_recording"])
     if report["recording"]["error"]:
-        fatal.append("the recording ended early: " + report["recording"]["error"])
+        fatal.append("the recording ended early: %s (%d messages are missing)" % (report["recording"]["error"],
+                                                                                 report["recording"]["dropped"]))
     elif report["recording"]["dropped"] > 0:
         fatal.append("%d messages were lost: the disk was too slow" % report["recording"]["dropped"])
     on_time = report["on_time_percent"]

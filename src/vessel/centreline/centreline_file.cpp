@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "common/error.h"
+#include "common/output_file.h"
 
 namespace endovascular_sim::vessel
 {
@@ -43,7 +43,7 @@ void writeCentreline(const CentrelineTree& tree, const std::string& name, const 
   }
   out.close();
   if (!out)
-    throw InputError(path, "", "cannot be written; specify --out in an existing, writable folder");
+    throw writeError(path);
 }
 
 }  // namespace endovascular_sim::vessel

@@ -1,0 +1,184 @@
+#include "nodes/session/session_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <ros/console.h>
+
+#include "common/output_file.h"
+#include "common/version.h"
+#include "contact/contract/contact_set.h"
+#include "nodes/conversions/contact_force_conversions.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "results/wall_force_report.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+results::SessionIdentity identityOf(const scene::Scene& scene)
+{
+  results::SessionIdentity identity;
+  identity.scene_name = scene.name;
+  identity.scene_file = scene.file;
+  identity.scene_hash = scene.hash();
+  identity.seed = scene.seed;
+  identity.time_step = scene.solver.time_step;
+  identity.duration = scene.duration;
+  identity.software_version = version();
+  identity.commit = commit();
+  identity.physics = kPhysicsNumber;
+  return identity;
+}
+
+/** Name of the node in the name of a diagnostic status: "rod_dynamics" in "/rod_dynamics: simulation". */
+std::string nodeOf(const std::string& status_name)
+{
+  const std::string node = status_name.substr(0, status_name.find(':'));
+  return !node.empty() && node.front() == '/' ? node.substr(1) : node;
+}
+
+double magnitude(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b)
+{
+  return std::hypot(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+/** Calls a function that writes files, and logs its error. @return true without an error */
+template <typename Write>
+bool tryToWrite(Write write)
+{
+  try
+  {
+    write();
+    return true;
+  }
+  catch (const InputError& error)
+  {
+    ROS_ERROR("%s", error.what());
+    return false;
+  }
+}
+
+}  // namespace
+
+SessionResults::SessionResults(const scene::Scene& scene, std::string folder, std::uint64_t steps)
+  : folder_(std::move(folder)),
+    steps_(steps),
+    has_vessel_(scene.vessel.has_value()),
+    report_(identityOf(scene)),
+    trajectory_(path("trajectory.csv"), scene.record.trajectory_rate),
+    metrics_(scene, steps)
+{
+  writeTextFile(path("scene.yaml"), scene.resolved_yaml);
+}
+
+void SessionResults::add(const DriveApplied& drive)
+{
+  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
+                  drive.state_hash);
+  const std::size_t hands = std::min(drive.hand_force.size(), drive.hand_torque.size());
+  for (std::size_t k = 0; k < hands; ++k)
+    report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
+}
+
+void SessionResults::add(const RodStateVisual& rod)
+{
+  if (rod.nodes.empty() || rod.insertion.empty())
+    return;
+  const geometry_msgs::Point& tip = rod.nodes.back();
+  results::TrajectoryRow row;
+  row.time = rod.time;
+  const auto furthest =
+      static_cast<std::size_t>(std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
+  row.insertion = rod.insertion.at(furthest);
+  row.rotation = rod.rotation.at(furthest);
+  row.hand_force = rod.hand_force.at(furthest);
+  row.hand_torque = rod.hand_torque.at(furthest);
+  row.tip = {tip.x, tip.y, tip.z};
+  row.nodes = rod.nodes.size();
+  for (double pressure : rod.pressure)
+    row.pressure = std::max(row.pressure, pressure);
+  report_.addTip(row.tip, row.insertion, row.nodes);
+  const bool was_complete = trajectory_.error().empty();
+  if (!trajectory_.add(row) && was_complete)
+    ROS_ERROR("%s", trajectory_.error().c_str());
+}
+
+void SessionResults::add(const ContactForces& forces)
+{
+  double largest = 0.0;
+  for (const ContactForce& contact : forces.contacts)
+    largest = std::max(largest, magnitude(contact.normal_force, contact.friction_force));
+  report_.addContacts(largest, forces.contacts.size());
+}
+
+void SessionResults::add(const ContactForceMapConstPtr& map)
+{
+  if (map->step >= steps_)
+    return;
+  force_map_ = map;
+  report_.setWallForces(summaryFromMessage(*force_map_), force_map_->triangles.size());
+}
+
+void SessionResults::add(const VesselMeshConstPtr& vessel)
+{
+  vessel_ = vessel;
+  metrics_.add(*vessel_);
+  report_.setMeshHash(vessel_->content_hash);
+  for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
+    report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+}
+
+void SessionResults::add(const diagnostic_msgs::DiagnosticArray& diagnostics)
+{
+  for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics.status)
+    for (const diagnostic_msgs::KeyValue& value : status.values)
+      report_.addDiagnostic(nodeOf(status.name), value.key, value.value);
+}
+
+bool SessionResults::hasFinalMap() const
+{
+  return !has_vessel_ || (force_map_ && force_map_->step + 1 >= steps_);
+}
+
+void SessionResults::writeWallForces() const
+{
+  if (!force_map_ || !vessel_ || force_map_->content_hash != vessel_->content_hash)
+    return;
+  const geometry::TriangleMesh mesh = fromMessage(*vessel_);
+  std::vector<std::string> names(static_cast<std::size_t>(std::numeric_limits<std::uint16_t>::max()) + 1);
+  for (const ContactForceTotals& region : force_map_->regions)
+    names[region.region] = region.name;
+  std::vector<results::WallForceRow> rows;
+  for (const results::WallForce& force : touchedFromMessage(*force_map_))
+  {
+    if (force.triangle < 0 || force.triangle >= static_cast<int>(mesh.triangles.size()))
+      continue;
+    const Eigen::Vector3i& corners = mesh.triangles[static_cast<std::size_t>(force.triangle)];
+    const Eigen::Vector3d centre =
+        (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
+    rows.push_back({force, centre, names[regionToMessage(force.region)]});
+  }
+  writeTextFile(path("wall_forces.csv"), results::wallForcesCsv(std::move(rows)));
+  writeTextFile(path("vessel_points.csv"), results::vesselPointsCsv(mesh.vertices));
+}
+
+bool SessionResults::write(const results::RecordingOutcome& recording, const std::string& error)
+{
+  const bool was_complete = trajectory_.error().empty();
+  const bool rows_written = trajectory_.flush();
+  if (was_complete && !rows_written)
+    ROS_ERROR("%s", trajectory_.error().c_str());
+  results::WallForceSummary forces;
+  if (force_map_)
+    forces = summaryFromMessage(*force_map_);
+  const bool report = tryToWrite([&] { writeTextFile(path("report.json"), report_.json(recording, error)); });
+  const bool metrics = tryToWrite([&] { metrics_.write(folder_, force_map_ ? &forces : nullptr); });
+  const bool map = tryToWrite([&] { writeWallForces(); });
+  return rows_written && report && metrics && map;
+}
+
+}  // namespace endovascular_sim::nodes
