@@ -25,6 +25,7 @@ vessel::Vessel recordedVessel(const SessionBag& recording, const std::string& fi
   vessel::Vessel vessel;
   vessel.mesh = fromMessage(*recording.mesh);
   vessel.centreline = fromMessage(*recording.centreline);
+  vessel.lesions = lesionsFromMessage(*recording.centreline);
   if (vessel.mesh.hash() != recording.mesh->content_hash)
     throw InputError(file, names::kVesselMesh,
                      "does not match its content hash: the bag is damaged; use a copy that is intact");
