@@ -51,6 +51,15 @@ private:
     raw(&value, sizeof value);
   }
 
+  void add(bool& value)
+  {
+    std::uint8_t byte = !reads_ && value ? 1 : 0;
+    raw(&byte, sizeof byte);
+    if (byte > 1)
+      throw ArchiveError("holds an invalid value");
+    value = byte == 1;
+  }
+
   template <typename T, int kRows>
   void add(Eigen::Matrix<T, kRows, 1>& vector)
   {

@@ -32,7 +32,7 @@ public:
   ClosestPoint closest(const Eigen::Vector3d& p, double limit = 1e300) const;
 
   /** True if a point of the mesh is nearer than the limit, i.e. `closest(p).distance < limit`; ends at the first such
-   *  triangle. Near the medial axis, where much of the wall is about equally far, this is many times as fast. */
+   *  triangle. Near the medial axis, where much of the wall is about equally far, this is faster. */
   bool isNearer(const Eigen::Vector3d& p, double limit) const;
 
   /** Distance along a ray to its first hit [m]; −1 without a hit.

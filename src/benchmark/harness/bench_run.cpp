@@ -149,15 +149,13 @@ std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation
   const rod::Discretisation& wire = simulation.discretisation();
   std::vector<Eigen::Vector3d> points;
   int edge = wire.nodes() - 2;
-  double back = 0.0;
-  while (back < state.inserted_length)
+  for (double back = 0.0; back < state.inserted_length; back += spacing)
   {
     const double at = wire.length() - back;
     while (edge > state.first_node && wire.position[edge] > at)
       --edge;
     const double t = (at - wire.position[edge]) / wire.rest_length[edge];
     points.push_back((1.0 - t) * state.position[edge] + t * state.position[edge + 1]);
-    back += spacing;
   }
   return points;
 }

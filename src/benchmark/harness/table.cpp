@@ -12,10 +12,7 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sep
 {
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k)
-  {
-    line += k > 0 ? separator : "";
-    line += cells[k];
-  }
+    line += (k > 0 ? separator : "") + cells[k];
   return line;
 }
 
@@ -24,7 +21,7 @@ std::vector<std::string> quoted(std::vector<std::string> cells)
 {
   for (std::string& cell : cells)
     if (cell.find(',') != std::string::npos)
-      cell.insert(0, 1, '"').push_back('"');
+      cell = '"' + cell + '"';
   return cells;
 }
 
