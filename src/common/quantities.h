@@ -75,7 +75,7 @@ constexpr Quantity kWallForce{"forces on the wall", "N", D::kForce, 1e-4, 10.0, 
 constexpr Quantity kFitLoad{"fit loads", "N/m", D::kLineLoad, 1e-3, 200.0, 0.0, 1e5};
 constexpr Quantity kDamperInsertion{"dampings", "N·s/m", D::kOther, 0.01, 1000.0, 1e-4, 1e5};
 constexpr Quantity kDamperRotation{"rotational dampings", "N·m·s/rad", D::kOther, 1e-7, 1.0, 1e-10, 100.0};
-constexpr Quantity kGravity{"gravitational accelerations", "m/s²", D::kAcceleration, 0.01, 30.0, 0.0, 200.0};
+constexpr Quantity kGravity{"gravitational accelerations", "m/s²", D::kAcceleration, 0.01, 30.0, 0.0, 5000.0};
 constexpr Quantity kDrag{"drag coefficients", "1", D::kOther, 0.01, 20.0, 0.0, 1e3};
 constexpr Quantity kMassDamping{"dampings per mass", "1/s", D::kOther, 1e-3, 1e4, 0.0, 1e8};
 constexpr Quantity kFriction{"friction coefficients", "1", D::kFraction, 1e-3, 1.5, 0.0, 10.0};

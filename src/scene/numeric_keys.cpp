@@ -76,6 +76,7 @@ std::vector<NumericKey> numericKeys()
   {
     const SceneNode root = parseSceneTree(text, "schema");
     Scene scene;
+    scene.name = "schema";
     ReadingReport report;
     SceneReader reader(&root, root, "", &report);
     visitScene(reader, scene);

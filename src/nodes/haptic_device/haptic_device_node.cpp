@@ -73,6 +73,9 @@ HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeH
                                    const scene::Scene& scene)
   : link_(linkOptions(parameters, scene)), wake_up_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
 {
+  const scene::DriveSource source = deviceInstrument(scene).drive.source;
+  if (source != scene::DriveSource::kDevice && source != scene::DriveSource::kTopic)
+    ROS_WARN("%s: haptic_device is true, but no drive uses the device; set drive.source: device", scene.file.c_str());
   const std::string instrument = names::kInstruments + deviceInstrument(scene).instrument.name;
   const std::string channel = names::kHaptic + parameters.param<std::string>("channel", "hand");
   ros::NodeHandle handle(node);

@@ -156,12 +156,6 @@ void checkScene(const SceneFields& fields, const Scene& scene)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
       fields.reject(drivePath(scene, k) + "drive.source",
                     "is device, but haptic_device is not true; set haptic_device: true");
-  if (scene.haptic_device && std::none_of(scene.instruments.begin(), scene.instruments.end(),
-                                          [](const DrivenInstrument& driven) {
-                                            return driven.drive.source == DriveSource::kDevice ||
-                                                   driven.drive.source == DriveSource::kTopic;
-                                          }))
-    fields.reject("haptic_device", "is true, but no drive uses it; set drive.source: device, or haptic_device: false");
   if (scene.duration < scene.solver.time_step)
     fields.reject("duration", "is shorter than one step; must be at least solver.time_step");
   if (!scene.vessel || !scene.vessel->tube)

@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <topic_tools/shape_shifter.h>
 
 #include "common/error.h"
+#include "common/hash.h"
 #include "common/version.h"
 
 namespace endovascular_sim::nodes
@@ -25,6 +27,9 @@ protected:
   {
     info_.scene_name = "tube";
     info_.scene_yaml = "name: tube\n";
+    Hash64 hash;
+    hash.add(info_.scene_yaml);
+    info_.scene_hash = hash.value();
     info_.software_version = "0.9.8";
     info_.commit = "0123456789ab";
     info_.physics_number = kPhysicsNumber;
@@ -121,6 +126,26 @@ TEST_F(SessionBagFile, IsRefusedWithoutSessionInfo)
   bag.write("/drive/applied", ros::Time(1.0), DriveApplied());
   bag.close();
   EXPECT_NE(refusal().find("session/info: missing"), std::string::npos) << refusal();
+}
+
+TEST_F(SessionBagFile, IsRefusedWithAChangedScene)
+{
+  info_.scene_yaml += "seed: 5\n";
+  write(info_);
+  EXPECT_NE(refusal().find("does not match its hash"), std::string::npos) << refusal();
+}
+
+TEST_F(SessionBagFile, IsIncompleteWithoutAnEnd)
+{
+  write(info_);
+  EXPECT_NE(incompleteness(readSessionBag(file_)).find("no end"), std::string::npos);
+}
+
+TEST_F(SessionBagFile, IsRefusedWithReasonAndRemedyWhenItIsNoBag)
+{
+  EXPECT_NE(refusal().find("cannot be read (No such file or directory); give"), std::string::npos) << refusal();
+  std::ofstream(file_) << "seed: 1\n";
+  EXPECT_NE(refusal().find("is no bag of version 2.0; give"), std::string::npos) << refusal();
 }
 
 TEST_F(SessionBagFile, IsRefusedWithoutSteps)
