@@ -80,7 +80,7 @@ private:
     {
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (publishes_ && motions > 0)
+        if (publishes_)
         {
           sensor_msgs::JointState message;
           message.header.stamp = ros::Time::now();
@@ -134,7 +134,7 @@ private:
   std::mutex mutex_;
   bool publishes_ = true;
   ros::Time silent_since_;
-  std::vector<double> command_;
+  std::vector<double> command_ = {0.0, 0.0};  ///< the simulation publishes from its first step on
   ros::Publisher force_;
   ros::Subscriber servo_;
   ros::Subscriber measured_;

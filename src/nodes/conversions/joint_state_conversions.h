@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include <sensor_msgs/JointState.h>
 
@@ -11,9 +12,12 @@
 namespace endovascular_sim::nodes
 {
 
-/** Index of a joint by its name; none if the message lacks it. */
-inline std::optional<std::size_t> jointOf(const sensor_msgs::JointState& message, const char* name)
+/** Index of a joint by its name; none if the message lacks it. Without any names, which CRTK allows, the joints are
+ *  insertion, rotation[, pressure] in this order. */
+inline std::optional<std::size_t> jointOf(const sensor_msgs::JointState& message, const std::string& name)
 {
+  if (message.name.empty())
+    return name == names::kInsertionJoint ? 0U : name == names::kRotationJoint ? 1U : 2U;
   const auto joint = std::find(message.name.begin(), message.name.end(), name);
   if (joint == message.name.end())
     return std::nullopt;
