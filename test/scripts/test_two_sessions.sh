@@ -59,6 +59,6 @@ for name in sessions:
     held = [int(re.search(r", processor (\d+)", text).group(1)) for text in texts]
     assert held[0] == held[1], "the rod and the contact node share a processor"
     processors[name] = held[0]
-    assert diagnostics["rod_dynamics"]["other sessions on the processor"] == "0", diagnostics["rod_dynamics"]
+    assert diagnostics["rod_dynamics"]["other sessions on the processor"] == 0, diagnostics["rod_dynamics"]
 assert processors["a"] != processors["b"], processors
 PYTHON
