@@ -233,7 +233,7 @@ after_session() {
   fi
   "$programs"/plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
     { cat "$results/log/plots.log" >&2; warn "the plots could not be drawn"; }
-  "$programs"/session_summary.py "$results" || session_status=1
+  "$programs"/session_summary.py "$results" || $session_interrupted || session_status=1
 }
 
 # Writes a copy of replay.rviz whose camera shows the whole vessel from the front.
