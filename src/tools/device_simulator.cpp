@@ -12,6 +12,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -341,10 +342,9 @@ int run(const Arguments& arguments)
 int main(int argc, char** argv)
 {
   namespace nodes = endovascular_sim::nodes;
-  // Without a ROS master the simulator belongs to no session and leaves the processors of the present ones.
-  const char* const master = std::getenv("ROS_MASTER_URI");
-  const nodes::ProcessorClaim claim(master != nullptr ? master : "no master", nodes::allowedProcessors());
-  nodes::avoidProcessor(claim.choice().processor);
+  std::optional<nodes::ProcessorClaim> claim;  // empty without a ROS master: the simulator belongs to no session
+  if (const char* const master = std::getenv("ROS_MASTER_URI"))
+    nodes::avoidProcessor(claim.emplace(master, nodes::allowedProcessors()).choice().processor);
   Arguments arguments;
   CommandLine line(
       "device_simulator", "Emulates a haptic device on a pseudo-terminal: rosserial bytes at the speed of a real line.",

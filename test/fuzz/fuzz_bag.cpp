@@ -2,14 +2,14 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <exception>
 #include <string>
 
+#include "common/error.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/session/session_bag.h"
 #include "scene/scene_file.h"
 
-// Bags of the session node, as replay reads them. rosbag itself is not instrumented.
+// Bags of the session node, as replay reads them.
 
 using namespace endovascular_sim;  // NOLINT: a program's main file
 
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (session.centreline)
       nodes::fromMessage(*session.centreline);
   }
-  catch (const std::exception&)  // of this project or of rosbag
+  catch (const InputError&)
   {
     close(file);
     return 0;

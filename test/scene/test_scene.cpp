@@ -22,7 +22,7 @@ const std::string kBench = TEST_DATA_DIR "/scenes/good_bench.yaml";
 
 using Names = std::vector<std::string>;
 
-/** Creates a placeholder for a mesh file. Loading a scene requires the file to exist but does not read it. */
+/** Creates an empty mesh file. Loading a scene requires the file to exist but does not read it. */
 std::string someMesh()
 {
   const std::string path = (std::filesystem::temp_directory_path() / "endovascular_sim_scene_test.stl").string();

@@ -8,8 +8,7 @@ int main(int argc, char** argv)
   return runNode(argc, argv, {"contact", NodeScheduling::kLockStep, 60},
                  [](ros::NodeHandle& node, const SchedulingRequest& request)
                  {
-                   ContactNode contact(node, sceneFromParameters(node));
-                   contact.setScheduling(request());
+                   const ContactNode contact(node, sceneFromParameters(node), request);
                    spinUntilShutdown();
                    return true;
                  });

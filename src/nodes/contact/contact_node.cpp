@@ -20,7 +20,8 @@ constexpr int kDisplacementQueue = 1000;  ///< none may be lost
 
 }  // namespace
 
-ContactNode::ContactNode(ros::NodeHandle node, const scene::Scene& scene) : node_(node)
+ContactNode::ContactNode(ros::NodeHandle node, const scene::Scene& scene, std::function<SchedulingGrant()> request)
+  : node_(node), request_(std::move(request))
 {
   if (!scene.vessel)
   {
@@ -59,6 +60,8 @@ void ContactNode::receiveVessel(const VesselMeshConstPtr& message)
   auto detector = std::make_unique<contact::Detector>(fromMessage(mesh), law_, mesh.version);
   triangles_ = mesh.mesh.triangles.size();
   ROS_INFO("vessel version %lu, %zu triangles", static_cast<unsigned long>(mesh.version), mesh.mesh.triangles.size());
+  if (request_)
+    grant_ = std::exchange(request_, nullptr)();
   const std::lock_guard<std::mutex> lock(mutex_);
   detector_ = std::move(detector);
   version_ = mesh.version;
@@ -132,7 +135,7 @@ void ContactNode::respond(const RodStateConstPtr& message)
   response_.header.frame_id = names::kPatientFrame;
   publisher_.publish(response_);
   ++responses_;
-  reportProgress();
+  countProgress();
   features_ = response_.set.features.size();
 }
 

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <utility>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
@@ -29,11 +29,11 @@ namespace endovascular_sim::nodes
 class ContactNode
 {
 public:
-  /** Without a vessel in the scene the node does nothing. */
-  ContactNode(ros::NodeHandle node, const scene::Scene& scene);
-
-  /** Sets the scheduling that the diagnostics report. */
-  void setScheduling(SchedulingGrant grant) { grant_ = std::move(grant); }
+  /** Without a vessel in the scene the node does nothing.
+   *  @param request requests the scheduling of the process; called once, after the set-up of the first vessel */
+  ContactNode(
+      ros::NodeHandle node, const scene::Scene& scene,
+      std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
 private:
   void subscribe();
@@ -46,7 +46,8 @@ private:
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
-  SchedulingGrant grant_;
+  std::function<SchedulingGrant()> request_;  ///< empty once it was called
+  SchedulingGrant grant_;                     ///< used by the thread of vessels and diagnostics only
   contact::WallLaw law_;
   std::mutex mutex_;                              ///< guards the next three: vessels arrive in another thread
   std::unique_ptr<contact::Detector> detector_;   ///< null before the first vessel

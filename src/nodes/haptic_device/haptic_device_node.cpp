@@ -190,7 +190,7 @@ void HapticDeviceNode::receiveSimulationState(const OperatingState& state)
 
 void HapticDeviceNode::publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force)
 {
-  reportProgress();
+  countProgress();
   sensor_msgs::JointState message;
   message.header.stamp = ros::Time::now();
   message.header.frame_id = names::kIntroducerFrame;

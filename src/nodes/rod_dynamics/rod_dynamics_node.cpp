@@ -211,7 +211,7 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
   scheduler.start(Clock::now());
   while (ros::ok() && simulation_->steps() < last_step)
   {
-    reportProgress();
+    countProgress();
     const Clock::time_point awake = Clock::now();
     sleepUntil(scheduler.next());
     if (isContactLost())
@@ -266,7 +266,7 @@ void RodDynamicsNode::pause()
   {
     const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
     publisher_.publishHands(renderer_.hands(), share);
-    reportProgress();
+    countProgress();
     sleepUntil(Clock::now() + StepScheduler::period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
   statistics_.setPaused(false);

@@ -105,7 +105,7 @@ private:
 
 }  // namespace
 
-void reportProgress()
+void countProgress()
 {
   ++progressCounter();
 }

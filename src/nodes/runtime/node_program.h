@@ -32,7 +32,7 @@ using SchedulingRequest = std::function<SchedulingGrant()>;
 /** Main function of a node: claims the session's processor, initialises ROS and runs the node.
  *
  *  The processes of a session share one claim on the processor of its real-time nodes; see ProcessorClaim. A watchdog
- *  gives up real-time scheduling when the node makes no progress; see reportProgress(). An exception ends the process
+ *  gives up real-time scheduling when the node makes no progress; see countProgress(). An exception ends the process
  *  with a log line and exit code 1. Log lines of nodes contain no name of their node: the launch files set
  *  ROSCONSOLE_FORMAT, which prints it.
  *  @param run constructs the node, requests its scheduling, and returns when it has ended; false: it failed
@@ -40,7 +40,7 @@ using SchedulingRequest = std::function<SchedulingGrant()>;
 int runNode(int argc, char** argv, const NodeProgram& program,
             const std::function<bool(ros::NodeHandle& node, const SchedulingRequest& request)>& run);
 
-/** Reports progress of a real-time loop to the process's watchdog. Callable from any thread. */
-void reportProgress();
+/** Counts an iteration of a real-time loop for the process's watchdog. Callable from any thread. */
+void countProgress();
 
 }  // namespace endovascular_sim::nodes

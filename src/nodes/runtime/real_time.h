@@ -46,7 +46,8 @@ void leaveRealTime();
  *
  *  The rod and the contact node run in turns, never at the same time. On one processor a turn is a switch between
  *  threads. On two it is an inter-processor interrupt, which costs several times as much, above all in a virtual
- *  machine. @return false when it was refused */
+ *  machine.
+ *  @return false when it was refused */
 bool useProcessor(int processor);
 
 /** Excludes a processor, if this process may use another one. Call it before ROS starts its threads. */

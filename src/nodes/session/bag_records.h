@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
@@ -70,8 +71,8 @@ struct BagMessage
   }
 };
 
-/** Calls a function for every message of a bag, in the order of the file. The index of the bag is not used, so that a
- * bag that was not closed, or lost its end, is read as far as it is intact. Chunks that are damaged are omitted.
+/** Calls a function for every message of a bag, in the order of the file. The index is not used: the function also
+ * reads unclosed and truncated bags, up to the truncation. Damaged chunks are omitted.
  *
  *  Format: http://wiki.ros.org/Bags/Format/2.0
  *  @return description of the first damage; empty for a complete bag

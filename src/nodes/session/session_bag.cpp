@@ -1,6 +1,7 @@
 #include "nodes/session/session_bag.h"
 
 #include <optional>
+
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"

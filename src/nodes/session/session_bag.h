@@ -24,7 +24,7 @@ struct SessionBag
   std::string damage;                           ///< first damage of the file; empty without one
 };
 
-/** Reads a bag of the session node, as far as it is intact; the index of the bag is not needed.
+/** Reads a bag of the session node without its index. Reading ends at a truncation.
  *  @throws InputError when it holds no session, or a session with another physics number than kPhysicsNumber: the error
  *          names the version and the commit that can replay it */
 SessionBag readSessionBag(const std::string& file);
