@@ -254,6 +254,13 @@ open(sys.argv[3], "w").write(text)
 PYTHON
 }
 
+# The session's scene if its X-ray images must be computed: it has fluoroscopy, and the bag does not contain the images.
+scene_with_x_ray() {
+  if grep -q '^fluoroscopy:' "$results/scene.yaml" && ! grep -q '^  x_ray_frames: true' "$results/scene.yaml"; then
+    printf '%s' "$results/scene.yaml"
+  fi
+}
+
 # Plays the bag into rviz on a virtual screen and saves a picture of its end. An interruption ends the drawing.
 draw_rviz() {
   session_phase=drawing
@@ -270,7 +277,7 @@ draw_rviz() {
   fitted_view || return 1
   say "Drawing rviz from the recording, in software"
   become own env DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
-    replay.launch "bag:=$results/session.bag" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
+    replay.launch "bag:=$results/session.bag" "scene:=$(scene_with_x_ray)" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0
   # The player ends with the bag; rviz then has 2 s to draw the last state.
