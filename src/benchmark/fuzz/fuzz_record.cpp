@@ -23,7 +23,7 @@ Json toJson(const FuzzEpisode& e)
           {"vessel", e.vessel},
           {"what", e.description},
           {"steps", e.steps},
-          {"looks", e.looks},
+          {"looks", e.checks},
           {"bad_step", e.bad_step},
           {"escaped", e.escaped},
           {"finite", e.finite},
@@ -43,7 +43,7 @@ FuzzEpisode episodeOf(const Json& json)
   e.vessel = json.at("vessel");
   e.description = json.at("what");
   e.steps = json.at("steps");
-  e.looks = json.at("looks");
+  e.checks = json.at("looks");
   e.bad_step = json.at("bad_step");
   e.escaped = json.at("escaped");
   e.finite = json.at("finite");
@@ -85,7 +85,7 @@ void FuzzRecord::add(const FuzzEpisode& episode)
 {
   next_ = episode.number + 1;
   steps_ += static_cast<std::uint64_t>(episode.steps);
-  looks_ += static_cast<std::uint64_t>(episode.looks);
+  checks_ += static_cast<std::uint64_t>(episode.checks);
   escapes_ += episode.escaped;
   not_finite_ += !episode.finite;
   too_deep_ += episode.depth > kFuzzDepth;
@@ -121,7 +121,7 @@ std::string FuzzRecord::json() const
                      {"good", good()},
                      {"next_episode", next_},
                      {"steps", steps_},
-                     {"looks", looks_},
+                     {"looks", checks_},
                      {"escapes", escapes_},
                      {"not_finite", not_finite_},
                      {"too_deep", too_deep_},
@@ -145,7 +145,7 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
                        "ones, or another --out");
     next_ = json.at("next_episode");
     steps_ = json.at("steps");
-    looks_ = json.at("looks");
+    checks_ = json.at("looks");
     escapes_ = json.at("escapes");
     not_finite_ = json.at("not_finite");
     too_deep_ = json.at("too_deep");
@@ -172,7 +172,7 @@ std::string FuzzRecord::csv() const
 std::string FuzzRecord::markdown(const std::string& command, const std::vector<std::string>& skipped) const
 {
   std::string text = "# Leak fuzz\n\n" + std::to_string(steps_) + " steps in " + std::to_string(next_) +
-                     " episodes, the whole wire checked " + std::to_string(looks_) +
+                     " episodes, the whole wire checked " + std::to_string(checks_) +
                      " times: " + std::to_string(escapes_) + " escapes, " + std::to_string(not_finite_) +
                      " not finite, " + std::to_string(too_deep_) + " deeper than " + number(1e3 * kFuzzDepth) +
                      " mm beyond the wall's compliance (deepest " + number(1e3 * depth()) + " mm), " +

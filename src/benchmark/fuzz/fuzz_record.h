@@ -56,7 +56,7 @@ private:
 
   FuzzSettings settings_;
   std::vector<std::string> kinds_;
-  std::uint64_t next_ = 0, steps_ = 0, looks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0;
+  std::uint64_t next_ = 0, steps_ = 0, checks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0;
   std::uint64_t rejected_ = 0, hit_iteration_limit_ = 0;
   std::map<std::string, VesselTotal> vessels_;
   std::vector<FuzzEpisode> worst_;  ///< sorted, worst first

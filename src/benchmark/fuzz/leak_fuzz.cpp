@@ -210,7 +210,7 @@ void checkWire(const simulation::Simulation& simulation, double stiffness, WireC
 {
   insertedWire(simulation, stiffness, nodes);
   const WireFinding finding = check.check(nodes);
-  ++episode.looks;
+  ++episode.checks;
   episode.finite = finding.finite && std::isfinite(simulation.state().hand_force);
   episode.escaped = finding.outside;
   if (!finding.finite || nodes.empty())
@@ -226,9 +226,9 @@ void checkWire(const simulation::Simulation& simulation, double stiffness, WireC
       episode.depth_place +=
           finding.parameter * (nodes[finding.edge + 1].position - nodes[finding.edge].position).norm();
   }
-  if (episode.looks % kBruteForceInterval != 1)
+  if (episode.checks % kBruteForceInterval != 1)
     return;
-  const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.looks) * 7 % nodes.size()].position;
+  const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.checks) * 7 % nodes.size()].position;
   if (std::abs(check.signedDistance(one) - check.bruteSignedDistance(one)) > kDisagreement)
     throw std::logic_error("WireCheck: the box tree and the brute-force search give different distances");
 }

@@ -24,7 +24,7 @@ struct FuzzEpisode
   std::string vessel;
   std::string description;  ///< description of wire, sampling, time step and wall
   int steps = 0;
-  int looks = 0;                ///< number of checks of the whole wire
+  int checks = 0;               ///< number of checks of the whole wire
   int bad_step = -1;            ///< first step with an escape or a NaN, which ends the episode; −1: none
   bool escaped = false;         ///< a point of the axis is outside the lumen
   bool finite = true;           ///< no NaN

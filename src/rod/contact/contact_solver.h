@@ -28,7 +28,7 @@ namespace endovascular_sim::rod
  *
  *  The solver holds the contacts of the present state and those of the last solve. Its parts are queries with one
  *  margin per node (ContactQueryBuilder), one-sided springs (ContactSprings) with an active set (ActiveSet), the
- *  motion that the listed contacts permit (ContactTrustRegion), and the transfer to another sampling
+ *  motion that the contacts permit (ContactTrustRegion), and the transfer to another sampling
  *  (ContactTransfer). The method is described in docs/CONTACT.md. */
 class ContactSolver
 {

@@ -28,7 +28,7 @@ TEST(LeakFuzz, NoWireLeavesARandomChannel)
     EXPECT_TRUE(episode.finite) << k;
     EXPECT_FALSE(episode.escaped) << k << ": " << episode.description;
     EXPECT_LE(episode.depth, kFuzzDepth) << k << ": " << episode.description;
-    EXPECT_GE(episode.looks, 15);
+    EXPECT_GE(episode.checks, 15);
     deepest = std::max(deepest, episode.depth);
   }
   EXPECT_GT(deepest, 1e-6);  // the wires touched walls

@@ -34,7 +34,7 @@ protected:
           std::max(0.0, std::min(gap(i), gap(i + 1))) / std::max(motion[i].norm(), motion[i + 1].norm());
       factor = std::min(factor, std::max(margins, free));
     }
-    for (int i = 0; i < kNodes; ++i)  // a listed contact limits the nodes of its edges to their margins
+    for (int i = 0; i < kNodes; ++i)  // a contact within the margin limits the nodes of its edges to their margins
       for (int k = std::max(0, i - 1); k <= std::min(i + 1, kNodes - 1); ++k)
         if (gap(i) <= marginOf(radius(i)))
           factor = std::min(factor, margin(k) / motion[k].norm());
@@ -42,7 +42,7 @@ protected:
   }
 };
 
-TEST_F(TrustRegionOverAFloor, TruncatesForTheTightestEdgeByListedContactsAndByFreeDistances)
+TEST_F(TrustRegionOverAFloor, TruncatesMotionByTheSmallestBoundOfContactsAndFreeDistances)
 {
   int queries = 0;
   for (int trial = 0; trial < 200; ++trial)
@@ -82,7 +82,7 @@ TEST_F(TrustRegionOverAFloor, IsTighterAtAWideBodyAndItsNeighbours)
   EXPECT_EQ(truncation(NodalMotion(kNodes, Vector3d(1e-3, 0.0, 0.0))), 1.0);
 }
 
-TEST_F(TrustRegionOverAFloor, SubtractsMotionOnTheLastFreshSetFromTheStaleBudget)
+TEST_F(TrustRegionOverAFloor, ReducesTheBoundOfAStaleSetByTheMotionSinceTheLastFreshOne)
 {
   setBalloon(5, 1.2e-3);
   for (const double before : {0.0, 0.3, 1.0})
@@ -167,7 +167,7 @@ TEST_F(TrustRegionOverAFloor, BoundsASnapThroughOnATaperByTheGapAndTheLeastRadiu
   }
 }
 
-TEST_F(TrustRegionOverAFloor, KeepsTheReachOfASnapThroughIfTheNextSetIsStale)
+TEST_F(TrustRegionOverAFloor, RetainsTheWidenedMarginOfASnapThroughWhileTheNextSetIsStale)
 {
   snap(8, 0.2e-3);
   const double free = contacts_.marginOf(8);
@@ -178,7 +178,7 @@ TEST_F(TrustRegionOverAFloor, KeepsTheReachOfASnapThroughIfTheNextSetIsStale)
   EXPECT_NEAR(truncation(motionOf(8, free)), 0.0, 1e-12);
 }
 
-TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOnes)
+TEST_F(TrustRegionOverAFloor, ShiftsTheWidenedMarginWhenNodesAreAddedBeforeTheQueriedOnes)
 {
   snap(9, 0.1e-3);
   const double before = contacts_.marginOf(9);
@@ -196,7 +196,7 @@ TEST_F(TrustRegionOverAFloor, ShiftsTheReachWhenNodesAreAddedBeforeTheQueriedOne
   EXPECT_EQ(contacts_.marginOf(11), settings_.contact_margin);  // a new discretisation resets the margins
 }
 
-TEST_F(TrustRegionOverAFloor, QueriesNoFreeDistancesWhereListedContactsDecide)
+TEST_F(TrustRegionOverAFloor, QueriesNoFreeDistancesWhereContactsDetermineTheBound)
 {
   place(0.0, 0.1e-3);
   truncation(randomMotion(5e-3));

@@ -50,7 +50,7 @@ Environment heavyEnvironment(double damping)
   return environment;
 }
 
-TEST(MixedStepper, HeavyCantileverComesToRestWithinAMillionthAt25Nodes)
+TEST(MixedStepper, HeavyCantileverAt25NodesHasARelativeTipErrorBelow1e6)
 {
   MixedStepper stepper = makeStepper(25, EndHold::kClamped, heavyEnvironment(20.0));
   State state = stepper.initialState(0.0, 0.0);
@@ -66,7 +66,7 @@ TEST(MixedStepper, HeavyCantileverComesToRestWithinAMillionthAt25Nodes)
 
 // Coarse edges bend considerably between their nodes. Without the term −½ λ² b of the functional (compliance of the
 // chord due to bending of the arc) the tension is unstable in this test.
-TEST(MixedStepper, CoarseFallingWireStaysStableAndFollowsTheFineOneWithFourthOrder)
+TEST(MixedStepper, FallingWireIsStableOnCoarseMeshesAndConvergesWithFourthOrder)
 {
   const auto tip = [](int nodes)
   {
