@@ -41,7 +41,7 @@ bool WallForceMap::isOnMesh(const simulation::WallContact& contact) const
 
 const std::string& WallForceMap::regionName(int region) const
 {
-  return names_[static_cast<std::size_t>(region + 1)];
+  return names_[static_cast<std::size_t>(region) + 1];
 }
 
 int WallForceMap::regionOf(const simulation::WallContact& contact)

@@ -42,7 +42,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
   const std::vector<contact::Feature>& features = simulation.contactSet().features;
   for (const contact::Feature& feature : features)
   {
-    const int k = at_node[static_cast<std::size_t>(feature.edge + static_cast<int>(feature.parameter > 0.5))];
+    const int k = at_node[static_cast<std::size_t>(feature.edge) + static_cast<std::size_t>(feature.parameter > 0.5)];
     if (k >= 0)
       takeNearer(contacts[static_cast<std::size_t>(k)], feature);
   }

@@ -120,7 +120,7 @@ public:
       const double number = std::strtod(text.c_str(), &end);
       if (text.empty() || *end != '\0' || plausibility(quantity, number) == Plausibility::kUsual)
         return "";
-      const std::string message = plausibilityMessage(quantity, number);
+      std::string message = plausibilityMessage(quantity, number);
       if (plausibility(quantity, number) == Plausibility::kImpossible)
         return message;
       std::cerr << name_ << ": warning: " << name << ": " << message << "\n";

@@ -106,7 +106,7 @@ int study(const Options& options)
   int succeeded = 0;
   for (int k = 0; k < options.runs; ++k)
   {
-    const auto seed = static_cast<std::uint64_t>(options.first + k);
+    const auto seed = static_cast<std::uint64_t>(options.first) + static_cast<std::uint64_t>(k);
     double seconds = 0.0;
     const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel, model,
                                 options.out + "/" + std::to_string(seed), seconds);

@@ -21,7 +21,7 @@ std::vector<std::string> quoted(std::vector<std::string> cells)
 {
   for (std::string& cell : cells)
     if (cell.find(',') != std::string::npos)
-      cell = '"' + cell + '"';
+      cell.insert(0, 1, '"').push_back('"');
   return cells;
 }
 

@@ -119,10 +119,11 @@ std::vector<Eigen::Vector3d> helixGuess(int nodes)
 double envelopeError(const std::vector<Eigen::Vector3d>& x)
 {
   const int nodes = static_cast<int>(x.size());
+  const int middle = nodes / 2;
   double worst = 0.0;
   for (int j = 0; j + 1 < nodes; ++j)
   {
-    const double s = (j - nodes / 2 + 0.5) * kSpan / (nodes - 2);
+    const double s = (j - middle + 0.5) * kSpan / (nodes - 2);
     const double u = (x[j + 1] - x[j]).normalized().x();
     worst = std::max(worst, std::abs(u - helixCosine(s)) / (1.0 - kCosine));
   }

@@ -22,7 +22,7 @@ void addRows(Table& table, const Reference& reference, const std::vector<int>& c
     const double order = ordered ? std::log(previous_error / error) / std::log(nodes / previous_nodes) : NAN;
     std::string note = measured.note;
     if (!(error <= reference.tolerance) && !std::isnan(reference.tolerance))
-      note = "beyond the tolerance" + (note.empty() ? "" : ": " + note);
+      note.insert(0, note.empty() ? "beyond the tolerance" : "beyond the tolerance: ");
     table.add({reference.quantity, reference.scheme, std::to_string(nodes), number(measured.value, 8),
                number(reference.exact, 8), number(error, 2), number(reference.tolerance, 2), number(order, 2),
                measured.step_us > 0.0 ? number(measured.step_us) : "", note});

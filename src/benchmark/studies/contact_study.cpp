@@ -232,6 +232,7 @@ Section growth(const StudyMesh& base, const StudyMesh& big, bool quick, const Pr
   if (!big.mesh.triangles.empty())
     add(big);
   std::vector<double> doublings;
+  doublings.reserve(triangles.size());
   for (double t : triangles)
     doublings.push_back(std::log2(t));
   section.text =

@@ -170,6 +170,7 @@ Section orderings(const std::vector<Curve>& curves)
   const auto forces = [&curves](const std::string& panel, const std::vector<std::string>& names)
   {
     std::vector<double> values;
+    values.reserve(names.size());
     for (const std::string& name : names)
       values.push_back(curveOf(curves, panel, name).force());
     return values;
@@ -177,6 +178,7 @@ Section orderings(const std::vector<Curve>& curves)
   const auto torques = [&curves](const std::vector<std::string>& names)
   {
     std::vector<double> values;
+    values.reserve(names.size());
     for (const std::string& name : names)
       values.push_back(curveOf(curves, "C", name).torque());
     return values;

@@ -305,6 +305,7 @@ std::vector<SamplingResult> studySampling(const SamplingCase& study, int jump_sa
   }
   progress(0.9, study.name + ": jumps of the force");
   measureJumps(setting, adaptive, jump_samples, runs[3]);
+  results.reserve(runs.size());
   for (const Run& run : runs)
     results.push_back(run.result);
   return results;

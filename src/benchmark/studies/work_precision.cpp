@@ -200,7 +200,7 @@ Section vessel(const StudyOptions& options, const Progress& progress)
                                        "{kind: uniform, nodes: 451}", "{kind: adaptive}"})
       for (double time_step : options.quick ? std::vector<double>{1e-3} : std::vector<double>{2e-3, 1e-3, 5e-4})
       {
-        progress(0.85 + 0.15 * done++ / 36.0, "vessel, " + scheme + ", " + sampling);
+        progress(0.85 + 0.15 * done++ / 36.0, std::string("vessel, ").append(scheme).append(", ").append(sampling));
         try
         {
           const VesselRun run = runVessel(vesselScene(scheme, sampling, time_step, options.vessel_mesh), duration);

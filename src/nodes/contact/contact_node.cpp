@@ -20,7 +20,8 @@ constexpr int kDisplacementQueue = 1000;  ///< none may be lost
 
 }  // namespace
 
-ContactNode::ContactNode(ros::NodeHandle node, const scene::Scene& scene, std::function<SchedulingGrant()> request)
+ContactNode::ContactNode(const ros::NodeHandle& node, const scene::Scene& scene,
+                         std::function<SchedulingGrant()> request)
   : node_(node), request_(std::move(request))
 {
   if (!scene.vessel)

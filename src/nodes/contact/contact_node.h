@@ -32,7 +32,7 @@ public:
   /** Without a vessel in the scene the node does nothing.
    *  @param request requests the scheduling of the process; called once, after the set-up of the first vessel */
   ContactNode(
-      ros::NodeHandle node, const scene::Scene& scene,
+      const ros::NodeHandle& node, const scene::Scene& scene,
       std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
 private:

@@ -18,7 +18,7 @@ constexpr int kQueue = 4;
 
 }  // namespace
 
-RemoteContactSource::RemoteContactSource(ros::NodeHandle node, double timeout) : node_(node), timeout_(timeout)
+RemoteContactSource::RemoteContactSource(const ros::NodeHandle& node, double timeout) : node_(node), timeout_(timeout)
 {
   node_.setCallbackQueue(&queue_);
   publisher_ = node_.advertise<RodState>(names::kRodState, kQueue);

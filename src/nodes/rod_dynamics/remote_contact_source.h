@@ -25,7 +25,7 @@ class RemoteContactSource : public contact::ContactSource
 {
 public:
   /** @param timeout longest wait for one response [s] */
-  RemoteContactSource(ros::NodeHandle node, double timeout);
+  RemoteContactSource(const ros::NodeHandle& node, double timeout);
 
   void detect(const contact::Query& query, contact::ContactSet& set) override;
   void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override;

@@ -104,7 +104,7 @@ private:
 
 }  // namespace
 
-RodDynamicsNode::RodDynamicsNode(ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene,
+RodDynamicsNode::RodDynamicsNode(const ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene,
                                  std::function<SchedulingGrant()> request)
   : node_(node),
     parameters_(parameters),

@@ -33,7 +33,7 @@ public:
   /** @param parameters handle of the private parameters
    *  @param request requests the scheduling of the process; called after set-up */
   RodDynamicsNode(
-      ros::NodeHandle node, const ros::NodeHandle& parameters, scene::Scene scene,
+      const ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene,
       std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
   /** Runs until ROS shuts down, or for the parameter `seconds` of simulated time.

@@ -62,7 +62,7 @@ struct BagMessage
   template <typename Message>
   boost::shared_ptr<Message> read() const
   {
-    const auto message = boost::make_shared<Message>();
+    auto message = boost::make_shared<Message>();
     CheckedStream stream(data, size);
     stream.next(*message);
     if (stream.getLength() > 0)

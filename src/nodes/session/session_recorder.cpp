@@ -75,8 +75,8 @@ std::string createFolder(const std::string& folder)
 
 }  // namespace
 
-SessionRecorder::SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings)
-  : node_(std::move(node)),
+SessionRecorder::SessionRecorder(const ros::NodeHandle& node, scene::Scene scene, RecorderSettings settings)
+  : node_(node),
     scene_(std::move(scene)),
     settings_(std::move(settings)),
     info_(infoOf(scene_)),

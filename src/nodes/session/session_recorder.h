@@ -41,7 +41,7 @@ class SessionRecorder
 {
 public:
   /** @throws InputError when the folder or a file in it cannot be created */
-  SessionRecorder(ros::NodeHandle node, scene::Scene scene, RecorderSettings settings);
+  SessionRecorder(const ros::NodeHandle& node, scene::Scene scene, RecorderSettings settings);
   ~SessionRecorder();
 
   /** Closes the bag and writes the report; further calls have no effect. @return true when everything was written */

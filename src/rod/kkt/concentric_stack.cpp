@@ -73,7 +73,8 @@ void ConcentricStack::composeNode(int node, Discretisation& rod)
     const Discretisation& layer = profile.rod();
     const double share = inside * profile.cover(node);
     inside *= 1.0 - profile.cover(node);
-    outer_share_[static_cast<std::size_t>(node * count() + k)] = share;
+    outer_share_[static_cast<std::size_t>(node) * static_cast<std::size_t>(count()) + static_cast<std::size_t>(k)] =
+        share;
     bending += layer.bending_stiffness[node];
     torsion += layer.torsional_stiffness[node];
     mass += layer.mass[node];

@@ -1,6 +1,7 @@
 #include "rod/kkt/kkt_assembly.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <array>
 #include <cmath>
 
@@ -115,9 +116,9 @@ void KktAssembly::addBending(int first, int second, const BendingPair& bending)
     for (int col = 0; col < 3; ++col)
     {
       // Entries from the column's diagonal on; a node's rows lie 4 below those of the preceding node.
-      double* from0 = system_.matrix.column(proximal_row) + col * Matrix::kStride - col;
-      double* from1 = from0 + 4 * Matrix::kStride;
-      double* from2 = from1 + 4 * Matrix::kStride;
+      double* from0 = system_.matrix.column(proximal_row) + static_cast<std::ptrdiff_t>(col) * Matrix::kStride - col;
+      double* from1 = from0 + std::ptrdiff_t{4} * Matrix::kStride;
+      double* from2 = from1 + std::ptrdiff_t{4} * Matrix::kStride;
 #pragma GCC unroll 3
       for (int line = 0; line < 3; ++line)
       {
@@ -154,8 +155,8 @@ void KktAssembly::addConstraint(int edge, const KktIterate& at)
 #pragma GCC unroll 3
   for (int col = 0; col < 3; ++col)
   {
-    double* from0 = column0 + col * Matrix::kStride - col;
-    double* from1 = column1 + col * Matrix::kStride - col;
+    double* from0 = column0 + static_cast<std::ptrdiff_t>(col) * Matrix::kStride - col;
+    double* from1 = column1 + static_cast<std::ptrdiff_t>(col) * Matrix::kStride - col;
     from0[7] = -scale * direction[col];
     from1[3] = scale * direction[col];
     if (tension <= 0.0)

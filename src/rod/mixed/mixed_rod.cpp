@@ -36,7 +36,7 @@ void addDiagonal(MixedRod::Matrix& matrix, int row, const Matrix3d& block)
 void add(std::vector<double>& vector, int row, const Vector3d& value)
 {
   for (int axis = 0; axis < 3; ++axis)
-    vector[static_cast<std::size_t>(row + axis)] += value[axis];
+    vector[static_cast<std::size_t>(row) + static_cast<std::size_t>(axis)] += value[axis];
 }
 
 /** Curvatures at an edge's ends [1/m]. */

@@ -36,7 +36,7 @@ Vector3d turnBetween(const Vector3d& from, const Vector3d& to)
 void add(std::vector<double>& vector, int row, const Vector3d& value)
 {
   for (int axis = 0; axis < 3; ++axis)
-    vector[static_cast<std::size_t>(row + axis)] += value[axis];
+    vector[static_cast<std::size_t>(row) + static_cast<std::size_t>(axis)] += value[axis];
 }
 
 /** Part of an edge's twist at one of its ends, from the torques at both ends [rad]. */
@@ -274,7 +274,7 @@ void MixedTwist::relax(MixedRod& rod, const TwistBoundary& boundary, State& stat
     const double scale = largest > kMaxTurn ? kMaxTurn / largest : 1.0;
     for (int j = first_; j + 1 < n; ++j)
     {
-      torque_[j] += scale * rhs_[2 * (j - first_)];
+      torque_[j] += scale * rhs_[2 * static_cast<std::size_t>(j - first_)];
       state.twist_angle[j] += scale * rhs_[2 * (j - first_) + 1];
     }
     if (largest < kConverged || !(largest < 1e300))

@@ -36,7 +36,7 @@ bool sameEdges(const Discretisation& from, int node, const Discretisation& to, i
 /** Middle of the circular arc over an edge. */
 Eigen::Vector3d arcMiddle(const Discretisation& rod, const State& state, int edge)
 {
-  const Eigen::Vector3d middle = 0.5 * (state.position[edge] + state.position[edge + 1]);
+  Eigen::Vector3d middle = 0.5 * (state.position[edge] + state.position[edge + 1]);
   if (edge < state.first_node)
     return middle;
   const Eigen::Vector3d before = curvatureVector(rod, state, edge);

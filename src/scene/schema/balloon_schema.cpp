@@ -21,6 +21,7 @@ void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& t
                 const Quantity& x_quantity, const Quantity& y_quantity)
 {
   std::vector<std::vector<double>> rows;
+  rows.reserve(table.size());
   for (const Row& row : table)
     rows.push_back({row.*x, row.*y});
   fields.rows(key, rows, {x_quantity, y_quantity}, Need::kRequired);
