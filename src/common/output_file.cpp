@@ -1,6 +1,7 @@
 #include "common/output_file.h"
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 
@@ -42,6 +43,19 @@ InputError writeError(const std::string& file)
 {
   const int error = errno;
   return {file, "", "cannot be written (" + systemReason() + "); " + remedyOf(error)};
+}
+
+void createFolder(const std::string& folder)
+{
+  std::error_code reason;
+  std::filesystem::create_directories(folder, reason);
+  if (reason || !std::filesystem::is_directory(folder))
+  {
+    const int error = reason ? reason.value() : ENOTDIR;
+    throw InputError(
+        folder, "",
+        "the folder cannot be created (" + std::generic_category().message(error) + "); " + remedyOf(error));
+  }
 }
 
 void writeTextFile(const std::string& file, const std::string& text)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "benchmark/study_list.h"
+#include "common/output_file.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -95,7 +96,7 @@ std::string markdown(const Section& section)
 int run(const Options& options)
 {
   const std::filesystem::path out = options.out;
-  std::filesystem::create_directories(out);
+  createFolder(out);
   StudyOptions study_options = options.study_options;
   study_options.vessel_mesh = vesselMesh(study_options.vessel_mesh);
   study_options.allocations = [] { return allocation_count.load(); };

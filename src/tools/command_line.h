@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/output_file.h"
 #include "common/quantity.h"
 #include "common/version.h"
 
@@ -187,7 +190,15 @@ public:
     }
     try
     {
-      return tool();
+      const int code = tool();
+      if (!std::cout.flush() || std::fflush(stdout) != 0)
+        throw writeError("standard output");
+      return code;
+    }
+    catch (const std::bad_alloc&)
+    {
+      std::cerr << name_ << ": the memory does not suffice; use a smaller mesh or scene, or free some memory\n";
+      return 1;
     }
     catch (const std::exception& error)
     {

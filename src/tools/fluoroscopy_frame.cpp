@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/input_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "fluoroscopy/attenuation.h"
@@ -117,9 +118,7 @@ Eigen::Matrix3d patientFromMesh(const Options& options)
 
 std::vector<Eigen::Vector3d> readNodes(const std::string& file, const Eigen::Matrix3d& patient_from_mesh, double unit)
 {
-  std::ifstream stream(file);
-  if (!stream)
-    throw InputError(file, "", "cannot be read");
+  std::ifstream stream = openInputFile(file, "give a CSV file with x,y,z of a node on every line");
   std::vector<Eigen::Vector3d> nodes;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output_file.h"
 #include "instrument/rest_shape.h"
 #include "scene/instrument_library.h"
 #include "tools/command_line.h"
@@ -139,7 +140,7 @@ void writeTables(const fs::path& csv, const std::vector<Drawn>& all)
 int draw(const fs::path& picture, const std::vector<Drawn>& all)
 {
   const fs::path folder = fs::temp_directory_path() / ("instrument_shape_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
+  createFolder(folder.string());
   writeTables(folder / "shaft.csv", all);
   const bool drawn = tools::runPlotScript("plot_instruments.py", {folder.string(), picture.string()});
   fs::remove_all(folder);

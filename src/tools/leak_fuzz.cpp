@@ -13,6 +13,7 @@
 
 #include "benchmark/fuzz/fuzz_record.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -73,7 +74,10 @@ void replaceFile(const std::filesystem::path& path, const std::string& text)
 {
   const std::filesystem::path part = path.string() + ".part";
   tools::writeFile(part, text);
-  std::filesystem::rename(part, path);
+  std::error_code reason;
+  std::filesystem::rename(part, path, reason);
+  if (reason)
+    throw InputError(path.string(), "", "cannot be replaced (" + reason.message() + "); give another folder");
 }
 
 /** Command that reproduces the episodes. */
@@ -119,7 +123,7 @@ int run(const Options& options)
     std::cerr << "leak_fuzz: skipped " << reason << "\n";
   if (options.episode)
     return runOne(options, vessels);
-  std::filesystem::create_directories(options.out);
+  createFolder(options.out);
   FuzzRecord record(options.settings, vessels.kinds());
   const std::string state = options.out + "/leak_fuzz.json";
   if (options.resume)

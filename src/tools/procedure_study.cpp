@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "contact/detector.h"
@@ -81,7 +82,7 @@ std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
     session.addStep(simulation, contacts);
   }
   seconds = simulation.time();
-  std::filesystem::create_directories(folder);
+  createFolder(folder);
   session.finish(simulation, moving_wall ? &moving_wall->opening().mesh() : nullptr);
   session.write(folder);
   if (session.scriptedOperator()->progress() == procedure::Progress::kRunning)
@@ -100,7 +101,7 @@ int study(const Options& options)
   const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file,
                                                    scene::CentrelineUse::kRequired, progressOnErrorStream());
   const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
-  std::filesystem::create_directories(options.out);
+  createFolder(options.out);
   std::ofstream table = tools::openFile(options.out + "/study.csv");
   table << "seed,success,time,why\n";
   int succeeded = 0;

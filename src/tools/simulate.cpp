@@ -11,6 +11,8 @@
 #include <optional>
 
 #include "common/error.h"
+#include "common/input_file.h"
+#include "common/output_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "contact/detector.h"
@@ -241,9 +243,7 @@ void saveState(const std::string& path, simulation::Simulation& simulation, cons
 
 void loadState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
 {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw InputError(path, "", "cannot be read; give the path of a state saved with --save-state");
+  std::ifstream stream = openInputFile(path, "give the path of a state saved with --save-state", std::ios::binary);
   simulation.load(stream, surroundings.mesh_hash, path, sessionOf(surroundings));
 }
 
@@ -367,7 +367,7 @@ int simulate(const Options& options)
 {
   const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   tools::printWarnings("simulate", scene.warnings);
-  std::filesystem::create_directories(options.out);
+  createFolder(options.out);
   Surroundings surroundings = build(scene, options.quiet ? ProgressReport() : progressOnErrorStream());
   if (options.pictures)
   {

@@ -7,15 +7,14 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/input_file.h"
 
 namespace endovascular_sim::haptics
 {
 
 MotionScript MotionScript::load(const std::string& file)
 {
-  std::ifstream stream(file);
-  if (!stream)
-    throw InputError(file, "", "cannot be read; give a CSV file of time [s], insertion [m], rotation [rad]");
+  std::ifstream stream = openInputFile(file, "give a CSV file of time [s], insertion [m], rotation [rad]");
   MotionScript script;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number)

@@ -1,9 +1,9 @@
 #include "rod/kkt/kkt_assembly.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace endovascular_sim::rod
 {

@@ -1,0 +1,45 @@
+#!/bin/bash
+# Every tool that reads or writes a file names the file, the reason and a remedy when that fails, and ends with an error code.
+set -u
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+check() { # check FILE REMEDY TOOL ARGUMENT...: the tool fails, and its message names the file and a remedy
+  local file=$1 remedy=$2 output status=0
+  shift 2
+  output=$(timeout 60 "$programs/$@" 2>&1 >"${stdout:-/dev/null}") || status=$?
+  [ "$status" -ge 1 ] && [ "$status" -le 3 ] && grep -qF -e "$file" <<< "$output" && grep -qE -e "$remedy" <<< "$output" &&
+    ! grep -qE 'basic_|filesystem error|std::|what\(\)|vector::' <<< "$output" && return
+  echo "expected an error that names '$file' and '$remedy' of: $*; exit code $status and:"
+  echo "$output"
+  failures=$((failures + 1))
+}
+
+scene=$repository/config/scenes/straight_wire.yaml
+file=$work/file
+echo 'no: [valid' > "$file"
+: > "$work/empty"
+mkdir "$work/folder"
+missing=$work/missing
+
+for bad in "$missing" "$file" "$work/empty" "$work/folder"; do
+  check "$bad" 'give|line|file|require|expected' simulate "$bad" --out "$work/out"
+  check "$bad" 'give|line|file|require|expected' scene_check "$bad"
+  check "$bad" 'give|line|file|require|expected' procedure_study "$bad" --out "$work/out"
+  check "$bad" 'give|file|damaged|bag' replay "$bad"
+  check "$bad" 'give|file|mesh' vessel_prepare "$bad" --out "$work/out.obj"
+  check "$bad" 'give|file|state' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --from-state "$bad"
+done
+for bad in "$missing" "$work/folder" "$file"; do
+  check "$bad" 'give|line|name|file' instrument_shape "$bad.yaml" --out "$work/shape.csv"
+done
+for folder in "$file" "$file/below" /proc/none; do
+  check "$folder" 'choose' simulate "$scene" --out "$folder" --seconds 0.01 --no-plots --quiet
+done
+check "$file" 'choose' benchmark accuracy --quick --out "$file"
+check /dev/full 'free some space' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --save-state /dev/full
+stdout=/dev/full check 'standard output' 'free some space' scene_check "$scene"
+[ "$failures" -eq 0 ]
