@@ -13,6 +13,7 @@
 
 #include "common/error.h"
 #include "scene/scene_file.h"
+#include "test/common/random_damage.h"
 
 // Damaged scene files: the parser returns a scene that holds the file's numbers, or throws InputError.
 
@@ -40,42 +41,11 @@ std::string contentOf(const std::string& file)
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/** Changes, removes, repeats or inserts bytes at random positions. */
-std::string withDamagedBytes(std::string text, std::mt19937& random)
-{
-  static const std::string kInserted[] = {"\n",    "  ",   ": ",        "- ",   "[",
-                                          "]",     "{",    "}",         "&a ",  "*a",
-                                          "#",     "'",    "\"",        "<<: ", "!!int ",
-                                          "1e308", "nan",  "\t",        "|",    ">",
-                                          "---\n", "\xff", "%YAML 9\n", "? ",   std::string(1, '\0')};
-  const int changes = 1 + static_cast<int>(random() % 6);
-  for (int k = 0; k < changes && !text.empty(); ++k)
-  {
-    const std::size_t at = random() % text.size();
-    const std::size_t length = random() % 40;
-    switch (random() % 6)
-    {
-      case 0:
-        text[at] = static_cast<char>(random());
-        break;
-      case 1:
-        text[at] = static_cast<char>(text[at] ^ (1 << (random() % 8)));
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(at, text.substr(random() % text.size(), length));
-        break;
-      case 4:
-        text.insert(at, kInserted[random() % std::size(kInserted)]);
-        break;
-      default:
-        text.resize(at);
-    }
-  }
-  return text;
-}
+const std::vector<std::string> kYamlTexts = {"\n",    "  ",   ": ",        "- ",   "[",
+                                             "]",     "{",    "}",         "&a ",  "*a",
+                                             "#",     "'",    "\"",        "<<: ", "!!int ",
+                                             "1e308", "nan",  "\t",        "|",    ">",
+                                             "---\n", "\xff", "%YAML 9\n", "? ",   std::string(1, '\0')};
 
 /** True if a resolved scene is read again as the same scene and contains no NaN. */
 void expectConsistent(const Scene& scene, const std::string& origin)
@@ -88,12 +58,12 @@ TEST(DamagedScene, IsReadConsistentlyOrRejected)
 {
   const std::vector<std::string> files = sceneFiles();
   ASSERT_FALSE(files.empty());
-  std::mt19937 random(1);
+  test::RandomDamage damage(1, kYamlTexts);
   int accepted = 0;
   for (int k = 0; k < kMutations; ++k)
   {
     const std::string& file = files[static_cast<std::size_t>(k) % files.size()];
-    const std::string damaged = withDamagedBytes(contentOf(file), random);
+    const std::string damaged = damage.of(contentOf(file));
     try
     {
       const Scene scene = parseScene(damaged, file);

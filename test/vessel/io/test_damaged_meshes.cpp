@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <random>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "test/common/random_damage.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/mesh_check.h"
@@ -25,38 +25,8 @@ namespace
 
 constexpr int kMutations = 2000;
 
-/** Changes, removes, repeats or inserts bytes at random positions. */
-std::string mutated(std::string bytes, std::mt19937& random)
-{
-  static const std::string kNumbers[] = {"-1", "4294967295", "2147483648", "1e308", "nan", "0", "99999999999999999999"};
-  const int changes = 1 + static_cast<int>(random() % 8);
-  for (int k = 0; k < changes && !bytes.empty(); ++k)
-  {
-    const std::size_t at = random() % bytes.size();
-    const std::size_t length = random() % 16;
-    switch (random() % 6)
-    {
-      case 0:
-        bytes[at] = static_cast<char>(random());
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << (random() % 8)));
-        break;
-      case 2:
-        bytes.erase(at, length);
-        break;
-      case 3:
-        bytes.insert(at, bytes.substr(random() % bytes.size(), length));
-        break;
-      case 4:
-        bytes.insert(at, kNumbers[random() % std::size(kNumbers)]);
-        break;
-      default:
-        bytes.resize(at);
-    }
-  }
-  return bytes;
-}
+const std::vector<std::string> kNumbers = {"-1",  "4294967295", "2147483648",          "1e308",
+                                           "nan", "0",          "99999999999999999999"};
 
 /** Passes a mesh that was read through the checks and repairs of a scene.
  *  @throws InputError where they reject it */
@@ -76,11 +46,11 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
   const std::string large = meshFile(capsule(64, 38), GetParam());
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("damaged_" + std::to_string(::getpid()) + extensionOf(GetParam()));
-  std::mt19937 random(1);
+  test::RandomDamage damage(1, kNumbers, 16);
   int accepted = 0;
   for (int k = 0; k < kMutations; ++k)
   {
-    std::ofstream(file, std::ios::binary) << mutated(k % 20 == 0 ? large : small, random);
+    std::ofstream(file, std::ios::binary) << damage.of(k % 20 == 0 ? large : small, 8);
     try
     {
       const geometry::TriangleMesh mesh = readMesh(file.string(), 1e-3);
