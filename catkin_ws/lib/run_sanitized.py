@@ -11,8 +11,8 @@ import run_tests
 
 SECONDS_PER_GTEST = 1800  # ceiling of one test case
 # gtest programs with the thread sanitizer, and their tests; those of other folders start no thread.
-THREADED = {"common": "*", "contact": "WallModel.*", "haptics": "*", "nodes": "*",
-            "vessel": "CentrelineExtraction.*"}
+THREADED = {"common": "*", "contact": "WallModel*", "haptics": "*", "nodes": "*",
+            "simulation": "SimulationsInThreads.*", "vessel": "CentrelineExtraction.*"}
 FUZZ_BYTES = {"mesh": 20000, "scene": 20000, "serial": 4096, "state": 20000, "bag": 40000}  # longest input
 
 

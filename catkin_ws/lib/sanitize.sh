@@ -19,7 +19,7 @@ build_sanitized() {
 run_sanitized() {
   local only=$1 rostest=$2 folder=${1%%/*} name
   shift 2
-  local address=(tests fuzz) thread=(test_common test_contact test_haptics test_nodes test_vessel)
+  local address=(tests fuzz) thread=(test_common test_contact test_haptics test_nodes test_simulation test_vessel)
   check_path "$repository"
   clean_environment
   install_packages packages.txt

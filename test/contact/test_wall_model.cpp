@@ -14,7 +14,7 @@
 namespace
 {
 
-std::size_t allocated_bytes = 0;  // by operator new, in this program; only the main thread allocates
+thread_local std::size_t allocated_bytes = 0;  // by operator new, in the calling thread
 
 #ifndef ENDOVASCULAR_SANITIZED  // sanitizers have their own allocation functions
 void* allocate(std::size_t size, std::size_t alignment)
