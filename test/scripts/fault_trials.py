@@ -160,7 +160,7 @@ class Session:
             self.trace.read()
             return bool(self.trace.rows) and self.trace.rows[-1][0] >= 0.0599 and self.has_recovered(time.monotonic() - 0.2)
         self.wait("insertion by the hand", is_held, 3 * PATIENCE)
-        time.sleep(0.5)
+        time.sleep(1.5)
 
     def has_recovered(self, since):
         self.trace.read()
@@ -288,13 +288,13 @@ class Trial:
 
     def compare_motion(self, applied):
         """The instrument moves no further than the hand."""
-        rows = [row for row in applied if self.begin - 0.05 <= row[0] <= self.finish]
+        rows = [row for row in applied if self.begin - 0.5 <= row[0] <= self.finish]
         if len(rows) < 100:
             self.failures.append("the bag holds %d steps of the trial" % len(rows))
         self.paths = []
         for joint, name in enumerate(("insertion", "rotation")):
             wire = sum(abs(b[joint + 1] - a[joint + 1]) for a, b in zip(rows, rows[1:]))
-            hand = self.session.trace.path(joint, self.begin - 0.5, self.finish)
+            hand = self.session.trace.path(joint, self.begin - 1.0, self.finish)
             self.paths.append((wire, hand))
             if wire > hand + TOLERANCE:
                 self.failures.append("%s: the instrument moved by %.6g, the hand by %.6g" % (name, wire, hand))
