@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -21,6 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/quantities.h"
 #include "haptics/device/device_simulator.h"
 #include "haptics/device/motion_script.h"
@@ -68,6 +71,7 @@ struct Arguments
   double unplug_at = std::numeric_limits<double>::infinity();
   double replug_after = std::numeric_limits<double>::infinity();
   std::string out;
+  std::string trace;
 };
 
 /** @return message for a rejected combination of arguments, or an empty text */
@@ -121,6 +125,9 @@ void addOptions(CommandLine& line, Arguments& arguments)
                 "plugs the restarted device in again T seconds later; default: never")
       ->check(nonNegativeNumber());
   line.option("--out", arguments.out, "FILE", "writes the measurements as JSON");
+  line.option(
+      "--trace", arguments.trace, "FILE",
+      "writes hand and rendered force of every sample as CSV, with times of the device's clock (CLOCK_MONOTONIC)");
   line.require([&arguments] { return conflict(arguments); });
 }
 
@@ -282,6 +289,38 @@ void showHand(const DeviceSimulator& device)
   std::fflush(stdout);
 }
 
+/** CSV file of hand and rendered force, one row per sample. */
+class Trace
+{
+public:
+  explicit Trace(const std::string& file) : stream_(file)
+  {
+    if (!(stream_ << "time,insertion,rotation,force,torque,state\n"))
+      throw endovascular_sim::writeError(file);
+  }
+
+  /** Adds a row if a sample was sent since the last one. @param now time [s] */
+  void add(const DeviceSimulator& device, double now)
+  {
+    if (device.samples() == samples_)
+      return;
+    samples_ = device.samples();
+    const auto& force = device.renderedForce();
+    std::array<char, 160> row{};
+    std::snprintf(row.data(), row.size(), "%.6f,%.9g,%.9g,%.9g,%.9g,%d\n", now, device.hand().insertion,
+                  device.hand().rotation, static_cast<double>(force.force), static_cast<double>(force.torque),
+                  static_cast<int>(force.state));
+    stream_ << row.data();
+    if (samples_ % kRowsPerFlush == 0)
+      stream_.flush();
+  }
+
+private:
+  static constexpr std::uint64_t kRowsPerFlush = 50;
+  std::ofstream stream_;
+  std::uint64_t samples_ = 0;
+};
+
 void waitUntil(double wake, int descriptor)
 {
   const double wait = std::clamp(wake - steadyNow(), 0.0, 0.02);
@@ -307,6 +346,9 @@ int run(const Arguments& arguments)
 {
   const auto keyboard = arguments.keyboard ? std::make_unique<KeyboardOperator>() : nullptr;
   DeviceSimulator device(simulatorOptions(arguments, keyboard.get()));
+  std::optional<Trace> trace;
+  if (!arguments.trace.empty())
+    trace.emplace(arguments.trace);
   // A real device does not share its processor with the simulation: request real-time priority.
   prctl(PR_SET_TIMERSLACK, 1UL);
   sched_param priority = {};
@@ -331,6 +373,8 @@ int run(const Arguments& arguments)
     }
     updatePlug(device, arguments, now);
     device.step(now);
+    if (trace)
+      trace->add(device, now);
     waitUntil(device.isPlugged() ? device.wakeAt() : now + 5e-3, device.descriptor());
   }
   device.unplug();

@@ -59,6 +59,7 @@ public:
   /** Time since the start of the motion, 0 before it [s]. */
   double motionTime(double now) const { return started_at_ ? now - *started_at_ : 0.0; }
   const HandMotion& hand() const { return hand_; }
+  std::uint64_t samples() const { return report_.samples; }  ///< number of samples sent
   /** Force that the device renders. */
   const HapticForce& renderedForce() const { return device_->renderedForce(); }
 

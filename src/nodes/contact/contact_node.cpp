@@ -144,11 +144,11 @@ void ContactNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   if (triangles_ == 0)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for the vessel");
-  else if (!grant_.granted)
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant_.message);
+  else if (!grant_.isInForce())
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant_.describe());
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
-  status.add("scheduling", grant_.message);
+  status.add("scheduling", grant_.describe());
   status.add("contact sets published", responses_.load());
   status.add("features in the last set", features_.load());
   status.add("triangles", triangles_.load());

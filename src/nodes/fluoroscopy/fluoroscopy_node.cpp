@@ -193,7 +193,7 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("frames rendered", frames_);
   status.add("frames per second", static_cast<double>(render_times_.size()) / kDiagnosticsPeriod);
   status.add("median render time [ms]", 1e3 * median);
-  status.add("scheduling", grant_.message);
+  status.add("scheduling", grant_.describe());
   status.add("last error", last_error_);
   render_times_.clear();
   new_error_.clear();

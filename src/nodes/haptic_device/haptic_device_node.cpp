@@ -265,7 +265,7 @@ void HapticDeviceNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
                      : state == DeviceState::kFault ? DiagnosticStatus::ERROR
                                                     : DiagnosticStatus::WARN;
   status.summary(level, stateName(state) + (host.reason().empty() ? "" : ": " + host.reason()));
-  status.add("scheduling", grant_.message);
+  status.add("scheduling", grant_.describe());
   status.add("last error", link_.lastError());
   status.add("reconnects", link_.opened() > 0 ? link_.opened() - 1 : 0);
   status.add("lost links", counters.links_lost);

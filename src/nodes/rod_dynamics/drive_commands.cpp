@@ -65,23 +65,33 @@ void DriveCommands::subscribe(ros::NodeHandle& node, std::size_t instrument)
 
 void DriveCommands::receive(std::size_t instrument, const sensor_msgs::JointState& message)
 {
-  constexpr double kMissing = std::numeric_limits<double>::infinity();  // the gate rejects it as not finite
-  haptics::HandMotion command{kMissing, kMissing};
+  haptics::HandMotion command;
   double pressure = kNoPressure;
-  int joints = 0;
+  int insertions = 0;
+  int rotations = 0;
+  int pressures = 0;
   for (std::size_t i = 0; i < std::min(message.name.size(), message.position.size()); ++i)
   {
     if (message.name[i] == names::kInsertionJoint)
+    {
       command.insertion = message.position[i];
+      ++insertions;
+    }
     else if (message.name[i] == names::kRotationJoint)
+    {
       command.rotation = message.position[i];
+      ++rotations;
+    }
     else if (message.name[i] == names::kPressureJoint)
+    {
       pressure = message.position[i];
-    joints += message.name[i] == names::kInsertionJoint || message.name[i] == names::kRotationJoint ? 1 : 0;
+      ++pressures;
+    }
   }
+  const bool is_pressure_valid =
+      pressures == 0 || (pressures == 1 && pressure >= kLeastPressure && pressure <= kLargestPressure);
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool has_pressure = !std::isnan(pressure);
-  if (joints != 2 || (has_pressure && !(pressure >= kLeastPressure && pressure <= kLargestPressure)))
+  if (insertions != 1 || rotations != 1 || !is_pressure_valid)
   {
     ++malformed_[instrument];
     ROS_WARN_THROTTLE(5.0,
@@ -98,7 +108,7 @@ void DriveCommands::receive(std::size_t instrument, const sensor_msgs::JointStat
                       reasonOf(verdict));
     return;
   }
-  if (has_pressure && scene_.instruments[instrument].instrument.balloon)
+  if (pressures == 1 && scene_.instruments[instrument].instrument.balloon)
     pressures_[instrument] = pressure;
 }
 

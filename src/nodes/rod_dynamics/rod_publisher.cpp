@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
-constexpr int kStepQueue = 1000;      ///< one second of steps: the recorder must not lose any
+constexpr int kStepQueue = 10000;     ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
 constexpr int kTreatmentQueue = 100;  ///< the recorder must not lose an event
 constexpr int kHandQueue = 1;         ///< the device uses the newest force only
 

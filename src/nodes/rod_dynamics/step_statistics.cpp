@@ -42,8 +42,8 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
   else if (is_rejecting_)
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
                    "the solver rejects steps: the wire is held, without force");
-  else if (!grant.granted)
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant.message);
+  else if (!grant.isInForce())
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "scheduling: " + grant.describe());
   else if (const std::size_t others = grant.other_sessions(); others > 0)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
                    std::to_string(others) + " other session(s) use the same processor: steps may be late");
@@ -51,7 +51,7 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "more than 1 % of the steps are late");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
-  status.add("scheduling", grant.message);
+  status.add("scheduling", grant.describe());
   status.add("other sessions on the processor", grant.other_sessions());
   status.add("steps", steps);
   status.add("deadline misses", late);

@@ -37,14 +37,7 @@ public:
   {
     SchedulingGrant grant = requestPolicy();
     if (isRealTime() && grant.granted)
-      watchdog_ = std::make_unique<ProgressWatchdog>(progressCounter(), program_.priority + 1,
-                                                     []
-                                                     {
-                                                       leaveRealTimeInProcess();
-                                                       ROS_ERROR(
-                                                           "scheduling: the loop makes no progress; real-time "
-                                                           "scheduling is given up until the node restarts");
-                                                     });
+      startWatchdog(grant);
     if (pinned_)
     {
       grant.message += ", processor " + std::to_string(claim_.choice().processor);
@@ -66,6 +59,16 @@ private:
   bool isRealTime() const
   {
     return program_.scheduling == NodeScheduling::kLockStep || program_.scheduling == NodeScheduling::kRealTime;
+  }
+
+  void startWatchdog(SchedulingGrant& grant)
+  {
+    const auto withdraw = []
+    {
+      leaveRealTimeInProcess();
+      ROS_ERROR("scheduling: the loop makes no progress; real-time scheduling is withdrawn until the node restarts");
+    };
+    watchdog_ = superviseScheduling(grant, progressCounter(), program_.priority + 1, withdraw);
   }
 
   SchedulingGrant requestPolicy() const

@@ -59,4 +59,20 @@ void ProgressWatchdog::watch(int priority)
   }
 }
 
+std::unique_ptr<ProgressWatchdog> superviseScheduling(SchedulingGrant& grant,
+                                                      const std::atomic<unsigned long>& progress, int priority,
+                                                      const std::function<void()>& withdraw, StallCriterion criterion)
+{
+  const auto withdrawn = std::make_shared<std::atomic<bool>>(false);
+  grant.withdrawn = withdrawn;
+  return std::make_unique<ProgressWatchdog>(
+      progress, priority,
+      [withdrawn, withdraw]
+      {
+        withdraw();
+        *withdrawn = true;
+      },
+      criterion);
+}
+
 }  // namespace endovascular_sim::nodes

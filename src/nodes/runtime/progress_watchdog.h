@@ -2,7 +2,10 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <thread>
+
+#include "nodes/runtime/real_time.h"
 
 namespace endovascular_sim::nodes
 {
@@ -59,5 +62,14 @@ private:
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+/** Starts the watchdog of a granted scheduling, which marks the grant and its copies as withdrawn.
+ *  @param progress counter of the loop
+ *  @param priority of the watchdog's thread
+ *  @param withdraw restores ordinary scheduling; called at most once, in the watchdog's thread */
+std::unique_ptr<ProgressWatchdog> superviseScheduling(SchedulingGrant& grant,
+                                                      const std::atomic<unsigned long>& progress, int priority,
+                                                      const std::function<void()>& withdraw,
+                                                      StallCriterion criterion = StallCriterion());
 
 }  // namespace endovascular_sim::nodes

@@ -54,6 +54,18 @@ constexpr auto kRealTimeRemedy =
 
 }  // namespace
 
+bool SchedulingGrant::isInForce() const
+{
+  return granted && !(withdrawn && *withdrawn);
+}
+
+std::string SchedulingGrant::describe() const
+{
+  if (!granted || isInForce())
+    return message;
+  return "withdrawn (the loop made no progress): ordinary scheduling until the node restarts; it was " + message;
+}
+
 SchedulingGrant requestLockStepScheduling(int priority)
 {
   if (!setPolicyOfAllThreads(SCHED_FIFO, priority))

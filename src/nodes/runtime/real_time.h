@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace endovascular_sim::nodes
@@ -12,9 +14,16 @@ namespace endovascular_sim::nodes
 struct SchedulingGrant
 {
   bool granted = true;
-  std::string message = "default";  ///< scheduling in force; when refused, the reason and the remedy
+  std::string message = "default";  ///< scheduling that was granted; when refused, the reason and the remedy
+  /** True from the moment in which the watchdog withdrew the scheduling; see ProgressWatchdog. */
+  std::shared_ptr<const std::atomic<bool>> withdrawn;
   /** Number of other sessions with real-time nodes on the same processor at present. */
   std::function<std::size_t()> other_sessions = [] { return std::size_t{0}; };
+
+  /** True if the requested scheduling was granted and not withdrawn. Callable from any thread. */
+  bool isInForce() const;
+  /** Scheduling in force at present; when refused or withdrawn, the reason and the remedy. Callable from any thread. */
+  std::string describe() const;
 };
 
 /** Requests SCHED_FIFO and locked memory for all present threads of the process and those that they start later. Call

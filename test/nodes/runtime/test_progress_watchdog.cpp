@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/rod_dynamics/step_statistics.h"
+
 namespace endovascular_sim::nodes
 {
 namespace
@@ -51,6 +53,28 @@ TEST(ProgressWatchdog, GivesUpOnceForALoopWithoutProgress)
       std::this_thread::yield();
   }
   EXPECT_EQ(given_up, 1);
+}
+
+TEST(ProgressWatchdog, MarksTheGrantAndItsCopiesAsWithdrawnForDiagnostics)
+{
+  const std::atomic<unsigned long> progress{1};
+  std::atomic<int> withdrawals{0};
+  SchedulingGrant grant;
+  grant.message = "SCHED_FIFO, priority 1";
+  const auto watchdog = superviseScheduling(
+      grant, progress, 1, [&withdrawals] { ++withdrawals; }, StallCriterion(0.0));
+  const SchedulingGrant copy = grant;  // as a node retains it
+  while (copy.isInForce())             // the test's time-out ends it when the watchdog fails
+    std::this_thread::yield();
+  EXPECT_EQ(withdrawals, 1);
+  EXPECT_NE(copy.describe().find("withdrawn"), std::string::npos) << copy.describe();
+
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  StepStatistics().diagnose(copy, status);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("withdrawn"), std::string::npos) << status.message;
+  EXPECT_EQ(status.values.at(0).key, "scheduling");
+  EXPECT_NE(status.values.at(0).value.find("withdrawn"), std::string::npos) << status.values.at(0).value;
 }
 
 }  // namespace

@@ -1,0 +1,114 @@
+#!/bin/bash
+# Topics and services of docs/ROS_INTERFACE.md, of src/nodes/runtime/ros_names.h and of running graphs are the same.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+export PATH=/usr/bin:/bin ROS_HOSTNAME=localhost
+set +u
+. "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/setup.bash"
+set -u
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+/usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
+import glob, os, re, signal, socket, subprocess, sys, time
+import xmlrpc.client
+folder, repository = sys.argv[1:]
+OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
+ONLY_IN_RECORDINGS = {"session/end"}
+FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|fluoroscopy)"
+
+
+def text(name):
+    return open(os.path.join(repository, name)).read()
+
+
+def general(name):
+    """A name without the graph's own names of instruments and channels."""
+    return re.sub(r"^(instruments|haptic)/[^/]+/", lambda match: match.group(1) + "/*/", name.lstrip("/"))
+
+
+def documented():
+    """Names of the first column of the tables of topics and services."""
+    names = set()
+    for section in re.split(r"^## ", text("docs/ROS_INTERFACE.md"), flags=re.MULTILINE):
+        if not section.startswith(("Topics", "Services")):
+            continue
+        for row in re.findall(r"^\| (`[^|]*`) \|", section, flags=re.MULTILINE):
+            names.update(general(name) for name in re.findall(r"`([^`]+)`", row))
+    return names
+
+
+def mentioned():
+    """Names of topics anywhere in the documents, which folders of src with the same first word are not."""
+    names = {}
+    for path in glob.glob(repository + "/docs/*.md") + [repository + "/README.md", repository + "/CONTRIBUTING.md"]:
+        for name in re.findall(r"`/?(%s/[a-z_<>/]+)`" % FIRST_WORDS, open(path).read()):
+            if not os.path.exists(os.path.join(repository, "src", name.strip("/"))) and "..." not in name:
+                names.setdefault(general(name), set()).add(os.path.basename(path))
+    return names
+
+
+def in_code():
+    """Names of ros_names.h. The CRTK names begin with a slash and belong below instruments/ and haptic/."""
+    values = dict(re.findall(r"constexpr auto (k\w+) =\s*\"([^\"]+)\"", text("src/nodes/runtime/ros_names.h")))
+    crtk = {value for key, value in values.items() if value.startswith("/") and key != "kDiagnostics"}
+    assert crtk == {"/measured_js", "/servo_jp", "/operating_state"}, crtk
+    topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "/[a-z_]+", value)}
+    return topics | {"instruments/*" + name for name in crtk} | {"haptic/*" + name for name in crtk - {"/servo_jp"}}
+
+
+def running(scene, arguments, extra):
+    """Topics and services of a running graph, as the master lists them."""
+    with socket.socket() as free:
+        free.bind(("localhost", 0))
+        port = free.getsockname()[1]
+    uri = "http://localhost:%d" % port
+    name = os.path.splitext(os.path.basename(scene))[0]
+    log = open("%s/%s.log" % (folder, name), "w")
+    environment = dict(os.environ, ROS_MASTER_URI=uri, ROS_HOME="%s/ros_%s" % (folder, name),
+                       ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+    launch = subprocess.Popen(
+        ["roslaunch", "-p", str(port), repository + "/launch/sim.launch", "scene:=%s/%s" % (repository, scene),
+         "results:=%s/%s" % (folder, name), *arguments],
+        env=environment, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    names = set()
+    try:
+        end = time.monotonic() + 180
+        while True:  # until the last node has advertised its topics, and two readings are equal
+            time.sleep(1.0)
+            assert time.monotonic() < end and launch.poll() is None, open(log.name).read()[-5000:]
+            try:
+                publishers, subscribers, services = xmlrpc.client.ServerProxy(uri).getSystemState("/test")[2]
+            except OSError:
+                continue
+            now = {general(name) for name, _ in publishers + subscribers}
+            now |= {general(name) for name, _ in services if not re.search(r"/(get_loggers|set_logger_level)$", name)}
+            if now == names and extra <= now and ": running" in open(log.name).read():
+                return names
+            names = now
+    finally:
+        launch.send_signal(signal.SIGINT)
+        launch.wait(timeout=90)
+
+
+# A scene with every kind of topic except those of the haptic device, and a scene with the device.
+graph = running("test/data/procedure_with_balloon.yaml", ["haptic_device:=false"], {"fluoroscopy/image_raw", "wire/marker"})
+graph |= running("test/data/hand_in_tube.yaml", ["device:=%s/none" % folder], {"haptic/*/operating_state"})
+graph -= OTHERS
+documents, code = documented() - {"diagnostics"}, in_code()
+
+failed = False
+for difference, reason in (
+        (documents - graph, "documented, but in no running graph"),
+        (graph - documents, "in a running graph, but not documented"),
+        (code - graph - ONLY_IN_RECORDINGS, "in ros_names.h, but in no running graph"),
+        (graph - code, "in a running graph, but not in ros_names.h"),
+        ({"%s (%s)" % (name, ", ".join(sorted(files))) for name, files in mentioned().items()
+          if name not in graph | ONLY_IN_RECORDINGS}, "mentioned in a document, but in no running graph")):
+    for name in sorted(difference):
+        print("%s: %s" % (name, reason))
+        failed = True
+print("%d names in the graphs, %d documented, %d in ros_names.h" % (len(graph), len(documents), len(code)))
+sys.exit(failed)
+PYTHON

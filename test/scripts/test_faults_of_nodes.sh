@@ -1,0 +1,10 @@
+#!/bin/bash
+# The most important nodes of a session are killed and stopped for 5 s: force, state, recovery, motion and replay.
+#   --rounds N: all nodes, N times
+set -eu
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+export PATH=/usr/bin:/bin ROS_HOSTNAME=localhost
+set +u
+. "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/setup.bash"
+set -u
+exec /usr/bin/python3 "$repository/test/scripts/fault_trials.py" "$repository" "$@"
