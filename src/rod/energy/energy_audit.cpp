@@ -179,12 +179,16 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   const int n = part.rod.nodes();
 
   State moved = end;
-  const auto alongPositions = [&](double share)
+  const auto alongPositions = [&](double share, bool free_only = false)
   {
     for (int i = 0; i < n; ++i)
-      moved.position[i] = end.position[i] + share * (end.position[i] - begin.position[i]);
+      if (!free_only || (i >= from && !part.conditions.isPrescribed(i, end)))
+        moved.position[i] = end.position[i] + share * (end.position[i] - begin.position[i]);
+      else
+        moved.position[i] = end.position[i];
     return part.potential(moved, from);
   };
+  addResidual(part, ((0.5 / kShare) * (alongPositions(kShare, true) - alongPositions(-kShare, true))).sum());
   const PotentialEnergy by_positions = (0.5 / kShare) * (alongPositions(kShare) - alongPositions(-kShare));
   const PotentialEnergy at_begin = alongPositions(-1.0);  // positions of the beginning, angles of the end
   copyAngles(begin, moved);
@@ -244,6 +248,35 @@ void EnergyAudit::addTensions(const AuditedPart& part)
     const Eigen::Vector3d edge = x[j + 1] - x[j];
     pending_.lengths += part.after.tension[j] * edge.normalized().dot(edge - part.begin[j + 1] + part.begin[j]);
   }
+}
+
+/** Residual of the equations of the free nodes at the end of a part, times their motion.
+ *  @param by_free_nodes derivative of the potentials along the motion of the free nodes [J] */
+void EnergyAudit::addResidual(const AuditedPart& part, double by_free_nodes)
+{
+  const State& after = part.after;
+  const int first = after.first_node;
+  const auto isFree = [&](int node) { return !part.conditions.isPrescribed(node, after); };
+  const auto travelOf = [&](int node) -> Eigen::Vector3d
+  { return isFree(node) ? Eigen::Vector3d(after.position[node] - part.begin[node]) : Eigen::Vector3d::Zero(); };
+  double work = by_free_nodes;
+  for (int i = first; i < part.rod.nodes(); ++i)
+  {
+    const NodeSlide slide = part.slides.empty() ? NodeSlide() : part.slides[i];
+    const Eigen::Vector3d travel = travelOf(i);
+    const Eigen::Vector3d gained = (travel + slide.mass_gained) / part.dt - part.before.velocity[i];
+    work += travel.dot(part.rod.mass[i] / part.dt * gained + part.forces.damping[i] * (travel + slide.mass) +
+                       part.forces.drag[i] * (travel + slide.surface) + part.forces.friction[i] - after.wall_force[i]);
+    if (i + 1 < part.rod.nodes())
+    {
+      const Eigen::Vector3d direction = (after.position[i + 1] - after.position[i]).normalized();
+      work += after.tension[i] * direction.dot(travelOf(i + 1) - travel);
+    }
+  }
+  for (const NodalForce& load : part.input.forces)
+    if (load.node >= first)
+      work -= load.force.dot(travelOf(load.node));
+  pending_.iteration -= work;
 }
 
 void EnergyAudit::addContact(const AuditedPart& part)

@@ -89,6 +89,7 @@ private:
   void addFriction(const AuditedPart& part);
   void addTensions(const AuditedPart& part);
   void addContact(const AuditedPart& part);
+  void addResidual(const AuditedPart& part, double by_free_nodes);
 
   EnergyBalance sum_;
   EnergyBalance pending_;                ///< parts of the present step

@@ -33,11 +33,13 @@ struct EnergyBalance
   double drag = 0.0;            ///< of the fluid
 
   // Dissipated by the stages of the solver.
-  double inertia = 0.0;     ///< backward Euler: ½ m |Δv|²
-  double positions = 0.0;   ///< implicit positions: work of the final elastic force minus the change of energy
-  double twisting = 0.0;    ///< relaxation of the twist, the same at fixed positions; snap-through
-  double lengths = 0.0;     ///< inextensibility: work of the tensions on edges that turn
-  double contact = 0.0;     ///< work of the wall's normal forces minus the change of its energy
+  double inertia = 0.0;    ///< backward Euler: ½ m |Δv|²
+  double positions = 0.0;  ///< implicit positions: work of the final elastic force minus the change of energy
+  double twisting = 0.0;   ///< relaxation of the twist, the same at fixed positions; snap-through
+  double lengths = 0.0;    ///< inextensibility: work of the tensions on edges that turn
+  double iteration =
+      0.0;               ///< equations of the free nodes that the last solve has left: minus the work of their residual
+  double contact = 0.0;  ///< work of the wall's normal forces minus the change of its energy
   double resampling = 0.0;  ///< change of nodes, its offsets that fade, and change of a stack's reference
   double rejected = 0.0;    ///< kinetic energy of rejected steps
 
@@ -49,7 +51,10 @@ struct EnergyBalance
   double work() const { return push + turn + loads + pressure; }
   double stored() const { return kinetic + bending + twist + guide + wall + gravity; }
   double dissipated() const { return wall_friction + wall_rolling + layer_friction + valve + damping + drag; }
-  double numerical() const { return inertia + positions + twisting + lengths + contact + resampling + rejected; }
+  double numerical() const
+  {
+    return inertia + positions + twisting + lengths + iteration + contact + resampling + rejected;
+  }
   /** Closing error: work that no term explains. */
   double error() const { return work() - stored() - dissipated() - numerical(); }
 
@@ -64,7 +69,7 @@ struct BalanceTerm
 };
 
 /** All terms in the order of the struct. */
-constexpr std::array<BalanceTerm, 26> kBalanceTerms = {{
+constexpr std::array<BalanceTerm, 27> kBalanceTerms = {{
     {"push", &EnergyBalance::push},
     {"turn", &EnergyBalance::turn},
     {"loads", &EnergyBalance::loads},
@@ -85,6 +90,7 @@ constexpr std::array<BalanceTerm, 26> kBalanceTerms = {{
     {"positions", &EnergyBalance::positions},
     {"twisting", &EnergyBalance::twisting},
     {"lengths", &EnergyBalance::lengths},
+    {"iteration", &EnergyBalance::iteration},
     {"contact", &EnergyBalance::contact},
     {"resampling", &EnergyBalance::resampling},
     {"rejected", &EnergyBalance::rejected},

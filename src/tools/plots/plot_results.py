@@ -17,7 +17,7 @@ AXES = {"x": "x, to the left [mm]", "y": "y, to the back [mm]", "z": "z, to the 
 VIEWS = (("x", "z", "from the front"), ("y", "z", "from the side"), ("x", "y", "from below"))
 STORED = ("kinetic", "bending", "twist", "guide", "wall", "gravity")
 DISSIPATED = ("wall_friction", "wall_rolling", "layer_friction", "valve", "damping", "drag")
-NUMERICAL = ("inertia", "positions", "twisting", "lengths", "contact", "resampling", "rejected")
+NUMERICAL = ("inertia", "positions", "twisting", "lengths", "iteration", "contact", "resampling", "rejected")
 SUMS = ("work", "stored", "dissipated", "numerical", "error")
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
 
