@@ -75,8 +75,7 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
   for (int i = 1; i + 1 < rod.nodes(); ++i)
   {
     const Eigen::Vector3d kb = binormalAt(rod, state, i).value - state.curvature_offset[i];
-    const Eigen::Vector2d& rest = rod.rest_curvature[i];
-    double strain = kb.squaredNorm() + rest.squaredNorm();
+    double strain = kb.squaredNorm();
     if (i > first)
     {
       if (i == first + 1)
@@ -84,7 +83,8 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
       Bishop after = frame;
       after.moveTo(direction(i));
       if (i >= rod.first_curved)
-        strain -= 2.0 * kb.dot(frame.halfBinormal(rest, angle[i - 1]) + after.halfBinormal(rest, angle[i]));
+        strain -= 2.0 * kb.dot(frame.halfBinormal(rod.rest_curvature[i], angle[i - 1]) +
+                               after.halfBinormal(rod.rest_curvature[i], angle[i]));
       frame = after;
     }
     energy += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;

@@ -25,7 +25,8 @@ PotentialEnergy operator*(double factor, const PotentialEnergy& energy);
 
 /** Adds bending and twist of a wire at given twist angles. In contrast to QuasiStaticTwist, nothing is relaxed, and the
  *  part before State::first_node counts too: it is straight. Offsets of the rest curvature (State::curvature_offset)
- *  count as rest curvature.
+ *  count as rest curvature. The constant ½∫EI|κ̄|² of the pre-curved sections is omitted: in the straight part it would
+ *  depend on the nodes. The bending energy of an unloaded curved tip is therefore negative.
  *  @param rod one layer with the first nodes of the state
  *  @param hold hold of the twist's proximal end
  *  @param state positions of all nodes; see completed()
