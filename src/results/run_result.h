@@ -71,7 +71,7 @@ private:
   std::string treatment_ = "null";  ///< outcome of balloons and stents as JSON
 };
 
-/** Index of the first node beyond the plane of the introducer. */
+/** Index of the first node beyond the plane of the introducer; without an introducer, of the first node. */
 int firstInsertedNode(const simulation::Simulation& simulation);
 
 }  // namespace endovascular_sim::results

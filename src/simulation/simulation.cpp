@@ -239,7 +239,12 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
   const double insertion = state_.inserted_length;
   const double rotation = state_.rotation;
   if (!treatments_.empty())
-    stepper_->setContactRadii(treatments_.contactRadii(state_, discretisation(), contactSet()));
+  {
+    const std::vector<double>& radii = treatments_.contactRadii(state_, discretisation(), contactSet());
+    stepper_->setContactRadii(radii);
+    if (audit_ != nullptr)
+      audit_->setContactRadii(radii);
+  }
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
   if (!valve_.present())
@@ -247,6 +252,9 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
   const double outside = stepper_->discretisation().length() - state_.inserted_length;
   valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
               scene_.instruments.front().instrument.wire.radiusAt(outside));
+  if (audit_ != nullptr)
+    audit_->addValve(state_.hand_parts.valve * (state_.inserted_length - insertion),
+                     state_.valve_torque * (state_.rotation - rotation));
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */
@@ -322,6 +330,12 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
   ++steps_;
   state_hash_ = state_.hash();
   trajectory_.add(state_hash_);
+}
+
+void Simulation::setAudit(rod::EnergyAudit* audit)
+{
+  stepper_->setAudit(audit);
+  audit_ = audit;
 }
 
 void Simulation::setState(rod::State state)

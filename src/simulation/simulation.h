@@ -11,6 +11,7 @@
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
 #include "rod/boundary/hemostatic_valve.h"
+#include "rod/energy/energy_audit.h"
 #include "rod/sampling/adaptive_sampling.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene.h"
@@ -82,6 +83,14 @@ public:
    *          needs another load before its next step */
   void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
             const std::function<void(Archive&)>& more = nullptr);
+
+  /** Starts an energy audit, or ends it with null. The trajectory is the same with and without.
+   *  @param audit must outlive the steps
+   *  @throws std::logic_error for a scheme without SchemeTraits::audits */
+  void setAudit(rod::EnergyAudit* audit);
+
+  /** True for a wire behind an introducer; false for one that is simulated as a whole. */
+  bool hasIntroducer() const { return scene_.introducer; }
 
   /** Stops adaptive sampling: the nodes keep their positions along the wire. */
   void keepSampling() { samples_ = false; }
@@ -162,6 +171,7 @@ private:
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t steps_ = 0;
+  rod::EnergyAudit* audit_ = nullptr;
   double max_travel_ = 0.0;  ///< largest travel of a handle in one sub-step [m]
 };
 

@@ -173,6 +173,8 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
     in(header);
     checkHeader(header, wanted, origin);
     stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
+    if (audit_ != nullptr)
+      stepper_->setAudit(audit_);
     report_ = rod::StepReport();
     archive(in);
     if (more)

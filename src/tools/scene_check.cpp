@@ -7,6 +7,7 @@
 #include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/numeric_keys.h"
+#include "scene/sampling_error.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "tools/command_line.h"
@@ -32,8 +33,10 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.argument("SCENE.yaml", options.scene, "scene to check")->required(false);
   line.overrides(options.overrides,
                  "replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003");
-  line.flag("--vessel", options.vessel,
-            "also builds the vessel and checks the mesh, the entry and the branches' names");
+  line.flag(
+      "--vessel", options.vessel,
+      "also builds the vessel and checks the mesh, the entry and the branches' names; prints the expected error of the "
+      "hand force by the distance of the nodes");
   line.flag("--nodes", options.nodes, "prints the ROS nodes that the scene requires instead, one per line");
   line.flag("--hash", options.hash, "prints the scene's hash instead");
   line.flag("--keys", options.keys, "prints all numeric keys with unit, usual and accepted values as a Markdown table");
@@ -52,6 +55,7 @@ void checkVessel(const scene::Scene& scene)
     std::cerr << vessel.source << ": " << note << "\n";
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
   const results::SessionRun goals(scene, vessel, entry.position);
+  std::cerr << "scene_check: " << scene::expectedSamplingError(scene, vessel, entry).text() << "\n";
 }
 
 int check(const Options& options)

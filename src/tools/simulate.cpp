@@ -17,6 +17,7 @@
 #include "common/quantities.h"
 #include "contact/detector.h"
 #include "procedure/phase_pictures.h"
+#include "results/energy_audit_csv.h"
 #include "results/run_result.h"
 #include "results/session_run.h"
 #include "results/step_costs_csv.h"
@@ -47,6 +48,7 @@ struct Options
   double save_at = NAN;  ///< simulated time of the saved state [s]
   std::string from_state;
   std::vector<std::string> record;
+  bool audit = false;
   bool pictures = false;
   bool no_plots = false;
   bool quiet = false;
@@ -67,11 +69,16 @@ void addOptions(tools::CommandLine& line, Options& options)
       ->check(tools::positiveNumber());
   line.overrides(options.overrides,
                  "replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05");
-  line.repeated(
-          "--record", options.record, "TABLE",
-          "writes a further table. nodes: nodes.csv with every node at every recorded time. costs: costs.csv with "
-          "time, solves and contacts of every step")
+  line.repeated("--record", options.record, "TABLE",
+                "writes a further table. nodes: nodes.csv with every node beyond the introducer at every recorded "
+                "time, or every "
+                "node without an introducer. costs: costs.csv with "
+                "time, solves and contacts of every step")
       ->check(CLI::IsMember({"nodes", "costs"}));
+  line.flag(
+      "--audit", options.audit,
+      "writes energy_audit.csv and energy_audit.png: work of the hands, stored and dissipated energy, dissipation by "
+      "stage of the solver, and the closing error");
   line.flag("--pictures", options.pictures,
             "writes fluoroscopy/phase_01.png and so on: the C-arm's image at the end of each phase of a procedure");
   CLI::Option* save = line.option("--save-state", options.save_state, "FILE", "saves the state at the time of --at");
@@ -124,7 +131,8 @@ void writeHandForce(std::ofstream& file, const simulation::Simulation& simulatio
   file << line;
 }
 
-/** Tables written during the run: trajectory.csv, hand_force.csv and, on request, nodes.csv and costs.csv. */
+/** Tables written during the run: trajectory.csv, hand_force.csv and, on request, nodes.csv, costs.csv and
+ *  energy_audit.csv. */
 class Tables
 {
 public:
@@ -142,13 +150,23 @@ public:
     }
     if (options.records("costs"))
       costs_.emplace(options.out + "/costs.csv");
+    if (options.audit)
+      audit_file_.emplace(options.out + "/energy_audit.csv");
   }
+
+  /** Energy audit of the run; null without --audit. */
+  rod::EnergyAudit* audit() { return audit_file_ ? &audit_ : nullptr; }
+
+  /** Result of the audit as text. */
+  std::string closure() const { return closure_.text(); }
 
   /** @param duration computing time of the step [s] */
   void addStep(const simulation::Simulation& simulation, double duration)
   {
     if (costs_)
       costs_->add(simulation, duration);
+    if (audit_file_)
+      closure_.add(simulation.time(), audit_.balance());
   }
 
   /** Adds a row at the rate of the trajectory. */
@@ -158,6 +176,8 @@ public:
     writeHandForce(hand_force_, simulation);
     if (nodes_)
       writeNodes(*nodes_, simulation);
+    if (audit_file_)
+      audit_file_->add(simulation.time(), audit_.balance());
   }
 
   /** @throws InputError when not everything could be written */
@@ -167,6 +187,7 @@ public:
     tools::requireWritten(static_cast<bool>(hand_force_.flush()), folder_ + "/hand_force.csv");
     tools::requireWritten(!nodes_ || nodes_->flush(), folder_ + "/nodes.csv");
     tools::requireWritten(!costs_ || costs_->flush(), folder_ + "/costs.csv");
+    tools::requireWritten(!audit_file_ || audit_file_->flush(), folder_ + "/energy_audit.csv");
   }
 
 private:
@@ -175,6 +196,9 @@ private:
   std::ofstream hand_force_;
   std::optional<std::ofstream> nodes_;
   std::optional<results::StepCostsFile> costs_;
+  std::optional<results::EnergyAuditFile> audit_file_;
+  rod::EnergyAudit audit_;
+  results::AuditClosure closure_;
 };
 
 /** Vessel of a scene with all objects built from it. */
@@ -292,6 +316,8 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
          const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
 {
   Tables tables(scene, options);
+  if (options.audit)
+    simulation.setAudit(tables.audit());
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
@@ -330,6 +356,11 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
   if (progress)
     std::fputc('\n', stderr);
   tables.flush();
+  if (!options.audit)
+    return;
+  simulation.setAudit(nullptr);
+  if (!options.quiet)
+    std::fprintf(stderr, "%s\n", tables.closure().c_str());
 }
 
 void writeWallForces(const std::string& folder, const Surroundings& surroundings)
@@ -379,6 +410,8 @@ int simulate(const Options& options)
                                     surroundings.moving_wall.get());
   if (!options.from_state.empty())
     loadState(options.from_state, simulation, surroundings);
+  if (options.audit && !scene.solver.traits().audits)
+    throw InputError(options.scene, "solver.scheme", "'" + scene.solver.scheme + "' has no energy audit; use kkt");
   const std::uint64_t steps = lastStep(scene, options, simulation);
   results::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);

@@ -42,6 +42,16 @@ TEST(RunResult, HasAllDocumentedKeys)
   EXPECT_NEAR(json["step_time_us"]["median"].get<double>(), 50.0, 1e-9);
 }
 
+TEST(RunResult, FirstInsertedNodeWithoutAnIntroducerIsTheFirstNode)
+{
+  for (const char* name : {"cantilever.yaml", "straight_wire.yaml"})
+  {
+    const scene::Scene scene = scene::loadScene(std::string(PROJECT_DIR "/config/scenes/") + name);
+    const simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
+    EXPECT_EQ(firstInsertedNode(simulation) == 0, !scene.introducer) << name;
+  }
+}
+
 TEST(RunResult, ReportsExactlyZeroForUnusedPhases)
 {
   for (const char* scene : {"straight_wire.yaml", "cantilever.yaml"})

@@ -130,6 +130,14 @@ void ContactSolver::updateWallForces(State& state, const Motion& motion)
   springs_.exertForces(solve_precedes_detection_ ? previous_ : current_, motion, state);
 }
 
+double ContactSolver::springEnergy() const
+{
+  double sum = 0.0;
+  for (const Spring& spring : (solve_precedes_detection_ ? previous_ : current_).springs)
+    sum += 0.5 * spring.force * spring.force / spring.stiffness;
+  return sum;
+}
+
 bool ContactSolver::foundUnknown(const State& state) const
 {
   for (const contact::Feature& feature : current_.set.features)

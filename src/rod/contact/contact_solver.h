@@ -93,6 +93,9 @@ public:
   /** Sets the state's wall forces from the springs of the last solve after its accepted motion. */
   void updateWallForces(State& state, const Motion& motion);
 
+  /** Energy of the springs after the accepted motion of their solve; after updateWallForces() [J]. */
+  double springEnergy() const;
+
   /** True if the last detection shows a contact deeper than tolerated that the last solve did not resist. */
   bool foundUnknown(const State& state) const;
 

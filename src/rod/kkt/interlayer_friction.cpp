@@ -173,6 +173,19 @@ bool InterlayerFriction::addTorques(int k, const State& state, std::vector<doubl
   return any;
 }
 
+double InterlayerFriction::turnWork(int k, int outer, const State& before, const State& after) const
+{
+  if (!canStick(k, after))
+    return 0.0;
+  double work = 0.0;
+  for (std::size_t j = 0; j < torque_limit_[k].size(); ++j)
+  {
+    const auto turn = [&](int m) { return after.layers[m].twist_angle[j] - before.layers[m].twist_angle[j]; };
+    work += after.layers[k].friction_share * torque_limit_[k][j] * (turn(k) - turn(outer));
+  }
+  return work;
+}
+
 /** Mean angle of a layer in the next outer one, weighted with the friction between them [rad]. */
 double InterlayerFriction::meanTurn(int k, int outer, const State& state) const
 {

@@ -35,6 +35,9 @@ public:
   /** Axial friction force of the next outer layer on a layer, positive against insertion [N]. */
   double axialForce(int k, int outer, const State& state) const;
 
+  /** Work of the friction torque between a layer and the next outer one in a part of a step [J]. */
+  double turnWork(int k, int outer, const State& before, const State& after) const;
+
   /** Updates the largest friction torques between neighbours. */
   void updateTorqueLimits(const State& state);
 

@@ -176,16 +176,21 @@ void KktAssembly::addConstraint(int edge, const KktIterate& at)
   system_.rhs[rm] = -scale * (length - model_.rod.rest_length[edge]);
 }
 
+KktAssembly::MouthPoint KktAssembly::mouthPoint(const State& state) const
+{
+  const double inserted = state.inserted_length;
+  int edge = state.first_node;
+  while (edge + 2 < model_.rod.nodes() && model_.conditions.bodyPosition(edge + 1, inserted) < 0.0)
+    ++edge;
+  return {edge, -model_.conditions.bodyPosition(edge, inserted) / model_.rod.rest_length[edge]};
+}
+
 /** Adds the contact of the wire with the rim of the introducer's mouth, inside an edge. */
 void KktAssembly::addMouth(const KktIterate& at)
 {
-  const double inserted = at.state.inserted_length;
-  int edge = system_.first;
-  while (edge + 2 < model_.rod.nodes() && model_.conditions.bodyPosition(edge + 1, inserted) < 0.0)
-    ++edge;
-  const double parameter = -model_.conditions.bodyPosition(edge, inserted) / model_.rod.rest_length[edge];
-  if (parameter >= 0.0 && parameter <= 1.0)
-    addSheath(edge, parameter, at);
+  const MouthPoint mouth = mouthPoint(at.state);
+  if (mouth.parameter >= 0.0 && mouth.parameter <= 1.0)
+    addSheath(mouth.edge, mouth.parameter, at);
 }
 
 /** Adds the contact of the introducer's tube with a point of the wire: a penalty beyond the radial clearance.
@@ -273,6 +278,41 @@ void KktAssembly::addGuide(int node, const KktIterate& at, Eigen::Vector3d& resi
   residual += across * (at.state.position[node] - boundary.origin);
   addBlock(node, across);
   addSheath(node, 0.0, at);
+}
+
+double KktAssembly::sheathEnergy(int edge, double parameter, const State& state) const
+{
+  const Boundary& boundary = model_.boundary;
+  Eigen::Vector3d off = (1.0 - parameter) * state.position[edge] - boundary.origin;
+  if (parameter > 0.0)
+    off += parameter * state.position[edge + 1];
+  const double distance = (off - boundary.direction.dot(off) * boundary.direction).norm();
+  if (distance <= boundary.sheath_clearance)
+    return 0.0;
+  const double depth = distance - boundary.sheath_clearance;
+  return 0.5 * kSheathStiffness * (parameter > 0.0 ? kMouthLength : model_.rod.cell_length[edge]) * depth * depth;
+}
+
+double KktAssembly::introducerEnergy(const State& state) const
+{
+  if (!model_.boundary.introducer)
+    return 0.0;
+  double energy = 0.0;
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
+  {
+    const double beyond = model_.conditions.bodyPosition(i, state.inserted_length);
+    if (beyond >= 0.0)
+      break;
+    if (beyond < -model_.boundary.guide_length)
+      continue;
+    const Eigen::Vector3d off = state.position[i] - model_.boundary.origin;
+    const double lateral = (off - model_.boundary.direction.dot(off) * model_.boundary.direction).squaredNorm();
+    energy += 0.5 * model_.conditions.guideStiffness(i, state) * lateral + sheathEnergy(i, 0.0, state);
+  }
+  const MouthPoint mouth = mouthPoint(state);
+  if (mouth.parameter >= 0.0 && mouth.parameter <= 1.0)
+    energy += sheathEnergy(mouth.edge, mouth.parameter, state);
+  return energy;
 }
 
 }  // namespace endovascular_sim::rod

@@ -44,14 +44,26 @@ public:
   /** Adds bending and the forces of the twist alone. */
   void addAllBending(const KktIterate& at);
 
+  /** Energy of the introducer's guide and of its tube: their forces are its derivatives by the positions [J]. */
+  double introducerEnergy(const State& state) const;
+
   /** Resistances in the system assembled last. */
   const NodeResistance& resistance() const { return resistance_; }
 
 private:
+  /** Point of the wire at the introducer's mouth. */
+  struct MouthPoint
+  {
+    int edge = 0;
+    double parameter = 0.0;  ///< on the edge; outside 0 to 1: no such point
+  };
+
   BendingPairInput bendingInput(int first, int second, const KktIterate& at) const;
   void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const KktIterate& at);
   void addMouth(const KktIterate& at);
+  MouthPoint mouthPoint(const State& state) const;
+  double sheathEnergy(int edge, double parameter, const State& state) const;
   void addSheath(int edge, double parameter, const KktIterate& at);
   void addNodeTerms(int node, const KktIterate& at);
   void addGuide(int node, const KktIterate& at, Eigen::Vector3d& residual);

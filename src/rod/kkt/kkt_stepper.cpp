@@ -63,7 +63,10 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   if (layers_->beginStep(state, input, dt, friction_))
     contacts_.invalidate();
   StepReport report;
+  const double kinetic = audit_ != nullptr ? kineticEnergy(model_.rod, state) : 0.0;
   report.solved = advance(state, layers_->centrelineInput(state, input), dt, report);
+  if (audit_ != nullptr)
+    audit_->endStep(report.solved, kinetic);
   report.max_strain = strain_;
   return report;
 }
@@ -73,7 +76,13 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, StepRe
   const bool solved = bisection_.advance(
       state, input, dt, report,
       [this, &report](State& part, const State& before, const StepInput& at, double part_dt, bool shortest)
-      { return solveStep(part, at, part_dt, report) && (shortest || !gainedEnergy(before, part, part_dt)); },
+      {
+        const bool accepted =
+            solveStep(part, at, part_dt, report) && (shortest || !gainedEnergy(before, part, part_dt));
+        if (accepted && audit_ != nullptr)
+          auditPart(before, part, at, part_dt);
+        return accepted;
+      },
       [this] { contacts_.invalidate(); });
   if (solved)
     return true;
@@ -262,6 +271,8 @@ double KktStepper::move(State& state, double factor, StepReport& report)
 void KktStepper::accept(State& state, double dt)
 {
   contacts_.updateWallForces(state, motion_);
+  if (audit_ != nullptr)
+    noteForces(dt);
   reactions_.update({model_, system_, solver_.solution(), motion_, begin_, assembly_.resistance(), layers_->slides(),
                      friction_, last_input_.forces, dt},
                     state);
@@ -299,6 +310,53 @@ bool KktStepper::resample(const Discretisation& rod)
   model_.rod = rod;
   layers_->resample();
   return true;
+}
+
+/** Stores the resisting forces of an accepted solution for the audit. */
+void KktStepper::noteForces(double dt)
+{
+  resisting_.reset(motion_.size());
+  for (std::size_t k = 0; k < friction_.count(); ++k)
+  {
+    const WallFriction::Term& term = friction_.term(k);
+    resisting_.friction[term.node] = term.pull + term.stiffness * motion_[term.node];
+  }
+  for (int i = system_.first; i < model_.rod.nodes(); ++i)
+  {
+    resisting_.damping[i] = model_.rod.mass[i] * model_.environment.damping / dt;
+    resisting_.drag[i] = assembly_.resistance().coefficient[i] / (dt * dt) - resisting_.damping[i];
+  }
+  spring_energy_ = contacts_.springEnergy();
+}
+
+void KktStepper::auditPart(const State& before, const State& after, const StepInput& input, double dt)
+{
+  std::vector<NodeSlide> slides;
+  for (std::size_t i = 0; layers_->slides() != nullptr && i < after.position.size(); ++i)
+  {
+    const MassSlide& mass = layers_->slides()->mass[i];
+    slides.push_back({layers_->slides()->surface[i], mass.travel, mass.gained});
+  }
+  if (resisting_.friction.size() != after.position.size())
+    resisting_.reset(after.position.size());
+  layers_->surfaceAngles(after, surface_angle_);
+  const LayerFrictionWork layers = layers_->frictionWork(before, after);
+  const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
+  audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
+                   resisting_, slides, friction_.lastAboutAxis(), surface_angle_, spring_energy_, layers.push,
+                   layers.turn});
+  layers_->restore(after);
+}
+
+/** Potential energies of a state at its present angles. @param from first node whose weight counts */
+PotentialEnergy KktStepper::potentialEnergy(const State& state, int from)
+{
+  PotentialEnergy energy;
+  layers_->addElasticEnergy(state, energy);
+  energy.guide = assembly_.introducerEnergy(state);
+  for (int i = from; i < model_.rod.nodes(); ++i)
+    energy.gravity -= model_.immersedMass(i) * model_.environment.gravity.dot(state.position[i]);
+  return energy;
 }
 
 /** All other members are recomputed in every step. */

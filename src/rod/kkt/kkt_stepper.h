@@ -5,6 +5,7 @@
 
 #include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
+#include "rod/energy/energy_audit.h"
 #include "rod/kkt/active_set_solver.h"
 #include "rod/kkt/concentric_stack.h"
 #include "rod/kkt/kkt_assembly.h"
@@ -52,6 +53,7 @@ public:
   const Discretisation& discretisation() const override { return model_.rod; }
   bool resample(const Discretisation& rod) override;
   void archive(Archive& archive, const State& state) override;
+  void setAudit(EnergyAudit* audit) override { audit_ = audit; }
 
 private:
   friend struct KktStepperPeer;  // of the tests
@@ -71,6 +73,9 @@ private:
   void finish(State& state, double dt);
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
+  void noteForces(double dt);
+  void auditPart(const State& before, const State& after, const StepInput& input, double dt);
+  PotentialEnergy potentialEnergy(const State& state, int from);
 
   KktModel model_;
   std::unique_ptr<LayerModel> layers_;
@@ -92,6 +97,10 @@ private:
   std::vector<Eigen::Vector3d> begin_;                         ///< positions at the beginning of the step [m]
   std::vector<Eigen::Vector3d> saved_begin_, saved_velocity_;  ///< while lengths are restored
   std::vector<double> surface_begin_, surface_angle_;          ///< angles of the surface at every node [rad]
+
+  EnergyAudit* audit_ = nullptr;  ///< null: none
+  ResistingForces resisting_;     ///< of the last accepted solution, for the audit
+  double spring_energy_ = 0.0;    ///< likewise [J]
 };
 
 }  // namespace endovascular_sim::rod

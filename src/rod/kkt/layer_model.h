@@ -6,6 +6,7 @@
 
 #include "common/phase_timer.h"
 #include "rod/contact/wall_friction.h"
+#include "rod/energy/potential_energy.h"
 #include "rod/model/state.h"
 #include "rod/stepping/stepper.h"
 #include "rod/twist/twist_friction.h"
@@ -34,6 +35,13 @@ struct LayerSlides
 {
   std::vector<Eigen::Vector3d> surface;  ///< displacement of the outer surface at every node [m]
   std::vector<MassSlide> mass;           ///< mean over the masses at every node
+};
+
+/** Energy that the friction between layers dissipates [J]. */
+struct LayerFrictionWork
+{
+  double push = 0.0;  ///< along the wire
+  double turn = 0.0;  ///< about the wire
 };
 
 /** Instruments on the centreline of a KktStepper: one wire (SingleLayer) or several, one inside the other (LayerStack).
@@ -95,6 +103,13 @@ public:
 
   /** Elastic energies of a state at rest. */
   virtual Energy energy(const State& state, const StepInput& input, WallFriction& friction) = 0;
+
+  /** Adds bending and twist of a state at its present angles; see addElasticEnergy(). The rod's properties are then
+   *  those of that state. */
+  virtual void addElasticEnergy(const State& state, PotentialEnergy& energy) = 0;
+
+  /** Work of the friction between layers in a part of a step. */
+  virtual LayerFrictionWork frictionWork(const State& /*before*/, const State& /*after*/) const { return {}; }
 
   /** Takes over other nodes, which the rod already has. */
   virtual void resample() = 0;

@@ -351,6 +351,32 @@ Energy LayerStack::energy(const State& state, const StepInput& input, WallFricti
   return sum;
 }
 
+void LayerStack::addElasticEnergy(const State& state, PotentialEnergy& energy)
+{
+  place(state);
+  TwistBoundary hold = model_.conditions.twistBoundary(state, 0.0);
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    hold.rotation = state.layers[k].rotation;
+    rod::addElasticEnergy(stack_.profile(k).rod(), hold, state, state.layers[k].twist_angle, energy);
+  }
+}
+
+LayerFrictionWork LayerStack::frictionWork(const State& before, const State& after) const
+{
+  LayerFrictionWork work;
+  for (int k = 0; k < stack_.count(); ++k)
+  {
+    const int outer = friction_.nextOuter(k, after);
+    if (outer < 0)
+      continue;
+    const auto travel = [&](int m) { return after.layers[m].inserted_length - before.layers[m].inserted_length; };
+    work.push += friction_.axialForce(k, outer, after) * (travel(k) - travel(outer));
+    work.turn += friction_.turnWork(k, outer, before, after);
+  }
+  return work;
+}
+
 double LayerStack::handleWork(const State& before, const State& after) const
 {
   double work = 0.0;

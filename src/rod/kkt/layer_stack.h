@@ -45,6 +45,8 @@ public:
   double handleWork(const State& before, const State& after) const override;
   /** Sum over all layers; bending counts from each layer's own rest shape. */
   Energy energy(const State& state, const StepInput& input, WallFriction& friction) override;
+  void addElasticEnergy(const State& state, PotentialEnergy& energy) override;
+  LayerFrictionWork frictionWork(const State& before, const State& after) const override;
   void resample() override { stack_.setNodes(model_.rod.position); }
   void restore(const State& state) override { place(state); }
 

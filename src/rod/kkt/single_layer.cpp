@@ -80,6 +80,11 @@ double SingleLayer::handleWork(const State& before, const State& after) const
          std::abs(after.hand_torque * (after.rotation - before.rotation));
 }
 
+void SingleLayer::addElasticEnergy(const State& state, PotentialEnergy& energy)
+{
+  rod::addElasticEnergy(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, state.twist_angle, energy);
+}
+
 Energy SingleLayer::energy(const State& state, const StepInput& input, WallFriction& friction)
 {
   State relaxed = state;

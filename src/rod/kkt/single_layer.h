@@ -36,6 +36,7 @@ public:
   void finish(State& /*state*/, double /*dt*/) override {}
   double handleWork(const State& before, const State& after) const override;
   Energy energy(const State& state, const StepInput& input, WallFriction& friction) override;
+  void addElasticEnergy(const State& state, PotentialEnergy& energy) override;
   void resample() override {}
   void restore(const State& /*state*/) override {}
 

@@ -28,6 +28,8 @@ enum class EndHold
   kClamped,  ///< position and direction held: the clamp acts at the middle of the end edge
 };
 
+class EnergyAudit;
+
 /** Holds of the wire: an introducer, or the holds of its two ends. */
 struct Boundary
 {
@@ -169,6 +171,10 @@ public:
    *  @throws std::logic_error in schemes without SchemeTraits::saves */
   virtual void archive(Archive& archive, const State& state);
 
+  /** Sets the audit that receives every step from now on; null: none. It must outlive the steps.
+   *  @throws std::logic_error in schemes without SchemeTraits::audits */
+  virtual void setAudit(EnergyAudit* audit);
+
   /** Takes over another sampling of the same wire; the caller resamples the state.
    *  @return false in schemes without SchemeTraits::adaptive */
   virtual bool resample(const Discretisation& rod);
@@ -179,6 +185,11 @@ inline void Stepper::setContactRadii(const std::vector<double>& /*radii*/) {}
 inline void Stepper::archive(Archive& /*archive*/, const State& /*state*/)
 {
   throw std::logic_error("Stepper: this scheme's state cannot be saved");
+}
+
+inline void Stepper::setAudit(EnergyAudit* /*audit*/)
+{
+  throw std::logic_error("Stepper: this scheme has no energy audit");
 }
 
 inline bool Stepper::resample(const Discretisation& /*rod*/)

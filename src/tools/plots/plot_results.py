@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws the results of a session or of `simulate`.
 
-Writes forces.png and tip_path.png from trajectory.csv, and wall_forces.png from wall_forces.csv and vessel_points.csv if
-these exist.
+Writes forces.png and tip_path.png from trajectory.csv, wall_forces.png from wall_forces.csv and vessel_points.csv, and
+energy_audit.png from energy_audit.csv, if these exist.
 """
 
 import csv
@@ -15,6 +15,10 @@ import tool_support as tools  # noqa: E402
 
 AXES = {"x": "x, to the left [mm]", "y": "y, to the back [mm]", "z": "z, to the head [mm]"}
 VIEWS = (("x", "z", "from the front"), ("y", "z", "from the side"), ("x", "y", "from below"))
+STORED = ("kinetic", "bending", "twist", "guide", "wall", "gravity")
+DISSIPATED = ("wall_friction", "wall_rolling", "layer_friction", "valve", "damping", "drag")
+NUMERICAL = ("inertia", "positions", "twisting", "lengths", "iteration", "contact", "resampling", "rejected")
+SUMS = ("work", "stored", "dissipated", "numerical", "error")
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
 
 
@@ -112,6 +116,21 @@ def plot_wall_forces(pyplot, wall, forces, path):
     pyplot.close(figure)
 
 
+def plot_energy_audit(pyplot, audit, path):
+    """Draws the balance of the energy and its terms over time."""
+    figure, axes = pyplot.subplots(2, 2, figsize=(12, 8), constrained_layout=True)
+    panels = (("balance", SUMS), ("stored", STORED), ("dissipated", DISSIPATED), ("numerical", NUMERICAL + ("error",)))
+    for axis, (title, names) in zip(axes.flat, panels):
+        for name in names:
+            if name in SUMS or any(audit[name]):
+                axis.plot(audit["time"], [1e3 * value for value in audit[name]], linewidth=0.9, label=name)
+        axis.set(xlabel="time [s]", ylabel="energy [mJ]", title=title)
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize="small")
+    figure.savefig(path, dpi=120)
+    pyplot.close(figure)
+
+
 def main():
     """Reads the results and writes the pictures."""
     parser = tools.argument_parser(__doc__)
@@ -130,6 +149,10 @@ def main():
         wall = read_columns(os.path.join(arguments.folder, "vessel_points.csv"), ("x", "y", "z"))
         if forces and wall:
             plot_wall_forces(pyplot, wall, forces, os.path.join(out, "wall_forces.png"))
+        audit = read_columns(os.path.join(arguments.folder, "energy_audit.csv"),
+                             ("time",) + SUMS + STORED + DISSIPATED + NUMERICAL)
+        if audit:
+            plot_energy_audit(pyplot, audit, os.path.join(out, "energy_audit.png"))
     except OSError as error:
         tools.fail("%s" % error)
     return 0

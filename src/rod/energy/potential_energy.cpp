@@ -1,0 +1,117 @@
+#include "rod/energy/potential_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "rod/model/node_curvature.h"
+
+namespace endovascular_sim::rod
+{
+namespace
+{
+
+constexpr double kMinLength = 1e-9;  // least length of the spring at the hold, in edges
+
+double edgeMiddle(const Discretisation& rod, int edge)
+{
+  return 0.5 * (rod.position[edge] + rod.position[edge + 1]);
+}
+
+/** First edge that the hold of the twist does not turn. */
+int firstTwistedEdge(const Discretisation& rod, const TwistBoundary& hold)
+{
+  int edge = 0;
+  while (edge + 2 < rod.nodes() && edgeMiddle(rod, edge) < hold.position)
+    ++edge;
+  return edge;
+}
+
+double twistEnergy(const Discretisation& rod, const TwistBoundary& hold, int first, const std::vector<double>& angle)
+{
+  double energy = 0.0;
+  if (hold.held)
+  {
+    const double length = std::max(edgeMiddle(rod, first) - hold.position, kMinLength * rod.rest_length[first]);
+    const double turn = angle[first] - hold.rotation;
+    energy += 0.5 * rod.torsional_stiffness[first] / length * turn * turn;
+  }
+  for (int i = first + 1; i + 1 < rod.nodes(); ++i)
+  {
+    const double turn = angle[i] - angle[i - 1];
+    energy += 0.5 * rod.torsional_stiffness[i] / rod.cell_length[i] * turn * turn;
+  }
+  return energy;
+}
+
+/** Bishop frame, transported along the edges from the hold. */
+struct Bishop
+{
+  Eigen::Vector3d tangent, director;
+
+  void moveTo(const Eigen::Vector3d& next)
+  {
+    director -= (director.dot(next) / (1.0 + tangent.dot(next))) * (tangent + next);
+    tangent = next;
+  }
+
+  /** Half of a node's rest curvature binormal in the frame that is turned by an angle. */
+  Eigen::Vector3d halfBinormal(const Eigen::Vector2d& rest, double angle) const
+  {
+    const Eigen::Vector3d normal = tangent.cross(director);
+    const Eigen::Vector3d m1 = std::cos(angle) * director + std::sin(angle) * normal;
+    const Eigen::Vector3d m2 = std::cos(angle) * normal - std::sin(angle) * director;
+    return 0.5 * (rest.x() * m2 - rest.y() * m1);
+  }
+};
+
+double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int first, const State& state,
+                     const std::vector<double>& angle)
+{
+  double energy = 0.0;
+  Bishop frame{hold.tangent, hold.director};  // of the edge before the node, from the first twisted edge on
+  const auto direction = [&state](int edge) { return (state.position[edge + 1] - state.position[edge]).normalized(); };
+  for (int i = 1; i + 1 < rod.nodes(); ++i)
+  {
+    const Eigen::Vector3d kb = binormalAt(rod, state, i).value - state.curvature_offset[i];
+    double strain = kb.squaredNorm();
+    if (i > first)
+    {
+      if (i == first + 1)
+        frame.moveTo(direction(first));
+      Bishop after = frame;
+      after.moveTo(direction(i));
+      if (i >= rod.first_curved)
+        strain -= 2.0 * kb.dot(frame.halfBinormal(rod.rest_curvature[i], angle[i - 1]) +
+                               after.halfBinormal(rod.rest_curvature[i], angle[i]));
+      frame = after;
+    }
+    energy += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;
+  }
+  return energy;
+}
+
+}  // namespace
+
+PotentialEnergy operator-(const PotentialEnergy& a, const PotentialEnergy& b)
+{
+  return {a.bending - b.bending, a.twist - b.twist, a.guide - b.guide, a.gravity - b.gravity};
+}
+
+PotentialEnergy operator*(double factor, const PotentialEnergy& energy)
+{
+  return {factor * energy.bending, factor * energy.twist, factor * energy.guide, factor * energy.gravity};
+}
+
+void addElasticEnergy(const Discretisation& rod, const TwistBoundary& hold, const State& state,
+                      const std::vector<double>& twist_angle, PotentialEnergy& energy)
+{
+  if (rod.nodes() < 3)
+    return;
+  const int first = firstTwistedEdge(rod, hold);
+  energy.twist += twistEnergy(rod, hold, first, twist_angle);
+  energy.bending += bendingEnergy(rod, hold, first, state, twist_angle);
+}
+
+}  // namespace endovascular_sim::rod
