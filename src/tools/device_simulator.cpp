@@ -399,6 +399,7 @@ int main(int argc, char** argv)
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);  // appended by roslaunch
   std::vector<const char*> pointers;
+  pointers.reserve(words.size());
   for (const std::string& word : words)
     pointers.push_back(word.c_str());
   std::signal(SIGINT, requestStop);

@@ -125,7 +125,7 @@ public:
       {
         const bool named = item.IsMap() && item["name"] && item["name"].IsScalar();
         const std::string label = named ? item["name"].Scalar() : std::to_string(k);
-        out.emplace_back(file_, item, prefix + "[" + label + "]", warnings_);
+        out.emplace_back(file_, item, std::string(prefix).append("[").append(label).append("]"), warnings_);
         ++k;
       }
     return out;

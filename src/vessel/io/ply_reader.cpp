@@ -65,7 +65,8 @@ public:
     const double count = next(list.count_type);
     if (!(count >= 0.0) || count != std::floor(count))
       malformed("a list needs a length that is an integer from 0");
-    if (storage_ != PlyStorage::kAscii && count > static_cast<double>(data_.size() / sizeOf(list.type)))
+    if (storage_ != PlyStorage::kAscii &&
+        count * static_cast<double>(sizeOf(list.type)) > static_cast<double>(data_.size()))
       truncated();
     if (count > static_cast<double>(std::numeric_limits<std::uint32_t>::max()))
       malformed("a list is too long");
