@@ -30,7 +30,7 @@ for bad in "$missing" "$file" "$work/empty" "$work/folder"; do
   check "$bad" 'give|line|file|require|expected' scene_check "$bad"
   check "$bad" 'give|line|file|require|expected' procedure_study "$bad" --out "$work/out"
   check "$bad" 'give|file|damaged|bag' replay "$bad"
-  check "$bad" 'give|file|mesh' vessel_prepare "$bad" --out "$work/out.obj"
+  check "$bad" 'give|file|mesh' vessel_prepare "$bad" --unit 1 --out "$work/out.obj"
   check "$bad" 'give|file|state' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --from-state "$bad"
 done
 for bad in "$missing" "$work/folder" "$file"; do
@@ -40,6 +40,6 @@ for folder in "$file" "$file/below" /proc/none; do
   check "$folder" 'choose' simulate "$scene" --out "$folder" --seconds 0.01 --no-plots --quiet
 done
 check "$file" 'choose' benchmark accuracy --quick --out "$file"
-check /dev/full 'free some space' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --save-state /dev/full
+check /dev/full 'free some space' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --save-state /dev/full --at 0.01
 stdout=/dev/full check 'standard output' 'free some space' scene_check "$scene"
 [ "$failures" -eq 0 ]
