@@ -104,7 +104,8 @@ int firstInsertedNode(const simulation::Simulation& simulation)
 {
   const rod::Discretisation& wire = simulation.discretisation();
   int node = simulation.state().first_node;
-  while (simulation.hasIntroducer() && node < wire.nodes() && simulation.state().inserted_length - (wire.length() - wire.position[node]) < 0.0)
+  while (simulation.hasIntroducer() && node < wire.nodes() &&
+         simulation.state().inserted_length - (wire.length() - wire.position[node]) < 0.0)
     ++node;
   return node;
 }
