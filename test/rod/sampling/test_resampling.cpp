@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rod/energy/energy_audit.h"
 #include "rod/model/node_curvature.h"
 #include "test/rod/rod_fixtures.h"
 
@@ -80,14 +81,6 @@ Eigen::Vector3d momentum(const Discretisation& rod, const State& state)
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int i = 0; i < rod.nodes(); ++i)
     sum += rod.mass[i] * state.velocity[i];
-  return sum;
-}
-
-double kineticEnergy(const Discretisation& rod, const State& state)
-{
-  double sum = 0.0;
-  for (int i = 0; i < rod.nodes(); ++i)
-    sum += 0.5 * rod.mass[i] * state.velocity[i].squaredNorm();
   return sum;
 }
 
