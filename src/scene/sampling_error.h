@@ -13,10 +13,9 @@ namespace endovascular_sim::scene
  *  (docs/PHYSICS.md, "Error of the sampling"). */
 struct SamplingError
 {
-  double edge = 0.0;        ///< h in the narrowest bend [m]
-  double mouth_edge = 0.0;  ///< h at the introducer [m]
-  double free_length =
-      0.0;  ///< ℓ, from the introducer's mouth to the first contact of a bent wire; 0: no introducer [m]
+  double edge = 0.0;         ///< h in the narrowest bend [m]
+  double mouth_edge = 0.0;   ///< h at the introducer [m]
+  double free_length = 0.0;  ///< ℓ, from the introducer's mouth to the first contact; 0: no introducer [m]
   double bend_radius = 0.0;  ///< R of the bend with the largest error; 0: no centreline [m]
   double clearance = 0.0;    ///< c between wire and wall there [m]
 

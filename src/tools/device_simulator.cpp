@@ -293,7 +293,7 @@ void showHand(const DeviceSimulator& device)
 class Trace
 {
 public:
-  explicit Trace(const std::string& file) : stream_(file)
+  explicit Trace(const std::string& file) : file_(file), stream_(file)
   {
     if (!(stream_ << "time,insertion,rotation,force,torque,state\n"))
       throw endovascular_sim::writeError(file);
@@ -315,8 +315,16 @@ public:
       stream_.flush();
   }
 
+  /** @throws InputError when not everything could be written */
+  void finish()
+  {
+    if (!stream_.flush())
+      throw endovascular_sim::writeError(file_);
+  }
+
 private:
   static constexpr std::uint64_t kRowsPerFlush = 50;
+  std::string file_;
   std::ofstream stream_;
   std::uint64_t samples_ = 0;
 };
@@ -338,6 +346,8 @@ void updatePlug(DeviceSimulator& device, const Arguments& arguments, double now)
       device.hasStarted() && time >= arguments.unplug_at && time < arguments.unplug_at + arguments.replug_after;
   if (out && device.isPlugged())
     device.unplug();
+  if (trace)
+    trace->finish();
   else if (!out && !device.isPlugged())
     device.plug(now);
 }

@@ -71,9 +71,8 @@ void addOptions(tools::CommandLine& line, Options& options)
                  "replaces a value of the scene, e.g. --set vessel.mesh=my.stl --set drive.speed=0.05");
   line.repeated("--record", options.record, "TABLE",
                 "writes a further table. nodes: nodes.csv with every node beyond the introducer at every recorded "
-                "time, or every "
-                "node without an introducer. costs: costs.csv with "
-                "time, solves and contacts of every step")
+                "time, or every node without an introducer. costs: costs.csv with time, solves and contacts of every "
+                "step")
       ->check(CLI::IsMember({"nodes", "costs"}));
   line.flag(
       "--audit", options.audit,

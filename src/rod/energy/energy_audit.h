@@ -52,8 +52,8 @@ struct AuditedPart
   const std::vector<TwistFriction>& about_axis;  ///< friction of the wall in the last relaxation of the twist
   const std::vector<double>& surface_angle;      ///< angle of the surface at every node after the part [rad]
   double wall_energy;                            ///< springs of contacts after the part [J]
-  double layer_friction_push,
-      layer_friction_turn;  ///< work of the friction between layers along and about the wire [J]
+  double layer_friction_push;                    ///< work of the friction between layers along the wire [J]
+  double layer_friction_turn;                    ///< about the wire [J]
 };
 
 /** Energy audit of a wire: the balance of every accepted part of its steps (docs/PHYSICS.md, "Energy audit").

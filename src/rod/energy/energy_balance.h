@@ -33,13 +33,12 @@ struct EnergyBalance
   double drag = 0.0;            ///< of the fluid
 
   // Dissipated by the stages of the solver.
-  double inertia = 0.0;    ///< backward Euler: ½ m |Δv|²
-  double positions = 0.0;  ///< implicit positions: work of the final elastic force minus the change of energy
-  double twisting = 0.0;   ///< relaxation of the twist, the same at fixed positions; snap-through
-  double lengths = 0.0;    ///< inextensibility: work of the tensions on edges that turn
-  double iteration =
-      0.0;               ///< equations of the free nodes that the last solve has left: minus the work of their residual
-  double contact = 0.0;  ///< work of the wall's normal forces minus the change of its energy
+  double inertia = 0.0;     ///< backward Euler: ½ m |Δv|²
+  double positions = 0.0;   ///< implicit positions: work of the final elastic force minus the change of energy
+  double twisting = 0.0;    ///< relaxation of the twist, the same at fixed positions; snap-through
+  double lengths = 0.0;     ///< inextensibility: work of the tensions on edges that turn
+  double iteration = 0.0;   ///< minus the work of the residual that the last solve leaves at the free nodes
+  double contact = 0.0;     ///< work of the wall's normal forces minus the change of its energy
   double resampling = 0.0;  ///< change of nodes, its offsets that fade, and change of a stack's reference
   double rejected = 0.0;    ///< kinetic energy of rejected steps
 
