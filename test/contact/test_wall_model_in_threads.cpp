@@ -65,11 +65,17 @@ void inThreads(const std::function<void(int)>& work)
     thread.join();
 }
 
-TEST(WallModelInThreads, GivesEveryDetectorTheBitsOfASingleThread)
+/** Mesh, its wall shared by the detectors of all threads, and their contact sets. */
+class WallModelInThreads : public testing::Test
 {
+protected:
   const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
-  std::vector<std::vector<ContactSet>> sets(kThreads);
+  std::vector<std::vector<ContactSet>> sets = std::vector<std::vector<ContactSet>>(kThreads);
+};
+
+TEST_F(WallModelInThreads, GivesEveryDetectorTheBitsOfASingleThread)
+{
   inThreads(
       [&](int k)
       {
@@ -82,11 +88,8 @@ TEST(WallModelInThreads, GivesEveryDetectorTheBitsOfASingleThread)
   EXPECT_GT(features, 100U);
 }
 
-TEST(WallModelInThreads, KeepsTheWallOfOtherThreadsWhileOneMovesIts)
+TEST_F(WallModelInThreads, KeepsTheWallOfOtherThreadsWhileOneMovesIts)
 {
-  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
-  const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
-  std::vector<std::vector<ContactSet>> sets(kThreads);
   inThreads(
       [&](int k)
       {
@@ -108,9 +111,8 @@ TEST(WallModelInThreads, KeepsTheWallOfOtherThreadsWhileOneMovesIts)
     EXPECT_GT(expectSetsOfASingleThread(mesh, k, sets[static_cast<std::size_t>(k)]), 0U);
 }
 
-TEST(WallModelInThreads, IsMovedInPlaceAfterAnotherThreadHasReleasedIt)
+TEST_F(WallModelInThreads, IsMovedInPlaceAfterAnotherThreadHasReleasedIt)
 {
-  const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   Detector detector(WallModel::create(mesh), WallLaw{});
   const WallModel* before = detector.model().get();
   std::thread other(

@@ -310,8 +310,8 @@ def run_session(repository, scene, folder, moving, faults, ends):
             is_last = ends and (kind, node) == faults[-1]
             trial = Trial(session, kind, node, is_last)
             trial.run()
-            if (trial.is_late or trial.failures) and not is_last:
-                print("repeated: %s of %s, zero force after %s s, %s" % (kind, node, trial.zero, trial.failures), flush=True)
+            if trial.is_late and not trial.failures and not is_last:
+                print("repeated: %s of %s, zero force after %.3f s" % (kind, node, trial.zero), flush=True)
                 trial = Trial(session, kind, node, is_last)
                 trial.run()
             trials.append(trial)

@@ -2,10 +2,7 @@
 # Topics and services of docs/ROS_INTERFACE.md, of src/nodes/runtime/ros_names.h and of running graphs are the same.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
-export PATH=/usr/bin:/bin ROS_HOSTNAME=localhost
-set +u
-. "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/setup.bash"
-set -u
+. "$repository/test/scripts/graph_environment.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

@@ -3,8 +3,5 @@
 #   --rounds N: all nodes, N times
 set -eu
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-export PATH=/usr/bin:/bin ROS_HOSTNAME=localhost
-set +u
-. "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/setup.bash"
-set -u
+. "$repository/test/scripts/graph_environment.sh"
 exec /usr/bin/python3 "$repository/test/scripts/fault_trials.py" "$repository" "$@"

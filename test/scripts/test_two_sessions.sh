@@ -2,11 +2,8 @@
 # Two sessions at once use different processors, and each reports its own.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
-export PATH=/usr/bin:/bin ROS_HOSTNAME=localhost
 [ "$(nproc)" -ge 2 ] || { echo "skipped: this machine has one processor"; exit 77; }
-set +u
-. "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/setup.bash"
-set -u
+. "$repository/test/scripts/graph_environment.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
