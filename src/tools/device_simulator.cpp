@@ -346,8 +346,6 @@ void updatePlug(DeviceSimulator& device, const Arguments& arguments, double now)
       device.hasStarted() && time >= arguments.unplug_at && time < arguments.unplug_at + arguments.replug_after;
   if (out && device.isPlugged())
     device.unplug();
-  if (trace)
-    trace->finish();
   else if (!out && !device.isPlugged())
     device.plug(now);
 }
@@ -388,6 +386,8 @@ int run(const Arguments& arguments)
     waitUntil(device.isPlugged() ? device.wakeAt() : now + 5e-3, device.descriptor());
   }
   device.unplug();
+  if (trace)
+    trace->finish();
   writeReport(device.report(), arguments.out);
   return 0;
 }
