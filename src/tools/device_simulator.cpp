@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -312,21 +313,31 @@ public:
                   static_cast<int>(force.state));
     stream_ << row.data();
     if (samples_ % kRowsPerFlush == 0)
-      stream_.flush();
+      flush();
   }
 
   /** @throws InputError when not everything could be written */
   void finish()
   {
-    if (!stream_.flush())
+    flush();
+    errno = error_;
+    if (error_ != 0)
       throw endovascular_sim::writeError(file_);
   }
 
 private:
+  void flush()
+  {
+    errno = 0;
+    if (!stream_.flush() && error_ == 0)
+      error_ = errno != 0 ? errno : EIO;
+  }
+
   static constexpr std::uint64_t kRowsPerFlush = 50;
   std::string file_;
   std::ofstream stream_;
   std::uint64_t samples_ = 0;
+  int error_ = 0;  ///< errno of the first failed write; 0: none
 };
 
 void waitUntil(double wake, int descriptor)
