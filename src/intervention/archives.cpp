@@ -1,4 +1,5 @@
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "intervention/treatment.h"
 #include "intervention/vessel_dilatation.h"
 
@@ -10,16 +11,31 @@ namespace endovascular_sim::intervention
 void archive(Archive& archive, RoundBody& body)
 {
   archive(body.axis, body.radii);
+  if (!archive.reading())
+    return;
+  requireLength(body.axis.size(), body.radii);
+  requireLoaded(body.axis.size() != 1, "holds a body whose axis is one point");
+  requireFinite(body.axis, body.radii);
 }
 
 void archive(Archive& archive, BalloonLoad& load)
 {
   archive(load.balloon, load.pressure, load.sleeve);
+  if (archive.reading())
+    requireFinite(load.pressure);
 }
 
 void archive(Archive& archive, WallDisplacement& displacement)
 {
   archive(displacement.indices, displacement.positions);
+}
+
+void requireFit(const WallDisplacement& displacement, std::size_t vertices)
+{
+  requireLength(displacement.indices.size(), displacement.positions);
+  for (const int index : displacement.indices)
+    requireIndex(index, 0, static_cast<int>(vertices));
+  requireFinite(displacement.positions);
 }
 
 static void archive(Archive& archive, TreatmentEvents& events)
@@ -30,11 +46,17 @@ static void archive(Archive& archive, TreatmentEvents& events)
 void BalloonInflation::archive(Archive& archive)
 {
   archive(pressure_, peak_pressure_, burst_);
+  if (archive.reading())
+    requireFinite(pressure_, peak_pressure_);
 }
 
 void StentPlacement::archive(Archive& archive)
 {
   archive(state_, inner_diameter_, over_expanded_, sleeve_);
+  if (!archive.reading())
+    return;
+  requireIndex(static_cast<int>(state_), 0, static_cast<int>(State::kLost) + 1);
+  requireFinite(inner_diameter_);
 }
 
 void Treatment::archive(Archive& archive)
@@ -60,11 +82,19 @@ void VesselDilatation::archive(Archive& archive)
     vertices_[v] = initial;
   }
   archive(changed, active_, next_.first, next_.second, empty_, largest_displacement_, peak_pressure_, largest_stretch_);
+  if (archive.reading())
+    requireFinite(largest_displacement_, peak_pressure_, largest_stretch_);
+  for (const std::vector<int>* indices : {&changed, &active_})
+    for (const int v : *indices)
+      requireIndex(v, 0, static_cast<int>(vertices_.size()));
   for (int v : changed)
   {
     VertexState& vertex_state = vertices_.at(static_cast<std::size_t>(v));
     archive(mesh_.vertices[static_cast<std::size_t>(v)], vertex_state.base, vertex_state.peak, vertex_state.rest,
             vertex_state.held, vertex_state.active);
+    if (archive.reading())
+      requireFinite(mesh_.vertices[static_cast<std::size_t>(v)], vertex_state.base, vertex_state.peak,
+                    vertex_state.rest, vertex_state.held);
   }
 }
 

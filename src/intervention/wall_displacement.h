@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,5 +22,10 @@ struct WallDisplacement
 
 /** Saves or loads a wall displacement. */
 void archive(Archive& archive, WallDisplacement& displacement);
+
+/** Checks a loaded displacement.
+ *  @param vertices number of vertices of the mesh
+ *  @throws ArchiveError when indices are out of range, or positions are missing or not finite */
+void requireFit(const WallDisplacement& displacement, std::size_t vertices);
 
 }  // namespace endovascular_sim::intervention

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "simulation/wall_history.h"
 
 namespace endovascular_sim::simulation
@@ -289,6 +290,10 @@ void archive(Archive& archive, TimedEvent& event)
 void BalloonTreatments::InstrumentTreatment::archive(Archive& archive)
 {
   archive(treatment, positions, widths);
+  if (!archive.reading())
+    return;
+  requireLength(positions.size(), widths);
+  requireFinite(positions, widths);
 }
 
 void BalloonTreatments::archive(Archive& archive)
@@ -298,6 +303,8 @@ void BalloonTreatments::archive(Archive& archive)
   archive(events_, next_, shown_, due_, promised_, still_, pressed_, at_risk_);
   if (wall_ != nullptr)
     archive(*wall_);
+  if (archive.reading())
+    requireLoaded(!(next_.pressure > 0.0) || !next_.balloon.axis.empty(), "holds a pressure without a balloon");
 }
 
 }  // namespace endovascular_sim::simulation

@@ -48,8 +48,13 @@ void LocalDeformableWall::archive(Archive& archive)
     detector_.moveVertices(detected.indices, detected.positions, history_.base());
   }
   archive(opening_, history_, detected);
-  if (archive.reading())
-    detector_.moveVertices(detected.indices, detected.positions, history_.base());
+  if (!archive.reading())
+    return;
+  const std::size_t vertices = opening_.initialVertices().size();
+  intervention::requireFit(detected, vertices);
+  for (const auto& pending : history_.pending())
+    intervention::requireFit(pending.displacement, vertices);
+  detector_.moveVertices(detected.indices, detected.positions, history_.base());
 }
 
 bool hasBalloon(const scene::Scene& scene)

@@ -139,6 +139,7 @@ private:
   rod::State initialState() const;
   double outsideInsertion() const;
   void archive(Archive& archive);
+  void requireFit() const;
   void setPressures(const std::vector<HandCommand>& commands);
   HandCommand wantedMotion(int instrument, const HandCommand& command);
   HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "common/error.h"
 #include "common/version.h"
 #include "simulation/simulation.h"
@@ -25,6 +26,8 @@ constexpr int kFirstPhysicsNumber = 1;      ///< physics number of formats that 
 
 /** First commits of the formats whose headers do not name the version that wrote them. */
 constexpr std::array<const char*, 4> kFormatCommits = {"3dc36e6", "613f4dc", "6b5167a", "ca765d6"};
+
+constexpr double kLargestDistalTurn = 20.0;  ///< between a saved distal end and its motion [rad]
 
 /** Data that must agree before a state is used. The layout up to and including the writer is the same in all formats
  *  from kNamesWriter on, so that every later version can name the writer of a state that it does not load. */
@@ -118,12 +121,19 @@ void checkHeader(const Header& header, const Header& wanted, const std::string& 
 void Simulation::Channel::archive(Archive& archive)
 {
   archive(pacer, slipped_insertion, slipped_rotation, grip, turning_grip);
+  if (archive.reading())
+    requireFinite(slipped_insertion, slipped_rotation, grip, turning_grip);
 }
 
 void Simulation::archive(Archive& archive)
 {
   std::uint64_t trajectory = trajectory_.value();
   archive(steps_, trajectory, state_hash_, pressures_, samples_);
+  if (archive.reading())
+  {
+    requireLength(channels_.size(), pressures_);
+    requireFinite(pressures_);
+  }
   for (Channel& channel : channels_)
     archive(channel);
   trajectory_.resume(trajectory);
@@ -136,8 +146,22 @@ void Simulation::archive(Archive& archive)
       stepper_->resample(sampling_->discretisation());
   }
   archive(state_);
+  if (archive.reading())
+    requireFit();
   stepper_->archive(archive, state_);
   archive(treatments_);
+}
+
+/** Checks the state against the wire and the scene. A distal end far from its motion would take very many sub-steps. */
+void Simulation::requireFit() const
+{
+  rod::requireFit(state_, discretisation().nodes(), instruments() > 1 ? instruments() : 0);
+  const rod::EndMotion wanted = distalMotionAt(time());
+  const double travel = (wanted.displacement - state_.distal.displacement).norm();
+  const double turn =
+      std::max(std::abs(wanted.rotation - state_.distal.rotation), (wanted.tilt - state_.distal.tilt).norm());
+  requireLoaded(travel <= discretisation().length() && turn <= kLargestDistalTurn,
+                "holds a distal end that is far from its motion");
 }
 
 void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std::function<void(Archive&)>& more)

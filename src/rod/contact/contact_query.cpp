@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "rod/boundary/boundary_conditions.h"
 
 namespace endovascular_sim::rod
@@ -152,6 +153,16 @@ void ContactQueryBuilder::archive(Archive& archive)
 {
   archive(snap_, snap_before_, wide_motion_, step_, substep_, vessel_version_, query_.first_node,
           margin_rule_.widest_margin, margin_rule_.snap_margin, margin_rule_.snap, mouth_, mouth_edge_);
+  if (!archive.reading())
+    return;
+  for (const NodeRange& range : {snap_, snap_before_, margin_rule_.snap})
+  {
+    requireIndex(range.begin, 0, rod_.nodes() + 1);
+    requireIndex(range.end, 0, rod_.nodes() + 1);
+  }
+  requireIndex(query_.first_node, 0, rod_.nodes() + 1);
+  requireIndex(mouth_edge_, -1, rod_.nodes() - 1);
+  requireNumbers(wide_motion_, margin_rule_.widest_margin, margin_rule_.snap_margin, mouth_);
 }
 
 }  // namespace endovascular_sim::rod

@@ -5,10 +5,42 @@
 #include <utility>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "contact/contract/contact_set_archive.h"
 
 namespace endovascular_sim::rod
 {
+namespace
+{
+
+/** Checks a loaded contact set against a wire.
+ *  @throws ArchiveError */
+void requireFit(const contact::ContactSet& set, int nodes)
+{
+  for (const contact::Feature& feature : set.features)
+  {
+    requireIndex(feature.edge, 0, nodes - 1);
+    requireFinite(feature.parameter, feature.point, feature.normal, feature.gap, feature.friction);
+    requireLoaded(feature.parameter >= 0.0 && feature.parameter <= 1.0, "holds a contact beyond its edge");
+    requireNumbers(feature.clearance_radius, feature.stiffness);
+  }
+  requireNumbers(set.free_distance);
+}
+
+/** Checks loaded springs against a wire and their contacts.
+ *  @throws ArchiveError */
+void requireFit(const std::vector<ContactSpring>& springs, std::size_t features, int nodes)
+{
+  requireLoaded(springs.size() <= features, "holds arrays of a wrong length");
+  for (const ContactSpring& spring : springs)
+  {
+    requireIndex(spring.node, 0, nodes - 1);
+    requireFinite(spring.weight0, spring.weight1, spring.stiffness, spring.gap, spring.force, spring.reached,
+                  spring.resisted);
+  }
+}
+
+}  // namespace
 
 ContactSolver::ContactSolver(const Discretisation& rod, const Boundary& boundary, const StepperSettings& settings)
   : rod_(rod),
@@ -203,6 +235,12 @@ void ContactSolver::archive(Archive& archive)
   query_.archiveStaleness(archive);
   trust_region_.archive(archive);
   query_.archive(archive);
+  if (!archive.reading())
+    return;
+  requireFit(current_.set, rod_.nodes());
+  requireFit(previous_.set, rod_.nodes());
+  // The present springs are those of an earlier set, possibly of other nodes, until the next solve prepares them.
+  requireFit(previous_.springs, previous_.set.features.size(), rod_.nodes());
 }
 
 }  // namespace endovascular_sim::rod

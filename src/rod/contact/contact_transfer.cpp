@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "rod/contact/wall_compliance.h"
 
 namespace endovascular_sim::rod
@@ -115,6 +116,8 @@ double ContactTransfer::storedForce(const contact::Feature& feature) const
 void ContactTransfer::StoredForce::archive(Archive& archive)
 {
   archive(id, position, force);
+  if (archive.reading())
+    requireFinite(position, force);
 }
 
 void ContactTransfer::archive(Archive& archive)

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 
 namespace endovascular_sim::rod
 {
@@ -215,6 +216,14 @@ void ContactTrustRegion::resample(const NodeRenumbering& renumbering)
 void ContactTrustRegion::archive(Archive& archive)
 {
   archive(stale_motion_budget_, margins_, reach_, any_wide_);
+  if (!archive.reading())
+    return;
+  for (const std::vector<double>* of_nodes : {&margins_, &reach_})
+  {
+    requireLength(of_nodes->empty() ? 0 : static_cast<std::size_t>(rod_.nodes()), *of_nodes);
+    requireNumbers(*of_nodes);
+  }
+  requireNumbers(stale_motion_budget_);
 }
 
 }  // namespace endovascular_sim::rod

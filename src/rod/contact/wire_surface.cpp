@@ -1,6 +1,7 @@
 #include "rod/contact/wire_surface.h"
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 
 namespace endovascular_sim::rod
 {
@@ -30,6 +31,10 @@ double WireSurface::gapTo(const contact::Feature& feature, const State& state) c
 void WireSurface::archive(Archive& archive)
 {
   archive(least_radius_);
+  if (!archive.reading())
+    return;
+  requireLength(least_radius_.empty() ? 0 : static_cast<std::size_t>(nodes()), least_radius_);
+  requireFinite(least_radius_);
 }
 
 }  // namespace endovascular_sim::rod

@@ -120,6 +120,12 @@ HandleState handleState(const State& state, int instrument);
 /** Saves or loads all of a state. */
 void archive(Archive& archive, State& state);
 
+/** Checks a loaded state against its wire: lengths of the arrays, indices, and finite numbers.
+ *  @param nodes number of nodes of the whole wire
+ *  @param layers number of layers of a stack; 0 for one wire
+ *  @throws ArchiveError when the state does not fit */
+void requireFit(const State& state, int nodes, int layers);
+
 /** Elastic energies of the simulated part of the wire [J]. */
 struct Energy
 {

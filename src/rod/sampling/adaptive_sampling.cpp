@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 #include "rod/model/node_curvature.h"
 
 namespace endovascular_sim::rod
@@ -164,6 +165,7 @@ void AdaptiveSampling::archive(Archive& archive)
   archive(tree_, beyond_tip_, queried_from_);
   if (!archive.reading())
     return;
+  requireFinite(beyond_tip_, queried_from_);
   tree_.positions(position_);
   discretise(wire_, position_, rod_);
 }

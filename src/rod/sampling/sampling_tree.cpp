@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 
 namespace endovascular_sim::rod
 {
@@ -132,6 +133,23 @@ void archive(Archive& archive, SamplingLeaf& leaf)
 void SamplingTree::archive(Archive& archive)
 {
   archive(leaves_);
+  if (archive.reading())
+    requireFit();
+}
+
+/** Checks that the leaves follow each other along the whole wire, each at a multiple of its length. */
+void SamplingTree::requireFit() const
+{
+  std::int64_t end = 0;
+  for (const SamplingLeaf& leaf : leaves_)
+  {
+    requireIndex(leaf.level, 0, coarsest_ + 1);
+    requireIndex(leaf.age, 0, kOld + 1);
+    requireLoaded(leaf.begin == end && leaf.begin % (std::int64_t{1} << leaf.level) == 0,
+                  "holds edges that do not fill the wire");
+    end = leaf.end();
+  }
+  requireLoaded(end == base_edges_, "holds edges that do not fill the wire");
 }
 
 }  // namespace endovascular_sim::rod

@@ -73,7 +73,8 @@ public:
    *  @return true when any leaf changed */
   bool update(const std::vector<SamplingDemand>& demand);
 
-  /** Saves the leaves, or loads those of a tree of the same wire. */
+  /** Saves the leaves, or loads those of a tree of the same wire.
+   *  @throws ArchiveError when they do not fill the wire */
   void archive(Archive& archive);
 
 private:
@@ -89,6 +90,7 @@ private:
   bool canMerge(std::size_t leaf, const std::vector<SamplingDemand>& demand) const;
   int levelAfterSplits(std::size_t leaf) const { return leaves_[leaf].level - (change_[leaf] == Change::kSplit); }
   void rebuild();
+  void requireFit() const;
 
   SamplingSettings settings_;
   double length_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/archive.h"
+#include "common/archive_checks.h"
 
 namespace endovascular_sim::simulation
 {
@@ -123,11 +124,15 @@ void StaleContactPacer::miss(const HandCommand& motion)
 void StaleContactPacer::Channel::archive(Archive& archive)
 {
   archive(missed, release, release_rate);
+  if (archive.reading())
+    requireFinite(missed, release, release_rate);
 }
 
 void StaleContactPacer::archive(Archive& archive)
 {
   archive(insertion_, rotation_, pace_, pace_rate_, jerk_, speed_, last_travel_, travel_);
+  if (archive.reading())
+    requireFinite(pace_, pace_rate_, jerk_, speed_, last_travel_, travel_);
 }
 
 }  // namespace endovascular_sim::simulation
