@@ -365,6 +365,12 @@ def main():
         for number, (round_, scene, moving, faults, ends) in enumerate(plans):
             trials, failures, line = run_session(os.path.realpath(arguments.repository), data + scene + ".yaml",
                                                  "%s/%d" % (folder, number), moving, faults, ends)
+            if ends and trials[-1].is_late:
+                print("repeated in a new session: zero force after %.3f s" % trials[-1].zero, flush=True)
+                repeated, more, line_of_repetition = run_session(
+                    os.path.realpath(arguments.repository), data + scene + ".yaml", "%s/%d_again" % (folder, number), moving,
+                    faults[-1:], True)
+                trials[-1:], failures, line = repeated, failures + more, line + "; repeated: " + line_of_repetition
             rows = [row_of(round_, trial) for trial in trials]
             print("\n".join(rows), flush=True)
             table += rows

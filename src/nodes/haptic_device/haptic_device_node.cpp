@@ -113,7 +113,7 @@ void HapticDeviceNode::servePort()
   prctl(PR_SET_TIMERSLACK, kTimerSlack);
   publishState(DeviceState::kDisabled, "starting", {});
 
-  while (running_)
+  while (running_ && !isStopRequested())
   {
     std::unique_lock<PriorityInheritanceMutex> lock(mutex_);
     link_.service(steadyNow(), wallNow());
@@ -172,6 +172,8 @@ void HapticDeviceNode::receiveForce(const sensor_msgs::JointState& state)
   if (std::max(*insertion, *rotation) < state.position.size())
     cause = {state.position[*insertion], state.position[*rotation]};
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
+  if (isStopRequested())
+    return;  // the device has been shut down, or will be at once
   const DeviceState before = link_.host().state();
   link_.commandForce({state.effort[*insertion], state.effort[*rotation]}, cause, steadyNow(), wallNow());
   if (!link_.isIdle() || link_.host().state() != before)
@@ -184,6 +186,8 @@ void HapticDeviceNode::receiveSimulationState(const OperatingState& state)
   const bool is_running = state.state == stateName(DeviceState::kEnabled);
   const std::string reason = state.reason.empty() ? "the simulation is " + state.state : "simulation: " + state.reason;
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
+  if (isStopRequested())
+    return;
   link_.setSimulationState(is_running ? "" : reason, steadyNow(), wallNow());
   wake();
 }

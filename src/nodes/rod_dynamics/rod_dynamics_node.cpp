@@ -209,7 +209,7 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
 {
   StepScheduler scheduler(scene_.solver.time_step);
   scheduler.start(Clock::now());
-  while (ros::ok() && simulation_->steps() < last_step)
+  while (ros::ok() && !isStopRequested() && simulation_->steps() < last_step)
   {
     countProgress();
     const Clock::time_point awake = Clock::now();
@@ -262,7 +262,7 @@ void RodDynamicsNode::pause()
            static_cast<unsigned long>(simulation_->steps()));
   contacts_->startListening();
   const Clock::time_point begin = Clock::now();
-  while (ros::ok() && !contacts_->probe())
+  while (ros::ok() && !isStopRequested() && !contacts_->probe())
   {
     const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
     publisher_.publishHands(renderer_.hands(), share);
@@ -271,7 +271,7 @@ void RodDynamicsNode::pause()
   }
   statistics_.setPaused(false);
   renderer_.reset();
-  if (!ros::ok())
+  if (!ros::ok() || isStopRequested())
     return;
   publisher_.publishOperatingState("ENABLED", "");
   ROS_WARN("the contact node responds; continuing after %.3f s", seconds(Clock::now() - begin));

@@ -1,6 +1,7 @@
 #include "nodes/runtime/node_program.h"
 
 #include <atomic>
+#include <csignal>
 #include <exception>
 #include <memory>
 
@@ -13,6 +14,14 @@ namespace endovascular_sim::nodes
 {
 namespace
 {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void requestStop(int /*signal*/)
+{
+  stop_requested = 1;
+  ros::requestShutdown();  // sets a flag, as the handler of ROS does
+}
 
 std::atomic<unsigned long>& progressCounter()
 {
@@ -108,6 +117,11 @@ private:
 
 }  // namespace
 
+bool isStopRequested()
+{
+  return stop_requested != 0;
+}
+
 void countProgress()
 {
   ++progressCounter();
@@ -116,7 +130,8 @@ void countProgress()
 int runNode(int argc, char** argv, const NodeProgram& program,
             const std::function<bool(ros::NodeHandle& node, const SchedulingRequest& request)>& run)
 {
-  ros::init(argc, argv, program.name);
+  ros::init(argc, argv, program.name, ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, requestStop);
   ProcessScheduling scheduling(program);  // ROS starts its threads with the node handle: they inherit the processors
   ros::NodeHandle node;
   try

@@ -40,6 +40,9 @@ using SchedulingRequest = std::function<SchedulingGrant()>;
 int runNode(int argc, char** argv, const NodeProgram& program,
             const std::function<bool(ros::NodeHandle& node, const SchedulingRequest& request)>& run);
 
+/** True from the arrival of SIGINT. ros::ok() reports it up to 0.1 s later, too late for a force at the hand. */
+bool isStopRequested();
+
 /** Counts an iteration of a real-time loop for the process's watchdog. Callable from any thread. */
 void countProgress();
 
