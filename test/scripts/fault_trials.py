@@ -355,8 +355,8 @@ def main():
     for round_ in range(1, max(1, arguments.rounds) + 1):
         moving = round_ % 2 == 0
         plans.append((round_, "hand_in_tube", moving, FULL if arguments.rounds else SHORT, True))
+        plans.append((round_, "hand_in_tube", moving, [("kill", "vessel_server")], True))
         if arguments.rounds:
-            plans.append((round_, "hand_in_tube", moving, [("kill", "vessel_server")], True))
             plans.append((round_, "hand_in_tube", moving, [("kill", "session")], True))
         plans.append((round_, "hand_with_balloon", moving, [("kill", "haptic_device")], False))
     folder = arguments.keep or tempfile.mkdtemp()

@@ -133,6 +133,7 @@ bool RodDynamicsNode::waitForVessel(scene::EntryPose& entry, vessel::Vessel& ves
   vessel.mesh = fromMessage(*mesh);
   vessel.centreline = fromMessage(*centreline);
   vessel.source = mesh->source;
+  server_ = std::make_unique<VesselServerMonitor>(node_);
   entry = scene::resolveStart(scene_, vessel);
   forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel, mesh->content_hash);
   if (simulation::hasBalloon(scene_))
@@ -179,8 +180,13 @@ bool RodDynamicsNode::run()
     waitForRecorder();
     ROS_INFO("running");
     runSteps(last_step);
-    publisher_.publishOperatingState("DISABLED", "the session has ended");
+    const bool is_without_vessel = server_ && server_->hasEnded();
+    publisher_.publishOperatingState("DISABLED",
+                                     is_without_vessel ? "vessel_server has ended" : "the session has ended");
     publisher_.publishHands(renderer_.hands(), 0.0);
+    if (is_without_vessel)
+      ROS_WARN("vessel_server has ended at step %lu: the simulation ends, because the deformed wall is lost",
+               static_cast<unsigned long>(simulation_->steps()));
     if (forces_)
       forces_->publishMap(*simulation_);
   }
@@ -209,7 +215,7 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
 {
   StepScheduler scheduler(scene_.solver.time_step);
   scheduler.start(Clock::now());
-  while (ros::ok() && !isStopRequested() && simulation_->steps() < last_step)
+  while (!isOver() && simulation_->steps() < last_step)
   {
     countProgress();
     const Clock::time_point awake = Clock::now();
@@ -247,6 +253,11 @@ void RodDynamicsNode::step()
     forces_->publishStep(*simulation_, counted);
 }
 
+bool RodDynamicsNode::isOver()
+{
+  return !ros::ok() || isStopRequested() || (server_ && server_->hasEnded());
+}
+
 bool RodDynamicsNode::isContactLost() const
 {
   return contacts_ && contacts_->silent() && seconds(Clock::now() - contacts_->silentSince()) > pause_after_;
@@ -262,7 +273,7 @@ void RodDynamicsNode::pause()
            static_cast<unsigned long>(simulation_->steps()));
   contacts_->startListening();
   const Clock::time_point begin = Clock::now();
-  while (ros::ok() && !isStopRequested() && !contacts_->probe())
+  while (!isOver() && !contacts_->probe())
   {
     const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
     publisher_.publishHands(renderer_.hands(), share);
@@ -271,7 +282,7 @@ void RodDynamicsNode::pause()
   }
   statistics_.setPaused(false);
   renderer_.reset();
-  if (!ros::ok() || isStopRequested())
+  if (isOver())
     return;
   publisher_.publishOperatingState("ENABLED", "");
   ROS_WARN("the contact node responds; continuing after %.3f s", seconds(Clock::now() - begin));

@@ -16,6 +16,7 @@
 #include "nodes/rod_dynamics/rt_throttle_guard.h"
 #include "nodes/rod_dynamics/step_scheduler.h"
 #include "nodes/rod_dynamics/step_statistics.h"
+#include "nodes/rod_dynamics/vessel_server_monitor.h"
 #include "nodes/runtime/real_time.h"
 #include "simulation/simulation.h"
 
@@ -26,7 +27,8 @@ namespace endovascular_sim::nodes
  *
  *  A late step starts at once, and the slots keep their times: the simulation catches up. Without a response of the
  *  contact node, steps use the stale contact set. After the parameter `pause_after` the simulation pauses and the
- *  rendered force ramps to zero. It continues, with new slots, at the next response. */
+ *  rendered force ramps to zero. It continues, with new slots, at the next response. The node ends when vessel_server
+ *  ends, because the deformed wall is lost with it. */
 class RodDynamicsNode
 {
 public:
@@ -36,7 +38,7 @@ public:
       const ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene,
       std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
-  /** Runs until ROS shuts down, or for the parameter `seconds` of simulated time.
+  /** Runs until ROS shuts down or vessel_server ends, or for the parameter `seconds` of simulated time.
    *  @return false when ROS shut down before the first step */
   bool run();
 
@@ -48,6 +50,7 @@ private:
   void waitForRecorder() const;
   void runSteps(std::uint64_t last_step);
   void step();
+  bool isOver();
   bool isContactLost() const;
   void pause();
 
@@ -59,6 +62,7 @@ private:
   double pause_after_;                             ///< silence of the contact node that causes a pause [s]
   double seconds_;                                 ///< simulated time until the end; 0: no end [s]
   std::unique_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
+  std::unique_ptr<VesselServerMonitor> server_;    ///< null without a vessel
   std::unique_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
   std::unique_ptr<simulation::Simulation> simulation_;
   std::unique_ptr<ProcedureDriver> procedure_;  ///< null without a procedure in the scene
