@@ -76,6 +76,10 @@ end_process() {
   wait "$pid" 2>/dev/null || true
 }
 
+# Processes of the graph. roslaunch marks its children by its environment, those included that it has not registered yet
+# when it is interrupted.
+processes_of_graph() { grep -lzxF "ENDOVASCULAR_GRAPH=$results" /proc/[0-9]*/environ 2>/dev/null | cut -d/ -f3; }
+
 # Ends every process of the session, those included whose number is not stored yet.
 clean_up() {
   trap '' INT TERM
@@ -83,7 +87,7 @@ clean_up() {
   [ -n "$launch_pid" ] && end_process "$launch_pid" 25
   [ -n "$device_pid" ] && end_process "$device_pid" 3
   [ -n "$virtual_display_pid" ] && end_process "$virtual_display_pid" 3
-  for pid in $(jobs -p); do end_process "$pid" 3; done
+  for pid in $(jobs -p) $(processes_of_graph); do end_process "$pid" 3; done
   rm -f "${results:-/nonexistent}/device"
   launch_pid='' device_pid='' virtual_display_pid=''
 }
@@ -188,9 +192,9 @@ run_session() {
   fi
 
   if $keyboard; then
-    become own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
+    become own env "ENDOVASCULAR_GRAPH=$results" roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
   else
-    become own roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
+    become own env "ENDOVASCULAR_GRAPH=$results" roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
       > >(tee "$results/log/launch.log" | readable_log) 2>&1 &
   fi
   launch_pid=$!
@@ -276,7 +280,7 @@ draw_rviz() {
   ros_environment
   fitted_view || return 1
   say "Drawing rviz from the recording, in software"
-  become own env DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
+  become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
     replay.launch "bag:=$results/session.bag" "scene:=$(scene_with_x_ray)" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0

@@ -4,7 +4,7 @@
 A simulated haptic device drives the instrument. Its trace, on its own clock, holds hand, force and state at every sample.
 Requirements of a trial:
 
-- the force at the hand is zero within 0.15 s, within 0.3 s where the graph ends; a node without effect on the force does
+- the force at the hand is zero within 0.15 s, within 0.3 s where roslaunch must end the graph; a node without effect on the force does
   not interrupt it;
 - the device has the expected state meanwhile, and is enabled with force again after the recovery;
 - the instrument moves no further than the hand;
@@ -29,7 +29,7 @@ import time
 
 STOPPED = 5.0  # duration of a stop [s]
 BOUND = 0.15  # largest time to zero force [s]
-BOUND_OF_THE_END = 0.3  # the same where the graph ends [s]
+BOUND_OF_THE_END = 0.3  # the same where roslaunch must end the graph [s]
 SETTLED = 0.03  # duration of zero force that counts as zero, not as a change of sign [s]
 PATIENCE = 30.0  # longest wait for a recovery or an end [s]
 TOLERANCE = 1e-6  # of paths, whose samples are single precision [m], [rad]
@@ -284,7 +284,7 @@ class Trial:
 
     @property
     def is_late(self):
-        return self.zero is not None and self.zero > (BOUND_OF_THE_END if self.ends else BOUND)
+        return self.zero is not None and self.zero > (BOUND_OF_THE_END if self.node == "session" else BOUND)
 
     def compare_motion(self, applied):
         """The instrument moves no further than the hand."""
