@@ -165,9 +165,6 @@ run_session() {
   mkdir -p "$results/log"
   ros_environment
   check_real_time
-  trap interrupted INT TERM
-  trap clean_up EXIT
-
   local arguments=("scene:=$scene_file" "overrides:=${all_overrides[*]}" "results:=$results")
   # At the keyboard the user ends the session, unless --seconds is given.
   if $keyboard && [ -z "$seconds" ]; then arguments+=(stop_at_duration:=false); else arguments+=(stop_at_duration:=true); fi
@@ -184,6 +181,12 @@ run_session() {
   say "Scene $scene_file"
   note "nodes: $(tr '\n' ' ' <<< "$nodes")"
   note "results: $results"
+  local stolen_before
+  stolen_before=$(stolen_time)
+  # From here on there are processes to end. bash cannot run a trap while it parses a command substitution: there is none
+  # until the traps are removed. Earlier a signal has its default effect.
+  trap interrupted INT TERM
+  trap clean_up EXIT
   if grep -qx haptic_device <<< "$nodes"; then
     start_device
     arguments+=("device:=$results/device" "baud:=$device_baud")
@@ -192,15 +195,14 @@ run_session() {
   fi
 
   if $keyboard; then
-    become own env "ENDOVASCULAR_GRAPH=$results" roslaunch endovascular_sim "$launch_file" "${arguments[@]}" > "$results/log/launch.log" 2>&1 &
+    become own env "ENDOVASCULAR_GRAPH=$results" roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
+      > "$results/log/launch.log" 2>&1 &
   else
     become own env "ENDOVASCULAR_GRAPH=$results" roslaunch endovascular_sim "$launch_file" "${arguments[@]}" \
       > >(tee "$results/log/launch.log" | readable_log) 2>&1 &
   fi
   launch_pid=$!
   session_phase=running
-  local stolen_before
-  stolen_before=$(stolen_time)
   while kill -0 "$launch_pid" 2>/dev/null; do
     if $keyboard; then
       kill -0 "$device_pid" 2>/dev/null || break  # q was pressed
@@ -268,20 +270,23 @@ scene_with_x_ray() {
 # Plays the bag into rviz on a virtual screen and saves a picture of its end. An interruption ends the drawing.
 draw_rviz() {
   session_phase=drawing
-  local display_file="$results/log/display" display waited=0
-  become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
-  virtual_display_pid=$!
+  local display_file="$results/log/display" display scene waited=0
+  ros_environment
+  fitted_view || return 1
+  scene=$(scene_with_x_ray)
   trap clean_up EXIT
   trap interrupted INT TERM
+  become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
+  virtual_display_pid=$!
   while [ ! -s "$display_file" ] && [ $waited -lt 50 ] && ! $session_interrupted; do sleep 0.1; waited=$((waited + 1)); done
   ! $session_interrupted || { trap - EXIT INT TERM; return 1; }
   [ -s "$display_file" ] || return 1
-  display=":$(cat "$display_file")"
-  ros_environment
-  fitted_view || return 1
+  read -r display < "$display_file"
+  display=":$display"
   say "Drawing rviz from the recording, in software"
-  become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 roslaunch endovascular_sim \
-    replay.launch "bag:=$results/session.bag" "scene:=$(scene_with_x_ray)" "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
+  become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
+    roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" \
+    "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0
   # The player ends with the bag; rviz then has 2 s to draw the last state.
