@@ -46,6 +46,7 @@ protected:
       return false;
     feature.normal = -across.normalized();
     feature.gap = clearance_ - across.norm();
+    feature.clearance_radius = clearance_;
     feature.point = axis - feature.gap * feature.normal;
     feature.friction = friction_;
     return true;

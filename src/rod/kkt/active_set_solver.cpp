@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -23,6 +25,7 @@ bool ActiveSetSolver<Layout>::solve(const State& state, double dt, ContactSolver
   if constexpr (Layout::kTurns)
     buildBase(*twist, dt);
   twist_ = twist;
+  state_ = &state;
   double shift = 0.0;
   bool same_rest = false;
   int changed = system_.first;  // first node whose terms differ from those of the last pass
@@ -66,8 +69,14 @@ void ActiveSetSolver<Layout>::addTerms(const ContactSolver& contacts, const Wall
                                        double dt)
 {
   for (std::size_t c = 0; c < contacts.count(); ++c)
-    if (contacts.spring(c).active)
-      addContact(contacts.feature(c), contacts.spring(c), dt);
+  {
+    if (!contacts.spring(c).active)
+      continue;
+    addContact(contacts.feature(c), contacts.spring(c), dt);
+    if constexpr (Layout::kTurns)
+      if (contacts.spring(c).weight1 <= 0.0)
+        addCurvature(contacts.feature(c), contacts.spring(c).node, dt);
+  }
   for (std::size_t k = 0; k < friction.count(); ++k)
     addFriction(friction.term(k), dt);
   for (int i = system_.first; shift > 0.0 && i < model_.rod.nodes(); ++i)
@@ -229,6 +238,23 @@ void ActiveSetSolver<Layout>::addContact(const contact::Feature& feature, const 
       matrix_.at(r1 + line, r0 + col) +=
           stiffness * contact.weight0 * contact.weight1 * feature.normal[line] * feature.normal[col];
   }
+}
+
+/** Adds the turn of the normal with the motion of a node across the wire, for the last wall force. */
+template <class Layout>
+void ActiveSetSolver<Layout>::addCurvature(const contact::Feature& feature, int node, double dt)
+{
+  const int r = row(node);
+  const double force = feature.normal.dot(state_->wall_force[node]);
+  if (r < fresh_ || force <= 0.0 || !(feature.clearance_radius > 0.0))
+    return;
+  const int before = std::max(node - 1, system_.first);
+  const int after = std::min(node + 1, model_.rod.nodes() - 1);
+  const Eigen::Vector3d across = feature.normal.cross(state_->position[after] - state_->position[before]).normalized();
+  const double stiffness = dt * dt * force / feature.clearance_radius;  // 0 where the wall is not concave
+  for (int col = 0; col < 3; ++col)
+    for (int line = col; line < 3; ++line)
+      matrix_.at(r + line, r + col) += stiffness * across[line] * across[col];
 }
 
 template <class Layout>

@@ -34,7 +34,11 @@ struct TurnLayout
 /** Active-set solution of a `kkt` system with one-sided contact springs and wall friction.
  *
  *  With TurnLayout, friction acts on the sum of a node's motion and the motion of its surface by its turn, and the
- * twist resists the turns (SurfaceTwist). Positions and turns are one convex problem then. */
+ * twist resists the turns (SurfaceTwist). Positions and turns are one convex problem then.
+ *
+ *  A wire that rolls or slides about its axis on a concave wall swings like a pendulum of length ρ
+ *  (Feature::clearance_radius). With the normal of the beginning of a solve, it would be explicit and unstable beyond
+ *  Δt = 2√(m ρ/f_n). Therefore the system contains the rotation of the normal, (f_n/ρ) b bᵀ with b across the wire. */
 template <class Layout>
 class ActiveSetSolver
 {
@@ -77,6 +81,7 @@ private:
   void prescribeNodes(const State& state);
   void addTerms(const ContactSolver& contacts, const WallFriction& friction, double shift, double dt);
   void addContact(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt);
+  void addCurvature(const contact::Feature& feature, int node, double dt);
   void addFriction(const WallFriction::Term& term, double dt);
   void addFrictionAboutAxis(const WallFriction::Term& term, double dt);
   bool canRewind(const State& state) const;
@@ -87,6 +92,7 @@ private:
   const KktModel& model_;
   const KktSystem& system_;
   const SurfaceTwist* twist_ = nullptr;
+  const State* state_ = nullptr;  ///< of the present solve
   Matrix base_;  ///< TurnLayout: the system and the twist, without contacts, friction and prescribed nodes
   std::vector<double> base_rhs_;
   Matrix matrix_;
