@@ -171,15 +171,15 @@ ReversalCurve ReversalCase::run(const ReversalMotion& motion)
   stepper->invalidateContacts();
   ReversalCurve curve;
   curve.angle = {0.0};
-  curve.torque = {state.hand_torque};
+  curve.torque = {torque(state)};
   const auto steps = static_cast<int>(std::lround(motion.amplitude / (motion.rate * motion.time_step)));
   int sample = 1;
   double begin = 0.0;
   for (int k = 1; k <= 2 * steps; ++k)
   {
     const double before = input.rotation;
-    input.rotation = motion.amplitude * (1.0 - std::abs(static_cast<double>(k) / steps - 1.0));
-    const double torque_before = state.hand_torque;
+    turnHandle(input, motion.amplitude * (1.0 - std::abs(static_cast<double>(k) / steps - 1.0)));
+    const double torque_before = torque(state);
     if (k == steps / 2)
       begin = processorSeconds();
     const int factorisations = advance(*stepper, state, input, motion.time_step);
@@ -195,7 +195,7 @@ ReversalCurve ReversalCase::run(const ReversalMotion& motion)
       const double wanted = motion.amplitude * (1.0 - std::abs(static_cast<double>(sample) / motion.samples - 1.0));
       const double share = (wanted - before) / (input.rotation - before);
       curve.angle.push_back(wanted);
-      curve.torque.push_back(torque_before + share * (state.hand_torque - torque_before));
+      curve.torque.push_back(torque_before + share * (torque(state) - torque_before));
     }
   }
   return curve;

@@ -48,6 +48,10 @@ protected:
 
   virtual std::unique_ptr<rod::Stepper> makeStepper(const rod::StepperSettings& settings) const = 0;
   virtual contact::ContactSource& wall() = 0;
+  /** Sets the rotation of the handle that turns [rad]. */
+  virtual void turnHandle(rod::StepInput& input, double rotation) const { input.rotation = rotation; }
+  /** Torque at the handle that turns [N·m]. */
+  virtual double torque(const rod::State& state) const { return state.hand_torque; }
   /** Brings the wire to its place. */
   virtual void prepare(rod::Stepper& stepper, rod::State& state, rod::StepInput& input) = 0;
 
