@@ -1,5 +1,6 @@
 #include "benchmark/study_list.h"
 
+#include "benchmark/reversal/reversal_study.h"
 #include "benchmark/studies/accuracy.h"
 #include "benchmark/studies/contact_study.h"
 #include "benchmark/studies/hand_force_study.h"
@@ -21,6 +22,8 @@ const std::vector<Study>& studies()
       {"contact", "Contact", "detection: bounding volumes, time per step, growth with the triangles", contactTables(),
        contactStudy},
       {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},
+      {"reversal", "Torque after a reversal", "torque at the hand over the speed and the time step", reversalTables(),
+       reversalStudy},
       {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
       {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
   return list;

@@ -34,6 +34,7 @@ public:
       feature.normal = -across.normalized();
       feature.point = query.nodes[i] - across - radius_ * feature.normal;
       feature.gap = gap;
+      feature.clearance_radius = radius_ - query.radius[i];
       feature.friction = friction;
       feature.id = 3 * i;
       set.features.push_back(feature);

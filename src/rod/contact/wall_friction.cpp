@@ -21,6 +21,10 @@ constexpr double kNodeTolerance = 0.01;  // deviation of a node, share of its li
 constexpr double kInertiaWeight = 16.0;
 constexpr int kSecantFromPass = 1;  // from this pass on, secants only: they dissipate energy
 constexpr int kLastPass = 3;
+// The same for solves whose unknowns include the turns.
+constexpr double kToleranceWithTurns = 0.01;
+constexpr double kNodeToleranceWithTurns = 0.001;
+constexpr int kLastPassWithTurns = 12;
 
 Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
 {
@@ -64,6 +68,7 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
       dragged += (*surface->slide)[i];
     const Vector3d travel = state.position[i] - begin[i];
     contact.stretch = tangential(dragged + travel, contact.normal);
+    contact.dual = tangential(state.friction_stretch[i], contact.normal) / slip_;
     contact.guess = contact.stretch;
     if (first_solve)
       contact.guess = tangential(dragged + dt * state.velocity[i], contact.normal);
@@ -112,6 +117,7 @@ void WallFriction::linearise(const SurfaceMotion* surface)
       turned = (surface->angle[contact.node] - contact.begin_angle) * contact.around;
     contact.stretch += turned;
     terms_[k].node = contact.node;
+    terms_[k].turned.setZero();
     linearise(k, contact.guess + turned, kInertiaWeight);
   }
 }
@@ -130,6 +136,67 @@ void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double 
   const double lowered = std::min(secant, inertia_weight * contact.inertia);
   term.stiffness -= lowered * direction * direction.transpose();
   term.pull += (lowered * direction.dot(stretch - contact.stretch)) * direction;
+}
+
+void WallFriction::lineariseWithTurns(const SurfaceMotion& surface)
+{
+  linearise(&surface);
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+  {
+    Contact& contact = contacts_[k];
+    Term& term = terms_[k];
+    term.around = contact.around;
+    const Vector3d turned = (surface.angle[contact.node] - contact.begin_angle) * contact.around;
+    lineariseAtDual(k, contact.guess + turned);
+  }
+}
+
+/** Linearises a node at a stretch and the pull of the preceding pass. */
+void WallFriction::lineariseAtDual(std::size_t index, const Vector3d& stretch)
+{
+  const Contact& contact = contacts_[index];
+  Term& term = terms_[index];
+  const double length = stretch.norm();
+  const double secant = contact.limit / std::max(length, slip_);
+  term.stiffness = secant * (Matrix3d::Identity() - contact.normal * contact.normal.transpose());
+  if (length > slip_)
+  {
+    const Vector3d direction = stretch / length;
+    const Vector3d dual = contact.dual / std::max(1.0, contact.dual.norm());
+    term.stiffness -= (0.5 * secant) * (dual * direction.transpose() + direction * dual.transpose());
+  }
+  term.pull = secant * stretch + term.stiffness * (contact.stretch - stretch);
+}
+
+bool WallFriction::updateWithTurns(const Motion& motion, const std::vector<double>& turn, int pass)
+{
+  double whole = 0.0;
+  double wrong = 0.0;
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+  {
+    Term& term = terms_[k];
+    Contact& contact = contacts_[k];
+    term.turned = turn[term.node] * contact.around;
+    const Vector3d stretch = contact.stretch + tangential(motion[term.node] + term.turned, contact.normal);
+    whole += contact.limit;
+    wrong += (term.pullAfter(motion[term.node]) - force(k, stretch)).norm();
+  }
+  if (wrong <= kToleranceWithTurns * whole || pass > kLastPassWithTurns)
+    return false;
+  first_changed_ = std::numeric_limits<int>::max();
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+  {
+    const Term& term = terms_[k];
+    Contact& contact = contacts_[k];
+    const Vector3d stretch = contact.stretch + tangential(motion[term.node] + term.turned, contact.normal);
+    const Vector3d pull = term.pullAfter(motion[term.node]);
+    contact.dual = pull / contact.limit;
+    if ((pull - force(k, stretch)).norm() <= kNodeToleranceWithTurns * contact.limit)
+      continue;
+    lineariseAtDual(k, stretch);
+    first_changed_ = std::min(first_changed_, term.node);
+  }
+  return true;
 }
 
 /** Friction by Coulomb's law at a stretch [N]. */

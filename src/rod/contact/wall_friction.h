@@ -37,7 +37,11 @@ double nodeAngle(const std::vector<double>& twist_angle, int node, int first_nod
  *  A solve uses the secant stiffness μ f_n/max(|u|, δ) of the expected stretch. Along the direction of sliding, the
  *  node's inertia m/Δt² about that stretch is subtracted. Newton's tangent is zero there, and where inertia outweighs
  *  friction, a secant would brake an accelerating node. If a pass shows that friction deviates from Coulomb's law, the
- *  nodes concerned are linearised at its motion and the system is solved again. */
+ *  nodes concerned are linearised at its motion and the system is solved again.
+ *
+ *  Where positions and turns are unknowns of one system, the linearisation is that of the primal-dual Newton method
+ *  (Chan, Golub & Mulet 1999, SIAM J. Sci. Comput. 20:1964) on F max(|u|, δ) = μ f_n u, with the force F of the
+ *  preceding pass: the tangent where F and u agree, a secant where they do not, positive semidefinite always. */
 class WallFriction
 {
 public:
@@ -49,6 +53,11 @@ public:
     int node = 0;
     Eigen::Vector3d pull = Eigen::Vector3d::Zero();       ///< minus the force at the present position [N]
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< [N/m], positive semidefinite
+    Eigen::Vector3d around = Eigen::Vector3d::Zero();     ///< motion of the surface per turn of the node [m/rad]
+    Eigen::Vector3d turned = Eigen::Vector3d::Zero();     ///< motion of the surface by the turn of the solve [m]
+
+    /** Minus the force after a motion of the node and the turn of the solve [N]. */
+    Eigen::Vector3d pullAfter(const Eigen::Vector3d& motion) const { return pull + stiffness * (motion + turned); }
   };
 
   /** @param slip δ, the stretch at which a node begins to slide [m] */
@@ -70,6 +79,15 @@ public:
   /** Linearises the collected nodes for the first pass of a solve.
    *  @param surface that of collect(), with its present angles */
   void linearise(const SurfaceMotion* surface = nullptr);
+
+  /** Linearises the collected nodes for the first pass of a solve whose unknowns include the turns of the nodes.
+   *  @param surface that of collect(), with its present angles */
+  void lineariseWithTurns(const SurfaceMotion& surface);
+
+  /** Linearises again, after a pass of such a solve, the nodes whose friction deviates from Coulomb's law.
+   *  @param turn of every node in the solve [rad]
+   *  @return true if a node was linearised again */
+  bool updateWithTurns(const Motion& motion, const std::vector<double>& turn, int pass);
 
   std::size_t count() const { return terms_.size(); }
   const Term& term(std::size_t index) const { return terms_[index]; }
@@ -98,9 +116,11 @@ private:
     Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< stretch at the present iterate [m]
     Eigen::Vector3d guess = Eigen::Vector3d::Zero();    ///< expected stretch [m]
     Eigen::Vector3d around = Eigen::Vector3d::Zero();   ///< motion of the surface per turn [m/rad]
+    Eigen::Vector3d dual = Eigen::Vector3d::Zero();     ///< pull of the preceding pass by the limit, at most 1
   };
 
   void linearise(std::size_t index, const Eigen::Vector3d& stretch, double inertia_weight);
+  void lineariseAtDual(std::size_t index, const Eigen::Vector3d& stretch);
   Eigen::Vector3d force(std::size_t index, const Eigen::Vector3d& stretch) const;
 
   double slip_;

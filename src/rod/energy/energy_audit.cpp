@@ -231,8 +231,8 @@ void EnergyAudit::addFriction(const AuditedPart& part)
   double rolling = 0.0;
   for (const TwistFriction& friction : part.about_axis)
   {
-    const double turn = part.surface_angle[friction.node] - friction.begin_angle;
-    rolling += friction.pull(turn) * turn;
+    const double angle = part.surface_angle[friction.node];
+    rolling += friction.pull(angle - friction.begin_angle) * (angle - part.surface_begin[friction.node]);
   }
   pending_.wall_rolling += rolling;
   pending_.layer_friction += part.layer_friction_push + part.layer_friction_turn;

@@ -50,7 +50,8 @@ struct AuditedPart
   const ResistingForces& forces;
   const std::vector<NodeSlide>& slides;          ///< empty: every mass moves with its node
   const std::vector<TwistFriction>& about_axis;  ///< friction of the wall in the last relaxation of the twist
-  const std::vector<double>& surface_angle;      ///< angle of the surface at every node after the part [rad]
+  const std::vector<double>& surface_begin;      ///< angle of the surface at every node before the part [rad]
+  const std::vector<double>& surface_angle;      ///< after the part [rad]
   double wall_energy;                            ///< springs of contacts after the part [J]
   double layer_friction_push;                    ///< work of the friction between layers along the wire [J]
   double layer_friction_turn;                    ///< about the wire [J]

@@ -1,7 +1,10 @@
 #include "rod/kkt/active_set_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <Eigen/Geometry>
 
 namespace endovascular_sim::rod
 {
@@ -15,16 +18,30 @@ constexpr double kLargestTension = 1e9;  // the same, in units of the multiplier
 
 }  // namespace
 
-bool ActiveSetSolver::solve(const State& state, double dt, ContactSolver& contacts, WallFriction& friction,
-                            ContactSolver::Motion& motion, StepReport& report)
+template <class Layout>
+bool ActiveSetSolver<Layout>::solve(const State& state, double dt, ContactSolver& contacts, WallFriction& friction,
+                                    const SurfaceTwist* twist, ContactSolver::Motion& motion, StepReport& report)
 {
+  if constexpr (Layout::kTurns)
+    buildBase(*twist, dt);
+  twist_ = twist;
+  state_ = &state;
   double shift = 0.0;
   bool same_rest = false;
   int changed = system_.first;  // first node whose terms differ from those of the last pass
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
-    fresh_ = matrix_.rewind(system_.matrix, shift > 0.0 || !canRewind(state) ? 0 : system_.row(changed));
-    rhs_ = system_.rhs;
+    const int keep = shift > 0.0 || !canRewind(state) ? 0 : row(changed);
+    if constexpr (Layout::kTurns)
+    {
+      fresh_ = matrix_.rewind(base_, keep);
+      rhs_ = base_rhs_;
+    }
+    else
+    {
+      fresh_ = matrix_.rewind(system_.matrix, keep);
+      rhs_ = system_.rhs;
+    }
     addTerms(contacts, friction, shift, dt);
     if (!factoriseAndSolve(state, report))
     {
@@ -37,7 +54,7 @@ bool ActiveSetSolver::solve(const State& state, double dt, ContactSolver& contac
     }
     readMotion(motion);
     const bool contacts_changed = contacts.updateActiveSet(motion, active_pass, same_rest);
-    const bool friction_changed = friction.update(motion, active_pass);
+    const bool friction_changed = updateFriction(friction, motion, active_pass);
     if (!contacts_changed && !friction_changed)
       return true;
     same_rest = !friction_changed;
@@ -47,28 +64,118 @@ bool ActiveSetSolver::solve(const State& state, double dt, ContactSolver& contac
   return true;
 }
 
-void ActiveSetSolver::addTerms(const ContactSolver& contacts, const WallFriction& friction, double shift, double dt)
+template <class Layout>
+void ActiveSetSolver<Layout>::addTerms(const ContactSolver& contacts, const WallFriction& friction, double shift,
+                                       double dt)
 {
   for (std::size_t c = 0; c < contacts.count(); ++c)
-    if (contacts.spring(c).active)
-      addContact(contacts.feature(c), contacts.spring(c), dt);
+  {
+    if (!contacts.spring(c).active)
+      continue;
+    addContact(contacts.feature(c), contacts.spring(c), dt);
+    if constexpr (Layout::kTurns)
+      if (contacts.spring(c).weight1 <= 0.0)
+        addCurvature(contacts.feature(c), contacts.spring(c).node, dt);
+  }
   for (std::size_t k = 0; k < friction.count(); ++k)
     addFriction(friction.term(k), dt);
   for (int i = system_.first; shift > 0.0 && i < model_.rod.nodes(); ++i)
     for (int axis = 0; axis < 3; ++axis)
-      matrix_.at(system_.row(i) + axis, system_.row(i) + axis) += shift * model_.rod.mass[i];
+      matrix_.at(row(i) + axis, row(i) + axis) += shift * model_.rod.mass[i];
 }
 
-void ActiveSetSolver::readMotion(ContactSolver::Motion& motion) const
+template <class Layout>
+void ActiveSetSolver<Layout>::readMotion(ContactSolver::Motion& motion)
 {
   for (int i = system_.first; i < model_.rod.nodes(); ++i)
   {
-    const double* value = rhs_.data() + system_.row(i);
+    const double* value = rhs_.data() + row(i);
     motion[i] = {value[0], value[1], value[2]};
+  }
+  if constexpr (Layout::kTurns)
+    readTurns();
+}
+
+/** Copies positions and multipliers into the order of KktSystem, and the turns of edges and nodes. */
+template <class Layout>
+void ActiveSetSolver<Layout>::readTurns()
+{
+  const int n = model_.rod.nodes();
+  solution_.resize(system_.rhs.size());
+  turn_.assign(static_cast<std::size_t>(n - 1), 0.0);
+  node_turn_.assign(static_cast<std::size_t>(n), 0.0);
+  for (int i = system_.first; i < n; ++i)
+    std::copy_n(rhs_.begin() + row(i), 4, solution_.begin() + system_.row(i));
+  for (int j = system_.first; j + 1 < n; ++j)
+    turn_[j] = rhs_[turnRow(j)];
+  for (int i = system_.first; i < n; ++i)
+  {
+    if (i > system_.first)
+      node_turn_[i] += twist_->weight[i][0] * turn_[i - 1];
+    if (i + 1 < n)
+      node_turn_[i] += twist_->weight[i][1] * turn_[i];
   }
 }
 
-void ActiveSetSolver::correctLengths(const State& state, ContactSolver::Motion& motion)
+template <class Layout>
+bool ActiveSetSolver<Layout>::updateFriction(WallFriction& friction, const ContactSolver::Motion& motion, int pass)
+{
+  if constexpr (Layout::kTurns)
+    return friction.updateWithTurns(motion, node_turn_, pass);
+  return friction.update(motion, pass);
+}
+
+/** Builds the system with turns: that of the positions, and the twist. */
+template <class Layout>
+void ActiveSetSolver<Layout>::buildBase(const SurfaceTwist& twist, double dt)
+{
+  spreadSystem();
+  addTwist(twist, dt);
+}
+
+/** Copies the system of positions and multipliers into the layout with turns. */
+template <class Layout>
+void ActiveSetSolver<Layout>::spreadSystem()
+{
+  constexpr int kNarrow = 4;
+  const int nodes = model_.rod.nodes() - system_.first;
+  base_.reset(Layout::kPeriod * nodes);
+  base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
+  for (int i = 0; i < nodes; ++i)
+    for (int place = 0; place < kNarrow; ++place)
+    {
+      const int begin = kNarrow * i;
+      base_rhs_[Layout::kPeriod * i + place] = system_.rhs[begin + place];
+      double* target = base_.column(Layout::kPeriod * i + place) - place;
+      // Positions and multipliers of a node act on those of the next two.
+      const int last = std::min({place + KktSystem::kBandwidth, 3 * kNarrow - 1, system_.matrix.size() - 1 - begin});
+      for (int below = place; below <= last; ++below)
+        target[below + below / kNarrow] = system_.matrix.at(begin + below, begin + place);
+    }
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::addTwist(const SurfaceTwist& twist, double dt)
+{
+  const int n = model_.rod.nodes();
+  base_.at(turnRow(system_.first - 1), turnRow(system_.first - 1)) = system_.scale;  // idle
+  for (int j = system_.first; j + 1 < n; ++j)
+  {
+    const int r = turnRow(j);
+    if (twist.unknown[j] == 0)
+    {
+      base_.at(r, r) = system_.scale;
+      continue;
+    }
+    base_.at(r, r) = dt * dt * twist.diagonal[j];
+    base_rhs_[r] = -dt * dt * twist.gradient[j];
+    if (j + 2 < n && twist.unknown[j + 1] != 0)
+      base_.at(turnRow(j + 1), r) = dt * dt * twist.upper[j];
+  }
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::correctLengths(const State& state, ContactSolver::Motion& motion)
 {
   const StepperSettings& settings = model_.settings;
   const double corrected_strain = settings.corrected_strain_ratio * settings.strain_tolerance;
@@ -83,7 +190,7 @@ void ActiveSetSolver::correctLengths(const State& state, ContactSolver::Motion& 
       continue;
     const Eigen::Vector3d edge = state.position[j + 1] + motion[j + 1] - state.position[j] - motion[j];
     const double stretch = edge.norm() - model_.rod.rest_length[j];
-    correction_[system_.multiplierRow(j)] = -system_.scale * stretch;
+    correction_[multiplierRow(j)] = -system_.scale * stretch;
     largest = std::max(largest, std::abs(stretch) / model_.rod.rest_length[j]);
   }
   if (largest <= settings.strain_tolerance || !(largest <= corrected_strain))
@@ -95,20 +202,23 @@ void ActiveSetSolver::correctLengths(const State& state, ContactSolver::Motion& 
 }
 
 /** True where a factorisation may continue from an earlier one: the prescribed nodes lie before its first mark. */
-bool ActiveSetSolver::canRewind(const State& state) const
+template <class Layout>
+bool ActiveSetSolver<Layout>::canRewind(const State& state) const
 {
   if (model_.settings.linear_solver == LinearSolver::kSparse || !model_.boundary.introducer ||
       model_.boundary.distal != EndHold::kFree)
     return false;
-  return system_.row(model_.conditions.firstFreeNode(state)) + KktSystem::kBandwidth <= KktSystem::Matrix::kMarkEvery;
+  return row(model_.conditions.firstFreeNode(state)) + Layout::kBandwidth <= Matrix::kMarkEvery;
 }
 
-void ActiveSetSolver::addContact(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt)
+template <class Layout>
+void ActiveSetSolver<Layout>::addContact(const contact::Feature& feature, const ContactSolver::Spring& contact,
+                                         double dt)
 {
   const double stiffness = dt * dt * contact.stiffness;
   const double push = -stiffness * contact.gap;
-  const int r0 = system_.row(contact.node);
-  const int r1 = contact.weight1 > 0.0 ? system_.row(contact.node + 1) : r0;
+  const int r0 = row(contact.node);
+  const int r1 = contact.weight1 > 0.0 ? row(contact.node + 1) : r0;
   for (int col = 0; col < 3; ++col)
   {
     rhs_[r0 + col] += contact.weight0 * push * feature.normal[col];
@@ -127,18 +237,63 @@ void ActiveSetSolver::addContact(const contact::Feature& feature, const ContactS
   }
 }
 
-void ActiveSetSolver::addFriction(const WallFriction::Term& term, double dt)
+/** Adds the turn of the normal with the motion of a node across the wire, for the last wall force. */
+template <class Layout>
+void ActiveSetSolver<Layout>::addCurvature(const contact::Feature& feature, int node, double dt)
 {
-  const int r = system_.row(term.node);
+  const int r = row(node);
+  const double force = feature.normal.dot(state_->wall_force[node]);
+  if (r < fresh_ || force <= 0.0 || !(feature.clearance_radius > 0.0))
+    return;
+  const int before = std::max(node - 1, system_.first);
+  const int after = std::min(node + 1, model_.rod.nodes() - 1);
+  const Eigen::Vector3d across = feature.normal.cross(state_->position[after] - state_->position[before]).normalized();
+  const double stiffness = dt * dt * force / feature.clearance_radius;  // 0 where the wall is not concave
+  for (int col = 0; col < 3; ++col)
+    for (int line = col; line < 3; ++line)
+      matrix_.at(r + line, r + col) += stiffness * across[line] * across[col];
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::addFriction(const WallFriction::Term& term, double dt)
+{
+  const int r = row(term.node);
   for (int col = 0; col < 3; ++col)
   {
     rhs_[r + col] -= dt * dt * term.pull[col];
     for (int line = col; line < 3 && r >= fresh_; ++line)
       matrix_.at(r + line, r + col) += dt * dt * term.stiffness(line, col);
   }
+  if constexpr (Layout::kTurns)
+    addFrictionAboutAxis(term, dt);
 }
 
-void ActiveSetSolver::prescribeNodes(const State& state)
+/** Adds the derivatives of friction by the turns of both edges of a node. */
+template <class Layout>
+void ActiveSetSolver<Layout>::addFrictionAboutAxis(const WallFriction::Term& term, double dt)
+{
+  const int r = row(term.node);
+  const std::array<double, 2>& weight = twist_->weight[term.node];
+  const std::array<int, 2> turn_row = {turnRow(term.node - 1), turnRow(term.node)};
+  const Eigen::Vector3d across = dt * dt * (term.stiffness * term.around);
+  const double about = across.dot(term.around);
+  for (int side = 0; side < 2; ++side)
+  {
+    if (weight[side] == 0.0)
+      continue;
+    rhs_[turn_row[side]] -= dt * dt * weight[side] * term.around.dot(term.pull);
+    if (r < fresh_)
+      continue;
+    for (int axis = 0; axis < 3; ++axis)
+      matrix_.at(turn_row[side], r + axis) += weight[side] * across[axis];
+    matrix_.at(turn_row[side], turn_row[side]) += weight[side] * weight[side] * about;
+  }
+  if (r >= fresh_ && weight[0] != 0.0 && weight[1] != 0.0)
+    matrix_.at(turn_row[1], turn_row[0]) += weight[0] * weight[1] * about;
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::prescribeNodes(const State& state)
 {
   const BoundaryConditions& conditions = model_.conditions;
   const int n = model_.rod.nodes();
@@ -152,18 +307,23 @@ void ActiveSetSolver::prescribeNodes(const State& state)
     }
     const bool next_too = i + 1 < n && conditions.isPrescribed(i + 1, state);
     if (fresh_ > 0)  // the factors of these rows are still valid
-      std::fill_n(rhs_.begin() + system_.row(i), next_too ? 8 : 3, 0.0);
+    {
+      std::fill_n(rhs_.begin() + row(i), 3, 0.0);
+      if (next_too)
+        rhs_[multiplierRow(i)] = 0.0;
+    }
     else
     {
       for (int axis = 0; axis < 3; ++axis)
-        matrix_.prescribe(system_.row(i) + axis, 0.0, system_.scale, rhs_);
+        matrix_.prescribe(row(i) + axis, 0.0, system_.scale, rhs_);
       if (next_too)
-        matrix_.prescribe(system_.multiplierRow(i), 0.0, -system_.scale, rhs_);
+        matrix_.prescribe(multiplierRow(i), 0.0, -system_.scale, rhs_);
     }
   }
 }
 
-bool ActiveSetSolver::factoriseAndSolve(const State& state, StepReport& report)
+template <class Layout>
+bool ActiveSetSolver<Layout>::factoriseAndSolve(const State& state, StepReport& report)
 {
   prescribeNodes(state);
   ++report.factorisations;
@@ -179,23 +339,28 @@ bool ActiveSetSolver::factoriseAndSolve(const State& state, StepReport& report)
 }
 
 /** Tensions may be huge for one solve, where a straight wire is shortened; motions may not. */
-bool ActiveSetSolver::isSmall() const
+template <class Layout>
+bool ActiveSetSolver<Layout>::isSmall() const
 {
   for (std::size_t k = 0; k < rhs_.size(); ++k)
   {
-    const bool multiplier = k % 4 == KktSystem::kIdleRow;
+    const bool multiplier = k % Layout::kPeriod == KktSystem::kIdleRow;
     if (!(std::abs(rhs_[k]) < (multiplier ? kLargestTension : kLargestMotion)))
       return false;
   }
   return true;
 }
 
-void ActiveSetSolver::solveWithFactors(std::vector<double>& rhs)
+template <class Layout>
+void ActiveSetSolver<Layout>::solveWithFactors(std::vector<double>& rhs)
 {
   if (model_.settings.linear_solver == LinearSolver::kSparse)
     klu_.solve(rhs.data());
   else
     matrix_.solve(rhs);
 }
+
+template class ActiveSetSolver<PositionLayout>;
+template class ActiveSetSolver<TurnLayout>;
 
 }  // namespace endovascular_sim::rod

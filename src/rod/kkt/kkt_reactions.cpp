@@ -70,7 +70,7 @@ void KktReactions::updateHandParts(const KktSolution& solution, State& state)
   for (std::size_t k = 0; k < solution.friction.count(); ++k)
   {
     const WallFriction::Term& term = solution.friction.term(k);
-    parts.friction += slide_[term.node].dot(term.pull + term.stiffness * solution.motion[term.node]);
+    parts.friction += slide_[term.node].dot(term.pullAfter(solution.motion[term.node]));
   }
   parts.bending = state.hand_force - (parts.friction + parts.inertia + parts.drag + parts.load);
   state.hand_parts = parts;

@@ -117,7 +117,8 @@ bool KktStepper::gainedEnergy(const State& before, const State& state, double dt
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
-  const bool turned = layers_->advance(state, input, dt);
+  turned_ = layers_->advance(state, input, dt);
+  with_turns_ = false;
   placeEnds(state, input, dt);
   contacts_.refresh(state, report);
   contacts_.settle(state);
@@ -125,8 +126,8 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     return false;
   contacts_.releaseRetained();
   finish(state, dt);
-  if (turned)
-    layers_->updateTorques(state, input, friction_.lastAboutAxis(), *timer_);
+  if (turned_)
+    updateTorques(state, input);
   if (fading_)
     fading_ = fadeOffsets(state, dt);
   return true;
@@ -149,7 +150,7 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
   for (int k = 0; k < model_.settings.max_iterations; ++k)
   {
     collectFriction(state, dt, k == 0);
-    twist_ = layers_->relaxTwist(state, input, friction_.aboutAxis(), *timer_);
+    relaxTwist(state, input, k == 0);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
       contacts_.prepare(state, dt);
@@ -159,6 +160,8 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
     if (!solve(state, dt, true, report))
       return false;
     const double factor = move(state, truncation(state, report), report);
+    if (with_turns_)
+      layers_->turnSurface(state, turn_solver_.turns(), factor);
     // After two solves without motion, the next solve would repeat this one.
     const bool last = k + 1 == model_.settings.max_iterations || (factor == 0.0 && !moved);
     moved = factor != 0.0;
@@ -179,12 +182,45 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
   return true;
 }
 
+/** Computes the twist of a solve. While a handle turns and the wall holds the surface, the positions and the turns of
+ *  the surface are unknowns of one system: a wire that rolls moves sidewise as it turns, and computed in turn either
+ *  motion would find the other one at rest. */
+void KktStepper::relaxTwist(State& state, const StepInput& input, bool first_solve)
+{
+  const std::vector<TwistFriction>& friction = friction_.aboutAxis();
+  with_turns_ = turned_ && !friction.empty();
+  if (!with_turns_)
+  {
+    twist_ = layers_->relaxTwist(state, input, friction, *timer_);
+    return;
+  }
+  twist_ = layers_->predictTwist(state, input, friction, first_solve, *timer_);
+  PhaseTimer::Scope scope(*timer_, Phase::kTwist);
+  layers_->lineariseTwist(state, surface_twist_);
+}
+
+/** Updates the torques at the end of a step in which a handle turned. After a solve with turns, friction is that of the
+ *  stretches at the end of the step. */
+void KktStepper::updateTorques(State& state, const StepInput& input)
+{
+  if (with_turns_)
+  {
+    const SurfaceMotion at_rest{model_.rod.radius, surface_angle_, surface_angle_};
+    friction_.collect(state, state.position, nullptr, 1.0, false, &at_rest);
+    friction_.aboutAxis();
+  }
+  layers_->updateTorques(state, input, friction_.lastAboutAxis(), *timer_);
+}
+
 void KktStepper::assemble(const State& state, const StepInput& input, double dt, bool first_solve,
                           const LayerSlides* slides)
 {
   layers_->surfaceAngles(state, surface_angle_);
   const SurfaceMotion surface = surfaceMotion();
-  friction_.linearise(&surface);
+  if (with_turns_)
+    friction_.lineariseWithTurns(surface);
+  else
+    friction_.linearise(&surface);
   assembly_.assemble({state, begin_, twist_, slides, input.forces, dt, first_solve});
 }
 
@@ -193,7 +229,15 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
 bool KktStepper::solve(const State& state, double dt, bool corrected, StepReport& report)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kSolve);
-  if (!solver_.solve(state, dt, contacts_, friction_, motion_, report))
+  if (with_turns_)
+  {
+    if (!turn_solver_.solve(state, dt, contacts_, friction_, &surface_twist_, motion_, report))
+      return false;
+    if (corrected)
+      turn_solver_.correctLengths(state, motion_);
+    return true;
+  }
+  if (!solver_.solve(state, dt, contacts_, friction_, nullptr, motion_, report))
     return false;
   if (corrected)
     solver_.correctLengths(state, motion_);
@@ -207,12 +251,14 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
   saved_begin_ = begin_;
   saved_velocity_ = state.velocity;
   bool solved = true;
+  const bool with_turns = with_turns_;
   for (int k = 0; k < kMaxRestoringSolves && solved; ++k)
   {
     if (maxStrain(model_.rod, state) <= model_.settings.strain_tolerance)
       break;
     solved = restoreOnce(state, input, std::min(kRestoringFraction * dt, kRestoringTime), report);
   }
+  with_turns_ = with_turns;
   begin_ = saved_begin_;
   state.velocity = saved_velocity_;
   strain_ = maxStrain(model_.rod, state);
@@ -222,6 +268,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
 bool KktStepper::restoreOnce(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
+  with_turns_ = false;
   std::fill(state.velocity.begin(), state.velocity.end(), Eigen::Vector3d::Zero());
   contacts_.prepare(state, dt);
   collectFriction(state, dt, true);
@@ -273,8 +320,8 @@ void KktStepper::accept(State& state, double dt)
   contacts_.updateWallForces(state, motion_);
   if (audit_ != nullptr)
     noteForces(dt);
-  reactions_.update({model_, system_, solver_.solution(), motion_, begin_, assembly_.resistance(), layers_->slides(),
-                     friction_, last_input_.forces, dt},
+  reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(), layers_->slides(), friction_,
+                     last_input_.forces, dt},
                     state);
 }
 
@@ -319,7 +366,7 @@ void KktStepper::noteForces(double dt)
   for (std::size_t k = 0; k < friction_.count(); ++k)
   {
     const WallFriction::Term& term = friction_.term(k);
-    resisting_.friction[term.node] = term.pull + term.stiffness * motion_[term.node];
+    resisting_.friction[term.node] = term.pullAfter(motion_[term.node]);
   }
   for (int i = system_.first; i < model_.rod.nodes(); ++i)
   {
@@ -343,8 +390,8 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   const LayerFrictionWork layers = layers_->frictionWork(before, after);
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
   audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
-                   resisting_, slides, friction_.lastAboutAxis(), surface_angle_, spring_energy_, layers.push,
-                   layers.turn});
+                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_, spring_energy_,
+                   layers.push, layers.turn});
   layers_->restore(after);
 }
 

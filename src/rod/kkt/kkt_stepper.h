@@ -71,6 +71,9 @@ private:
   double move(State& state, double factor, StepReport& report);
   void accept(State& state, double dt);
   void finish(State& state, double dt);
+  void relaxTwist(State& state, const StepInput& input, bool first_solve);
+  const std::vector<double>& solution() const { return with_turns_ ? turn_solver_.solution() : solver_.solution(); }
+  void updateTorques(State& state, const StepInput& input);
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
   void noteForces(double dt);
@@ -81,13 +84,17 @@ private:
   std::unique_ptr<LayerModel> layers_;
   KktSystem system_;
   KktAssembly assembly_{model_, system_};
-  ActiveSetSolver solver_{model_, system_};
+  ActiveSetSolver<PositionLayout> solver_{model_, system_};
+  ActiveSetSolver<TurnLayout> turn_solver_{model_, system_};
   KktReactions reactions_;
   ContactSolver contacts_{model_.rod, model_.boundary, model_.settings};
   WallFriction friction_{model_.settings.friction_slip};
   StepBisection bisection_;
 
   TwistAction twist_;
+  SurfaceTwist surface_twist_;
+  bool turned_ = false;           ///< a handle turns in the present step
+  bool with_turns_ = false;       ///< the unknowns of the present solve include the turns of the surface
   ContactSolver::Motion motion_;  ///< increment of every node in the last solve [m]
   PhaseTimer* timer_ = nullptr;
   bool fading_ = true;                ///< the state may have offsets from a change of nodes

@@ -9,6 +9,7 @@
 #include "rod/energy/potential_energy.h"
 #include "rod/model/state.h"
 #include "rod/stepping/stepper.h"
+#include "rod/twist/surface_twist.h"
 #include "rod/twist/twist_friction.h"
 
 namespace endovascular_sim::rod
@@ -81,6 +82,20 @@ public:
    *  @param friction of the wall about the axis */
   virtual TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                                  PhaseTimer& timer) = 0;
+
+  /** Computes or predicts the twist before a solve whose unknowns include the turns of the outer surface.
+   *  @param friction of the wall about the axis; must outlive the solve
+   *  @param first_solve the first one of the step */
+  virtual TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                   bool first_solve, PhaseTimer& timer) = 0;
+
+  /** Linearises the twist that predictTwist() left. */
+  virtual void lineariseTwist(const State& state, SurfaceTwist& twist) = 0;
+
+  /** Turns the edges of the outer surface.
+   *  @param turns per edge [rad]
+   *  @param share factor on the turns */
+  virtual void turnSurface(State& state, const std::vector<double>& turns, double share) = 0;
 
   /** Updates the torques at the ends for the present centreline; nothing else changes. */
   virtual void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,

@@ -26,7 +26,8 @@ LayerStack::LayerStack(const std::vector<Layer>& layers, KktModel& model)
     forces_(stack_, model, twists_),
     initial_twist_(layers.size()),
     motion_(layers.size()),
-    behind_(layers.size(), 0.0)
+    behind_(layers.size(), 0.0),
+    turn_(layers.size(), 0.0)
 {
   if (model.boundary.distal_twist_held)
     throw std::invalid_argument("LayerStack: the twist of the distal end cannot be held");
@@ -180,6 +181,7 @@ bool LayerStack::advance(State& state, const StepInput& input, double dt)
   bool turned = false;
   for (int k = 0; k < stack_.count(); ++k)
   {
+    turn_[k] = input.layers[k].rotation - state.layers[k].rotation;
     turned = turned || state.layers[k].rotation != input.layers[k].rotation;
     motion_[k].travel = input.layers[k].inserted_length - state.layers[k].inserted_length;
     motion_[k].gained = motion_[k].travel - dt * state.layers[k].speed;
@@ -245,6 +247,13 @@ TwistAction LayerStack::relaxTwist(State& state, const StepInput& input, const s
     if (iteration + 1 == kFrictionIterations || !friction_.updateTorques(state, boundary.position, iteration == 0))
       break;
   }
+  sumTwists(state);
+  return twists_.combine(stack_, model_.rod, state);
+}
+
+/** Sets the twist of the centreline to that of the reference, and its torque to the sum over the layers. */
+void LayerStack::sumTwists(State& state) const
+{
   double torque = 0.0;
   for (const LayerState& layer : state.layers)
     torque += layer.hand_torque;
@@ -252,7 +261,55 @@ TwistAction LayerStack::relaxTwist(State& state, const StepInput& input, const s
             state.twist_angle.begin());
   state.hand_torque = torque;
   state.distal_torque = 0.0;
+}
+
+/** A single straight layer is predicted as a SingleLayer is. Several layers are relaxed, with the friction between
+ *  them. */
+TwistAction LayerStack::predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                     bool first_solve, PhaseTimer& timer)
+{
+  boundary_ = model_.conditions.twistBoundary(state, input);
+  wall_friction_ = &friction;
+  if (stack_.count() > 1 || stack_.profile(0).rod().first_curved < model_.rod.nodes())
+    return relaxTwist(state, input, friction, timer);
+  PhaseTimer::Scope scope(timer, Phase::kTwist);
+  twists_.rotate(0, stack_.profile(0).rod(), layerBoundary(0, boundary_, state, input_, friction),
+                 first_solve ? turn_[0] : 0.0, state);
+  sumTwists(state);
   return twists_.combine(stack_, model_.rod, state);
+}
+
+/** An edge belongs to the layer on the surface at its distal node. A node at whose distal edge another layer begins
+ * turns with its proximal edge. */
+void LayerStack::lineariseTwist(const State& state, SurfaceTwist& twist)
+{
+  const int n = model_.rod.nodes();
+  twist.reset(static_cast<std::size_t>(n - 1));
+  edge_layer_.assign(static_cast<std::size_t>(n - 1), 0);
+  for (int j = state.first_node; j + 1 < n; ++j)
+    edge_layer_[j] = stack_.surfaceLayer(j + 1);
+  relaxed_ = state;
+  for (int k = 0; k < stack_.count(); ++k)
+    twists_.linearise(k, stack_.profile(k).rod(), layerBoundary(k, boundary_, state, input_, *wall_friction_), relaxed_,
+                      edge_layer_, twist);
+  for (int i = state.first_node; i < n; ++i)
+  {
+    const int before = std::max(i - 1, state.first_node);
+    int after = std::min(i, n - 2);
+    if (edge_layer_[after] != edge_layer_[before])
+      after = before;
+    for (const int edge : {before, after})
+      if (twist.unknown[edge] != 0 && edge_layer_[edge] == stack_.surfaceLayer(i))
+        twist.weight[i][edge == i ? 1 : 0] += 0.5;
+  }
+}
+
+void LayerStack::turnSurface(State& state, const std::vector<double>& turns, double share)
+{
+  for (int k = 0; k < stack_.count(); ++k)
+    twists_.turn(k, stack_.profile(k).rod(), layerBoundary(k, boundary_, state, input_, *wall_friction_), turns, share,
+                 state);
+  sumTwists(state);
 }
 
 void LayerStack::updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,

@@ -36,6 +36,10 @@ public:
   bool advance(State& state, const StepInput& input, double dt) override;
   TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                          PhaseTimer& timer) override;
+  TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                           bool first_solve, PhaseTimer& timer) override;
+  void lineariseTwist(const State& state, SurfaceTwist& twist) override;
+  void turnSurface(State& state, const std::vector<double>& turns, double share) override;
   void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                      PhaseTimer& timer) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
@@ -62,6 +66,7 @@ private:
   void relaxAtRest(State& state, const StepInput& input, WallFriction& friction);
   TwistBoundary layerBoundary(int k, const TwistBoundary& boundary, const State& state, const StepInput& input,
                               const std::vector<TwistFriction>& friction);
+  void sumTwists(State& state) const;
   bool setEdgeTorque(int k, const State& state, const StepInput& input);
   void updateHandForces(State& state, double dt) const;
 
@@ -78,7 +83,11 @@ private:
   std::vector<TwistFriction> layer_friction_;
   std::vector<double> edge_torque_, force_before_;
   StepInput input_;
-  State relaxed_;  ///< state for the computation of torques
+  std::vector<double> turn_;                                   ///< rotation of every handle in the step [rad]
+  TwistBoundary boundary_;                                     ///< of the reference, at the last predictTwist()
+  const std::vector<TwistFriction>* wall_friction_ = nullptr;  ///< of the last predictTwist()
+  std::vector<int> edge_layer_;                                ///< layer of every edge of the surface
+  State relaxed_;                                              ///< state for the computation of torques
 };
 
 }  // namespace endovascular_sim::rod

@@ -34,6 +34,7 @@ bool SingleLayer::advance(State& state, const StepInput& input, double /*dt*/)
 {
   initial_twist_ = state.twist_angle;
   std::fill_n(initial_twist_.begin(), state.first_node, state.rotation);  // nodes that this step may bring in
+  rotation_before_ = state.rotation;
   return state.rotation != input.rotation;
 }
 
@@ -51,6 +52,51 @@ TwistAction SingleLayer::relaxTwist(State& state, const StepInput& input, const 
   PhaseTimer::Scope scope(timer, Phase::kTwist);
   twist_.solve(model_.rod, boundary, state);
   return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
+}
+
+/** The twist energy of a straight wire is quadratic in its angles. Its prediction is therefore a rigid rotation, which
+ *  keeps the torques of the last step, and the solve yields the angles. With rest curvature the twist is relaxed
+ * before, so that it follows a snap-through. */
+TwistAction SingleLayer::predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                                      bool first_solve, PhaseTimer& timer)
+{
+  boundary_ = model_.conditions.twistBoundary(state, input);
+  boundary_.friction = &friction;
+  if (model_.rod.first_curved < model_.rod.nodes())
+    return relaxTwist(state, input, friction, timer);
+  PhaseTimer::Scope scope(timer, Phase::kTwist);
+  for (std::size_t j = static_cast<std::size_t>(state.first_node); first_solve && j < state.twist_angle.size(); ++j)
+    state.twist_angle[j] += input.rotation - rotation_before_;
+  twist_.evaluateAt(model_.rod, boundary_, state);
+  return {true, twist_.firstCurved(), twist_.restCurvatureBinormals().data(), twist_.torques().data()};
+}
+
+void SingleLayer::lineariseTwist(const State& state, SurfaceTwist& twist)
+{
+  const QuasiStaticTwist::Model model = twist_.linearise(model_.rod, boundary_, state);
+  const int n = model_.rod.nodes();
+  twist.reset(static_cast<std::size_t>(n - 1));
+  for (int j = std::max(twist_.firstUnknown(), state.first_node); j + 1 < n; ++j)
+  {
+    twist.unknown[j] = 1;
+    twist.gradient[j] = model.gradient[j];
+    twist.diagonal[j] = model.diagonal[j];
+    twist.upper[j] = j + 2 < n ? model.upper[j] : 0.0;
+  }
+  // A node turns by the mean of its edges.
+  for (int i = state.first_node; i < n; ++i)
+  {
+    const int before = std::max(i - 1, state.first_node);
+    const int after = std::min(i, n - 2);
+    for (const int edge : {before, after})
+      if (twist.unknown[edge] != 0)
+        twist.weight[i][edge == i ? 1 : 0] += 0.5;
+  }
+}
+
+void SingleLayer::turnSurface(State& state, const std::vector<double>& turns, double share)
+{
+  twist_.turn(model_.rod, boundary_, turns, share, state);
 }
 
 /** Recomputes the torques for the centreline at the end of the step; the twist angles are restored. During the step the

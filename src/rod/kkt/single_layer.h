@@ -28,6 +28,10 @@ public:
   bool advance(State& state, const StepInput& input, double dt) override;
   TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                          PhaseTimer& timer) override;
+  TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
+                           bool first_solve, PhaseTimer& timer) override;
+  void lineariseTwist(const State& state, SurfaceTwist& twist) override;
+  void turnSurface(State& state, const std::vector<double>& turns, double share) override;
   void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                      PhaseTimer& timer) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
@@ -45,6 +49,8 @@ private:
   QuasiStaticTwist twist_;
   std::vector<double> initial_twist_;  ///< twist angles at the beginning of the step [rad]
   std::vector<double> saved_twist_;
+  TwistBoundary boundary_;        ///< that of the last predictTwist()
+  double rotation_before_ = 0.0;  ///< of the handle at the beginning of the step [rad]
 };
 
 }  // namespace endovascular_sim::rod

@@ -54,6 +54,51 @@ bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& b
 void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& boundary, State& state,
                              bool same_centreline)
 {
+  prepare(rod, boundary, state, same_centreline);
+  if (first_own_ < rod.nodes())
+    relax(rod, boundary, state);
+  evaluate(rod, boundary, state);
+}
+
+void QuasiStaticTwist::evaluateAt(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  prepare(rod, boundary, state, false);
+  evaluate(rod, boundary, state);
+}
+
+QuasiStaticTwist::Model QuasiStaticTwist::linearise(const Discretisation& rod, const TwistBoundary& boundary,
+                                                    const State& state)
+{
+  if (first_own_ < rod.nodes())
+  {
+    TwistBoundary without_friction = boundary;
+    without_friction.friction = nullptr;
+    assemble(rod, without_friction, state, false);
+    double omitted = 0.0;
+    for (std::size_t k = 0; k < kOmitted.size(); ++k)
+    {
+      omitted = kOmitted[k];
+      if (solveForStep(first_own_ - 1, rod.nodes() - 2, omitted) >= 0.0)
+        break;
+    }
+    for (int j = first_own_ - 1; omitted > 0.0 && j + 1 < rod.nodes(); ++j)
+      diagonal_[j] += omitted * concave_[j];
+  }
+  return {gradient_, diagonal_, upper_};
+}
+
+void QuasiStaticTwist::turn(const Discretisation& rod, const TwistBoundary& boundary, const std::vector<double>& turns,
+                            double share, State& state)
+{
+  for (int j = first_own_ - 1; j + 1 < rod.nodes(); ++j)
+    state.twist_angle[j] += share * turns[j];
+  evaluate(rod, boundary, state);
+}
+
+/** Sizes the vectors, finds the edges with angles of their own, and transports the frame. */
+void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& boundary, State& state,
+                               bool same_centreline)
+{
   const int n = rod.nodes();
   first_edge_ = state.first_node;
   while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
@@ -84,9 +129,6 @@ void QuasiStaticTwist::solve(const Discretisation& rod, const TwistBoundary& bou
     transportBishopFrame(rod, boundary, state);
   if (boundary.tip_held)
     placeTip(rod, boundary, state);
-  if (first_own_ < n)
-    relax(rod, boundary, state);
-  evaluate(rod, boundary, state);
 }
 
 /** Prepares the straight body: a torsion spring between the hold and its last edge, loaded by the torques along it. */

@@ -57,6 +57,30 @@ public:
    *  @param same_centreline true: centreline, rod and hold are those of the last solve, whose frames are reused */
   void solve(const Discretisation& rod, const TwistBoundary& boundary, State& state, bool same_centreline = false);
 
+  /** Computes torques and rest curvature for the angles of the state, without relaxing them: those of the straight body
+   *  follow from that of its last edge. The torque of friction on edges before the hold is left out. */
+  void evaluateAt(const Discretisation& rod, const TwistBoundary& boundary, State& state);
+
+  /** Quadratic model of the energy, without friction, by the turns of the edges from firstUnknown() on. */
+  struct Model
+  {
+    const std::vector<double>& gradient;  ///< [N·m]
+    const std::vector<double>& diagonal;  ///< [N·m/rad]
+    const std::vector<double>& upper;     ///< of an edge and the next one [N·m/rad]
+  };
+
+  /** Linearises at the angles of the last solve() or evaluateAt(). The least sufficient share of the concave part is
+   *  omitted. */
+  Model linearise(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
+
+  /** First edge with an angle of its own; n−1 without. */
+  int firstUnknown() const { return first_own_ - 1; }
+
+  /** Adds turns to the angles of the edges from firstUnknown() on, and updates the torques.
+   *  @param share factor on the turns */
+  void turn(const Discretisation& rod, const TwistBoundary& boundary, const std::vector<double>& turns, double share,
+            State& state);
+
   /** First node at which rest curvature acts: beyond the hold and on the curved tip. */
   int firstCurved() const { return first_curved_; }
 
@@ -81,6 +105,7 @@ public:
   double energy() const { return energy_; }
 
 private:
+  void prepare(const Discretisation& rod, const TwistBoundary& boundary, State& state, bool same_centreline);
   void transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;

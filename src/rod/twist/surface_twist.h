@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace endovascular_sim::rod
+{
+
+/** Quadratic model of the twist energy by the turns of the edges of the outer surface, at fixed centreline and without
+ *  friction of the wall. A turn is the increment of an edge's twist angle in a solve. The Hessian is tridiagonal and
+ *  positive definite. */
+struct SurfaceTwist
+{
+  /** Sets the number of edges, all without an unknown turn. */
+  void reset(std::size_t edges)
+  {
+    unknown.assign(edges, 0);
+    gradient.assign(edges, 0.0);
+    diagonal.assign(edges, 0.0);
+    upper.assign(edges, 0.0);
+    weight.assign(edges + 1, {0.0, 0.0});
+  }
+
+  std::vector<char> unknown;                  ///< 0: the edge does not turn beyond the prediction
+  std::vector<double> gradient;               ///< by the turn of every edge [N·m]
+  std::vector<double> diagonal;               ///< Hessian of every edge [N·m/rad]
+  std::vector<double> upper;                  ///< Hessian of every edge and the next one [N·m/rad]
+  std::vector<std::array<double, 2>> weight;  ///< turn of every node: weights of the edges before and after it
+};
+
+}  // namespace endovascular_sim::rod
