@@ -4,8 +4,8 @@
 A simulated haptic device drives the instrument. Its trace, on its own clock, holds hand, force and state at every sample.
 Requirements of a trial:
 
-- the force at the hand is zero within 0.15 s, within 0.3 s where roslaunch must end the graph; a node without effect on the force does
-  not interrupt it;
+- the force at the hand is zero within 0.15 s, within 0.3 s where roslaunch must end the graph; a node without effect on
+  the force does not interrupt it;
 - the device has the expected state meanwhile, and is enabled with force again after the recovery;
 - the instrument moves no further than the hand;
 - the bag of the session replays without a different step, and completely if the session node was not killed.
