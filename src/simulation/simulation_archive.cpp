@@ -19,10 +19,8 @@ namespace
 {
 
 constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
-constexpr std::uint32_t kFormat = 5;        ///< incremented with every change of the saved data
-constexpr std::uint32_t kOldestFormat = 4;  ///< oldest format that this version loads
-constexpr std::uint32_t kNamesWriter = 5;   ///< first format whose header names the version that wrote it
-constexpr int kFirstPhysicsNumber = 1;      ///< physics number of formats that do not hold one
+constexpr std::uint32_t kFormat = 5;       ///< incremented with every change of the saved data
+constexpr std::uint32_t kNamesWriter = 5;  ///< first format whose header names the version that wrote it
 
 /** First commits of the formats whose headers do not name the version that wrote them. */
 constexpr std::array<const char*, 4> kFormatCommits = {"3dc36e6", "613f4dc", "6b5167a", "ca765d6"};
@@ -49,11 +47,8 @@ struct Header
       readOldWriter();
     else
       archiveWriter(archive);
-    if (format > kFormat || format < kOldestFormat)
-      return;  // an unknown layout
-    if (format >= kNamesWriter)
-      archive(physics);
-    archive(scene_hash, vessel_hash);
+    if (format == kFormat)
+      archive(physics, scene_hash, vessel_hash);
   }
 
 private:
@@ -61,7 +56,6 @@ private:
   {
     const bool known = format >= 1 && format <= kFormatCommits.size();
     writer = known ? std::string("0.1.0, commit ") + kFormatCommits[format - 1] + " or a later one" : "unknown";
-    physics = kFirstPhysicsNumber;
   }
 
   void archiveWriter(Archive& archive)
@@ -97,11 +91,11 @@ std::string checked(std::string bytes, const std::string& origin)
 
 void checkHeader(const Header& header, const Header& wanted, const std::string& origin)
 {
-  if (header.format > kFormat || header.format < kOldestFormat)
+  if (header.format != kFormat)
     throw InputError(origin, "",
                      "has format " + std::to_string(header.format) + ", written by endovascular_sim " + header.writer +
-                         "; this version reads formats " + std::to_string(kOldestFormat) + " to " +
-                         std::to_string(kFormat) + "; load it with the version that wrote it, or save it again");
+                         "; this version reads format " + std::to_string(kFormat) +
+                         "; load it with the version that wrote it, or save it again");
   if (header.physics != wanted.physics)
     throw InputError(origin, "",
                      "was saved with physics number " + std::to_string(header.physics) + " by endovascular_sim " +

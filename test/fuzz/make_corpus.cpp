@@ -5,15 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include <rosbag/bag.h>
-
-#include "common/version.h"
-#include "endovascular_sim/DriveApplied.h"
-#include "endovascular_sim/SessionInfo.h"
-#include "endovascular_sim/VesselMesh.h"
-#include "nodes/conversions/vessel_conversions.h"
-#include "nodes/runtime/ros_names.h"
-#include "test/fuzz/fuzz_simulation.h"
+#include "test/fuzz/small_session_bag.h"
 #include "test/haptics/host_fixture.h"
 #include "test/vessel/io/mesh_files.h"
 
@@ -95,38 +87,8 @@ void writeState()
 
 void writeBag()
 {
-  const std::string file = folder + "/bag/session";
   std::filesystem::create_directories(folder + "/bag");
-  rosbag::Bag bag(file, rosbag::bagmode::Write);
-  bag.setChunkThreshold(1024);
-  ros::Time time(1800000000, 0);
-  fuzz::SmallSimulation small;
-  SessionInfo info;
-  info.scene_yaml = small.scene.resolved_yaml;
-  info.scene_hash = small.scene.hash();
-  info.time_step = small.scene.solver.time_step;
-  info.physics_number = kPhysicsNumber;
-  bag.write(std::string("/") + nodes::names::kSessionInfo, time, info);
-  VesselMesh mesh;
-  nodes::toMessage(vessel::capsule(3, 1), mesh);
-  bag.write(std::string("/") + nodes::names::kVesselMesh, time, mesh);
-  for (std::uint64_t step = 0; step < 3; ++step)
-  {
-    const std::vector<simulation::HandCommand> commands =
-        simulation::commandsAt(small.scene, static_cast<double>(step + 1) * small.scene.solver.time_step);
-    small.simulation.stepAll(commands);
-    DriveApplied applied;
-    applied.step = step;
-    for (const simulation::HandCommand& command : commands)
-    {
-      applied.insertion.push_back(command.insertion);
-      applied.rotation.push_back(command.rotation);
-      applied.pressure.push_back(command.pressure);
-    }
-    applied.state_hash = small.simulation.stateHash();
-    bag.write(std::string("/") + nodes::names::kDriveApplied, time, applied);
-  }
-  bag.close();
+  fuzz::writeSmallSession(folder + "/bag/session", rosbag::compression::Uncompressed);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ std::vector<TableSpec> reversalTables()
       {"reversal_curves",
        "Torque after a reversal",
        {"case", "rate [rad/s]", "step [ms]", "way", "angle [rad]", "torque [µN·m]"},
-       ""},
+       "reversal.png"},
       {"reversal_errors",
        "Torque after a reversal: deviation from the limit of small steps",
        {"case", "rate [rad/s]", "step [ms]", "sliding torque [µN·m]", "its deviation [%]",
@@ -76,8 +76,7 @@ std::vector<Section> reversalStudy(const StudyOptions& options, const Progress& 
       "`trough`: heavy soft wire in a straight cylindrical trough, μ = 0.2.";
   sections[1].text =
       "Reference: the first row of each case. Time and factorisations: mean over the second half of the way up, in "
-      "which "
-      "the wire slides.";
+      "which the wire slides.";
   addCase("bend", *reversalInBend(), options, progress, 0.0, sections);
   addCase("trough", *reversalInTrough(), options, progress, 0.5, sections);
   return sections;

@@ -219,13 +219,33 @@ def draw_hand_force(folder):
     save(figure, folder, 'hand_force.png')
 
 
+def draw_reversal(folder):
+    """Draws the torque at the hand over the angle of the hand, a panel per case and a line per motion."""
+    cases = grouped(rows_of(folder, 'reversal_curves'), 'case')
+    if not cases:
+        return
+    figure, axes = plt.subplots(1, len(cases), figsize=(6 * len(cases), 4.5), squeeze=False)
+    for axis, ((case,), rows) in zip(axes.flat, cases.items()):
+        for k, ((rate, step), points) in enumerate(grouped(rows, 'rate [rad/s]', 'step [ms]').items()):
+            reference = k == 0
+            axis.plot([value(p, 'angle [rad]') for p in points], [value(p, 'torque [µN·m]') for p in points],
+                      linewidth=3 if reference else 1, color='black' if reference else None,
+                      alpha=0.4 if reference else 1, label=f'{rate} rad/s, {step} ms')
+        axis.set_xlabel('angle of the hand [rad]')
+        axis.set_ylabel('torque at the hand [µN·m]')
+        axis.set_title(case, fontsize=10)
+        axis.grid(True, alpha=0.3)
+        axis.legend(fontsize=7)
+    save(figure, folder, 'reversal.png')
+
+
 def main():
     """Draws the plots of all tables in the folder."""
     parser = tools.argument_parser(__doc__)
     parser.add_argument('folder', type=pathlib.Path, help='folder with the CSV files of `benchmark`')
     folder = parser.parse_args().folder
     for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_volumes, draw_growth,
-                 draw_sampling, draw_hand_force):
+                 draw_sampling, draw_hand_force, draw_reversal):
         draw(folder)
 
 
