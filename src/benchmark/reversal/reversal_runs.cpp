@@ -173,6 +173,7 @@ ReversalCurve ReversalCase::run(const ReversalMotion& motion)
   curve.angle = {0.0};
   curve.torque = {torque(state)};
   const auto steps = static_cast<int>(std::lround(motion.amplitude / (motion.rate * motion.time_step)));
+  const int half = steps / 2;  // last step before the measured part of the way up
   int sample = 1;
   double begin = 0.0;
   for (int k = 1; k <= 2 * steps; ++k)
@@ -180,15 +181,15 @@ ReversalCurve ReversalCase::run(const ReversalMotion& motion)
     const double before = input.rotation;
     turnHandle(input, motion.amplitude * (1.0 - std::abs(static_cast<double>(k) / steps - 1.0)));
     const double torque_before = torque(state);
-    if (k == steps / 2)
+    if (k == half + 1)
       begin = processorSeconds();
     const int factorisations = advance(*stepper, state, input, motion.time_step);
-    if (k >= steps / 2 && k < steps)
+    if (k > half && k <= steps)
       curve.solves += factorisations;
     if (k == steps)
     {
-      curve.step_us = 1e6 * (processorSeconds() - begin) / (steps - steps / 2 + 1);
-      curve.solves /= steps - steps / 2;
+      curve.step_us = 1e6 * (processorSeconds() - begin) / static_cast<double>(steps - half);
+      curve.solves /= static_cast<double>(steps - half);
     }
     for (; sample <= 2 * motion.samples && static_cast<double>(sample) / motion.samples <= 1.0 * k / steps; ++sample)
     {

@@ -61,6 +61,7 @@ std::vector<geometry::TriangleMesh> splitComponents(const geometry::TriangleMesh
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<geometry::TriangleMesh> result;
+  result.reserve(pieces.size());
   for (auto& [volume, piece] : pieces)
     result.push_back(std::move(piece));
   return result;

@@ -91,6 +91,7 @@ std::vector<CentrelineEnd> selectEnds(const CentrelineTree& tree, const std::vec
     if (!select(tree, ends, selector, selected))
       reject(tree, ends, selector, source);
   std::vector<CentrelineEnd> result;
+  result.reserve(selected.size());
   for (std::size_t k : selected)
     result.push_back(ends[k]);
   return result;
