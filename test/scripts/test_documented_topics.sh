@@ -1,5 +1,6 @@
 #!/bin/bash
-# Topics and services of docs/ROS_INTERFACE.md, of src/nodes/runtime/ros_names.h and of running graphs are the same.
+# Topics and services of docs/ROS_INTERFACE.md, of src/nodes/runtime/ros_names.h and of running graphs are the same, and
+# `rostopic echo` reads a topic of every message type.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 . "$repository/test/scripts/graph_environment.sh"
@@ -54,6 +55,22 @@ def in_code():
     return topics | {"instruments/*" + name for name in crtk} | {"haptic/*" + name for name in crtk - {"/servo_jp"}}
 
 
+echoed = {}  # output of `rostopic echo` per message type
+
+
+def echo(uri):
+    """Runs `rostopic echo` on a topic of every new message type; most topics publish within seconds, others never do."""
+    topics = xmlrpc.client.ServerProxy(uri).getTopicTypes("/test")[2]
+    chosen = {kind: name for name, kind in topics if kind != "*" and kind not in echoed}
+    for kind, name in sorted(chosen.items()):
+        try:
+            run = subprocess.run(["rostopic", "echo", "-n", "1", "--noarr", name], env=dict(os.environ, ROS_MASTER_URI=uri),
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=8)
+            echoed[kind] = run.stdout.decode(errors="replace")
+        except subprocess.TimeoutExpired as late:
+            echoed[kind] = (late.stdout or b"").decode(errors="replace")
+
+
 def running(scene, arguments, extra):
     """Topics and services of a running graph, as the master lists them."""
     with socket.socket() as free:
@@ -82,6 +99,7 @@ def running(scene, arguments, extra):
             now = {general(name) for name, _ in publishers + subscribers}
             now |= {general(name) for name, _ in services if not re.search(r"/(get_loggers|set_logger_level)$", name)}
             if now == names and extra <= now and ": running" in open(log.name).read():
+                echo(uri)
                 return names
             names = now
     finally:
@@ -96,6 +114,15 @@ graph -= OTHERS
 documents, code = documented() - {"diagnostics"}, in_code()
 
 failed = False
+for kind, output in sorted(echoed.items()):
+    if re.search(r"ERROR|Error|Traceback|Cannot load", output):
+        print("rostopic echo of %s: %s" % (kind, output[:1000]))
+        failed = True
+read = sorted(kind for kind, output in echoed.items() if "---" in output)
+print("rostopic echo read messages of %d of %d types: %s" % (len(read), len(echoed), " ".join(read)))
+if len(read) < 15:
+    print("expected messages of at least 15 types")
+    failed = True
 for difference, reason in (
         (documents - graph, "documented, but in no running graph"),
         (graph - documents, "in a running graph, but not documented"),
