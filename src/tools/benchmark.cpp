@@ -22,7 +22,9 @@ std::atomic<std::uint64_t> allocation_count{0};
 
 }  // namespace
 
-// Counts the allocations of the program for the speed study. Inlined, GCC 12 reports free() as mismatched with new.
+// Counts the allocations of the program for the speed study. Inlined, GCC 12 reports free() as mismatched with new. The
+// sanitizers bring operators of their own.
+#ifndef ENDOVASCULAR_SANITIZED
 [[gnu::noinline]] void* operator new(std::size_t size)
 {
   ++allocation_count;
@@ -40,6 +42,7 @@ std::atomic<std::uint64_t> allocation_count{0};
 {
   std::free(memory);
 }
+#endif
 
 namespace
 {
