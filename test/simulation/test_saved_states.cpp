@@ -1,4 +1,5 @@
 #include <cstring>
+#include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
+#include "test/fuzz/fuzz_simulation.h"
 #include "test/simulation/treatment_bench.h"
 
 // States that a simulation saves and loads.
@@ -192,6 +194,16 @@ TEST(SavedStates, OfOtherFormatsAreRefusedWithTheVersionThatWroteThem)
   EXPECT_NE(later.find(std::string("written by endovascular_sim ") + version() + ", commit " + commit()),
             std::string::npos)
       << later;
+}
+
+// A seed that is refused would leave the archive behind its header without fuzzing.
+TEST(SavedStates, OfTheFuzzCorpusLoad)
+{
+  std::ifstream file(PROJECT_DIR "/test/fuzz/corpus/state/straight_wire", std::ios::binary);
+  ASSERT_TRUE(file.ignore(1));  // selects the hash
+  fuzz::SmallSimulation small;
+  EXPECT_NO_THROW(small.simulation.load(file)) << "write the corpus again with make_corpus";
+  EXPECT_EQ(small.simulation.steps(), 1U);
 }
 
 TEST(SavedStates, OfAnotherPhysicsAreRefusedWithTheVersionThatWroteThem)

@@ -61,6 +61,19 @@ bool Peg::measure(const Eigen::Vector3d& axis, int face, contact::Feature& featu
   return true;
 }
 
+bool Trough::measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const
+{
+  const Eigen::Vector3d across(0.0, axis.y(), axis.z());
+  if (face > 0 || across.isZero(0.0))
+    return false;
+  feature.normal = -across.normalized();
+  feature.gap = clearance_ - across.norm();
+  feature.clearance_radius = clearance_;
+  feature.point = axis - feature.gap * feature.normal;
+  feature.friction = friction_;
+  return true;
+}
+
 Eigen::Vector3d BentTube::closestPointOnAxis(const Eigen::Vector3d& point) const
 {
   if (!std::isfinite(radius_))

@@ -56,6 +56,21 @@ private:
   double friction_;
 };
 
+/** Straight tube about the x axis, with the wire inside. */
+class Trough : public SmoothWall
+{
+public:
+  /** @param clearance largest distance between the axes of wire and tube [m] */
+  Trough(double clearance, double friction) : clearance_(clearance), friction_(friction) {}
+
+protected:
+  bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override;
+
+private:
+  double clearance_;
+  double friction_;
+};
+
 /** Frictionless tube: straight along x, an arc towards y, and a straight continuation. */
 class BentTube : public SmoothWall
 {

@@ -32,31 +32,6 @@ rod::Wire uniformWire(double length, double radius, double density, double bendi
   return wire;
 }
 
-/** Straight cylindrical trough along x with contact at the nodes. */
-class Trough : public SmoothWall
-{
-public:
-  Trough(double clearance, double friction) : clearance_(clearance), friction_(friction) {}
-
-protected:
-  bool measure(const Vector3d& axis, int face, contact::Feature& feature) const override
-  {
-    const Vector3d across(0.0, axis.y(), axis.z());
-    if (face > 0 || across.isZero(0.0))
-      return false;
-    feature.normal = -across.normalized();
-    feature.gap = clearance_ - across.norm();
-    feature.clearance_radius = clearance_;
-    feature.point = axis - feature.gap * feature.normal;
-    feature.friction = friction_;
-    return true;
-  }
-
-private:
-  double clearance_;
-  double friction_;
-};
-
 class BendCase : public ReversalCase
 {
 public:

@@ -110,16 +110,22 @@ void WallFriction::linearise(const SurfaceMotion* surface)
 {
   terms_.resize(contacts_.size());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
-  {
-    Contact& contact = contacts_[k];
-    Vector3d turned = Vector3d::Zero();
-    if (!contact.around.isZero(0.0))
-      turned = (surface->angle[contact.node] - contact.begin_angle) * contact.around;
-    contact.stretch += turned;
-    terms_[k].node = contact.node;
-    terms_[k].turned.setZero();
-    linearise(k, contact.guess + turned, kInertiaWeight);
-  }
+    linearise(k, contacts_[k].guess + beginTerm(k, surface), kInertiaWeight);
+}
+
+/** Begins the term of a node, and adds the rotation of its surface to the stretch.
+ *  @return motion of the surface by its rotation so far [m] */
+Vector3d WallFriction::beginTerm(std::size_t index, const SurfaceMotion* surface)
+{
+  Contact& contact = contacts_[index];
+  Term& term = terms_[index];
+  Vector3d turned = Vector3d::Zero();
+  if (!contact.around.isZero(0.0))
+    turned = (surface->angle[contact.node] - contact.begin_angle) * contact.around;
+  contact.stretch += turned;
+  term.node = contact.node;
+  term.turned.setZero();
+  return turned;
 }
 
 void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double inertia_weight)
@@ -140,14 +146,11 @@ void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double 
 
 void WallFriction::lineariseWithTurns(const SurfaceMotion& surface)
 {
-  linearise(&surface);
+  terms_.resize(contacts_.size());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
   {
-    Contact& contact = contacts_[k];
-    Term& term = terms_[k];
-    term.around = contact.around;
-    const Vector3d turned = (surface.angle[contact.node] - contact.begin_angle) * contact.around;
-    lineariseAtDual(k, contact.guess + turned);
+    terms_[k].around = contacts_[k].around;
+    lineariseAtDual(k, contacts_[k].guess + beginTerm(k, &surface));
   }
 }
 

@@ -119,6 +119,7 @@ private:
     Eigen::Vector3d dual = Eigen::Vector3d::Zero();     ///< pull of the preceding pass by the limit, at most 1
   };
 
+  Eigen::Vector3d beginTerm(std::size_t index, const SurfaceMotion* surface);
   void linearise(std::size_t index, const Eigen::Vector3d& stretch, double inertia_weight);
   void lineariseAtDual(std::size_t index, const Eigen::Vector3d& stretch);
   Eigen::Vector3d force(std::size_t index, const Eigen::Vector3d& stretch) const;

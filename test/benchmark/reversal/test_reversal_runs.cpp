@@ -143,27 +143,9 @@ private:
     return section;
   }
 
-  /** Trough of one clearance for both radii. */
-  class Wall : public SmoothWall
-  {
-  protected:
-    bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override
-    {
-      const Eigen::Vector3d across(0.0, axis.y(), axis.z());
-      if (face > 0 || across.isZero(0.0))
-        return false;
-      feature.normal = -across.normalized();
-      feature.gap = kClearance - across.norm();
-      feature.point = axis - feature.gap * feature.normal;
-      feature.clearance_radius = kClearance;
-      feature.friction = 0.2;
-      return true;
-    }
-  };
-
   static constexpr double kClearance = 2e-4;  // m
   int turning_;
-  Wall wall_;
+  Trough wall_{kClearance, 0.2};  ///< of one clearance for both radii
 };
 
 TEST(Reversal, OfALayerOfAStackDoesNotDependOnTheTimeStep)

@@ -93,6 +93,14 @@ TEST_P(DamagedBag, IsRefusedOrReportedOrReplaysTheSameTrajectory)
   EXPECT_GT(reported, 0);
 }
 
+// A seed that is refused would leave the bag behind its session info without fuzzing.
+TEST(FuzzCorpus, HoldsABagThatReplays)
+{
+  const SessionBag session = readSessionBag(PROJECT_DIR "/test/fuzz/corpus/bag/session");
+  EXPECT_EQ(session.steps.size(), fuzz::kSessionSteps) << "write the corpus again with make_corpus";
+  EXPECT_EQ(session.recorded_steps, fuzz::kSessionSteps);
+}
+
 INSTANTIATE_TEST_SUITE_P(OfEachCompression, DamagedBag,
                          testing::Values(rosbag::compression::Uncompressed, rosbag::compression::LZ4));
 
