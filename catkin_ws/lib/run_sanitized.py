@@ -8,15 +8,26 @@ import os
 import sys
 
 import run_tests
+import test_results
+import thread_reports
 
 SECONDS_PER_GTEST = 1800  # ceiling of one test case
+SECONDS_PER_ROSTEST = 1800
 # gtest programs with the thread sanitizer, and their tests; those of other folders start no thread.
 THREADED = {"common": "*", "contact": "WallModel*", "haptics": "*", "nodes": "*",
             "simulation": "SimulationsInThreads.*", "vessel": "CentrelineExtraction.*"}
 FUZZ_BYTES = {"mesh": 20000, "scene": 20000, "serial": 4096, "state": 20000, "bag": 40000}  # longest input
 
 
+def without_real_time():
+    """Beginning of a command whose processes get no real-time scheduling: slowed down by the sanitizer, the loops of a
+    graph would occupy all processors. Without root privileges there is usually none to take away."""
+    return ["setpriv", "--inh-caps=-sys_nice", "--bounding-set=-sys_nice"] if os.geteuid() == 0 else []
+
+
 class SanitizedRunner(run_tests.Runner):
+    seconds_per_rostest = SECONDS_PER_ROSTEST
+
     def __init__(self, arguments):
         super().__init__(arguments)
         self.sanitized = os.path.join(self.workspace, "sanitized")
@@ -30,6 +41,10 @@ class SanitizedRunner(run_tests.Runner):
                     "UBSAN_OPTIONS": "print_stacktrace=1"}
         return {"TSAN_OPTIONS": "halt_on_error=0:exitcode=66:second_deadlock_stack=1:suppressions=" +
                                 os.path.join(self.options, "thread_suppressions.txt")}
+
+    def report_prefix(self, run):
+        """Beginning of the paths of the reports of a graph, one file for each process with a report."""
+        return os.path.join(self.logs, run.name + ".reports")
 
     def gtests(self):
         wanted = self.arguments.filter
@@ -58,17 +73,36 @@ class SanitizedRunner(run_tests.Runner):
             self.arguments.only = only
 
     def rostests(self):
-        """Graphs of nodes with the thread sanitizer. Their programs are found through the environment of that build."""
+        """Graphs of nodes with the thread sanitizer. Their programs are found through the environment of that build. The
+        exit codes of the nodes are tested, therefore reports go to files and leave the exit codes as they are."""
         runs = super().rostests()
         for run in runs:
             run.name = "thread_" + run.name
             setup = os.path.join(self.sanitized, "thread", "devel", "setup.bash")
             command = ["--results-filename=" + run.name + ".xml" if part.startswith("--results-filename=") else part
                        for part in run.command]
-            run.command = ["bash", "-c", '. "$0" && export ROS_PACKAGE_PATH="$1:/usr/share" && shift && exec "$@"',
+            run.command = without_real_time() + ["bash", "-c", '. "$0" && export ROS_PACKAGE_PATH="$1:/usr/share" && shift && exec "$@"',
                            setup, self.repository] + command
             run.environment.update(self.environment("thread"))
+            run.environment["GRAPH_TEST_SECONDS"] = str(SECONDS_PER_ROSTEST - 60)  # read by the launch files
+            run.environment["TSAN_OPTIONS"] += ":exitcode=0:log_path=" + self.report_prefix(run)
         return runs
+
+    def run_command(self, run, log, environment):
+        """Adds a case to a graph: failed where one of its processes has a report that counts."""
+        cases = super().run_command(run, log, environment)
+        if run.kind == "rostest":
+            found = []
+            for path in sorted(glob.glob(self.report_prefix(run) + ".*")):
+                with open(path, errors="replace") as file:
+                    found += thread_reports.own_reports(file.read(), self.repository)
+            case = test_results.Case("nodes", run.name + "_without_data_races")
+            case.failed, case.text = bool(found), "\n\n".join(found)
+            case.message = "%d reports of the thread sanitizer in %s.*" % (len(found), self.report_prefix(run))
+            test_results.write_cases(os.path.join(self.results, run.name + ".races.xml"), case.name, [case])
+            if found:
+                print(case.text, flush=True)
+        return cases
 
     def scripts(self):
         """Fuzz targets. They begin with the committed corpus and with the inputs that earlier runs found."""

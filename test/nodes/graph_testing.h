@@ -12,11 +12,17 @@
 namespace endovascular_sim
 {
 
-/** Waits until a condition holds. @return false when it did not hold within the time [s] */
+#ifdef ENDOVASCULAR_SANITIZED
+constexpr double kSlowness = 10.0;  ///< factor of all time limits
+#else
+constexpr double kSlowness = 1.0;  ///< factor of all time limits
+#endif
+
+/** Waits until a condition holds. @return false when it did not hold within the time [s], times kSlowness */
 template <typename Condition>
 bool waitUntil(double seconds, Condition condition)
 {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kSlowness * seconds);
   while (ros::WallTime::now() < end)
   {
     if (condition())

@@ -21,6 +21,7 @@
 #include "scene/scene_vessel.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim::nodes
 {
@@ -64,8 +65,7 @@ TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
   const VisualizationNode visualization(node, ros::NodeHandle("~"));
   RodDynamicsNode rod(node, ros::NodeHandle("~rod"), scene);
   ASSERT_TRUE(rod.run());
-  for (int k = 0; k < 200 && listener.steps().size() < 300; ++k)
-    ros::WallDuration(0.01).sleep();
+  waitUntil(2.0, [&listener] { return listener.steps().size() >= 300; });
   const std::map<std::uint64_t, DriveApplied> steps = listener.steps();
   ASSERT_EQ(steps.size(), 300U);
 

@@ -15,11 +15,13 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-volatile std::sig_atomic_t stop_requested = 0;
+/** Set by the signal handler, read by all threads. */
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not lock");
 
 void requestStop(int /*signal*/)
 {
-  stop_requested = 1;
+  stop_requested = true;
   ros::requestShutdown();  // sets a flag, as the handler of ROS does
 }
 
@@ -119,7 +121,7 @@ private:
 
 bool isStopRequested()
 {
-  return stop_requested != 0;
+  return stop_requested;
 }
 
 void countProgress()
