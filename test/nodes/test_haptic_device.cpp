@@ -10,6 +10,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "endovascular_sim/OperatingState.h"
+#include "test/nodes/graph_testing.h"
 
 namespace
 {
@@ -50,7 +51,7 @@ public:
   template <typename Condition>
   bool waitFor(double seconds, Condition condition)
   {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(endovascular_sim::kSlowness * seconds);
     while (ros::WallTime::now() < end)
     {
       {
