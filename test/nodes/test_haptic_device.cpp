@@ -51,7 +51,7 @@ public:
   template <typename Condition>
   bool waitFor(double seconds, Condition condition)
   {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(endovascular_sim::kSlowness * seconds);
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
     while (ros::WallTime::now() < end)
     {
       {

@@ -2,9 +2,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <visualization_msgs/Marker.h>
 
@@ -15,6 +18,7 @@
 #include "nodes/rod_dynamics/rod_dynamics_node.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/runtime/scene_parameters.h"
+#include "nodes/session/session_bag.h"
 #include "nodes/session/session_node.h"
 #include "nodes/vessel_server/vessel_server_node.h"
 #include "nodes/visualization/visualization_node.h"
@@ -55,6 +59,48 @@ private:
   ros::Subscriber subscriber_;
 };
 
+/** Session node with a callback queue and a thread of its own, as in its process. */
+class Recording
+{
+public:
+  explicit Recording(const scene::Scene& scene) : spinner_(1, &queue_)
+  {
+    ros::NodeHandle parameters("~recording");
+    parameters.setParam("results", folder_);
+    ros::NodeHandle node;
+    node.setCallbackQueue(&queue_);
+    session_ = std::make_unique<SessionNode>(node, parameters, scene);
+    spinner_.start();
+  }
+  ~Recording()
+  {
+    finish();
+    std::filesystem::remove_all(folder_);
+  }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  /** Ends the recording. @return number of steps in its bag */
+  std::size_t recordedSteps()
+  {
+    finish();
+    return readSessionBag(folder_ + "/session.bag").steps.size();
+  }
+
+private:
+  void finish()
+  {
+    spinner_.stop();
+    queue_.callAvailable();
+    session_.reset();
+  }
+
+  std::string folder_ = testing::TempDir() + "/recording_" + std::to_string(::getpid());
+  ros::CallbackQueue queue_;
+  std::unique_ptr<SessionNode> session_;
+  ros::AsyncSpinner spinner_;
+};
+
 TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
 {
   ros::NodeHandle node;
@@ -63,11 +109,13 @@ TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
   const VesselServerNode server(node, scene);
   const ContactNode contact(node, scene);
   const VisualizationNode visualization(node, ros::NodeHandle("~"));
+  const std::unique_ptr<Recording> recording = std::make_unique<Recording>(scene);
   RodDynamicsNode rod(node, ros::NodeHandle("~rod"), scene);
   ASSERT_TRUE(rod.run());
   waitUntil(2.0, [&listener] { return listener.steps().size() >= 300; });
   const std::map<std::uint64_t, DriveApplied> steps = listener.steps();
   ASSERT_EQ(steps.size(), 300U);
+  EXPECT_EQ(recording->recordedSteps(), 300U);
 
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
@@ -113,7 +161,7 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "test_node_classes");
   const ros::NodeHandle keep_alive;
-  ros::AsyncSpinner spinner(2);
+  ros::AsyncSpinner spinner(1);  // as in the programs of the nodes
   spinner.start();
   return RUN_ALL_TESTS();
 }
