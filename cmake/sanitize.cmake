@@ -17,7 +17,7 @@ if(ENDOVASCULAR_SANITIZE)
     # Coverage of all sources would slow the tests down.
     file(GLOB PARSERS CONFIGURE_DEPENDS src/vessel/io/*.cpp src/vessel/anatomy/anatomy_reader.cpp src/scene/*.cpp
       src/scene/yaml/*.cpp src/scene/schema/*.cpp src/haptics/rosserial/*.cpp src/haptics/serial/*.cpp
-      src/haptics/host/*.cpp src/haptics/device/*.cpp src/simulation/*archive*.cpp src/nodes/conversions/*.cpp
+      src/haptics/host/*.cpp src/drive/*_command.cpp src/drive/command_file.cpp src/haptics/device/*.cpp src/simulation/*archive*.cpp src/nodes/conversions/*.cpp
       src/nodes/session/session_bag.cpp)
     set_source_files_properties(${PARSERS} PROPERTIES COMPILE_OPTIONS -fsanitize=fuzzer-no-link)
   elseif(ENDOVASCULAR_SANITIZE STREQUAL "thread")

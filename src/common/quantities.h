@@ -40,9 +40,11 @@ constexpr Quantity kLesionLength{"lesion lengths", "m", D::kLength, 5e-4, 0.3, 1
 constexpr Quantity kInsertion{"insertions", "m", D::kLength, 0.0, 3.0, 0.0, 20.0};
 constexpr Quantity kDisplacement{"displacements", "m", D::kLength, 0.0, 2.0, 0.0, 20.0};
 constexpr Quantity kSpeed{"speeds", "m/s", D::kSpeed, 1e-4, 0.7, 1e-6, 5.0};
+constexpr Quantity kSpeedLimit{"limits of a speed", "m/s", D::kSpeed, 1e-3, 2.0, 1e-6, 5.0};
 constexpr Quantity kAcceleration{"accelerations of the hand", "m/s²", D::kAcceleration, 5e-3, 50.0, 1e-5, 1000.0};
 constexpr Quantity kAngle{"angles", "rad", D::kAngle, 0.0, 2.001 * M_PI, 0.0, 1000.0};
 constexpr Quantity kRotation{"rotations", "rad", D::kAngle, 0.0, 8.001 * M_PI, 0.0, 1e4};
+constexpr Quantity kRotationRange{"ranges of a rotation", "rad", D::kAngle, 0.0, 1e4, 0.0, 1e5};
 constexpr Quantity kAngularSpeed{"angular speeds", "rad/s", D::kAngularSpeed, 1e-3, 60.0, 0.0, 1e4};
 constexpr Quantity kAngularAcceleration{"angular accelerations", "rad/s²", D::kOther, 0.05, 1000.0, 1e-4, 1e6};
 constexpr Quantity kSpeedScale{"speed factors", "1", D::kFraction, 0.05, 20.0, 1e-3, 1000.0};
@@ -75,11 +77,14 @@ constexpr Quantity kWallForce{"forces on the wall", "N", D::kForce, 1e-4, 10.0, 
 constexpr Quantity kFitLoad{"fit loads", "N/m", D::kLineLoad, 1e-3, 200.0, 0.0, 1e5};
 constexpr Quantity kDamperInsertion{"dampings", "N·s/m", D::kOther, 0.01, 1000.0, 1e-4, 1e5};
 constexpr Quantity kDamperRotation{"rotational dampings", "N·m·s/rad", D::kOther, 1e-7, 1.0, 1e-10, 100.0};
+constexpr Quantity kForceGain{"force gains", "m/(s·N)", D::kOther, 1e-4, 1.0, 1e-7, 100.0};
+constexpr Quantity kTorqueGain{"torque gains", "rad/(s·N·m)", D::kOther, 1.0, 1e5, 1e-3, 1e8};
 constexpr Quantity kGravity{"gravitational accelerations", "m/s²", D::kAcceleration, 0.01, 30.0, 0.0, 5000.0};
 constexpr Quantity kDrag{"drag coefficients", "1", D::kOther, 0.01, 20.0, 0.0, 1e3};
 constexpr Quantity kMassDamping{"dampings per mass", "1/s", D::kOther, 1e-3, 1e4, 0.0, 1e8};
 constexpr Quantity kFriction{"friction coefficients", "1", D::kFraction, 1e-3, 1.5, 0.0, 10.0};
 constexpr Quantity kPressure{"pressures", "Pa", D::kPressure, 1000.0, 5e6, 100.0, 1e8};
+constexpr Quantity kPressureRange{"ranges of a pressure", "Pa", D::kPressure, 1000.0, 2e7, 0.0, 1e8};
 
 // Materials and stiffness.
 constexpr Quantity kDensity{"densities of instruments", "kg/m³", D::kDensity, 300.0, 25e3, 20.0, 1e5};

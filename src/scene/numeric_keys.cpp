@@ -38,7 +38,9 @@ const std::vector<std::string> kScenes = {
         " lesions: [{branch: tube, length: 0.01, grade: 0.5}, {branch: tube, from_start: 0.1, length: 0.01, grade: "
         "0.5},"
         " {at: [0, 0, 0.1], length: 0.01, grade: 0.5}]}\ninstrument: " +
-        kWire + "\ndrive: {source: script, speed: 0.01, travel: 0.1}\nfluoroscopy: {isocentre: [0, 0, 0]}\n",
+        kWire +
+        "\ndrive: {source: script, speed: 0.01, travel: 0.1, limits: {insertion: [0, 0.5]}}\nfluoroscopy: {isocentre: "
+        "[0, 0, 0]}\n",
     // a mesh, adaptive sampling, profiles
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n"
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +
@@ -53,7 +55,7 @@ const std::vector<std::string> kScenes = {
     // several instruments with a procedure
     "vessel: {friction: 0.1, " + kTube + "}\ninstruments:\n  - {instrument: " + kWire +
         ", drive: {source: procedure}}\n  - {instrument: " + kStentSystem +
-        ", drive: {source: procedure, initial_insertion: -0.1}}\n"
+        ", drive: {source: procedure, initial_insertion: -0.1, limits: {}}}\n"
         "procedure:\n  branches: [{name: a, at: [0, 0, 0]}]\n  steps:\n"
         "    - {advance: w, until: {tip_in: tube}}\n    - {rotate: w, until: {turned: 1}}\n    - {wait: 1}\n"
         "    - {inflate: b, pressure: 1e6, for: 1}\n",

@@ -15,13 +15,12 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr double kMaxHandSpeed = 1.0;            // m/s
-constexpr double kMaxHandTurn = 60.0;            // rad/s
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
 constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kTravelPerEdge = 0.25;          // largest travel of a sub-step, in shortest edges
 constexpr double kSlipBand = 0.1;                // range of the force in which the grip fades, relative to the limit
 constexpr double kAtIntroducer = 0.1e-3;         // m, tolerance of the insertion of an instrument outside
+constexpr double kStalledSpeed = 0.05;           // least share of the speed with which a stopped chuck pushes
 constexpr double kFreeBand = 0.5;                // excess of the force without any grip, relative to the limit
 
 /** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. The
@@ -117,6 +116,13 @@ HandState Simulation::hand(int instrument) const
   return {handle.inserted_length, handle.rotation, handle.force, handle.torque, pressures_[instrument]};
 }
 
+drive::HandMotion Simulation::reached(int instrument) const
+{
+  const HandState now = hand(instrument);
+  const Channel& channel = channels_[instrument];
+  return {now.insertion + channel.slipped_insertion, now.rotation + channel.slipped_rotation};
+}
+
 /** Insertion at which an instrument is outside the introducer [m]. */
 double Simulation::outsideInsertion() const
 {
@@ -145,13 +151,22 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
   const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
   Channel& channel = channels_[instrument];
   const HandState now = hand(instrument);
+  const scene::DriveScene& drive = scene_.instruments[instrument].drive;
+  const bool chuck = drive.grip == drive::Grip::kChuck;
   HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
     rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), command.insertion) : command.insertion) -
                      channel.slipped_insertion - now.insertion;
+  if (scene_.introducer && chuck)  // the chuck waits at a stop
+    rest.insertion = std::clamp(rest.insertion, leastInsertion(instrument) - now.insertion,
+                                std::max(leastInsertion(instrument), mostInsertion(instrument)) - now.insertion);
   HandCommand wanted = channel.pacer.follow(rest, stale);
-  wanted.insertion = std::clamp(wanted.insertion, -kMaxHandSpeed * dt, kMaxHandSpeed * dt);
-  wanted.rotation = std::clamp(wanted.rotation, -kMaxHandTurn * dt, kMaxHandTurn * dt);
+  // A chuck that is stopped by the force pushes on slowly; fast attempts would only cost sub-steps.
+  const double most = drive.limits.speed * dt * (chuck ? std::max(kStalledSpeed, channel.grip) : 1.0);
+  const double most_turn =
+      drive.limits.turning_speed * dt * (chuck ? std::max(kStalledSpeed, channel.turning_grip) : 1.0);
+  wanted.insertion = std::clamp(wanted.insertion, -most, most);
+  wanted.rotation = std::clamp(wanted.rotation, -most_turn, most_turn);
   return wanted;
 }
 
@@ -191,10 +206,13 @@ HandCommand Simulation::allowedMotion(int instrument, const HandCommand& wanted,
   const double reached = std::max(leastInsertion(instrument),
                                   std::min(mostInsertion(instrument), now.insertion + channel.grip * wanted.insertion));
   motion.insertion = reached - now.insertion;
-  channel.slipped_insertion += wanted.insertion - motion.insertion;
+  const bool slips = drive.grip == drive::Grip::kFingers;
+  if (slips)
+    channel.slipped_insertion += wanted.insertion - motion.insertion;
   channel.turning_grip = nextGrip(channel.turning_grip, wanted.rotation, now.torque, drive.torque_limit, dt);
   motion.rotation = channel.turning_grip * wanted.rotation;
-  channel.slipped_rotation += wanted.rotation - motion.rotation;
+  if (slips)
+    channel.slipped_rotation += wanted.rotation - motion.rotation;
   return motion;
 }
 

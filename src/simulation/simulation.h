@@ -47,8 +47,9 @@ public:
   Simulation(const scene::Scene& scene, const scene::EntryPose& entry, contact::ContactSource* contacts,
              const vessel::CentrelineTree* centreline = nullptr, intervention::DeformableWall* wall = nullptr);
 
-  /** Advances by one time step. The hand slips where the wire resists with more than the scene's limits, and moves at
-   *  most at 1 m/s: the rest of a faster command follows in the next steps. */
+  /** Advances by one time step. The hand slips or stops (DriveScene::grip) where the wire resists with more than the
+   *  scene's limits, and moves at most at drive.limits.speed: the rest of a faster command follows in the next steps.
+   */
   void step(const HandCommand& command) { stepAll({command}); }
 
   /** Advances by one time step with one command for every instrument of the scene, in its order. The insertion of an
@@ -63,6 +64,10 @@ public:
 
   /** Handle of an instrument. */
   HandState hand(int instrument) const;
+
+  /** Position that an instrument has reached, in the scale of its commands: its position plus the slipped motion. The
+   *  difference from the last command is the motion that is still to follow. */
+  drive::HandMotion reached(int instrument) const;
 
   /** True where an instrument has left the introducer altogether, so that others need not fit into it. */
   bool isOutside(int instrument) const;
@@ -126,7 +131,7 @@ private:
   struct Channel
   {
     StaleContactPacer pacer;
-    double slipped_insertion = 0.0;  ///< command minus what reached the wire [m]
+    double slipped_insertion = 0.0;  ///< command minus what reached the wire; 0 for a chuck [m]
     double slipped_rotation = 0.0;   ///< [rad]
     double grip = 1.0;               ///< grip while pushing, 1 firm to 0 slipping
     double turning_grip = 1.0;       ///< grip while turning, 1 firm to 0 slipping

@@ -16,6 +16,7 @@
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "contact/detector.h"
+#include "drive/command_file.h"
 #include "procedure/phase_pictures.h"
 #include "results/energy_audit_csv.h"
 #include "results/run_result.h"
@@ -27,6 +28,7 @@
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
+#include "simulation/driven_hands.h"
 #include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
 #include "tools/command_line.h"
@@ -47,6 +49,7 @@ struct Options
   std::string save_state;
   double save_at = NAN;  ///< simulated time of the saved state [s]
   std::string from_state;
+  std::string commands;
   std::vector<std::string> record;
   bool audit = false;
   bool pictures = false;
@@ -86,8 +89,14 @@ void addOptions(tools::CommandLine& line, Options& options)
           ->check(tools::positiveNumber());
   save->needs(at);
   at->needs(save);
-  line.option("--from-state", options.from_state, "FILE",
-              "starts from a state saved in the same scene; --seconds counts from it");
+  CLI::Option* from = line.option("--from-state", options.from_state, "FILE",
+                                  "starts from a state saved in the same scene; --seconds counts from it");
+  line.option(
+          "--commands", options.commands, "FILE",
+          "CSV file with rows of time,instrument,command,values, e.g. 0.5,guidewire,move_jp,0.1,1.5: commands to the "
+          "instruments with drive.source topic or device, as clients of the nodes send them")
+      ->excludes(save)
+      ->excludes(from);
   line.flag("--no-plots", options.no_plots, "omits the plots");
   line.flag("--quiet", options.quiet, "prints neither progress nor results");
 }
@@ -302,6 +311,38 @@ std::vector<simulation::HandCommand> commandsFor(const scene::Scene& scene, cons
                               : simulation::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
 }
 
+/** Commands of a file to the instruments that clients drive. */
+class CommandedHands
+{
+public:
+  /** @param file path of the file; empty: the profiles of the scene drive these instruments too */
+  CommandedHands(const scene::Scene& scene, const std::string& file) : hands_(scene)
+  {
+    if (!file.empty())
+      player_.emplace(scene, file, drive::readCommandFile(file));
+  }
+
+  /** @param others commands of the operator or of the scene's profiles */
+  std::vector<simulation::HandCommand> next(const simulation::Simulation& simulation,
+                                            const std::vector<simulation::HandCommand>& others)
+  {
+    if (!player_)
+      return others;
+    player_->play(simulation.time(), hands_);
+    return hands_.next(simulation, &others);
+  }
+
+  void printRefusals() const
+  {
+    if (player_)
+      tools::printWarnings("simulate", player_->refusals());
+  }
+
+private:
+  simulation::DrivenHands hands_;
+  std::optional<simulation::CommandPlayer> player_;
+};
+
 void showProgress(const scene::Scene& scene, std::uint64_t done, std::uint64_t all, Clock::time_point begin)
 {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -315,6 +356,7 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
          const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
 {
   Tables tables(scene, options);
+  CommandedHands hands(scene, options.commands);
   if (options.audit)
     simulation.setAudit(tables.audit());
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
@@ -328,7 +370,8 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
   {
     if (surroundings.session && surroundings.session->isFinished())
       break;
-    const std::vector<simulation::HandCommand> commands = commandsFor(scene, simulation, surroundings, k);
+    const std::vector<simulation::HandCommand> commands =
+        hands.next(simulation, commandsFor(scene, simulation, surroundings, k));
     const Clock::time_point before = Clock::now();
     simulation.stepAll(commands);
     const double duration = std::chrono::duration<double>(Clock::now() - before).count();
@@ -352,6 +395,7 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
       showProgress(scene, k + 1 - first, steps + 1 - first, begin);
   }
   takePicture(surroundings, simulation);
+  hands.printRefusals();
   if (progress)
     std::fputc('\n', stderr);
   tables.flush();

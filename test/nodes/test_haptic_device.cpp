@@ -4,13 +4,12 @@
 #include <string>
 #include <thread>
 
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
-
-#include "endovascular_sim/OperatingState.h"
-#include "test/nodes/graph_testing.h"
 
 namespace
 {
@@ -25,10 +24,11 @@ public:
   Graph()
   {
     const auto no_delay = ros::TransportHints().tcpNoDelay();
-    force_ = node_.advertise<sensor_msgs::JointState>("instruments/guidewire/measured_js", 10);
+    force_ = node_.advertise<sensor_msgs::JointState>("instruments/guidewire/setpoint_js", 10);
     servo_ = node_.subscribe("instruments/guidewire/servo_jp", 1000, &Graph::receiveMotion, this, no_delay);
     measured_ = node_.subscribe("haptic/hand/measured_js", 1000, &Graph::receiveMeasured, this, no_delay);
     state_ = node_.subscribe("haptic/hand/operating_state", 10, &Graph::receiveState, this, no_delay);
+    reason_ = node_.subscribe("haptic/hand/state_reason", 10, &Graph::receiveReason, this, no_delay);
     diagnostics_ = node_.subscribe("/diagnostics", 10, &Graph::receiveDiagnostics, this, no_delay);
     spinner_.start();
     thread_ = std::thread(&Graph::publishForces, this);
@@ -115,11 +115,16 @@ private:
       ++late_forces;
   }
 
-  void receiveState(const endovascular_sim::OperatingState& message)
+  void receiveState(const crtk_msgs::OperatingState& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state = message.state;
-    reason = message.reason;
+  }
+
+  void receiveReason(const crtk_msgs::StringStamped& message)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    reason = message.string;
   }
 
   void receiveDiagnostics(const diagnostic_msgs::DiagnosticArray& message)
@@ -140,6 +145,7 @@ private:
   ros::Subscriber servo_;
   ros::Subscriber measured_;
   ros::Subscriber state_;
+  ros::Subscriber reason_;
   ros::Subscriber diagnostics_;
   ros::AsyncSpinner spinner_{2};
   std::atomic<bool> running_{true};

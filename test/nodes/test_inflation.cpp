@@ -2,11 +2,11 @@
 #include <memory>
 #include <mutex>
 
+#include <crtk_msgs/OperatingState.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
 #include "endovascular_sim/DriveApplied.h"
-#include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "nodes/conversions/vessel_conversions.h"
@@ -35,8 +35,9 @@ public:
                                  [this](const WallDisplacement& message) { moved_vertices_ += message.index.size(); });
     mesh_ = listen<VesselMesh>(nodes::names::kVesselMesh, 10,
                                [this](const VesselMesh& message) { newest_mesh_ = message; });
-    state_ = listen<OperatingState>(nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
-                                    [this](const OperatingState& message) { operating_ = message.state; });
+    state_ = listen<crtk_msgs::OperatingState>(
+        nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
+        [this](const crtk_msgs::OperatingState& message) { operating_ = message.state; });
   }
 
   std::map<std::uint64_t, DriveApplied> steps() const { return guarded(steps_); }

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include <crtk_msgs/OperatingState.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -11,7 +12,6 @@
 #include "contact/detector.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/DriveApplied.h"
-#include "endovascular_sim/OperatingState.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/runtime/scene_parameters.h"
 #include "results/session_sample.h"
@@ -50,7 +50,7 @@ public:
         },
         ros::VoidConstPtr(), hints);
     hand_ = node_.subscribe<sensor_msgs::JointState>(
-        nodes::names::kInstruments + instrument + nodes::names::kMeasuredJs, 10,
+        nodes::names::kInstruments + instrument + nodes::names::kSetpointJs, 10,
         [this](const sensor_msgs::JointStateConstPtr& message)
         {
           const double force = message->effort.at(0);
@@ -61,9 +61,9 @@ public:
           force_ = force;
         },
         ros::VoidConstPtr(), hints);
-    state_ = node_.subscribe<OperatingState>(
+    state_ = node_.subscribe<crtk_msgs::OperatingState>(
         nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
-        [this](const OperatingStateConstPtr& message)
+        [this](const crtk_msgs::OperatingStateConstPtr& message)
         {
           const std::lock_guard<std::mutex> lock(mutex_);
           operating_ = message->state;

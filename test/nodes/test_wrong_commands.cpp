@@ -55,8 +55,8 @@ public:
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     for (std::size_t k = 0; k < kInstruments; ++k)
     {
-      topics_[k] = node_.resolveName(nodes::names::kInstruments + std::string(kNames[k]) + nodes::names::kServoJp);
-      publishers_[k] = node_.advertise<Command>(topics_[k], 20000);
+      topics_[k] = node_.resolveName(nodes::names::kInstruments + std::string(kNames[k]));
+      publishers_[k] = node_.advertise<Command>(topics_[k] + nodes::names::kServoJp, 20000);
     }
     applied_ = node_.subscribe<DriveApplied>(
         nodes::names::kDriveApplied, 20000, [this](const DriveAppliedConstPtr& step) { receive(*step); },
@@ -142,7 +142,7 @@ public:
     return waitUntil(30.0, [&] { return this->steps() >= end; });
   }
 
-  /** Number in the diagnostics, e.g. "rejected, jumps", of an instrument's topic. */
+  /** Number in the diagnostics, e.g. "rejected, jumps", of an instrument. */
   std::uint64_t count(std::size_t instrument, const std::string& key) const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -231,7 +231,7 @@ std::vector<Kind> kindsOfTheWire()
           {"joint repeated beside both", 0, commandOf({"insertion", "rotation", "rotation"}, {x, r, r}), malformed},
           {"empty", 0, commandOf(std::vector<std::string>(), {}), malformed},
           {"names without positions", 0, commandOf(joints, {}), malformed},
-          {"positions without names", 0, commandOf({}, {x, r}), malformed},
+          {"four positions without names", 0, commandOf({}, {x, r, 0.0, 0.0}), malformed},
           {"fewer positions than names", 0, commandOf(joints, {x}), malformed}};
 }
 
@@ -270,6 +270,8 @@ std::vector<Kind> harmlessKinds()
       {"future stamp", 0, future, accepted},
       {"no stamp", 0, unstamped, accepted},
       {"velocities and efforts that are not finite", 0, derivatives, accepted},
+      {"positions without names", 0, commandOf({}, {x, r}), accepted},
+      {"insertion alone without names", 0, commandOf({}, {x}), accepted},
       {"more positions than names", 0, commandOf({"insertion", "rotation"}, {x, r, 9.0}), accepted},
       {"joints in other order", 0, commandOf({"rotation", "insertion"}, {r, x}), accepted},
       {"pressure without a balloon", 0, commandOf({"insertion", "rotation", "pressure"}, {x, r, 1e6}), accepted},

@@ -2,4 +2,4 @@
 # catkin_lint finds no error and no warning. Packages are not looked up: this machine has no rosdep database.
 set -eu
 cd "$(dirname "$0")/../../catkin_ws"
-catkin_lint -W1 --strict --ignore uninstalled_script --ignore unknown_package src/endovascular_sim
+catkin_lint -W1 --strict --ignore uninstalled_script --ignore unknown_package src/endovascular_sim src/crtk_msgs

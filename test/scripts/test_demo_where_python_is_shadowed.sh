@@ -26,7 +26,7 @@ set +u
 . "$repository/catkin_ws/devel/setup.bash"
 rosbag info results/session.bag > bag_info
 grep -q '/drive/applied  *1000 msgs' bag_info
-grep -Eq '/instruments/guidewire/measured_js  *100 msgs' bag_info  # derived from the commands
+grep -Eq '/instruments/guidewire/setpoint_js  *100 msgs' bag_info  # derived from the commands
 "$repository/catkin_ws/devel/lib/endovascular_sim/replay" results/session.bag | grep -q '1000 of 1000 steps compared, 0 different'
 
 # Every node ended at the first request.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <sensor_msgs/JointState.h>
 
@@ -24,20 +25,35 @@ inline std::optional<std::size_t> jointOf(const sensor_msgs::JointState& message
   return static_cast<std::size_t>(joint - message.name.begin());
 }
 
-/** Converts the command and the rendered force of one instrument to the joints of CRTK.
- *  @param insertion, rotation, pressure command in use [m], [rad], [Pa]
- *  @param force, torque rendered to the hand [N], [N·m] */
-inline void toMessage(bool has_balloon, double insertion, double rotation, double pressure, double force, double torque,
-                      sensor_msgs::JointState& message)
+/** Values of the joints of one instrument. */
+struct JointValues
 {
-  message.name = {names::kInsertionJoint, names::kRotationJoint};
-  message.position = {insertion, rotation};
-  message.effort = {force, torque};
+  double insertion = 0.0;
+  double rotation = 0.0;
+  double pressure = 0.0;
+};
+
+/** Sets names of joints and their values. */
+inline void setJoints(bool has_balloon, const JointValues& joints, std::vector<double>& values,
+                      std::vector<std::string>& names)
+{
+  names = {names::kInsertionJoint, names::kRotationJoint};
+  values = {joints.insertion, joints.rotation};
   if (!has_balloon)
     return;
-  message.name.emplace_back(names::kPressureJoint);
-  message.position.push_back(pressure);
-  message.effort.push_back(0.0);
+  names.emplace_back(names::kPressureJoint);
+  values.push_back(joints.pressure);
+}
+
+/** Converts positions and efforts of one instrument to the joints of CRTK.
+ *  @param force, torque [N], [N·m] */
+inline void toMessage(bool has_balloon, const JointValues& joints, double force, double torque,
+                      sensor_msgs::JointState& message)
+{
+  setJoints(has_balloon, joints, message.position, message.name);
+  message.effort = {force, torque};
+  if (has_balloon)
+    message.effort.push_back(0.0);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -25,7 +25,6 @@ using haptics::DeviceState;
 
 constexpr double kLongestWait = 0.1;      ///< longest wait of the port's thread, which then checks for the end [s]
 constexpr double kShutdownTime = 50e-3;   ///< longest time for sending the last bytes [s]
-constexpr double kBusyTime = 0.5;         ///< duration of the busy state after the last motion [s]
 constexpr unsigned long kTimerSlack = 1;  ///< timer slack of the kernel in the port's thread [ns]
 
 double steadyNow()
@@ -81,15 +80,29 @@ HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeH
   ros::NodeHandle handle(node);
   servo_publisher_ = handle.advertise<sensor_msgs::JointState>(instrument + names::kServoJp, 100);
   measured_publisher_ = handle.advertise<sensor_msgs::JointState>(channel + names::kMeasuredJs, 100, true);
-  state_publisher_ = handle.advertise<OperatingState>(channel + names::kOperatingState, 10, true);
+  state_publisher_ = handle.advertise<crtk_msgs::OperatingState>(channel + names::kOperatingState, 10, true);
+  reason_publisher_ = handle.advertise<crtk_msgs::StringStamped>(channel + names::kStateReason, 10, true);
 
   ros::NodeHandle force_handle(node);
   force_handle.setCallbackQueue(&force_queue_);
-  force_subscriber_ = force_handle.subscribe(instrument + names::kMeasuredJs, 1, &HapticDeviceNode::receiveForce, this,
+  force_subscriber_ = force_handle.subscribe(instrument + names::kSetpointJs, 1, &HapticDeviceNode::receiveForce, this,
                                              ros::TransportHints().tcpNoDelay());
-  simulation_subscriber_ =
-      force_handle.subscribe(instrument + names::kOperatingState, 10, &HapticDeviceNode::receiveSimulationState, this,
-                             ros::TransportHints().tcpNoDelay());
+  reason_subscriber_ = force_handle.subscribe<crtk_msgs::StringStamped>(
+      instrument + names::kStateReason, 10,
+      [this](const crtk_msgs::StringStampedConstPtr& reason)
+      {
+        simulation_reason_ = reason->string;
+        updateSimulationState();
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  simulation_subscriber_ = force_handle.subscribe<crtk_msgs::OperatingState>(
+      instrument + names::kOperatingState, 10,
+      [this](const crtk_msgs::OperatingStateConstPtr& state)
+      {
+        simulation_state_ = state->state;
+        updateSimulationState();
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 
   diagnostics_.setHardwareID(link_.portName());
   diagnostics_.add("haptic device", this, &HapticDeviceNode::diagnose);
@@ -180,11 +193,14 @@ void HapticDeviceNode::receiveForce(const sensor_msgs::JointState& state)
     wake();
 }
 
-/** Pauses the device while the simulation does not run. */
-void HapticDeviceNode::receiveSimulationState(const OperatingState& state)
+/** Pauses the device while the simulation does not run. Reason and state may arrive in any order. */
+void HapticDeviceNode::updateSimulationState()
 {
-  const bool is_running = state.state == stateName(DeviceState::kEnabled);
-  const std::string reason = state.reason.empty() ? "the simulation is " + state.state : "simulation: " + state.reason;
+  if (simulation_state_.empty())
+    return;
+  const bool is_running = simulation_state_ == stateName(DeviceState::kEnabled);
+  const std::string reason =
+      simulation_reason_.empty() ? "the simulation is " + simulation_state_ : "simulation: " + simulation_reason_;
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
   if (isStopRequested())
     return;
@@ -211,28 +227,33 @@ void HapticDeviceNode::publishMotion(const std::vector<haptics::MotionSample>& s
 
 void HapticDeviceNode::publishState(DeviceState state, const std::string& reason, const haptics::HandMotion& command)
 {
-  const double now = steadyNow();
-  if (command.insertion != last_command_.insertion || command.rotation != last_command_.rotation)
-    last_motion_time_ = now;
-  last_command_ = command;
-  const bool busy = state != DeviceState::kDisabled && now - last_motion_time_ < kBusyTime;
-  if (state == published_state_ && reason == operating_state_.reason && busy == operating_state_.is_busy)
+  if (has_published_ && state == published_state_ && reason == published_reason_)
     return;
-  const bool announce = state != published_state_ || reason != operating_state_.reason;
+  has_published_ = true;
   published_state_ = state;
-  operating_state_.header.stamp = ros::Time::now();
-  operating_state_.state = stateName(state);
-  operating_state_.reason = reason;
-  operating_state_.is_busy = busy;
-  state_publisher_.publish(operating_state_);
-  if (!announce)
-    return;
+  published_reason_ = reason;
+  announceState(state, reason);
+  if (state == DeviceState::kDisabled)
+    publishInvalidMeasurement(command);
+}
+
+/** Publishes and logs a state; the reason precedes it. */
+void HapticDeviceNode::announceState(DeviceState state, const std::string& reason)
+{
+  crtk_msgs::StringStamped text;
+  text.header.stamp = ros::Time::now();
+  text.string = reason;
+  reason_publisher_.publish(text);
+  crtk_msgs::OperatingState message;
+  message.header.stamp = text.header.stamp;
+  message.state = stateName(state);
+  message.is_homed = true;  // the device counts from its start; there is no other position to find
+  message.is_busy = false;  // the hand moves, not the device
+  state_publisher_.publish(message);
   if (state == DeviceState::kEnabled)
     ROS_INFO("haptic device ENABLED");
   else
-    ROS_WARN("haptic device %s: %s", operating_state_.state.c_str(), reason.c_str());
-  if (state == DeviceState::kDisabled)
-    publishInvalidMeasurement(command);
+    ROS_WARN("haptic device %s: %s", message.state.c_str(), reason.c_str());
 }
 
 /** Publishes a latched measurement with stamp 0: late subscribers learn that no measurement is valid. */

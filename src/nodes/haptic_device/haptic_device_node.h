@@ -2,19 +2,19 @@
 
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include "endovascular_sim/OperatingState.h"
 #include "haptics/host/haptic_link.h"
 #include "nodes/runtime/priority_inheritance_mutex.h"
 #include "nodes/runtime/real_time.h"
@@ -50,9 +50,10 @@ private:
   void servePort();
   void waitForPort(double until, int descriptor, bool wants_write) const;
   void receiveForce(const sensor_msgs::JointState& state);
-  void receiveSimulationState(const OperatingState& state);
+  void updateSimulationState();
   void publishMotion(const std::vector<haptics::MotionSample>& samples, const haptics::HandForce& force);
   void publishState(haptics::DeviceState state, const std::string& reason, const haptics::HandMotion& command);
+  void announceState(haptics::DeviceState state, const std::string& reason);
   void publishInvalidMeasurement(const haptics::HandMotion& command);
   void shutDownDevice();
   void wake() const;
@@ -67,15 +68,17 @@ private:
 
   // Used by the port's thread only.
   haptics::DeviceState published_state_ = haptics::DeviceState::kDisabled;
-  OperatingState operating_state_;
-  double last_motion_time_ = -std::numeric_limits<double>::infinity();  ///< [s]
-  haptics::HandMotion last_command_;
+  std::string published_reason_;
+  bool has_published_ = false;
+
+  // Used by the forces' thread only.
+  std::string simulation_state_, simulation_reason_;  ///< newest operating_state and state_reason of the instrument
 
   ros::CallbackQueue force_queue_;
-  ros::Publisher servo_publisher_, measured_publisher_, state_publisher_;
+  ros::Publisher servo_publisher_, measured_publisher_, state_publisher_, reason_publisher_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber force_subscriber_, simulation_subscriber_;
+  ros::Subscriber force_subscriber_, simulation_subscriber_, reason_subscriber_;
   ros::WallTimer diagnostics_timer_;
   ros::AsyncSpinner force_spinner_{1, &force_queue_};
   std::thread thread_;

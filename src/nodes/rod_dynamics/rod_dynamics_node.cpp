@@ -14,6 +14,8 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/rod_dynamics/instruments/command_diagnostics.h"
+#include "nodes/rod_dynamics/instruments/unread_topics.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
@@ -43,28 +45,6 @@ std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
   if (!ros::service::call(node.resolveName(names::kGetVessel), vessel))
     return mesh.version;
   return vessel.response.mesh.version + vessel.response.moved.size();
-}
-
-/** Adds the commands of the topics. A topic without a publisher, or with rejected commands, is a warning. */
-void diagnoseTopics(const std::vector<TopicReport>& reports, diagnostic_updater::DiagnosticStatusWrapper& status)
-{
-  using diagnostic_msgs::DiagnosticStatus;
-  for (const TopicReport& report : reports)
-  {
-    const std::uint64_t rejected = report.malformed + report.rejected.total();
-    if (!report.has_publisher)
-      status.mergeSummary(DiagnosticStatus::WARN, "no publisher on " + report.topic);
-    else if (report.accepted == 0)
-      status.mergeSummary(DiagnosticStatus::WARN, "no command accepted on " + report.topic);
-    if (rejected > 0)
-      status.mergeSummary(DiagnosticStatus::WARN, std::to_string(rejected) + " rejected commands on " + report.topic);
-    status.add(report.topic + ": accepted commands", report.accepted);
-    status.add(report.topic + ": rejected, malformed", report.malformed);
-    status.add(report.topic + ": rejected, not finite", report.rejected.not_finite);
-    status.add(report.topic + ": rejected, out of range", report.rejected.out_of_range);
-    status.add(report.topic + ": rejected, jumps", report.rejected.jumps);
-    status.add(report.topic + ": time since the last command [s]", report.silence);
-  }
 }
 
 /** Thread with ordinary scheduling that publishes diagnostics periodically, and a last time when it ends. */
@@ -115,6 +95,7 @@ RodDynamicsNode::RodDynamicsNode(const ros::NodeHandle& node, const ros::NodeHan
     publisher_(node_, scene_),
     throttle_guard_(requiredIdleShare(), kRest),
     drives_(node_, scene_),
+    instruments_(node_, scene_, drives_),
     renderer_(scene_.instruments.size())
 {
   if (scene_.vessel)
@@ -161,7 +142,7 @@ bool RodDynamicsNode::makeSimulation()
 
 bool RodDynamicsNode::run()
 {
-  publisher_.publishOperatingState("DISABLED", "waiting for the vessel and the contact node");
+  instruments_.setSimulationState("DISABLED", "waiting for the vessel and the contact node");
   if (!makeSimulation())
     return false;
   grant_ = request_();  // before the thread of the diagnostics, which has ordinary scheduling
@@ -172,18 +153,21 @@ bool RodDynamicsNode::run()
         [this](diagnostic_updater::DiagnosticStatusWrapper& status)
         {
           statistics_.diagnose(grant_, status);
-          diagnoseTopics(drives_.reports(), status);
+          diagnoseCommands(drives_.reports(),
+                           unreadTopics(scene_, node_.resolveName(names::kInstruments), publishedTopics(),
+                                        ros::this_node::getName()),
+                           status);
         });
     const auto last_step = seconds_ > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds_ / scene_.solver.time_step))
                                           : ~std::uint64_t{0};
-    publisher_.publishOperatingState("ENABLED", "");
+    instruments_.setSimulationState("ENABLED", "");
     waitForRecorder();
     ROS_INFO("running");
     runSteps(last_step);
     const bool is_without_vessel = server_ && server_->hasEnded();
-    publisher_.publishOperatingState("DISABLED",
-                                     is_without_vessel ? "vessel_server has ended" : "the session has ended");
-    publisher_.publishHands(renderer_.hands(), 0.0);
+    instruments_.setSimulationState("DISABLED",
+                                    is_without_vessel ? "vessel_server has ended" : "the session has ended");
+    instruments_.publishPaused(renderer_.hands(), 0.0);
     if (is_without_vessel)
       ROS_WARN("vessel_server has ended at step %lu: the simulation ends, because the deformed wall is lost",
                static_cast<unsigned long>(simulation_->steps()));
@@ -243,12 +227,14 @@ void RodDynamicsNode::runSteps(std::uint64_t last_step)
 
 void RodDynamicsNode::step()
 {
-  const double end = static_cast<double>(simulation_->steps() + 1) * scene_.solver.time_step;
   const bool counted = !procedure_ || !procedure_->isOver();  // metrics end with the procedure, as those of `simulate`
   const std::vector<simulation::HandCommand>& commands =
-      drives_.next(end, procedure_ ? &procedure_->next(*simulation_) : nullptr);
+      drives_.next(*simulation_, procedure_ ? &procedure_->next(*simulation_) : nullptr);
   simulation_->stepAll(commands);
-  publisher_.publishStep(*simulation_, renderer_.render(*simulation_, commands, scene_.solver.time_step));
+  const std::vector<RenderedHand>& hands = renderer_.render(*simulation_, commands, scene_.solver.time_step);
+  const ros::Time now = ros::Time::now();
+  instruments_.publishStep(*simulation_, hands, now);
+  publisher_.publishStep(*simulation_, hands, now);
   if (forces_)
     forces_->publishStep(*simulation_, counted);
 }
@@ -268,7 +254,7 @@ void RodDynamicsNode::pause()
 {
   statistics_.addPause();
   statistics_.setPaused(true);
-  publisher_.publishOperatingState("PAUSED", "no response of the contact node or of the vessel server behind it");
+  instruments_.setSimulationState("PAUSED", "no response of the contact node or of the vessel server behind it");
   ROS_WARN("paused at step %lu: no response of the contact node; continues with its next response",
            static_cast<unsigned long>(simulation_->steps()));
   contacts_->startListening();
@@ -276,7 +262,7 @@ void RodDynamicsNode::pause()
   while (!isOver() && !contacts_->probe())
   {
     const double share = std::max(0.0, 1.0 - seconds(Clock::now() - begin) / HandForceRenderer::kRampTime);
-    publisher_.publishHands(renderer_.hands(), share);
+    instruments_.publishPaused(renderer_.hands(), share);
     countProgress();
     sleepUntil(Clock::now() + StepScheduler::period(share > 0.0 ? scene_.solver.time_step : kIdlePeriod));
   }
@@ -284,7 +270,7 @@ void RodDynamicsNode::pause()
   renderer_.reset();
   if (isOver())
     return;
-  publisher_.publishOperatingState("ENABLED", "");
+  instruments_.setSimulationState("ENABLED", "");
   ROS_WARN("the contact node responds; continuing after %.3f s", seconds(Clock::now() - begin));
 }
 

@@ -7,8 +7,9 @@
 #include <ros/ros.h>
 
 #include "nodes/rod_dynamics/contact_force_publisher.h"
-#include "nodes/rod_dynamics/drive_commands.h"
-#include "nodes/rod_dynamics/hand_force_renderer.h"
+#include "nodes/rod_dynamics/instruments/drive_commands.h"
+#include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
+#include "nodes/rod_dynamics/instruments/instrument_publisher.h"
 #include "nodes/rod_dynamics/procedure_driver.h"
 #include "nodes/rod_dynamics/remote_contact_source.h"
 #include "nodes/rod_dynamics/remote_deformable_wall.h"
@@ -70,6 +71,7 @@ private:
   RtThrottleGuard throttle_guard_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DriveCommands drives_;
+  InstrumentPublisher instruments_;
   HandForceRenderer renderer_;
   StepStatistics statistics_;
 };

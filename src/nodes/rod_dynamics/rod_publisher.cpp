@@ -5,9 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "endovascular_sim/OperatingState.h"
 #include "nodes/conversions/contact_conversions.h"
-#include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "results/run_result.h"
@@ -21,7 +19,6 @@ namespace
 constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
 constexpr int kStepQueue = 10000;     ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
 constexpr int kTreatmentQueue = 100;  ///< the recorder must not lose an event
-constexpr int kHandQueue = 1;         ///< the device uses the newest force only
 
 }  // namespace
 
@@ -29,43 +26,23 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
   : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step))))),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step)))
 {
-  for (const scene::DrivenInstrument& driven : scene.instruments)
-  {
-    const std::string instrument = names::kInstruments + driven.instrument.name;
-    hand_.push_back(node.advertise<sensor_msgs::JointState>(instrument + names::kMeasuredJs, kHandQueue));
-    has_balloon_.push_back(driven.instrument.balloon.has_value());
-    operating_.push_back(node.advertise<OperatingState>(instrument + names::kOperatingState, 1, true));
-  }
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
   if (simulation::hasBalloon(scene))
     treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
-  applied_message_.insertion.resize(hand_.size());
-  applied_message_.rotation.resize(hand_.size());
-  applied_message_.pressure.resize(hand_.size());
-  applied_message_.hand_force.resize(hand_.size());
-  applied_message_.hand_torque.resize(hand_.size());
+  applied_message_.insertion.resize(scene.instruments.size());
+  applied_message_.rotation.resize(scene.instruments.size());
+  applied_message_.pressure.resize(scene.instruments.size());
+  applied_message_.hand_force.resize(scene.instruments.size());
+  applied_message_.hand_torque.resize(scene.instruments.size());
   visual_message_.header.frame_id = names::kPatientFrame;
 }
 
-void RodPublisher::publishHands(const std::vector<RenderedHand>& hands, double share)
+void RodPublisher::publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands,
+                               ros::Time now)
 {
-  hand_message_.header.stamp = ros::Time::now();
-  for (std::size_t k = 0; k < hand_.size(); ++k)
-  {
-    if (hand_[k].getNumSubscribers() == 0)
-      continue;
-    const simulation::HandCommand& command = hands[k].command;
-    toMessage(has_balloon_[k], command.insertion, command.rotation, command.pressure, share * hands[k].force,
-              share * hands[k].torque, hand_message_);
-    hand_[k].publish(hand_message_);
-  }
-}
-
-void RodPublisher::publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands)
-{
-  publishHands(hands, 1.0);
-  applied_message_.header.stamp = hand_message_.header.stamp;
+  now_ = now;
+  applied_message_.header.stamp = now;
   applied_message_.step = simulation.steps() - 1;
   for (std::size_t k = 0; k < hands.size(); ++k)
   {
@@ -95,7 +72,7 @@ void RodPublisher::publishVisual(const simulation::Simulation& simulation)
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
   RodStateVisual& message = visual_message_;
-  message.header.stamp = hand_message_.header.stamp;
+  message.header.stamp = now_;
   message.step = simulation.steps() - 1;
   message.time = simulation.time();
   message.insertion.clear();
@@ -129,7 +106,7 @@ void RodPublisher::publishVisual(const simulation::Simulation& simulation)
 void RodPublisher::publishTreatment(const simulation::Simulation& simulation)
 {
   treatment_message_.header.frame_id = names::kPatientFrame;
-  treatment_message_.header.stamp = hand_message_.header.stamp;
+  treatment_message_.header.stamp = now_;
   treatment_message_.step = simulation.steps() - 1;
   treatment_message_.time = simulation.time();
   toMessage(simulation, treatment_message_);
@@ -143,7 +120,7 @@ void RodPublisher::publishTip(const simulation::Simulation& simulation)
   const Eigen::Quaterniond rotation =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (x[n - 1] - x[n - 2]).normalized());
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp = hand_message_.header.stamp;
+  transform.header.stamp = now_;
   transform.header.frame_id = names::kPatientFrame;
   transform.child_frame_id = names::kTipFrame;
   transform.transform.translation = toVector(x[n - 1]);
@@ -152,20 +129,6 @@ void RodPublisher::publishTip(const simulation::Simulation& simulation)
   transform.transform.rotation.z = rotation.z();
   transform.transform.rotation.w = rotation.w();
   transforms_.sendTransform(transform);
-}
-
-void RodPublisher::publishOperatingState(const std::string& state, const std::string& reason)
-{
-  if (state == operating_state_)
-    return;
-  operating_state_ = state;
-  OperatingState message;
-  message.header.stamp = ros::Time::now();
-  message.state = state;
-  message.reason = reason;
-  message.is_busy = state == "ENABLED";
-  for (ros::Publisher& instrument : operating_)
-    instrument.publish(message);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "drive/joint_command.h"
+
 /** Names of all topics, services, frames and shared parameters (docs/ROS_INTERFACE.md). */
 namespace endovascular_sim::nodes::names
 {
@@ -51,11 +53,22 @@ constexpr auto kDiagnostics = "/diagnostics";
 // CRTK names below "instruments/<name>/" and "haptic/<channel>/".
 constexpr auto kInstruments = "instruments/";
 constexpr auto kHaptic = "haptic/";
-constexpr auto kMeasuredJs = "/measured_js";
 constexpr auto kServoJp = "/servo_jp";
+constexpr auto kServoJr = "/servo_jr";
+constexpr auto kServoJv = "/servo_jv";
+constexpr auto kServoJf = "/servo_jf";
+constexpr auto kMoveJp = "/move_jp";
+constexpr auto kMoveJr = "/move_jr";
+constexpr auto kStateCommand = "/state_command";
+constexpr auto kMeasuredJs = "/measured_js";
+constexpr auto kSetpointJs = "/setpoint_js";
+constexpr auto kGoalJs = "/goal_js";
+constexpr auto kMeasuredCp = "/measured_cp";
+constexpr auto kMeasuredCf = "/measured_cf";
 constexpr auto kOperatingState = "/operating_state";
-constexpr auto kInsertionJoint = "insertion";
-constexpr auto kRotationJoint = "rotation";
-constexpr auto kPressureJoint = "pressure";  ///< only instruments with a balloon have it
+constexpr auto kStateReason = "/state_reason";
+using drive::kInsertionJoint;
+using drive::kPressureJoint;
+using drive::kRotationJoint;
 
 }  // namespace endovascular_sim::nodes::names

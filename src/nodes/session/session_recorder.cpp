@@ -8,13 +8,14 @@
 #include <limits>
 #include <utility>
 
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "common/error.h"
 #include "common/version.h"
-#include "endovascular_sim/OperatingState.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -29,7 +30,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kJointRate = 100.0;   ///< rate of measured_js in the bag [Hz]
+constexpr double kJointRate = 100.0;   ///< rate of setpoint_js in the bag [Hz]
 constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [Hz]
 /** Queue length of topics at the step rate: 10 s of messages. */
 constexpr std::uint32_t kStepQueue = 10000;
@@ -153,7 +154,11 @@ void SessionRecorder::subscribeToWire()
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
   measure<TreatmentVisual>(names::kTreatmentVisual, kQueue);
   for (const scene::DrivenInstrument& driven : scene_.instruments)
-    record<OperatingState>(names::kInstruments + driven.instrument.name + names::kOperatingState, kQueue);
+  {
+    const std::string instrument = names::kInstruments + driven.instrument.name;
+    record<crtk_msgs::OperatingState>(instrument + names::kOperatingState, kQueue);
+    record<crtk_msgs::StringStamped>(instrument + names::kStateReason, kQueue);
+  }
 }
 
 void SessionRecorder::subscribeToVessel()
@@ -200,26 +205,41 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
   results_.add(drive);
   last_step_ = ros::SteadyTime::now();
   bag_.write(node_.resolveName(names::kDriveApplied), event);
-  recordJointStates(drive, event.getReceiptTime());
+  recordSetpoints(drive, event.getReceiptTime());
 }
 
-/** Records measured_js of all instruments, derived from drive/applied: rod_dynamics then need not publish it at the
+/** Records setpoint_js of all instruments, derived from drive/applied: rod_dynamics then need not publish it at the
  * step rate. */
-void SessionRecorder::recordJointStates(const DriveApplied& drive, ros::Time time)
+void SessionRecorder::recordSetpoints(const DriveApplied& drive, ros::Time time)
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
                                       drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
   if (!joints_.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
     return;
   for (std::size_t k = 0; k < hands; ++k)
-  {
-    const auto joints = boost::make_shared<sensor_msgs::JointState>();
-    joints->header.stamp = drive.header.stamp;
-    const instrument::Instrument& instrument = scene_.instruments[k].instrument;
-    toMessage(instrument.balloon.has_value(), drive.insertion[k], drive.rotation[k], drive.pressure[k],
-              drive.hand_force[k], drive.hand_torque[k], *joints);
-    bag_.write(node_.resolveName(names::kInstruments + instrument.name + names::kMeasuredJs), time, joints);
-  }
+    recordJoints(k, names::kSetpointJs, {drive.insertion[k], drive.rotation[k], drive.pressure[k]}, drive.hand_force[k],
+                 drive.hand_torque[k], drive.header.stamp, time);
+}
+
+/** Records measured_js of all instruments, derived from rod/state_visual. */
+void SessionRecorder::recordMeasurements(const RodStateVisual& rod, ros::Time time)
+{
+  const std::size_t hands = std::min({scene_.instruments.size(), rod.insertion.size(), rod.rotation.size(),
+                                      rod.pressure.size(), rod.hand_force.size(), rod.hand_torque.size()});
+  for (std::size_t k = 0; k < hands; ++k)
+    recordJoints(k, names::kMeasuredJs, {rod.insertion[k], rod.rotation[k], rod.pressure[k]}, rod.hand_force[k],
+                 rod.hand_torque[k], rod.header.stamp, time);
+}
+
+void SessionRecorder::recordJoints(std::size_t k, const char* topic, const JointValues& values, double force,
+                                   double torque, ros::Time stamp, ros::Time time)
+{
+  const instrument::Instrument& instrument = scene_.instruments[k].instrument;
+  const auto joints = boost::make_shared<sensor_msgs::JointState>();
+  joints->header.stamp = stamp;
+  joints->header.frame_id = names::kIntroducerFrame;
+  toMessage(instrument.balloon.has_value(), values, force, torque, *joints);
+  bag_.write(node_.resolveName(names::kInstruments + instrument.name + topic), time, joints);
 }
 
 void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event)
@@ -230,6 +250,7 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   results_.add(rod);
   if (error_.empty())
     error_ = results_.trajectoryError();
+  recordMeasurements(rod, event.getReceiptTime());
   if (pose_.passes(rod.time))
     bag_.write(node_.resolveName(names::kRodStateVisual), event);
 }

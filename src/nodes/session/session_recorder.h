@@ -18,6 +18,7 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/session/bag_writer.h"
 #include "nodes/session/session_results.h"
 #include "nodes/session/throttle.h"
@@ -66,7 +67,10 @@ private:
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
-  void recordJointStates(const DriveApplied& drive, ros::Time time);
+  void recordSetpoints(const DriveApplied& drive, ros::Time time);
+  void recordMeasurements(const RodStateVisual& rod, ros::Time time);
+  void recordJoints(std::size_t k, const char* topic, const JointValues& values, double force, double torque,
+                    ros::Time stamp, ros::Time time);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "drive/drive_limits.h"
 #include "instrument/instrument.h"
 #include "rod/stepping/scheme_traits.h"
 #include "rod/stepping/stepper.h"
@@ -118,8 +119,10 @@ struct DriveScene
   DriveProfile insertion;          ///< insertion relative to initial_insertion [m]
   DriveProfile rotation;           ///< rotation relative to initial_rotation [rad]
   DriveProfile pressure;           ///< pressure at the inflator of the instrument's balloon [Pa]
-  double force_limit = 5.0;        ///< axial force at which the grip slips [N]
-  double torque_limit = 0.05;      ///< torque at which the grip slips [N·m]
+  drive::Grip grip = drive::Grip::kFingers;
+  double force_limit = 5.0;    ///< axial force at which the grip slips or stops [N]
+  double torque_limit = 0.05;  ///< torque at which the grip slips or stops [N·m]
+  drive::DriveLimits limits;   ///< of the speed, and of the commands of a topic or device
 
   /** Commanded insertion at time t [s]: initial_insertion + min(speed·t, travel), or + insertion.at(t) without a speed;
    *  initial_insertion if the source is kNone [m]. */
@@ -139,6 +142,12 @@ struct DrivenInstrument
   DriveScene drive;
   double friction = 0.05;  ///< Coulomb coefficient with the next outer instrument [1]
   double fit_load = 0.0;   ///< normal load per length between the two when both are straight [N/m]
+
+  /** Limits of the drive without empty values. */
+  drive::DriveLimits limits() const
+  {
+    return drive.limits.completed(instrument.wire.length(), drive.force_limit, drive.torque_limit);
+  }
 };
 
 /** Prescribed motion of a held distal end. */

@@ -12,6 +12,7 @@ namespace
 
 // Words of DriveSource and SamplingKind, in the order of the enumerators.
 const std::vector<std::string> kDriveSources = {"none", "script", "device", "topic", "procedure"};
+const std::vector<std::string> kGrips = {"fingers", "chuck"};  // order of drive::Grip
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // order of rod::LinearSolver
 
@@ -241,6 +242,14 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
     fields.reject("pressure", "requires a balloon; use a balloon_catheter, or remove it");
   fields.number("force_limit", drive.force_limit, quantities::kForceLimit, Range::positive());
   fields.number("torque_limit", drive.torque_limit, quantities::kTorqueLimit, Range::positive());
+  // Defaults are not written: the texts and hashes of scenes without these keys stay as they are.
+  if (fields.reading() || drive.grip != drive::Grip::kFingers)
+    fields.option("grip", drive.grip, kGrips);
+  if (fields.reading() ? fields.has("limits") : drive.limits != drive::DriveLimits())
+    fields.map("limits", [&drive, balloon](SceneFields& limits) { visitLimits(limits, drive.limits, balloon); });
+  if (fields.reading() && drive.limits.insertion && !drive.limits.insertion->contains(drive.insertionAt(0.0)))
+    fields.reject("limits.insertion",
+                  "does not contain the insertion at the start, " + std::to_string(drive.insertionAt(0.0)) + " m");
   const bool moves =
       by_speed || !drive.insertion.isTrivial() || !drive.rotation.isTrivial() || !drive.pressure.isTrivial();
   if (fields.reading() && drive.source == DriveSource::kNone && moves)

@@ -37,6 +37,8 @@ void checkStack(const SceneFields& fields, const Scene& scene);
  *  @param initial_insertion valid range of the initial insertion [m]
  *  @param balloon true if the instrument has a balloon that the drive can inflate */
 void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
+/** Schema of the limits of a drive, keys `drive.limits`. */
+void visitLimits(SceneFields& fields, drive::DriveLimits& limits, bool balloon);
 void visitProfile(SceneFields& fields, DriveProfile& profile, const Quantity& quantity);
 void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);

@@ -1,16 +1,18 @@
-#include "haptics/force/command_gate.h"
+#include "drive/command_gate.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-namespace endovascular_sim::haptics
+namespace endovascular_sim::drive
 {
 namespace
 {
 
 constexpr double kStep = 1e-3;  // s
+
+const DriveLimits kLimits = DriveLimits().completed(1.0, 5.0, 0.05);  ///< of an instrument of 1 m
 
 /** Runs a gate for some steps without commands. */
 void runSilently(CommandGate& gate, double seconds)
@@ -21,7 +23,7 @@ void runSilently(CommandGate& gate, double seconds)
 
 TEST(CommandGate, FollowsAStreamExactly)
 {
-  CommandGate gate({0.04, 0.0}, 1.0);
+  CommandGate gate({0.04, 0.0}, kLimits);
   for (int k = 0; k < 1000; ++k)
   {
     const HandMotion command{0.04 + 3e-5 * k, 2e-3 * k};
@@ -34,7 +36,7 @@ TEST(CommandGate, FollowsAStreamExactly)
 
 TEST(CommandGate, RejectsAWrongUnitInAStreamWithoutALastingOffset)
 {
-  CommandGate gate({0.04, 0.0}, 1.0);
+  CommandGate gate({0.04, 0.0}, kLimits);
   gate.offer({0.04, 0.0});
   gate.next(kStep);
   EXPECT_EQ(gate.offer({40.0, 0.0}), CommandVerdict::kOutOfRange);
@@ -49,7 +51,7 @@ TEST(CommandGate, RejectsAWrongUnitInAStreamWithoutALastingOffset)
 
 TEST(CommandGate, RejectsValuesThatAreNotFiniteOrAbsurd)
 {
-  CommandGate gate({0.04, 0.0}, 1.0);
+  CommandGate gate({0.04, 0.0}, kLimits);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(gate.offer({nan, 0.0}), CommandVerdict::kNotFinite);
   EXPECT_EQ(gate.offer({0.04, std::numeric_limits<double>::infinity()}), CommandVerdict::kNotFinite);
@@ -63,14 +65,14 @@ TEST(CommandGate, RejectsValuesThatAreNotFiniteOrAbsurd)
 
 TEST(CommandGate, ApproachesTheFirstCommandAtLimitedSpeed)
 {
-  CommandGate gate({0.0, 0.0}, 1.0);
+  CommandGate gate({0.0, 0.0}, kLimits);
   EXPECT_EQ(gate.offer({0.3, -5.0}), CommandVerdict::kAccepted);
   HandMotion last{0.0, 0.0};
   for (int k = 0; k < 3100; ++k)
   {
     const HandMotion& now = gate.next(kStep);
-    EXPECT_LE(std::abs(now.insertion - last.insertion), CommandGate::kApproachSpeed * kStep * (1.0 + 1e-9));
-    EXPECT_LE(std::abs(now.rotation - last.rotation), CommandGate::kApproachTurn * kStep * (1.0 + 1e-9));
+    EXPECT_LE(std::abs(now.insertion - last.insertion), kLimits.approach_speed * kStep * (1.0 + 1e-9));
+    EXPECT_LE(std::abs(now.rotation - last.rotation), kLimits.approach_turning_speed * kStep * (1.0 + 1e-9));
     last = now;
   }
   EXPECT_EQ(last.insertion, 0.3);
@@ -79,16 +81,16 @@ TEST(CommandGate, ApproachesTheFirstCommandAtLimitedSpeed)
 
 TEST(CommandGate, ApproachesTheFirstCommandAfterSilence)
 {
-  CommandGate gate({0.0, 0.0}, 1.0);
+  CommandGate gate({0.0, 0.0}, kLimits);
   gate.offer({0.01, 0.0});
   runSilently(gate, 0.5);
   EXPECT_EQ(gate.offer({0.2, 0.0}), CommandVerdict::kAccepted);
-  EXPECT_NEAR(gate.next(kStep).insertion, 0.01 + CommandGate::kApproachSpeed * kStep, 1e-12);
+  EXPECT_NEAR(gate.next(kStep).insertion, 0.01 + kLimits.approach_speed * kStep, 1e-12);
 }
 
 TEST(CommandGate, CorrectsAWrongFirstCommandByTheNextOne)
 {
-  CommandGate gate({0.04, 0.0}, 1.0);
+  CommandGate gate({0.04, 0.0}, kLimits);
   EXPECT_EQ(gate.offer({0.9, 0.0}), CommandVerdict::kAccepted);
   gate.next(kStep);
   EXPECT_EQ(gate.offer({0.04, 0.0}), CommandVerdict::kAccepted);
@@ -98,12 +100,40 @@ TEST(CommandGate, CorrectsAWrongFirstCommandByTheNextOne)
 
 TEST(CommandGate, NeverMovesFasterThanAJumpPerStepAllows)
 {
-  CommandGate gate({0.0, 0.0}, 1.0);
+  CommandGate gate({0.0, 0.0}, kLimits);
   gate.offer({0.0, 0.0});
   for (int k = 1; k <= 20; ++k)  // commands that arrive while no step is computed
     gate.offer({0.015 * k, 0.0});
-  EXPECT_LE(gate.next(kStep).insertion, CommandGate::kApproachSpeed * kStep);
+  EXPECT_LE(gate.next(kStep).insertion, kLimits.approach_speed * kStep);
+}
+
+TEST(CommandGate, ApproachesAJumpWhereTheLimitsClamp)
+{
+  DriveLimits limits = kLimits;
+  limits.beyond = BeyondLimit::kClamp;
+  CommandGate gate({0.04, 0.0}, limits);
+  gate.offer({0.04, 0.0});
+  gate.next(kStep);
+  EXPECT_EQ(gate.offer({0.4, 0.0}), CommandVerdict::kAccepted);
+  EXPECT_NEAR(gate.next(kStep).insertion, 0.04 + limits.approach_speed * kStep, 1e-12);
+  EXPECT_EQ(gate.offer({7.0, 0.0}), CommandVerdict::kAccepted);
+  EXPECT_EQ(gate.target().insertion, 1.0);
+  EXPECT_EQ(gate.rejected().clamped, 2U);
+  EXPECT_EQ(gate.rejected().total(), 0U);
+}
+
+TEST(CommandGate, MeasuresJumpsFromThePositionOfAnotherModeUntilTheStreamIsOld)
+{
+  CommandGate gate({0.04, 0.0}, kLimits);
+  gate.offer({0.04, 0.0});
+  gate.follow({0.3, 0.0}, kStep);
+  EXPECT_EQ(gate.offer({0.04, 0.0}), CommandVerdict::kJump);
+  EXPECT_EQ(gate.offer({0.301, 0.0}), CommandVerdict::kAccepted);
+  EXPECT_EQ(gate.next(kStep).insertion, 0.301);
+  gate.follow({0.3, 0.0}, 1.0);
+  EXPECT_EQ(gate.offer({0.04, 0.0}), CommandVerdict::kAccepted) << "the first of a new stream";
+  EXPECT_NEAR(gate.next(kStep).insertion, 0.3 - kLimits.approach_speed * kStep, 1e-12);
 }
 
 }  // namespace
-}  // namespace endovascular_sim::haptics
+}  // namespace endovascular_sim::drive

@@ -1,4 +1,4 @@
-#include "nodes/rod_dynamics/hand_force_renderer.h"
+#include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 
 #include <algorithm>
 

@@ -1,0 +1,94 @@
+#include "drive/command_gate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace endovascular_sim::drive
+{
+namespace
+{
+
+/** Value moved towards a target by at most a step. */
+double approach(double value, double target, double step)
+{
+  return value + std::clamp(target - value, -step, step);
+}
+
+}  // namespace
+
+void RejectedCommands::add(CommandVerdict verdict)
+{
+  malformed += verdict == CommandVerdict::kMalformed;
+  not_finite += verdict == CommandVerdict::kNotFinite;
+  out_of_range += verdict == CommandVerdict::kOutOfRange;
+  jumps += verdict == CommandVerdict::kJump;
+  foreign += verdict == CommandVerdict::kForeign;
+  not_enabled += verdict == CommandVerdict::kNotEnabled;
+}
+
+bool CommandGate::isNear(const HandMotion& command) const
+{
+  return !isJump(target_, command, limits_.step, limits_.turn) ||
+         (approaching_ && !isJump(position_, command, limits_.step, limits_.turn));
+}
+
+/** Judges a command; where the limits clamp, it is changed. */
+CommandVerdict CommandGate::examine(HandMotion& command)
+{
+  if (!isFinite(command))
+    return CommandVerdict::kNotFinite;
+  const HandMotion within{limits_.insertion->nearest(command.insertion), limits_.rotation.nearest(command.rotation)};
+  const bool in_range = within.insertion == command.insertion && within.rotation == command.rotation;
+  if (!in_range && limits_.beyond == BeyondLimit::kRefuse)
+    return CommandVerdict::kOutOfRange;
+  command = within;
+  const bool is_jump = !isFirst() && !isNear(command);
+  if (is_jump && limits_.beyond == BeyondLimit::kRefuse)
+    return CommandVerdict::kJump;
+  approaching_ = approaching_ || is_jump;
+  rejected_.clamped += !in_range || is_jump;
+  return CommandVerdict::kAccepted;
+}
+
+CommandVerdict CommandGate::offer(HandMotion command)
+{
+  const CommandVerdict verdict = examine(command);
+  rejected_.add(verdict);
+  if (verdict != CommandVerdict::kAccepted)
+    return verdict;
+  approaching_ = approaching_ || isFirst();
+  ++accepted_;
+  silence_ = 0.0;
+  target_ = command;
+  return verdict;
+}
+
+void CommandGate::follow(const HandMotion& position, double dt)
+{
+  silence_ += dt;
+  target_ = position_ = position;
+  approaching_ = false;
+}
+
+const HandMotion& CommandGate::next(double dt)
+{
+  silence_ += dt;
+  approaching_ = approaching_ || isJump(position_, target_, limits_.step, limits_.turn);
+  if (approaching_)
+  {
+    position_.insertion = approach(position_.insertion, target_.insertion, limits_.approach_speed * dt);
+    position_.rotation = approach(position_.rotation, target_.rotation, limits_.approach_turning_speed * dt);
+    approaching_ = position_.insertion != target_.insertion || position_.rotation != target_.rotation;
+  }
+  else
+    position_ = target_;
+  return position_;
+}
+
+double CommandGate::silence() const
+{
+  return accepted_ > 0 ? silence_ : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace endovascular_sim::drive

@@ -1,0 +1,347 @@
+#include "drive/hand_control.h"
+
+#include <cmath>
+#include <limits>
+
+namespace endovascular_sim::drive
+{
+namespace
+{
+
+constexpr auto kEnabled = "ENABLED";
+constexpr auto kDisabled = "DISABLED";
+constexpr auto kPaused = "PAUSED";
+
+AxisLimits insertionLimits(const DriveLimits& limits)
+{
+  return {*limits.insertion, limits.speed, limits.acceleration, limits.approach_speed, limits.force_gain};
+}
+
+AxisLimits rotationLimits(const DriveLimits& limits)
+{
+  return {limits.rotation, limits.turning_speed, limits.turning_acceleration, limits.approach_turning_speed,
+          limits.torque_gain};
+}
+
+bool isFinite(const JointCommand& command)
+{
+  return std::isfinite(command.insertion) && std::isfinite(command.rotation.value_or(0.0));
+}
+
+}  // namespace
+
+HandControl::HandControl(const HandMotion& start, const DriveLimits& limits)
+  : start_(start),
+    limits_(limits),
+    gate_(start, limits),
+    insertion_(insertionLimits(limits), start.insertion),
+    rotation_(rotationLimits(limits), start.rotation),
+    setpoint_{start, std::nullopt}
+{
+  state_.state = kEnabled;
+}
+
+bool HandControl::isDrivenByAnother(const std::string& client) const
+{
+  return !driver_.empty() && driver_ != client && driver_silence_ < limits_.time_out;
+}
+
+CommandVerdict HandControl::command(const std::string& client, const std::optional<JointCommand>& command)
+{
+  CommandVerdict verdict = examine(client, command);
+  if (verdict == CommandVerdict::kAccepted)
+    verdict = execute(*command);
+  if (verdict == CommandVerdict::kAccepted)
+  {
+    ++accepted_;
+    driver_ = client;
+    driver_silence_ = silence_ = 0.0;
+    return verdict;
+  }
+  rejected_.add(verdict);
+  if (verdict != CommandVerdict::kForeign && client == driver_)
+    driver_silence_ = 0.0;
+  last_refusal_ = std::string(command ? nameOf(command->kind) : "command") + " of " + client + ": " + reasonOf(verdict);
+  const bool was_move =
+      command && (command->kind == CommandKind::kMovePosition || command->kind == CommandKind::kMoveRelative);
+  state_.revision += was_move;  // a client that waits for the end of its move learns that there is none
+  return verdict;
+}
+
+CommandVerdict HandControl::examine(const std::string& client, const std::optional<JointCommand>& command)
+{
+  if (!command)
+    return CommandVerdict::kMalformed;
+  if (isDrivenByAnother(client))
+    return CommandVerdict::kForeign;
+  const bool is_absolute = command->kind == CommandKind::kServoPosition || command->kind == CommandKind::kMovePosition;
+  if (state_.state != kEnabled || is_homing_ || (is_absolute && !state_.is_homed))
+    return CommandVerdict::kNotEnabled;
+  return isFinite(*command) ? CommandVerdict::kAccepted : CommandVerdict::kNotFinite;
+}
+
+std::string HandControl::reasonOf(CommandVerdict verdict) const
+{
+  switch (verdict)
+  {
+    case CommandVerdict::kMalformed:
+      return "joints missing or repeated, or a pressure out of range";
+    case CommandVerdict::kNotFinite:
+      return "not finite";
+    case CommandVerdict::kOutOfRange:
+      return "beyond drive.limits (range, speed, force or torque)";
+    case CommandVerdict::kJump:
+      return "a jump of more than drive.limits.step or turn from the last accepted position";
+    case CommandVerdict::kForeign:
+      return driver_ + " drives the instrument";
+    case CommandVerdict::kNotEnabled:
+      return is_homing_        ? "the instrument is homing"
+             : state_.is_homed ? "the instrument is " + state_.state
+                               : "not homed";
+    case CommandVerdict::kAccepted:
+      break;
+  }
+  return "";
+}
+
+/** Replaces a value beyond an interval where the limits clamp. @return false where they refuse */
+bool HandControl::isPermitted(double& value, const Interval& interval, bool& clamped) const
+{
+  if (interval.contains(value))
+    return true;
+  clamped = true;
+  value = interval.nearest(value);
+  return limits_.beyond == BeyondLimit::kClamp;
+}
+
+/** Pressure after a command; empty if the command does not change it. */
+std::optional<double> HandControl::wantedPressure(const JointCommand& command) const
+{
+  const bool is_relative = command.kind == CommandKind::kServoRelative || command.kind == CommandKind::kMoveRelative;
+  if (!command.pressure || !is_relative)
+    return command.pressure;
+  return setpoint_.pressure.value_or(0.0) + *command.pressure;
+}
+
+CommandVerdict HandControl::execute(JointCommand command)
+{
+  const std::optional<double> pressure = wantedPressure(command);
+  if (pressure && !limits_.pressure.contains(*pressure))
+    return CommandVerdict::kMalformed;
+  CommandVerdict verdict = CommandVerdict::kAccepted;
+  switch (command.kind)
+  {
+    case CommandKind::kServoPosition:
+    case CommandKind::kServoRelative:
+      verdict = stream(command);
+      break;
+    case CommandKind::kServoVelocity:
+    case CommandKind::kServoForce:
+      verdict = rate(command);
+      break;
+    case CommandKind::kMovePosition:
+    case CommandKind::kMoveRelative:
+      verdict = move(command);
+      break;
+  }
+  if (verdict == CommandVerdict::kAccepted && pressure)
+    setpoint_.pressure = pressure;
+  return verdict;
+}
+
+CommandVerdict HandControl::stream(const JointCommand& command)
+{
+  HandMotion target = mode_ == Mode::kStream ? gate_.target() : setpoint_.motion;
+  if (command.kind == CommandKind::kServoPosition)
+  {
+    target.insertion = command.insertion;
+    target.rotation = command.rotation.value_or(target.rotation);
+  }
+  else
+  {
+    target.insertion += command.insertion;
+    target.rotation += command.rotation.value_or(0.0);
+  }
+  const CommandVerdict verdict = gate_.offer(target);
+  if (verdict != CommandVerdict::kAccepted)
+    return verdict;
+  endMove();
+  mode_ = Mode::kStream;
+  return verdict;
+}
+
+CommandVerdict HandControl::rate(JointCommand command)
+{
+  const bool by_force = command.kind == CommandKind::kServoForce;
+  const double most = by_force ? *limits_.force : limits_.speed;
+  const double most_turning = by_force ? *limits_.torque : limits_.turning_speed;
+  bool clamped = false;
+  double turning = command.rotation.value_or(0.0);
+  if (!isPermitted(command.insertion, {-most, most}, clamped) ||
+      !isPermitted(turning, {-most_turning, most_turning}, clamped))
+    return CommandVerdict::kOutOfRange;
+  rejected_.clamped += clamped;
+  enterRate();
+  by_force ? insertion_.setEffort(command.insertion) : insertion_.setVelocity(command.insertion);
+  if (!command.rotation)
+    rotation_.hold();
+  else
+    by_force ? rotation_.setEffort(turning) : rotation_.setVelocity(turning);
+  return CommandVerdict::kAccepted;
+}
+
+CommandVerdict HandControl::move(const JointCommand& command)
+{
+  HandMotion goal = setpoint_.motion;
+  const bool is_relative = command.kind == CommandKind::kMoveRelative;
+  goal.insertion = is_relative ? goal.insertion + command.insertion : command.insertion;
+  goal.rotation =
+      is_relative ? goal.rotation + command.rotation.value_or(0.0) : command.rotation.value_or(goal.rotation);
+  bool clamped = false;
+  if (!isPermitted(goal.insertion, *limits_.insertion, clamped) ||
+      !isPermitted(goal.rotation, limits_.rotation, clamped))
+    return CommandVerdict::kOutOfRange;
+  rejected_.clamped += clamped;
+  enterRate();
+  insertion_.moveTo(goal.insertion);
+  rotation_.moveTo(goal.rotation);
+  mode_ = Mode::kMove;
+  state_.is_busy = true;
+  ++state_.revision;
+  return CommandVerdict::kAccepted;
+}
+
+/** Hands the setpoint over from a stream to the axes. */
+void HandControl::enterRate()
+{
+  endMove();
+  if (mode_ == Mode::kStream)
+  {
+    insertion_.follow(setpoint_.motion.insertion);
+    rotation_.follow(setpoint_.motion.rotation);
+  }
+  mode_ = Mode::kRate;
+}
+
+void HandControl::endMove()
+{
+  if (!state_.is_busy)
+    return;
+  state_.is_busy = is_homing_ = false;
+  ++state_.revision;
+}
+
+void HandControl::stop()
+{
+  enterRate();
+  insertion_.hold();
+  rotation_.hold();
+}
+
+void HandControl::setState(const std::string& state, const std::string& reason)
+{
+  state_.state = state;
+  state_.reason = reason;
+}
+
+bool HandControl::stateCommand(const std::string& client, const std::string& word)
+{
+  ++state_.revision;  // every command is answered by a state
+  const bool is_free = word == "enable" || word == "disable" || word == "pause";
+  if (!is_free && isDrivenByAnother(client))
+  {
+    rejected_.add(CommandVerdict::kForeign);
+    last_refusal_ = word + " of " + client + ": " + driver_ + " drives the instrument";
+    return false;
+  }
+  if (word == "enable" && state_.state == kDisabled)
+    setState(kEnabled, "");
+  else if (word == "disable")
+  {
+    stop();
+    driver_.clear();
+    setState(kDisabled, "disabled by " + client);
+  }
+  else if (word == "pause" && state_.state == kEnabled)
+  {
+    stop();
+    setState(kPaused, "paused by " + client + "; continues with resume");
+  }
+  else if (word == "resume" && state_.state == kPaused)
+    setState(kEnabled, "");
+  else if (word == "unhome")
+  {
+    stop();
+    state_.is_homed = false;
+  }
+  else if (word == "home")
+    home(client);
+  else if (word != "enable" && word != "pause" && word != "resume")
+  {
+    rejected_.add(CommandVerdict::kMalformed);
+    last_refusal_ =
+        "state_command of " + client + ": unknown word; known are enable, disable, pause, resume, home, unhome";
+    return false;
+  }
+  return true;
+}
+
+/** Moves to the position at the start of the scene, where the instrument is homed. */
+void HandControl::home(const std::string& client)
+{
+  if (state_.is_homed || is_homing_)
+    return;
+  if (state_.state != kEnabled)
+  {
+    rejected_.add(CommandVerdict::kNotEnabled);
+    last_refusal_ = "home of " + client + ": the instrument is " + state_.state;
+    return;
+  }
+  driver_ = client;
+  driver_silence_ = 0.0;
+  is_homing_ =
+      move({CommandKind::kMovePosition, start_.insertion, start_.rotation, std::nullopt}) == CommandVerdict::kAccepted;
+}
+
+const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
+{
+  silence_ += dt;
+  driver_silence_ += dt;
+  if (mode_ == Mode::kStream)
+  {
+    setpoint_.motion = gate_.next(dt);
+    return setpoint_;
+  }
+  if (mode_ == Mode::kRate && silence_ > limits_.time_out)
+    stop();
+  setpoint_.motion = {insertion_.next(dt, feedback.insertion), rotation_.next(dt, feedback.rotation)};
+  gate_.follow(setpoint_.motion, dt);
+  if (mode_ != Mode::kMove)
+    return setpoint_;
+  driver_silence_ = 0.0;  // the sender of a move drives until its end
+  if (insertion_.isMoving() || rotation_.isMoving())
+    return setpoint_;
+  state_.is_homed = state_.is_homed || is_homing_;
+  endMove();
+  mode_ = Mode::kRate;
+  return setpoint_;
+}
+
+HandMotion HandControl::goal() const
+{
+  return mode_ == Mode::kStream ? gate_.target() : HandMotion{insertion_.goal(), rotation_.goal()};
+}
+
+RejectedCommands HandControl::rejected() const
+{
+  RejectedCommands all = rejected_;
+  all.clamped += gate_.rejected().clamped;
+  return all;
+}
+
+double HandControl::silence() const
+{
+  return accepted_ > 0 ? silence_ : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace endovascular_sim::drive

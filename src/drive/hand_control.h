@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drive/axis_control.h"
+#include "drive/command_gate.h"
+#include "drive/drive_limits.h"
+#include "drive/joint_command.h"
+
+namespace endovascular_sim::drive
+{
+
+/** Operating state of an instrument, as CRTK defines it. */
+struct OperatingState
+{
+  std::string state;           ///< DISABLED, ENABLED or PAUSED
+  bool is_homed = true;        ///< false after `unhome`, until the end of `home`
+  bool is_busy = false;        ///< true during a move or homing
+  std::string reason;          ///< reason of a state other than ENABLED
+  std::uint64_t revision = 0;  ///< incremented whenever the state is to be published, also without a change
+};
+
+/** Feedback of one instrument to its control. */
+struct HandFeedback
+{
+  AxisFeedback insertion;  ///< [m], [N]
+  AxisFeedback rotation;   ///< [rad], [N·m]
+};
+
+/** Position of an instrument's joints that a step uses. */
+struct HandSetpoint
+{
+  HandMotion motion;
+  std::optional<double> pressure;  ///< empty before the first command of a pressure [Pa]
+};
+
+/** Control of one instrument by the commands of clients: modes, limits, time-outs and operating state.
+ *
+ *  Each mode reduces to insertion and rotation per step, as a function of the commands between the steps, the simulated
+ *  time and the feedback. A new command replaces the one before, of any mode. One client drives at a time: the first
+ * one whose command is accepted, until it sends none for the time-out, or until `disable`. `disable` and `pause` end
+ * any motion; both hold the instrument. */
+class HandControl
+{
+public:
+  /** @param start position at the first step
+   *  @param limits completed ones (DriveLimits::completed()) */
+  HandControl(const HandMotion& start, const DriveLimits& limits);
+
+  /** Examines a command of a client and takes it over if it is accepted.
+   *  @param client name of the sender
+   *  @param command empty for a malformed one */
+  CommandVerdict command(const std::string& client, const std::optional<JointCommand>& command);
+
+  /** Executes enable, disable, pause, resume, home or unhome. Every client may enable, disable and pause; the others
+   *  are refused while another client drives.
+   *  @return false for another word or a refusal, with the reason in lastRefusal() */
+  bool stateCommand(const std::string& client, const std::string& word);
+
+  /** Advances by a step. @return setpoint of the step */
+  const HandSetpoint& next(double dt, const HandFeedback& feedback);
+
+  const HandSetpoint& setpoint() const { return setpoint_; }
+  HandMotion goal() const;  ///< goal of a move, else the last commanded position
+
+  const OperatingState& state() const { return state_; }
+  const std::string& driver() const { return driver_; }             ///< client that drives; empty without one
+  const std::string& lastRefusal() const { return last_refusal_; }  ///< reason of the last refusal
+  std::uint64_t accepted() const { return accepted_; }
+  RejectedCommands rejected() const;
+  double silence() const;  ///< simulated time since the last accepted command [s]; infinite before the first
+
+private:
+  enum class Mode
+  {
+    kStream,  ///< positions
+    kRate,    ///< velocity or force; at rest without a command
+    kMove,
+  };
+
+  bool isDrivenByAnother(const std::string& client) const;
+  CommandVerdict examine(const std::string& client, const std::optional<JointCommand>& command);
+  CommandVerdict execute(JointCommand command);
+  CommandVerdict stream(const JointCommand& command);
+  CommandVerdict rate(JointCommand command);
+  CommandVerdict move(const JointCommand& command);
+  bool isPermitted(double& value, const Interval& interval, bool& clamped) const;
+  std::optional<double> wantedPressure(const JointCommand& command) const;
+  std::string reasonOf(CommandVerdict verdict) const;
+  void enterRate();
+  void stop();
+  void setState(const std::string& state, const std::string& reason);
+  void home(const std::string& client);
+  void endMove();
+
+  HandMotion start_;
+  DriveLimits limits_;
+  CommandGate gate_;
+  AxisControl insertion_;
+  AxisControl rotation_;
+  Mode mode_ = Mode::kStream;
+  HandSetpoint setpoint_;
+  bool is_homing_ = false;
+  OperatingState state_;
+  std::string driver_;
+  double driver_silence_ = 0.0;  ///< since the last command of the driver [s]
+  double silence_ = 0.0;         ///< since the last accepted command [s]
+  std::uint64_t accepted_ = 0;
+  RejectedCommands rejected_;
+  std::string last_refusal_;
+};
+
+}  // namespace endovascular_sim::drive

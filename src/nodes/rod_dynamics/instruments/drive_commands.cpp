@@ -1,0 +1,162 @@
+#include "nodes/rod_dynamics/instruments/drive_commands.h"
+
+#include <algorithm>
+
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr int kQueue = 10;
+
+/** Topics of the kinds of commands. */
+struct CommandTopic
+{
+  const char* name;
+  drive::CommandKind kind;
+};
+constexpr CommandTopic kTopics[] = {
+    {names::kServoJp, drive::CommandKind::kServoPosition}, {names::kServoJr, drive::CommandKind::kServoRelative},
+    {names::kServoJv, drive::CommandKind::kServoVelocity}, {names::kServoJf, drive::CommandKind::kServoForce},
+    {names::kMoveJp, drive::CommandKind::kMovePosition},   {names::kMoveJr, drive::CommandKind::kMoveRelative}};
+
+/** Values that a kind of command uses. */
+const std::vector<double>& valuesOf(const sensor_msgs::JointState& message, drive::CommandKind kind)
+{
+  if (kind == drive::CommandKind::kServoVelocity)
+    return message.velocity;
+  return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
+}
+
+/** Subscribes without Nagle's delay. */
+template <typename Message, typename Callback>
+ros::Subscriber subscribeTo(ros::NodeHandle& node, const std::string& topic, ros::CallbackQueueInterface& queue,
+                            const Callback& callback)
+{
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(topic, kQueue, callback);
+  options.callback_queue = &queue;
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+}  // namespace
+
+DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene)
+  : scene_(scene), hands_(scene), subscribers_(scene.instruments.size())
+{
+  for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
+    if (hands_.control(k) != nullptr)
+      subscribe(node, k);
+}
+
+void DriveCommands::subscribe(ros::NodeHandle& node, std::size_t instrument)
+{
+  // Callbacks run in the thread that reads the socket; only the simulation's thread has a higher priority.
+  const std::string name = names::kInstruments + scene_.instruments[instrument].instrument.name;
+  for (const CommandTopic& topic : kTopics)
+    subscribers_[instrument].push_back(subscribeTo<sensor_msgs::JointState>(
+        node, name + topic.name, queue_,
+        [this, instrument, kind = topic.kind](const auto& event) { receive(instrument, kind, event); }));
+  subscribers_[instrument].push_back(subscribeTo<crtk_msgs::StringStamped>(node, name + names::kStateCommand, queue_,
+                                                                           [this, instrument](const auto& event)
+                                                                           { receiveState(instrument, event); }));
+}
+
+void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,
+                            const ros::MessageEvent<sensor_msgs::JointState const>& event)
+{
+  const sensor_msgs::JointState& message = *event.getConstMessage();
+  const std::optional<drive::JointCommand> command = drive::jointCommand(kind, message.name, valuesOf(message, kind));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  drive::HandControl& control = *hands_.control(instrument);
+  if (control.command(event.getPublisherName(), command) != drive::CommandVerdict::kAccepted)
+    ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", scene_.instruments[instrument].instrument.name.c_str(),
+                      control.lastRefusal().c_str());
+  updateRevision();
+}
+
+void DriveCommands::receiveState(std::size_t instrument, const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+{
+  const std::string& word = event.getConstMessage()->string;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  drive::HandControl& control = *hands_.control(instrument);
+  const std::string& name = scene_.instruments[instrument].instrument.name;
+  if (control.stateCommand(event.getPublisherName(), word))
+    ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), event.getPublisherName().c_str(),
+             control.state().state.c_str());
+  else
+    ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", name.c_str(), control.lastRefusal().c_str());
+  updateRevision();
+}
+
+void DriveCommands::updateRevision()
+{
+  std::uint64_t revision = 0;
+  for (std::size_t k = 0; k < subscribers_.size(); ++k)
+    if (const drive::HandControl* control = hands_.control(k))
+      revision += control->state().revision;
+  revision_ = revision;
+}
+
+const std::vector<simulation::HandCommand>& DriveCommands::next(const simulation::Simulation& simulation,
+                                                                const std::vector<simulation::HandCommand>* scripted)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::vector<simulation::HandCommand>& commands = hands_.next(simulation, scripted);
+  updateRevision();
+  return commands;
+}
+
+std::vector<drive::OperatingState> DriveCommands::states()
+{
+  std::vector<drive::OperatingState> states(subscribers_.size());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (const drive::HandControl* control = hands_.control(k))
+      states[k] = control->state();
+    else
+      states[k].state = "ENABLED";
+  return states;
+}
+
+void DriveCommands::goals(const std::vector<simulation::HandCommand>& used, std::vector<simulation::HandCommand>& goals)
+{
+  goals = used;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (const drive::HandControl* control = hands_.control(k))
+    {
+      goals[k].insertion = control->goal().insertion;
+      goals[k].rotation = control->goal().rotation;
+    }
+}
+
+std::vector<CommandReport> DriveCommands::reports()
+{
+  std::vector<CommandReport> reports;
+  for (std::size_t k = 0; k < subscribers_.size(); ++k)
+  {
+    if (subscribers_[k].empty())
+      continue;
+    CommandReport report;
+    const std::string topic = subscribers_[k].front().getTopic();
+    report.instrument = topic.substr(0, topic.rfind('/'));
+    // The last subscriber is that of state commands.
+    report.has_publisher = std::any_of(subscribers_[k].begin(), subscribers_[k].end() - 1,
+                                       [](const ros::Subscriber& commands) { return commands.getNumPublishers() > 0; });
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const drive::HandControl& control = *hands_.control(k);
+    report.driver = control.silence() < scene_.instruments[k].drive.limits.time_out ? control.driver() : "";
+    report.last_refusal = control.lastRefusal();
+    report.accepted = control.accepted();
+    report.rejected = control.rejected();
+    report.silence = control.silence();
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+}  // namespace endovascular_sim::nodes

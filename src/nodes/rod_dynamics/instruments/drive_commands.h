@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <crtk_msgs/StringStamped.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "nodes/runtime/direct_callback_queue.h"
+#include "scene/model/scene.h"
+#include "simulation/driven_hands.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Commands to one instrument, for reports. */
+struct CommandReport
+{
+  std::string instrument;  ///< resolved name of the instrument's topics, without the last part
+  bool has_publisher = false;
+  std::string driver;        ///< client that drives; empty without one
+  std::string last_refusal;  ///< empty without one
+  std::uint64_t accepted = 0;
+  drive::RejectedCommands rejected;
+  double silence = 0.0;  ///< simulated time since the last accepted command [s]
+};
+
+/** Commands to the instruments of a scene from the CRTK topics (simulation::DrivenHands). A client is known by the name
+ *  of its node. */
+class DriveCommands
+{
+public:
+  /** Subscribes to the topics of the instruments that clients drive.
+   *  @param scene must outlive this object */
+  DriveCommands(ros::NodeHandle& node, const scene::Scene& scene);
+
+  /** Commands of the coming step, one per instrument.
+   *  @param scripted commands of the scripted operator; null without one */
+  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation,
+                                                   const std::vector<simulation::HandCommand>* scripted);
+
+  /** Changes whenever an operating state is to be published. Callable from any thread. */
+  std::uint64_t revision() const { return revision_; }
+
+  /** Operating states, one per instrument; those that no client drives are enabled. Callable from any thread. */
+  std::vector<drive::OperatingState> states();
+
+  /** Goals of all instruments: of a move, else the last command.
+   *  @param used commands of the last step, for the instruments that no client drives */
+  void goals(const std::vector<simulation::HandCommand>& used, std::vector<simulation::HandCommand>& goals);
+
+  /** Reports, one per instrument that clients drive. Callable from any thread. */
+  std::vector<CommandReport> reports();
+
+private:
+  void subscribe(ros::NodeHandle& node, std::size_t instrument);
+  void receive(std::size_t instrument, drive::CommandKind kind,
+               const ros::MessageEvent<sensor_msgs::JointState const>& event);
+  void receiveState(std::size_t instrument, const ros::MessageEvent<crtk_msgs::StringStamped const>& event);
+  void updateRevision();
+
+  const scene::Scene& scene_;
+  std::mutex mutex_;  ///< guards hands_
+  simulation::DrivenHands hands_;
+  std::atomic<std::uint64_t> revision_{0};
+  DirectCallbackQueue queue_;
+  std::vector<std::vector<ros::Subscriber>>
+      subscribers_;  ///< of every instrument, empty where no client drives; last, so that they end first
+};
+
+}  // namespace endovascular_sim::nodes

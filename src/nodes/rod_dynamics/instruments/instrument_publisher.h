@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "nodes/rod_dynamics/instruments/drive_commands.h"
+#include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
+#include "simulation/contact_forces.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Publisher of the CRTK topics of all instruments: joints at every step, tip and wall force with a subscriber, and
+ *  operating states on change. */
+class InstrumentPublisher
+{
+public:
+  /** @param commands of the instruments; must outlive this object */
+  InstrumentPublisher(ros::NodeHandle& node, const scene::Scene& scene, DriveCommands& commands);
+
+  /** Publishes a step, and the operating states if they have changed.
+   *  @param hands one per instrument */
+  void publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands, ros::Time now);
+
+  /** While the simulation is paused: publishes the commands of the last step with the rendered forces scaled by a
+   *  share, and the operating states if they have changed. */
+  void publishPaused(const std::vector<RenderedHand>& hands, double share);
+
+  /** Sets the state of the simulation. Other than ENABLED, it is the state of all instruments.
+   *  @param reason empty when enabled */
+  void setSimulationState(const std::string& state, const std::string& reason);
+
+private:
+  /** Topics and last values of one instrument. */
+  struct Channel
+  {
+    ros::Publisher measured, setpoint, goal, tip, wall_force, state, reason;
+    bool has_balloon = false;
+    simulation::HandState last;            ///< of the step before
+    simulation::HandCommand last_command;  ///< of the step before
+    std::string published_state;
+    std::string published_reason;
+    std::uint64_t revision = 0;
+  };
+
+  void publishMeasured(std::size_t k, const simulation::HandState& hand);
+  void publishSetpoint(std::size_t k, const RenderedHand& hand, double share, bool moves);
+  void publishGoals(const std::vector<RenderedHand>& hands);
+  void publishTip(std::size_t k, const simulation::Simulation& simulation);
+  void publishWallForce(std::size_t k, const simulation::Simulation& simulation);
+  void publishStates();
+
+  double time_step_;  ///< [s]
+  DriveCommands& commands_;
+  std::vector<Channel> channels_;
+  bool has_last_ = false;  ///< true after the first step
+  std::string simulation_state_, simulation_reason_;
+  std::uint64_t revision_ = ~std::uint64_t{0};  ///< of the commands at the last publication of states
+  ros::Time now_;
+  sensor_msgs::JointState joints_;
+  geometry_msgs::PoseStamped pose_;
+  geometry_msgs::WrenchStamped wrench_;
+  std::vector<simulation::HandCommand> used_, goals_;
+  std::vector<simulation::WallContact> contacts_;
+};
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drive/command_file.h"
+#include "drive/hand_control.h"
+#include "scene/model/scene.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::simulation
+{
+
+/** True for an instrument that clients drive: a robot, a haptic device, or a file of commands. */
+bool isCommanded(const scene::DrivenInstrument& driven);
+
+/** Commands of every step to the instruments of a scene, each from its drive: the control of an instrument that clients
+ *  drive (drive::HandControl), the scripted operator, or the profile in the scene. The nodes and `simulate` run this
+ *  same code. */
+class DrivenHands
+{
+public:
+  /** @param scene must outlive this object */
+  explicit DrivenHands(const scene::Scene& scene);
+
+  /** Control of an instrument; null if no client drives it. */
+  drive::HandControl* control(std::size_t instrument);
+  const drive::HandControl* control(std::size_t instrument) const;
+
+  /** Commands of the coming step, one per instrument.
+   *  @param scripted commands of the scripted operator; null without one */
+  const std::vector<HandCommand>& next(const Simulation& simulation,
+                                       const std::vector<HandCommand>* scripted = nullptr);
+
+private:
+  const scene::Scene& scene_;
+  std::vector<std::optional<drive::HandControl>> controls_;  ///< one per instrument
+  std::vector<HandCommand> next_;
+};
+
+/** Commands of a file to the instruments of a scene, each given before the first step that begins at its time or later.
+ */
+class CommandPlayer
+{
+public:
+  /** @param file name of the file, in errors and as the name of the client
+   *  @throws InputError for an instrument that the scene has not, or that no client drives */
+  CommandPlayer(const scene::Scene& scene, const std::string& file, std::vector<drive::TimedCommand> commands);
+
+  /** Gives the commands that are due.
+   *  @param time simulated time at the beginning of the coming step [s] */
+  void play(double time, DrivenHands& hands);
+
+  /** Refusals so far, each with file and line. */
+  const std::vector<std::string>& refusals() const { return refusals_; }
+
+private:
+  struct Entry
+  {
+    drive::TimedCommand command;
+    std::size_t instrument = 0;
+  };
+
+  std::string file_;
+  std::vector<Entry> entries_;
+  std::size_t next_ = 0;
+  std::vector<std::string> refusals_;
+};
+
+}  // namespace endovascular_sim::simulation

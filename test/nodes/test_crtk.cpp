@@ -1,0 +1,455 @@
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "contact/detector.h"
+#include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/SessionSample.h"
+#include "nodes/runtime/ros_names.h"
+#include "nodes/runtime/scene_parameters.h"
+#include "scene/scene_vessel.h"
+#include "simulation/replay_source.h"
+#include "simulation/simulation.h"
+#include "test/nodes/graph_testing.h"
+
+namespace endovascular_sim
+{
+namespace
+{
+
+using Joints = sensor_msgs::JointState;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Joints positions(std::vector<double> values)
+{
+  Joints message;
+  message.position = std::move(values);
+  return message;
+}
+
+Joints velocities(std::vector<double> values)
+{
+  Joints message;
+  message.velocity = std::move(values);
+  return message;
+}
+
+Joints efforts(std::vector<double> values)
+{
+  Joints message;
+  message.effort = std::move(values);
+  return message;
+}
+
+/** Client of the wire that publishes and listens as crtk_python_client does, and records every step. */
+class Client
+{
+public:
+  Client()
+  {
+    for (const char* input : {"servo_jp", "servo_jr", "servo_jv", "servo_jf", "move_jp", "move_jr"})
+      inputs_[input] = node_.advertise<Joints>(kWire + std::string(input), 10);
+    command_ = node_.advertise<crtk_msgs::StringStamped>(kWire + std::string("state_command"), 10, true);
+    listen<crtk_msgs::OperatingState>("operating_state", [this](const auto& state) { receive(state); });
+    listen<crtk_msgs::StringStamped>("state_reason", [this](const auto& reason) { reason_ = reason.string; });
+    listen<Joints>("measured_js", [this](const auto& joints) { measured_[joints.header.stamp.toNSec()] = joints; });
+    listen<Joints>("setpoint_js", [this](const auto& joints) { setpoint_ = joints; });
+    listen<Joints>("goal_js", [this](const auto& joints) { goal_ = joints; });
+    listen<geometry_msgs::PoseStamped>("measured_cp", [this](const auto& pose) { tip_ = pose; });
+    listen<geometry_msgs::WrenchStamped>("measured_cf", [this](const auto& wrench) { wall_force_ = wrench; });
+    subscribers_.push_back(
+        node_.subscribe<SessionSample>(nodes::names::kSessionSample, 10, [](const SessionSampleConstPtr&) {}));
+    subscribe<diagnostic_msgs::DiagnosticArray>(nodes::names::kDiagnostics,
+                                                [this](const auto& array) { receive(array); });
+    subscribe<DriveApplied>(nodes::names::kDriveApplied, [this](const auto& step) { steps_[step.step] = step; });
+    spinner_.start();
+  }
+
+  /** Publishes a command. */
+  void send(const std::string& input, const Joints& joints) { inputs_.at(input).publish(joints); }
+
+  void command(const std::string& word)
+  {
+    crtk_msgs::StringStamped message;
+    message.header.stamp = ros::Time::now();
+    message.string = word;
+    command_.publish(message);
+  }
+
+  /** Simulates for a time. @param each called about every 5 ms [s] */
+  bool run(
+      double seconds, const std::function<void()>& each = [] {})
+  {
+    const double end = time() + seconds;
+    return waitUntil(60.0,
+                     [&]
+                     {
+                       each();
+                       return time() >= end;
+                     });
+  }
+
+  /** State without a command and without a driver: enabled, homed, at rest. */
+  bool reset()
+  {
+    run(0.25);
+    for (const char* word : {"resume", "enable", "home"})
+      command(word);
+    return waitUntil(30.0, [this] { return state().state == "ENABLED" && state().is_homed && !state().is_busy; });
+  }
+
+  double time() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return steps_.empty() ? 0.0 : 1e-3 * static_cast<double>(steps_.rbegin()->first + 1);
+  }
+  crtk_msgs::OperatingState state() const { return guarded(state_); }
+  std::string reason() const { return guarded(reason_); }
+  std::map<std::uint64_t, DriveApplied> steps() const { return guarded(steps_); }
+  std::map<std::uint64_t, Joints> measurements() const { return guarded(measured_); }
+  Joints setpoint() const { return guarded(setpoint_); }
+  Joints goal() const { return guarded(goal_); }
+  geometry_msgs::PoseStamped tip() const { return guarded(tip_); }
+  geometry_msgs::WrenchStamped wallForce() const { return guarded(wall_force_); }
+  std::uint64_t busyStates() const { return guarded(busy_states_); }
+  std::string diagnostics() const { return guarded(diagnostics_); }
+
+  Joints measured() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return measured_.empty() ? Joints() : measured_.rbegin()->second;
+  }
+  double insertion() const
+  {
+    const Joints joints = measured();
+    return joints.position.empty() ? kNan : joints.position[0];
+  }
+
+private:
+  static constexpr auto kWire = "instruments/wire/";
+
+  template <typename Value>
+  Value guarded(const Value& value) const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return value;
+  }
+
+  template <typename Message>
+  void subscribe(const std::string& topic, std::function<void(const Message&)> take)
+  {
+    const boost::function<void(const boost::shared_ptr<Message const>&)> callback =
+        [this, take](const boost::shared_ptr<Message const>& message)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      take(*message);
+    };
+    subscribers_.push_back(
+        node_.subscribe<Message>(topic, 20000, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
+
+  template <typename Message>
+  void listen(const std::string& topic, std::function<void(const Message&)> take)
+  {
+    subscribe<Message>(kWire + topic, std::move(take));
+  }
+
+  void receive(const crtk_msgs::OperatingState& state)
+  {
+    state_ = state;
+    busy_states_ += state.is_busy;
+  }
+
+  void receive(const diagnostic_msgs::DiagnosticArray& array)
+  {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array.status)
+      if (status.name.find("rod_dynamics") != std::string::npos)
+      {
+        diagnostics_ = status.message;
+        for (const diagnostic_msgs::KeyValue& value : status.values)
+          diagnostics_ += "\n" + value.key + ": " + value.value;
+      }
+  }
+
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;
+  std::map<std::string, ros::Publisher> inputs_;
+  ros::Publisher command_;
+  crtk_msgs::OperatingState state_;
+  std::uint64_t busy_states_ = 0;
+  std::string reason_, diagnostics_;
+  std::map<std::uint64_t, DriveApplied> steps_;
+  std::map<std::uint64_t, Joints> measured_;  ///< by the stamp [ns]
+  Joints setpoint_, goal_;
+  geometry_msgs::PoseStamped tip_;
+  geometry_msgs::WrenchStamped wall_force_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::AsyncSpinner spinner_{1};
+};
+
+/** Process that publishes to a topic of the wire at 50 Hz, as another client. */
+class OtherClient
+{
+public:
+  OtherClient(const std::string& input, const std::string& joints) : process_(fork())
+  {
+    const std::string topic = "/instruments/wire/" + input;
+    if (process_ != 0)
+      return;
+    execlp("rostopic", "rostopic", "pub", "-r", "50", topic.c_str(), "sensor_msgs/JointState", joints.c_str(), nullptr);
+    _exit(1);
+  }
+  ~OtherClient() { kill(); }
+
+  /** Ends the process without a chance to say so. */
+  void kill()
+  {
+    if (process_ <= 0)
+      return;
+    ::kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+private:
+  pid_t process_;
+};
+
+class Crtk : public testing::Test
+{
+protected:
+  static void SetUpTestSuite() { client_ = std::make_unique<Client>(); }
+  static void TearDownTestSuite() { client_.reset(); }
+  void SetUp() override
+  {
+    ASSERT_TRUE(waitUntil(90.0, [] { return client_->time() > 0.1; })) << "the simulation runs";
+    ASSERT_TRUE(client_->reset()) << client_->state().state << " " << client_->reason();
+  }
+
+  static std::unique_ptr<Client> client_;
+};
+
+std::unique_ptr<Client> Crtk::client_;
+
+TEST_F(Crtk, AStockClientDrivesAnInstrument)
+{
+  client_->command("enable");
+  ASSERT_TRUE(waitUntil(10.0, [] { return client_->state().state == "ENABLED"; }));
+  const double start = client_->insertion();
+  double goal = start;
+  EXPECT_TRUE(client_->run(0.5,
+                           [&]
+                           {
+                             goal = std::min(goal + 2e-4, start + 0.01);
+                             client_->send("servo_jp", positions({goal, 0.3}));
+                           }));
+  EXPECT_FALSE(client_->state().is_busy) << "a stream is no move";
+  EXPECT_NEAR(client_->insertion(), goal, 1e-4);
+
+  const std::uint64_t busy = client_->busyStates();
+  client_->send("move_jp", positions({0.05, 1.0}));
+  ASSERT_TRUE(waitUntil(10.0, [&] { return client_->busyStates() > busy; })) << "busy";
+  ASSERT_TRUE(waitUntil(30.0, [&] { return !client_->state().is_busy; })) << "not busy";
+  ASSERT_TRUE(client_->run(0.05));
+  EXPECT_NEAR(client_->insertion(), 0.05, 1e-4);
+  EXPECT_NEAR(client_->measured().position.at(1), 1.0, 1e-6);
+  EXPECT_EQ(client_->measured().header.frame_id, "introducer");
+  EXPECT_NEAR(client_->setpoint().position.at(0), 0.05, 1e-12);
+  EXPECT_NEAR(client_->goal().position.at(0), 0.05, 1e-12);
+  EXPECT_NEAR(client_->tip().pose.position.z, 0.05, 2e-3) << "in the straight piece";
+  EXPECT_EQ(client_->tip().header.frame_id, "patient");
+}
+
+TEST_F(Crtk, EveryModeMovesTheInstrument)
+{
+  double before = client_->insertion();
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jr", positions({1e-4})); }));
+  EXPECT_GT(client_->insertion(), before + 2e-4);
+  before = client_->insertion();
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jv", velocities({0.02, 0.5})); }));
+  EXPECT_NEAR(client_->insertion() - before, 0.01, 3e-3);
+  EXPECT_NEAR(client_->measured().velocity.at(0), 0.02, 5e-3);
+  before = client_->insertion();
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jf", efforts({0.3})); }));
+  EXPECT_GT(client_->insertion(), before + 1e-3);
+  before = client_->insertion();
+  client_->send("move_jr", positions({-0.005}));
+  ASSERT_TRUE(client_->run(0.5));
+  EXPECT_NEAR(client_->insertion() - before, -0.005, 1e-3);
+}
+
+TEST_F(Crtk, AnOldVelocityEnds)
+{
+  ASSERT_TRUE(client_->run(0.3, [] { client_->send("servo_jv", velocities({0.02})); }));
+  ASSERT_TRUE(client_->run(0.4));
+  const double rest = client_->insertion();
+  ASSERT_TRUE(client_->run(0.3));
+  EXPECT_EQ(client_->insertion(), rest);
+}
+
+TEST_F(Crtk, MeasuredIsTheInstrumentAtAStopAndAtTheEndOfTheWire)
+{
+  client_->send("move_jp", positions({-0.05}));
+  ASSERT_TRUE(client_->run(1.2));
+  EXPECT_NEAR(client_->insertion(), 0.0, 1e-6) << "at the introducer";
+  EXPECT_NEAR(client_->setpoint().position.at(0), -0.05, 1e-9);
+  client_->send("move_jp", positions({0.3}));
+  ASSERT_TRUE(client_->run(4.5));
+  EXPECT_LT(client_->insertion(), 0.29) << "the end of the wire, or the fingers slip";
+  EXPECT_NEAR(client_->setpoint().position.at(0), 0.3, 1e-9);
+  EXPECT_GT(std::abs(client_->wallForce().wrench.force.x) + std::abs(client_->wallForce().wrench.force.y), 0.0);
+}
+
+TEST_F(Crtk, ACommandedPauseEndsByResumeOnly)
+{
+  client_->command("pause");
+  ASSERT_TRUE(waitUntil(10.0, [] { return client_->state().state == "PAUSED"; }));
+  EXPECT_NE(client_->reason().find("paused by"), std::string::npos);
+  const double held = client_->insertion();
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jv", velocities({0.02})); }));
+  EXPECT_EQ(client_->insertion(), held);
+  client_->command("enable");
+  ASSERT_TRUE(client_->run(0.2));
+  EXPECT_EQ(client_->state().state, "PAUSED");
+  client_->command("resume");
+  ASSERT_TRUE(waitUntil(10.0, [] { return client_->state().state == "ENABLED"; }));
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jv", velocities({0.02})); }));
+  EXPECT_GT(client_->insertion(), held + 5e-3);
+}
+
+TEST_F(Crtk, AnotherClientIsRefusedUntilTheDriverIsSilent)
+{
+  OtherClient other("servo_jv", "{velocity: [0.01, 0.0]}");
+  const double start = client_->insertion();
+  ASSERT_TRUE(waitUntil(60.0, [&] { return client_->insertion() > start + 2e-3; })) << "the other client drives";
+  client_->send("servo_jv", velocities({-0.01}));
+  ASSERT_TRUE(waitUntil(10.0,
+                        []
+                        {
+                          const std::string text = client_->diagnostics();
+                          return text.find("another client drives: 0") == std::string::npos &&
+                                 text.find("drives the instrument") != std::string::npos;
+                        }))
+      << client_->diagnostics();
+  other.kill();
+  ASSERT_TRUE(client_->run(0.5));
+  const double rest = client_->insertion();
+  ASSERT_TRUE(client_->run(0.3));
+  EXPECT_EQ(client_->insertion(), rest) << "the velocity of a killed client ends";
+  ASSERT_TRUE(client_->run(0.5, [] { client_->send("servo_jv", velocities({-0.01})); }));
+  EXPECT_LT(client_->insertion(), rest - 1e-3);
+}
+
+TEST_F(Crtk, NoMessageHurts)
+{
+  std::mt19937 random(11);
+  const std::vector<double> values = {kNan, kInfinity, -kInfinity, 1e300, -1e300, 0.0, 0.05, -0.3, 50.0};
+  const std::vector<std::string> names = {"insertion", "rotation", "pressure", "elbow", ""};
+  const std::vector<std::string> inputs = {"servo_jp", "servo_jr", "servo_jv", "servo_jf", "move_jp", "move_jr"};
+  const auto garbage = [&]
+  {
+    Joints joints;
+    for (std::vector<double>* list : {&joints.position, &joints.velocity, &joints.effort})
+      for (std::size_t k = random() % 5; k > 0; --k)
+        list->push_back(values[random() % values.size()]);
+    for (std::size_t k = random() % 4; k > 0; --k)
+      joints.name.push_back(names[random() % names.size()]);
+    return joints;
+  };
+  for (int round = 0; round < 5; ++round)
+  {
+    ASSERT_TRUE(client_->run(1.0,
+                             [&]
+                             {
+                               for (int k = 0; k < 20; ++k)
+                                 client_->send(inputs[random() % inputs.size()], garbage());
+                               if (random() % 20 == 0)
+                                 client_->command(random() % 2 == 0 ? "pause" : "nonsense");
+                             }));
+    client_->command("disable");
+    client_->command("enable");
+    ASSERT_TRUE(waitUntil(10.0, [] { return client_->state().state == "ENABLED"; }));
+    const double before = client_->insertion();
+    ASSERT_TRUE(std::isfinite(before));
+    const double velocity = before > 0.1 ? -0.02 : 0.02;
+    ASSERT_TRUE(client_->run(1.0, [&] { client_->send("servo_jv", velocities({velocity, 0.0})); }));
+    EXPECT_GT((client_->insertion() - before) / velocity, 0.3) << client_->diagnostics();
+  }
+}
+
+TEST_F(Crtk, ATopicThatNobodyReadsIsNamedWithTheRightOne)
+{
+  ros::NodeHandle node;
+  const ros::Publisher wrong = node.advertise<Joints>("instruments/wyre/servo_jp", 1);
+  const ros::Publisher unsupported = node.advertise<Joints>("instruments/wire/interpolate_jp", 1);
+  EXPECT_TRUE(waitUntil(20.0,
+                        []
+                        {
+                          const std::string text = client_->diagnostics();
+                          return text.find("publish to /instruments/wire/servo_jp") != std::string::npos &&
+                                 text.find("no input 'interpolate_jp'") != std::string::npos;
+                        }))
+      << client_->diagnostics();
+}
+
+/** Last: the steps of all tests above are simulated again. */
+TEST_F(Crtk, Z_AReplayEqualsEveryStepAndMeasuredIsTheSolversPosition)
+{
+  const scene::Scene scene = nodes::sceneFromParameters(ros::NodeHandle());
+  const std::map<std::uint64_t, Joints> measurements = client_->measurements();
+  const std::map<std::uint64_t, DriveApplied> steps = client_->steps();
+  const vessel::Vessel vessel =
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
+  contact::Detector detector(vessel.mesh, scene::wallLaw(*scene.vessel));
+  simulation::ReplayContactSource source(detector);
+  simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, vessel, scene.file), &source,
+                                    &vessel.centreline);
+  std::uint64_t compared = 0;
+  for (const auto& [step, applied] : steps)
+  {
+    ASSERT_EQ(step, simulation.steps()) << "every step is recorded";
+    source.setFirstStalePass(applied.first_stale_pass);
+    simulation.step({applied.insertion.at(0), applied.rotation.at(0)});
+    ASSERT_EQ(applied.state_hash, simulation.stateHash()) << "step " << step;
+    const auto measured = measurements.find(applied.header.stamp.toNSec());
+    if (measured == measurements.end())
+      continue;
+    ++compared;
+    ASSERT_NEAR(measured->second.position.at(0), simulation.hand(0).insertion, 1e-9) << "step " << step;
+    ASSERT_NEAR(measured->second.position.at(1), simulation.hand(0).rotation, 1e-9) << "step " << step;
+    ASSERT_NEAR(measured->second.effort.at(0), simulation.hand(0).force, 1e-9) << "step " << step;
+  }
+  EXPECT_GT(compared, steps.size() / 2);
+}
+
+}  // namespace
+}  // namespace endovascular_sim
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "crtk_client");
+  return RUN_ALL_TESTS();
+}
