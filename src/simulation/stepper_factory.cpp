@@ -90,7 +90,7 @@ std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene
   environment.drag_coefficient = scene.loads.drag_coefficient;
   environment.damping = scene.loads.damping;
   rod::StepperSettings settings = scene.solver.stepper;
-  settings.curved_wall = scene.vessel && scene.vessel->wall == contact::WallShape::kSmooth;
+  settings.curved_wall = settings.curved_wall || (scene.vessel && scene.vessel->wall == contact::WallShape::kSmooth);
   const rod::Boundary boundary = boundaryOf(scene, entry);
   if (scene.instruments.size() > 1)
   {
