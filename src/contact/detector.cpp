@@ -27,14 +27,8 @@ std::size_t nextNode(const Query& query, std::size_t node)
   return std::min(node + 1, query.nodes.size() - 1);
 }
 
-/** Cutoff of a node's list: the larger one of its edge's ends [m]. */
-double listCutoff(const Query& query, std::size_t node)
-{
-  return std::max(cutoffAt(query, node), cutoffAt(query, nextNode(query, node)));
-}
+}  // namespace
 
-/** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.
- *  @param first index of the node's first feature */
 void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature)
 {
   for (std::size_t f = first; f < features.size(); ++f)
@@ -47,16 +41,14 @@ void appendDistinct(std::vector<Feature>& features, std::size_t first, const Fea
   features.push_back(feature);
 }
 
-}  // namespace
-
 Detector::Detector(std::shared_ptr<const WallModel> model, WallLaw law, std::uint64_t vessel_version)
-  : model_(std::move(model)), law_(std::move(law)), vessel_version_(vessel_version)
+  : model_(std::move(model)), law_(std::move(law)), vessel_version_(vessel_version), deviation_(model_->deviation())
 {
   lists_.reserve(kUsualNodes);
 }
 
 Detector::Detector(const geometry::TriangleMesh& mesh, WallLaw law, std::uint64_t vessel_version)
-  : Detector(WallModel::create(mesh), std::move(law), vessel_version)
+  : Detector(WallModel::create(mesh, law.shape), law, vessel_version)
 {
 }
 
@@ -69,6 +61,19 @@ void Detector::moveVertices(const std::vector<int>& indices, const std::vector<E
   const NeighbourList::WallMovement& movement = WallModel::writable(model_).moveVertices(indices, positions);
   for (NeighbourList& list : lists_)
     list.followWall(movement);
+}
+
+/** Distance from the axis up to which facets of a node's features are needed: the cutoff and the distance between a
+ *  smooth wall and its facets [m]. */
+double Detector::reachAt(const Query& query, std::size_t node) const
+{
+  return cutoffAt(query, node) + deviation_;
+}
+
+/** Cutoff of a node's list: the larger one of its edge's ends [m]. */
+double Detector::listCutoff(const Query& query, std::size_t node) const
+{
+  return std::max(reachAt(query, node), reachAt(query, nextNode(query, node)));
 }
 
 /** Lists of nodes that have just entered get their memory in groups, so that few steps allocate. */
@@ -110,10 +115,13 @@ void Detector::detect(const Query& query, ContactSet& set)
   set.free_distance.resize(n > 0 ? n - 1 : 0);
   for (std::size_t i = 0; i < set.free_distance.size(); ++i)
     set.free_distance[i] = std::min(query.margin[i], query.margin[i + 1]);
+  const bool smooth = model_->smooth() != nullptr;
+  if (smooth && nearest_feet_.size() < n)
+    nearest_feet_.resize(n);
   for (std::size_t i = 0; i < n; ++i)
-    detectNode(query, i, set.features);
+    smooth ? detectSmoothNode(query, i, set.features) : detectNode(query, i, set.features);
   for (std::size_t i = 0; i + 1 < n; ++i)
-    detectEdge(query, i, set.features);
+    smooth ? detectSmoothEdge(query, i, set.features) : detectEdge(query, i, set.features);
   addLaw(query, set.features);
 }
 
@@ -196,16 +204,24 @@ void Detector::addLaw(const Query& query, std::vector<Feature>& features) const
     const auto edge = static_cast<std::size_t>(feature.edge - query.first_node);
     feature.stiffness = law_.stiffness;
     feature.friction = law_.frictionAt(feature.point);
-    feature.clearance_radius = narrow_phase.clearanceRadius(feature, query.nodes[edge + 1] - query.nodes[edge],
-                                                            query.radius[edge + (feature.parameter < 1.0 ? 0 : 1)]);
+    if (model_->smooth() == nullptr)
+      feature.clearance_radius = narrow_phase.clearanceRadius(feature, query.nodes[edge + 1] - query.nodes[edge],
+                                                              query.radius[edge + (feature.parameter < 1.0 ? 0 : 1)]);
   }
 }
 
-/** Distance to the listed triangles that may be a contact within the cutoff; larger or infinite without one [m]. */
+/** Distance to the listed triangles that may be a contact within the cutoff, a lower bound for a smooth wall; larger or
+ *  infinite without one [m]. */
 double Detector::distanceToListed(const NeighbourList& list, const Eigen::Vector3d& point, double cutoff) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  list.forEachTriangle(point, cutoff, [&](int t) { nearest = std::min(nearest, model_->bvh().distanceTo(t, point)); });
+  const SmoothWall* smooth = model_->smooth();
+  const auto visit = [&](int t)
+  {
+    const double away = smooth != nullptr ? smooth->deviationOf(t) : 0.0;
+    nearest = std::min(nearest, model_->bvh().distanceTo(t, point) - away);
+  };
+  list.forEachTriangle(point, cutoff + deviation_, visit);
   return nearest;
 }
 
@@ -219,9 +235,9 @@ double Detector::wallDistance(const Query& query, std::size_t node, double farth
   if (listed <= cutoff)
     return listed;
   int& hint = nearest_[static_cast<std::size_t>(query.first_node) + node];
-  const Bvh::Nearest found = model_->bvh().nearest(point, farthest, hint);
+  const Bvh::Nearest found = model_->bvh().nearest(point, farthest + deviation_, hint);
   hint = found.triangle >= 0 ? found.triangle : hint;
-  return found.distance;
+  return found.distance - deviation_;
 }
 
 void Detector::freeDistances(const Query& query, double wanted, ContactSet& set)

@@ -9,6 +9,7 @@
 
 #include "contact/broad_phase/neighbour_list.h"
 #include "contact/contract/contact_set.h"
+#include "contact/narrow_phase/smooth_foot.h"
 #include "contact/wall/wall.h"
 #include "contact/wall/wall_law.h"
 #include "contact/wall_model.h"
@@ -63,6 +64,13 @@ private:
   void begin(const Query& query, ContactSet& set);
   void detectNode(const Query& query, std::size_t node, std::vector<Feature>& features);
   void detectEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
+  void detectSmoothNode(const Query& query, std::size_t node, std::vector<Feature>& features);
+  void findFeet(const Query& query, std::size_t node);
+  void detectSmoothEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
+  void addSmoothMinimum(const Query& query, std::size_t node, double parameter, const SmoothFoot& foot,
+                        std::size_t first, std::vector<Feature>& features);
+  double reachAt(const Query& query, std::size_t node) const;
+  double listCutoff(const Query& query, std::size_t node) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
   double distanceToListed(const NeighbourList& list, const Eigen::Vector3d& point, double cutoff) const;
   double wallDistance(const Query& query, std::size_t node, double farthest);
@@ -73,6 +81,15 @@ private:
   std::vector<NeighbourList> lists_;  ///< per node, from the tip
   std::vector<int> nearest_;          ///< per node of the whole wire: nearest triangle of its last search, or −1
   NeighbourList::Scratch scratch_;
+  double deviation_ = 0.0;  ///< WallModel::deviation() [m]
+  std::vector<SmoothFoot>
+      nearest_feet_;                   ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
+  std::vector<SmoothFoot> feet_;       ///< smooth wall: feet of the present node
+  std::vector<std::int64_t> started_;  ///< smooth wall: features of the facets from which walks began
 };
+
+/** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.
+ *  @param first index of the node's first feature */
+void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature);
 
 }  // namespace endovascular_sim::contact

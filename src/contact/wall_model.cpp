@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 
 #include "contact/narrow_phase/normal_cone.h"
+#include "contact/narrow_phase/smooth_foot.h"
 #include "geometry/closest_point_on_triangle.h"
 
 namespace endovascular_sim::contact
@@ -31,9 +33,9 @@ Bvh::Cone coneOf(const Wall& wall, const WallBounds& bounds, int triangle)
 
 }  // namespace
 
-std::shared_ptr<const WallModel> WallModel::create(const geometry::TriangleMesh& mesh)
+std::shared_ptr<const WallModel> WallModel::create(const geometry::TriangleMesh& mesh, WallShape shape)
 {
-  return std::shared_ptr<const WallModel>(new WallModel(mesh));
+  return std::shared_ptr<const WallModel>(new WallModel(mesh, shape));
 }
 
 WallModel& WallModel::writable(std::shared_ptr<const WallModel>& model)
@@ -50,8 +52,14 @@ WallModel& WallModel::writable(std::shared_ptr<const WallModel>& model)
   return const_cast<WallModel&>(*model);  // models are never created as constant objects
 }
 
-WallModel::WallModel(const geometry::TriangleMesh& mesh) : wall_(mesh), bounds_(wall_), bvh_(wall_)
+WallModel::WallModel(const geometry::TriangleMesh& mesh, WallShape shape) : wall_(mesh), bounds_(wall_), bvh_(wall_)
 {
+  if (shape == WallShape::kSmooth)
+  {
+    smooth_ = std::make_unique<const SmoothWall>(wall_);
+    bounds_.openCones();  // the cones of the tree are open from the start
+    return;
+  }
   std::vector<Bvh::Cone> cones;
   cones.reserve(wall_.triangles.size());
   for (std::size_t t = 0; t < wall_.triangles.size(); ++t)
@@ -59,7 +67,11 @@ WallModel::WallModel(const geometry::TriangleMesh& mesh) : wall_(mesh), bounds_(
   bvh_.setCones(cones);
 }
 
-WallModel::WallModel(const WallModel& other) : wall_(other.wall_), bounds_(other.bounds_), bvh_(other.bvh_, wall_) {}
+WallModel::WallModel(const WallModel& other) : wall_(other.wall_), bounds_(other.bounds_), bvh_(other.bvh_, wall_)
+{
+  if (other.smooth_)
+    smooth_ = std::make_unique<const SmoothWall>(*other.smooth_, wall_);
+}
 
 double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* nearest) const
 {
@@ -69,6 +81,8 @@ double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* ne
   const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
   const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
+  if (smooth_)
+    return SmoothFootSearch(*smooth_).walk(point, found.triangle, closest.point).height;
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
                                       ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
@@ -79,6 +93,8 @@ double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* ne
 const NeighbourList::WallMovement& WallModel::moveVertices(const std::vector<int>& indices,
                                                            const std::vector<Eigen::Vector3d>& positions)
 {
+  if (smooth_)
+    throw std::logic_error("a smooth wall does not move");
   movement_.bounds.setEmpty();
   movement_.largest_displacement = 0.0;
   for (std::size_t k = 0; k < indices.size(); ++k)

@@ -9,7 +9,9 @@
 #include "contact/broad_phase/neighbour_list.h"
 #include "contact/narrow_phase/narrow_phase.h"
 #include "contact/narrow_phase/wall_bounds.h"
+#include "contact/wall/smooth_wall.h"
 #include "contact/wall/wall.h"
+#include "contact/wall/wall_law.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::contact
@@ -24,7 +26,8 @@ class WallModel
 {
 public:
   /** @param mesh watertight and oriented, normals out of the lumen */
-  static std::shared_ptr<const WallModel> create(const geometry::TriangleMesh& mesh);
+  static std::shared_ptr<const WallModel> create(const geometry::TriangleMesh& mesh,
+                                                 WallShape shape = WallShape::kFacets);
 
   /** Copy on write: gives access to a model that no other owner holds.
    *  @param model replaced by a copy if it is shared; a model without another owner is not copied */
@@ -35,15 +38,21 @@ public:
   const Wall& wall() const { return wall_; }
   const WallBounds& bounds() const { return bounds_; }
   const Bvh& bvh() const { return bvh_; }
+  /** The smooth surface; null for a wall of facets. */
+  const SmoothWall* smooth() const { return smooth_.get(); }
+  /** Bound of the distance between the wall and its facets [m]; 0 for a wall of facets. */
+  double deviation() const { return smooth_ ? smooth_->deviation() : 0.0; }
   NarrowPhase narrowPhase() const { return NarrowPhase(wall_, bounds_); }
 
-  /** Signed distance from a point to the wall, positive inside the lumen [m].
+  /** Signed distance from a point to the wall, positive inside the lumen [m]. For a smooth wall that of the foot that
+   * is reached from the nearest facet.
    *  @param hint triangle to start the search with, or −1; the result does not depend on it
    *  @param nearest receives the nearest triangle, unless it is null */
   double signedDistance(const Eigen::Vector3d& point, int hint = -1, int* nearest = nullptr) const;
 
   /** Moves vertices and refits everything. The model is afterwards, bit for bit, that of the moved mesh, but for the
    *  tree's topology and its cones, which no result depends on. The cost depends on the number of moved vertices only.
+   *  @pre the wall is one of facets
    *  @param indices distinct vertices of the mesh
    *  @param positions new positions, one per index [m]
    *  @return the movement as neighbour lists need it; valid until the next call */
@@ -51,12 +60,13 @@ public:
                                                   const std::vector<Eigen::Vector3d>& positions);
 
 private:
-  explicit WallModel(const geometry::TriangleMesh& mesh);
+  WallModel(const geometry::TriangleMesh& mesh, WallShape shape);
   WallModel(const WallModel& other);
 
   Wall wall_;
   WallBounds bounds_;
   Bvh bvh_;
+  std::unique_ptr<const SmoothWall> smooth_;
   WallBounds::Refit refit_;
   NeighbourList::WallMovement movement_;
 };

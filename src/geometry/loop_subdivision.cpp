@@ -1,6 +1,10 @@
 #include "geometry/loop_subdivision.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <Eigen/Geometry>
 
 #include "geometry/mesh_topology.h"
 
@@ -89,7 +93,73 @@ TriangleMesh subdivide(TriangleMesh mesh, int levels, bool smooth)
   return mesh;
 }
 
+/** Unit vertex normals, weighted by the corners' angles; zero at creases. */
+std::vector<Eigen::Vector3d> smoothNormals(const TriangleMesh& mesh, double crease_angle)
+{
+  std::vector<Eigen::Vector3d> facet(mesh.triangles.size());
+  std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (std::size_t t = 0; t < facet.size(); ++t)
+  {
+    const Eigen::Vector3i& c = mesh.triangles[t];
+    std::array<Eigen::Vector3d, 3> side;
+    for (int k = 0; k < 3; ++k)
+      side[static_cast<std::size_t>(k)] =
+          (mesh.vertices[static_cast<std::size_t>(c[(k + 1) % 3])] - mesh.vertices[static_cast<std::size_t>(c[k])])
+              .normalized();
+    facet[t] = side[0].cross(side[1]).normalized();
+    for (int k = 0; k < 3; ++k)
+    {
+      const double cosine = -side[static_cast<std::size_t>(k)].dot(side[static_cast<std::size_t>((k + 2) % 3)]);
+      sum[static_cast<std::size_t>(c[k])] += std::acos(std::clamp(cosine, -1.0, 1.0)) * facet[t];
+    }
+  }
+  for (Eigen::Vector3d& normal : sum)
+    normal.normalize();
+  std::vector<Eigen::Vector3d> smooth = sum;
+  const double least = std::cos(crease_angle);
+  for (std::size_t t = 0; t < facet.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto v = static_cast<std::size_t>(mesh.triangles[t][k]);
+      if (!(facet[t].dot(sum[v]) > least))
+        smooth[v].setZero();
+    }
+  return smooth;
+}
+
+/** Height of an arc over its chord that leaves one end at a right angle to a normal, against the normal's direction.
+ *  @param chord from that end to the other [m] */
+double arcHeight(const Eigen::Vector3d& chord, const Eigen::Vector3d& normal)
+{
+  const double rise = chord.dot(normal);
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - rise * rise / chord.squaredNorm()));
+  return 0.5 * rise / (1.0 + cosine);
+}
+
 }  // namespace
+
+TriangleMesh normalSubdivision(TriangleMesh mesh, int levels, double crease_angle)
+{
+  for (int level = 0; level < levels; ++level)
+  {
+    const std::vector<Eigen::Vector3d> normals = smoothNormals(mesh, crease_angle);
+    TriangleMesh fine = midpointSubdivision(mesh, 1);
+    const std::vector<HalfEdge> half_edges = sortedHalfEdges(mesh);
+    std::size_t next = mesh.vertices.size();
+    for (std::size_t begin = 0; begin < half_edges.size(); begin = endOfEdge(half_edges, begin), ++next)
+    {
+      const auto low = static_cast<std::size_t>(half_edges[begin].low);
+      const auto high = static_cast<std::size_t>(half_edges[begin].high);
+      const Eigen::Vector3d chord = mesh.vertices[high] - mesh.vertices[low];
+      const Eigen::Vector3d mean = normals[low] + normals[high];
+      if (mean.squaredNorm() > 0.0)
+        fine.vertices[next] -=
+            0.5 * (arcHeight(chord, normals[low]) + arcHeight(-chord, normals[high])) * mean.normalized();
+    }
+    mesh = std::move(fine);
+  }
+  return mesh;
+}
 
 TriangleMesh loopSubdivision(TriangleMesh mesh, int levels)
 {

@@ -17,4 +17,13 @@ TriangleMesh loopSubdivision(TriangleMesh mesh, int levels);
  *  @param levels number of subdivisions; 0 returns the mesh */
 TriangleMesh midpointSubdivision(TriangleMesh mesh, int levels);
 
+/** Interpolating subdivision by normals (Yang 2006, "Normal based subdivision scheme for curve design"): every triangle
+ * is split into four, vertices stay, and the middle of an edge moves along the mean of its ends' normals to the circle
+ * that fits both. A sphere and a cylinder stay exact. Ends at a crease, where a triangle is turned against the mean
+ * normal by more than the crease angle, do not bend their edges: a flat cap and its rim remain.
+ *  @pre the mesh is closed and manifold (checkMesh)
+ *  @param levels number of subdivisions; 0 returns the mesh
+ *  @param crease_angle [rad] */
+TriangleMesh normalSubdivision(TriangleMesh mesh, int levels, double crease_angle);
+
 }  // namespace endovascular_sim::geometry

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "contact/wall/smooth_wall.h"
 #include "geometry/closest_point_on_triangle.h"
 #include "geometry/loop_subdivision.h"
 #include "geometry/mesh_distance.h"
@@ -57,6 +58,16 @@ vessel::Vessel vesselFromMeshFile(const VesselScene& scene, const ProgressReport
   for (Eigen::Vector3d& v : vessel.mesh.vertices)
     v = scene.transform * v;
   return vessel;
+}
+
+/** Refines a coarse mesh as far as a smooth wall needs it. */
+void refineForSmoothWall(vessel::Vessel& vessel)
+{
+  const std::size_t before = vessel.mesh.triangles.size();
+  vessel.mesh = contact::refinedForSmoothWall(std::move(vessel.mesh));
+  if (vessel.mesh.triangles.size() != before)
+    vessel.notes.push_back("refined from " + std::to_string(before) + " to " +
+                           std::to_string(vessel.mesh.triangles.size()) + " triangles for the smooth wall");
 }
 
 bool needsCentreline(const EntryScene& entry)
@@ -151,6 +162,7 @@ CentrelineUse centrelineUse(const Scene& scene)
 contact::WallLaw wallLaw(const VesselScene& scene)
 {
   contact::WallLaw law;
+  law.shape = scene.wall;
   law.stiffness = scene.stiffness;
   law.friction = scene.friction;
   for (const VesselScene::FrictionRegion& region : scene.friction_regions)
@@ -180,10 +192,15 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
     vessel.mesh = geometry::loopSubdivision(std::move(vessel.mesh), scene.smoothing);
     vessel.notes.push_back("smoothed by " + std::to_string(scene.smoothing) + " Loop subdivisions");
   }
+  const bool smooth = scene.wall == contact::WallShape::kSmooth;
+  if (smooth && scene.lesions.empty())
+    refineForSmoothWall(vessel);
   const bool required = centreline == CentrelineUse::kRequired || needsCentreline(entry) || !scene.lesions.empty();
   if (required && vessel.centreline.branches.empty())
     vessel.centreline = vessel::extractCentreline(vessel.mesh, progress);
   vessel::addLesions(vessel, scene.lesions, origin, progress);
+  if (smooth && !scene.lesions.empty())
+    refineForSmoothWall(vessel);
   return vessel;
 }
 

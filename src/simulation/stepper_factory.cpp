@@ -89,7 +89,8 @@ std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene
   environment.fluid_density = scene.loads.fluid_density;
   environment.drag_coefficient = scene.loads.drag_coefficient;
   environment.damping = scene.loads.damping;
-  const rod::StepperSettings& settings = scene.solver.stepper;
+  rod::StepperSettings settings = scene.solver.stepper;
+  settings.curved_wall = settings.curved_wall || (scene.vessel && scene.vessel->wall == contact::WallShape::kSmooth);
   const rod::Boundary boundary = boundaryOf(scene, entry);
   if (scene.instruments.size() > 1)
   {

@@ -1,5 +1,7 @@
 #include "contact/narrow_phase/wall_bounds.h"
 
+#include <limits>
+
 namespace endovascular_sim::contact
 {
 
@@ -11,6 +13,15 @@ WallBounds::WallBounds(const Wall& wall)
   edges_.reserve(wall.edges.size());
   for (const WallEdge& edge : wall.edges)
     edges_.push_back(makeEdgeBounds(wall, edge));
+}
+
+void WallBounds::openCones()
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (TriangleSlab& slab : slabs_)
+    slab.edge_slope = slab.corner_slope = infinity;
+  for (EdgeBounds& edge : edges_)
+    edge.cone_slope = infinity;
 }
 
 void WallBounds::refit(const Wall& wall, const Wall::Changes& changes, Refit& refit)

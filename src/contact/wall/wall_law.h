@@ -8,9 +8,17 @@
 namespace endovascular_sim::contact
 {
 
-/** Mechanical law of the wall: elastic foundation and Coulomb friction. */
+/** Shape of the wall: the facets of the mesh, or the smooth surface through its vertices (SmoothWall). */
+enum class WallShape
+{
+  kFacets,
+  kSmooth,
+};
+
+/** Shape and mechanical law of the wall: elastic foundation and Coulomb friction. */
 struct WallLaw
 {
+  WallShape shape = WallShape::kFacets;  ///< of a detector's own wall model; a shared model has its own
   double stiffness = std::numeric_limits<double>::infinity();  ///< per length of wire [N/m²]; infinite: rigid
   double friction = 0.0;                                       ///< Coulomb coefficient outside all regions
 

@@ -73,9 +73,8 @@ void ActiveSetSolver<Layout>::addTerms(const ContactSolver& contacts, const Wall
     if (!contacts.spring(c).active)
       continue;
     addContact(contacts.feature(c), contacts.spring(c), dt);
-    if constexpr (Layout::kTurns)
-      if (contacts.spring(c).weight1 <= 0.0)
-        addCurvature(contacts.feature(c), contacts.spring(c).node, dt);
+    if ((Layout::kTurns || model_.settings.curved_wall) && contacts.spring(c).weight1 <= 0.0)
+      addCurvature(contacts.feature(c), contacts.spring(c).node, dt);
   }
   for (std::size_t k = 0; k < friction.count(); ++k)
     addFriction(friction.term(k), dt);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "contact/wall/wall_law.h"
 #include "drive/drive_limits.h"
 #include "instrument/instrument.h"
 #include "rod/stepping/scheme_traits.h"
@@ -48,6 +49,8 @@ struct VesselScene
   };
   std::optional<Tube> tube;
 
+  /** Shape of the wall: the facets, or the smooth surface through their vertices. */
+  contact::WallShape wall = contact::WallShape::kFacets;
   /** Stiffness of the wall per length of wire [N/m²]; infinite: rigid. */
   double stiffness = std::numeric_limits<double>::infinity();
   double friction = 0.0;  ///< Coulomb coefficient of the wall [1]

@@ -129,6 +129,18 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
                       std::to_string(shortest) + " m");
 }
 
+/** Rejects a smooth wall that a balloon would move. */
+void checkWall(const SceneFields& fields, const Scene& scene)
+{
+  if (!scene.vessel || scene.vessel->wall != contact::WallShape::kSmooth)
+    return;
+  for (const DrivenInstrument& driven : scene.instruments)
+    if (driven.instrument.balloon)
+      fields.reject("vessel.wall",
+                    "is smooth, but a balloon moves the wall, which only facets follow; set vessel.wall: "
+                    "facets, or use an instrument without a balloon");
+}
+
 void checkScene(const SceneFields& fields, const Scene& scene)
 {
   checkEdges(fields, scene);
@@ -149,6 +161,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
                                        "' does not support adaptive sampling; set sampling.kind: uniform");
   if (!scene.introducer)
     checkBenchDrive(fields, scene);
+  checkWall(fields, scene);
   if (scene.instruments.size() > 1)
     checkStack(fields, scene);
   checkProcedure(fields, scene);

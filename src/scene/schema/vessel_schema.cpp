@@ -13,6 +13,8 @@ namespace
 const std::vector<std::string> kSurfaces = {"hydrophilic", "ptfe", "bare"};
 constexpr std::array<double, 3> kSurfaceFriction = {0.035, 0.115, 0.25};
 
+const std::vector<std::string> kWallShapes = {"facets", "smooth"};  // order of contact::WallShape
+
 /** Rotation from the frame of the mesh to the patient frame, from the directions head and left in the mesh frame. */
 Eigen::Matrix3d rotationFromBody(SceneFields& fields)
 {
@@ -190,6 +192,8 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
     fields.map("tube", [&vessel](SceneFields& tube) { visitTube(tube, *vessel.tube); });
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);
+  if (fields.reading() || vessel.wall != contact::WallShape::kFacets)
+    fields.option("wall", vessel.wall, kWallShapes);
   fields.number("stiffness", vessel.stiffness, quantities::kWallStiffness,
                 {0.0, std::numeric_limits<double>::max(), true, true});
   visitFriction(fields, vessel.friction, Need::kRequired);

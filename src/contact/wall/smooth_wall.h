@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/wall/vertex_quadric.h"
+#include "contact/wall/wall.h"
+#include "geometry/triangle_mesh.h"
+
+namespace endovascular_sim::contact
+{
+
+/** Smooth surface through the vertices of a wall (docs/CONTACT.md, "Smooth wall").
+ *
+ *  Every vertex has a quadric fitted to its neighbours. A point p of a triangle with barycentric coordinates b moves
+ *  along the direction Σ b_i n_i, n_i the normals of the vertices, by the blend Σ w_i h_i of the distances h_i to the
+ *  quadrics of the corners, w_i = b_i²/Σ b_j². On an edge both triangles give the same point and the same normal. At a
+ *  crease vertex, whose quadric does not represent its neighbours, the plane of every triangle replaces the quadric:
+ * the surface stays closed, and its normal jumps across the edges there. */
+class SmoothWall
+{
+public:
+  /** @param wall must outlive the object and remain unchanged */
+  explicit SmoothWall(const Wall& wall);
+
+  /** The same surface on a copy of the wall. */
+  SmoothWall(const SmoothWall& other, const Wall& wall);
+  SmoothWall(const SmoothWall&) = delete;
+  SmoothWall& operator=(const SmoothWall&) = delete;
+
+  /** A point of the surface. */
+  struct Point
+  {
+    Eigen::Vector3d position;
+    Eigen::Vector3d normal;     ///< towards the lumen, unit
+    Eigen::Matrix3d curvature;  ///< curvature tensor in the tangent plane, positive where the wall is concave [1/m]
+  };
+
+  /** Point of the patch over a triangle. @param weights barycentric coordinates */
+  Point at(int triangle, const Eigen::Vector3d& weights) const;
+
+  /** Position alone, see at(). */
+  Eigen::Vector3d positionAt(int triangle, const Eigen::Vector3d& weights) const;
+
+  /** Change of the barycentric coordinates that moves the surface's point by a tangential vector, to first order.
+   *  @param point the point at @p weights */
+  Eigen::Vector3d weightsChange(int triangle, const Eigen::Vector3d& weights, const Point& point,
+                                const Eigen::Vector3d& tangential) const;
+
+  /** Bound of the distance between every point of the surface and the point of its triangle with the same barycentric
+   *  coordinates [m]. It bounds the distances from the surface to the facets and from the facets to the surface. */
+  double deviation() const { return deviation_; }
+  double deviationOf(int triangle) const { return deviations_[triangle]; }  ///< the same of one triangle [m]
+
+  bool isCrease(int vertex) const { return crease_[vertex] != 0; }
+  /** Whether the normal jumps across an edge. */
+  bool isSharp(int edge) const { return sharp_[edge] != 0; }
+  double creaseShare() const;  ///< share of the vertices that are creases
+
+  const Wall& wall() const { return wall_; }
+
+private:
+  void markCreases();
+  double boundOf(int triangle);
+  double boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const;
+  Eigen::Vector3d pointOf(int triangle, const Eigen::Vector3d& weights) const;
+  Eigen::Vector3d direction(int triangle, const Eigen::Vector3d& weights) const;
+  double displacement(int triangle, const Eigen::Vector3d& blend, const Eigen::Vector3d& point,
+                      const Eigen::Vector3d& direction) const;
+
+  const Wall& wall_;
+  std::vector<VertexQuadric> quadrics_;
+  std::vector<char> crease_;  ///< per vertex
+  std::vector<char> sharp_;   ///< per edge
+  std::vector<double> deviations_;
+  double deviation_ = 0.0;
+};
+
+/** Mesh that represents a smooth wall well: the mesh itself, or up to two interpolating subdivisions of it
+ *  (geometry::normalSubdivision) where nine tenths of its dihedral angles are not below 24°, that of 15 facets around a
+ *  tube. Its vertices remain. */
+geometry::TriangleMesh refinedForSmoothWall(geometry::TriangleMesh mesh);
+
+/** Triangulation of a smooth wall: every triangle is divided into parts², with all vertices on the surface. It is
+ * closed as the wall's mesh is. @param parts of every edge */
+geometry::TriangleMesh tessellate(const SmoothWall& smooth, int parts);
+
+}  // namespace endovascular_sim::contact
