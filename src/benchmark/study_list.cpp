@@ -1,5 +1,6 @@
 #include "benchmark/study_list.h"
 
+#include "benchmark/facets/facets_study.h"
 #include "benchmark/reversal/reversal_study.h"
 #include "benchmark/studies/accuracy.h"
 #include "benchmark/studies/contact_study.h"
@@ -24,6 +25,8 @@ const std::vector<Study>& studies()
       {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},
       {"reversal", "Torque after a reversal", "torque at the hand over the speed and the time step", reversalTables(),
        reversalStudy},
+      {"facets", "Facets around the lumen", "torque of a J tip over the facets, facetted and smooth wall",
+       facetsTables(), facetsStudy},
       {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
       {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
   return list;

@@ -44,6 +44,7 @@ void addOptions(tools::CommandLine& line, Options& options)
               "folder for leak_fuzz.json (result and state), leak_fuzz.csv (worst episodes) and leak_fuzz.md");
   line.option("--steps", options.steps, "N", "total number of steps [1000000]");
   line.option("--seed", options.settings.seed, "S", "seed of the random choices [1]");
+  line.flag("--smooth", options.settings.smooth, "smooth walls (vessel.wall: smooth) in place of facets");
   line.flag("--resume", options.resume, "continues from DIR/leak_fuzz.json");
   line.option("--episode", options.episode, "K", "runs this episode only, prints its result and writes no file");
   line.repeated("--mesh", options.meshes, "FILE",
@@ -84,6 +85,8 @@ void replaceFile(const std::filesystem::path& path, const std::string& text)
 std::string reproduction(const Options& options)
 {
   std::string command = "rosrun endovascular_sim leak_fuzz --seed " + std::to_string(options.settings.seed);
+  if (options.settings.smooth)
+    command += " --smooth";
   for (const std::string& mesh : options.meshes)
     command += " --mesh " + mesh;
   for (const std::string& value : options.settings.overrides)
@@ -118,7 +121,7 @@ int runOne(const Options& options, FuzzVessels& vessels)
 
 int run(const Options& options)
 {
-  FuzzVessels vessels(options.meshes.empty() ? meshesOfDataFolder() : options.meshes);
+  FuzzVessels vessels(options.meshes.empty() ? meshesOfDataFolder() : options.meshes, options.settings.smooth);
   for (const std::string& reason : vessels.skipped())
     std::cerr << "leak_fuzz: skipped " << reason << "\n";
   if (options.episode)

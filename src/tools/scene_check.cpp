@@ -5,6 +5,7 @@
 #include "common/hash.h"
 #include "common/progress.h"
 #include "results/session_run.h"
+#include "scene/facets_around.h"
 #include "scene/model/scene.h"
 #include "scene/numeric_keys.h"
 #include "scene/sampling_error.h"
@@ -55,6 +56,7 @@ void checkVessel(const scene::Scene& scene)
     std::cerr << vessel.source << ": " << note << "\n";
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
   const results::SessionRun goals(scene, vessel, entry.position);
+  std::cerr << "scene_check: " << scene::facetsAround(vessel.mesh).text(scene.vessel->wall) << "\n";
   std::cerr << "scene_check: " << scene::expectedSamplingError(scene, vessel, entry).text() << "\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include "benchmark/harness/table.h"
 #include "common/error.h"
+#include "contact/wall/smooth_wall.h"
 #include "geometry/loop_subdivision.h"
 #include "scene/yaml/file_search.h"
 #include "vessel/anatomy/anatomy.h"
@@ -24,6 +25,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
+constexpr double kCheckedTriangles = 3e5;  // of the tessellation of a smooth wall, about
 constexpr int kForks = 6;
 constexpr int kTries = 200;
 constexpr double kSmoothedUpTo = 20000;  // largest number of triangles of a mesh that is also used after smoothing
@@ -139,6 +141,22 @@ geometry::TriangleMesh readCleanMesh(const std::string& file)
   return vessel::repairMesh(vessel::readMesh(file, unit), file).mesh;
 }
 
+/** Sets the shape of a vessel's wall and its check. */
+void setWall(FuzzVessel& vessel, bool smooth)
+{
+  if (!smooth)
+  {
+    vessel.check = std::make_unique<WireCheck>(vessel.vessel.mesh);
+    return;
+  }
+  vessel.law.shape = contact::WallShape::kSmooth;
+  vessel.vessel.mesh = contact::refinedForSmoothWall(std::move(vessel.vessel.mesh));
+  const contact::Wall wall(vessel.vessel.mesh);
+  const double parts = std::sqrt(kCheckedTriangles / static_cast<double>(wall.triangles.size()));
+  vessel.checked = contact::tessellate(contact::SmoothWall(wall), static_cast<int>(std::clamp(parts, 2.0, 8.0)));
+  vessel.check = std::make_unique<WireCheck>(vessel.checked);
+}
+
 double narrowest(const vessel::CentrelineTree& tree)
 {
   double least = 1.0;
@@ -150,7 +168,7 @@ double narrowest(const vessel::CentrelineTree& tree)
 
 }  // namespace
 
-FuzzVessels::FuzzVessels(const std::vector<std::string>& mesh_files)
+FuzzVessels::FuzzVessels(const std::vector<std::string>& mesh_files, bool smooth) : smooth_(smooth)
 {
   kinds_ = {"channel", "fork", "channel", "anatomy"};
   for (const std::string& file : mesh_files)
@@ -178,7 +196,7 @@ FuzzVessel& FuzzVessels::retain(const std::string& name, vessel::Vessel vessel)
   auto made = std::make_unique<FuzzVessel>();
   made->name = name;
   made->vessel = std::move(vessel);
-  made->check = std::make_unique<WireCheck>(made->vessel.mesh);
+  setWall(*made, smooth_);
   made->narrowest = narrowest(made->vessel.centreline);
   return *(retained_[name] = std::move(made));
 }
@@ -186,7 +204,11 @@ FuzzVessel& FuzzVessels::retain(const std::string& name, vessel::Vessel vessel)
 FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
 {
   if (kind == "channel")
-    return *(channel_ = randomChannel(random));
+  {
+    channel_ = randomChannel(random);
+    setWall(*channel_, smooth_);
+    return *channel_;
+  }
   const int which = kind == "fork" ? random.integer(0, kForks - 1) : 0;
   const std::string name = kind == "fork" ? "fork_" + std::to_string(which) : kind;
   const auto known = retained_.find(name);

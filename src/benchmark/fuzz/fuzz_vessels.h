@@ -21,6 +21,8 @@ struct FuzzVessel
   std::string name;
   std::string detail;  ///< description of a vessel generated for one episode
   vessel::Vessel vessel;
+  contact::WallLaw law;            ///< its shape: facets, or the smooth wall of the mesh
+  geometry::TriangleMesh checked;  ///< tessellation of a smooth wall, for the check
   std::unique_ptr<WireCheck> check;
   std::unique_ptr<contact::Detector> detector;  ///< detector of the rigid wall
   int uses = 0;                                 ///< number of uses of the detector
@@ -33,8 +35,9 @@ struct FuzzVessel
 class FuzzVessels
 {
 public:
-  /** @param mesh_files OBJ, STL or PLY [mm or m]; unusable ones are listed in skipped() */
-  explicit FuzzVessels(const std::vector<std::string>& mesh_files);
+  /** @param mesh_files OBJ, STL or PLY [mm or m]; unusable ones are listed in skipped()
+   *  @param smooth whether the walls are smooth (contact::WallShape) */
+  explicit FuzzVessels(const std::vector<std::string>& mesh_files, bool smooth = false);
 
   /** Names of the kinds of vessel, in a fixed order. */
   const std::vector<std::string>& kinds() const { return kinds_; }
@@ -47,6 +50,7 @@ public:
 private:
   FuzzVessel& retain(const std::string& name, vessel::Vessel vessel);
 
+  bool smooth_;
   std::vector<std::string> kinds_;
   std::vector<std::string> skipped_;
   std::map<std::string, std::string> file_of_kind_;

@@ -180,7 +180,7 @@ private:
 contact::Detector& detectorOf(FuzzVessel& vessel)
 {
   if (!vessel.detector || ++vessel.uses % kDetectorLife == 0)
-    vessel.detector = std::make_unique<contact::Detector>(vessel.vessel.mesh, contact::WallLaw{});
+    vessel.detector = std::make_unique<contact::Detector>(vessel.vessel.mesh, vessel.law);
   return *vessel.detector;
 }
 
@@ -240,7 +240,8 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   FuzzRandom random(settings.seed, number);
   FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
   const Setup setup = randomSetup(vessel, random);
-  const scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
+  scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
+  scene.solver.stepper.curved_wall = settings.smooth;
   const scene::EntryPose entry = randomEntry(vessel, random, setup.radius, 1.5 * kInitialInsertion);
   WallSource wall(detectorOf(vessel), setup.stiffness, setup.friction);
   simulation::Simulation simulation(scene, entry, &wall, &vessel.vessel.centreline);

@@ -14,6 +14,7 @@ struct FuzzSettings
 {
   std::uint64_t seed = 1;
   int steps_per_episode = 400;
+  bool smooth = false;                 ///< smooth walls (vessel.wall: smooth) in place of facets
   std::vector<std::string> overrides;  ///< overrides `key.path=value` of every scene
 };
 
