@@ -29,7 +29,8 @@ public:
   /** Recomputes the bounds of the changed triangles and edges. */
   void refit(const Wall& wall, const Wall::Changes& changes, Refit& refit);
 
-  /** Opens all cones: the bounds then hold for any surface within a distance of the facets, not for the facets alone. */
+  /** Opens all cones: the bounds then hold for any surface within a distance of the facets, not for the facets alone.
+   */
   void openCones();
 
 private:

@@ -78,10 +78,10 @@ struct StepperSettings
   double contact_margin = 0.25e-3;      ///< distance to the wall up to which contacts are detected [m]
   double penetration_tolerance = 3e-5;  ///< depth of a new contact beyond which the step is solved again [m]
   double max_rotation = 0.3;            ///< largest rotation of an edge in one solve [rad]
-  /** `kkt`: the wall is curved between its contacts, which have one plane each. The system then contains the turn of the
-   *  normals with the motion of the nodes. Facets supply the curvature themselves. */
+  /** `kkt`: the wall is curved between its contacts, which have one plane each. The system then contains the turn of
+   * the normals with the motion of the nodes. Facets supply the curvature themselves. */
   bool curved_wall = false;
-  double friction_slip = 0.5e-6;        ///< tangential displacement of a node at which it begins to slide [m]
+  double friction_slip = 0.5e-6;  ///< tangential displacement of a node at which it begins to slide [m]
 };
 
 /** A force on one node [N]. */
