@@ -79,8 +79,7 @@ public:
     listen<Joints>("goal_js", [this](const auto& joints) { goal_ = joints; });
     listen<geometry_msgs::PoseStamped>("measured_cp", [this](const auto& pose) { tip_ = pose; });
     listen<geometry_msgs::WrenchStamped>("measured_cf", [this](const auto& wrench) { wall_force_ = wrench; });
-    subscribers_.push_back(
-        node_.subscribe<SessionSample>(nodes::names::kSessionSample, 10, [](const SessionSampleConstPtr&) {}));
+    subscribe<SessionSample>(nodes::names::kSessionSample, [](const auto&) {});
     subscribe<diagnostic_msgs::DiagnosticArray>(nodes::names::kDiagnostics,
                                                 [this](const auto& array) { receive(array); });
     subscribe<DriveApplied>(nodes::names::kDriveApplied, [this](const auto& step) { steps_[step.step] = step; });
