@@ -90,9 +90,9 @@ TEST(WallModel, GivesDetectorsThatShareItTheBitsOfDetectorsWithTheirOwn)
   const geometry::TriangleMesh mesh = geometry::midpointSubdivision(bentTube(), 2);
   const std::shared_ptr<const WallModel> model = WallModel::create(mesh);
   Detector first(model, WallLaw{});
-  Detector second(model, WallLaw{1e6, 0.2, {}});
+  Detector second(model, WallLaw{WallShape::kFacets, 1e6, 0.2, {}});
   Detector own_first(mesh, WallLaw{});
-  Detector own_second(mesh, WallLaw{1e6, 0.2, {}});
+  Detector own_second(mesh, WallLaw{WallShape::kFacets, 1e6, 0.2, {}});
   ContactSet shared, own;
   std::size_t features = 0;
   std::vector<Query> wires = randomWires(15);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/contact_fixtures.h"
+#include "test/contact/contact_fixtures.h"
 #include "geometry/mesh_distance.h"
 
 namespace endovascular_sim::contact

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "contact/contact_fixtures.h"
+#include "test/contact/contact_fixtures.h"
 #include "contact/wall/smooth_wall.h"
 #include "vessel/repair/mesh_check.h"
 
