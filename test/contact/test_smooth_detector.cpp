@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "test/contact/contact_fixtures.h"
 #include "geometry/mesh_distance.h"
+#include "test/contact/contact_fixtures.h"
 
 namespace endovascular_sim::contact
 {

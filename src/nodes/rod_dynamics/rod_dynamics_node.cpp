@@ -154,7 +154,7 @@ bool RodDynamicsNode::run()
         {
           statistics_.diagnose(grant_, status);
           diagnoseCommands(drives_.reports(),
-                           unreadTopics(scene_, node_.resolveName(names::kInstruments), publishedTopics(),
+                           unreadTopics(scene_, node_.resolveName(names::kInstruments) + "/", publishedTopics(),
                                         ros::this_node::getName()),
                            status);
         });

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "test/contact/contact_fixtures.h"
 #include "contact/wall/smooth_wall.h"
+#include "test/contact/contact_fixtures.h"
 #include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::contact
