@@ -15,6 +15,7 @@ namespace
 constexpr double kRate = 1.0;       // rad/s
 constexpr double kInsertion = 0.5;  // s: inserts the wire
 constexpr double kRest = 0.1;       // s: before it turns
+constexpr double kTurning = 90.0;   // s: longer than any average
 
 /** A soft wire of 100 mm with a 3 mm J, 60 mm of it in a straight tube of 6 mm. */
 std::string sceneOf(int facets_around, bool smooth, double friction, double time_step)
@@ -43,7 +44,7 @@ sampling: {kind: uniform, nodes: 100}
 solver: {time_step: %g}
 )",
                 facets_around, smooth ? "smooth" : "facets", friction, kInsertion, kInsertion + kRest,
-                kInsertion + kRest + 10.0, 10.0 * kRate, time_step);
+                kInsertion + kRest + kTurning, kTurning * kRate, time_step);
   return text;
 }
 

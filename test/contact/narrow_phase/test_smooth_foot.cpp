@@ -83,7 +83,7 @@ TEST(SmoothFoot, IsTheClosestPointOfTheSurface)
 {
   // Relative height of the bumps, and bound of the excess over the distance to the tessellation [m]. The normal omits
   // the derivative of the weights: on a rough wall it deviates from that of the surface.
-  const std::vector<std::pair<double, double>> walls = {{0.0, 15e-6}, {0.08, 30e-6}};
+  const std::vector<std::pair<double, double>> walls = {{0.0, 20e-6}, {0.08, 30e-6}};
   for (const auto& [bump, bound] : walls)
   {
     const Fixture fixture(bumpy(geometry::midpointSubdivision(bentTube(), 1), bump));
