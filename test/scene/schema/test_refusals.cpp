@@ -106,6 +106,8 @@ const std::vector<Refusal> kRefusals = {
     {"bad_tube_narrower_than_wire.yaml", "vessel.tube.radius (line 14)", "must be greater than"},
     {"bad_tube_bend_too_tight.yaml", "vessel.tube.pieces.0.curvature (line 14)", "less than 1/radius"},
     {"bad_friction_word.yaml", "vessel.friction (line 13)", "one of hydrophilic, ptfe, bare"},
+    {"bad_wall_word.yaml", "vessel.wall (line 13)", "one of facets, smooth"},
+    {"bad_smooth_wall_of_a_balloon.yaml", "vessel.wall (line 5)", "a balloon moves the wall"},
     {"bad_friction_region.yaml", "vessel.friction_regions.0.radius (line 14)", "must be positive"},
     {"bad_friction_region_without_friction.yaml", "vessel.friction_regions.0.friction (line 14)", "give a number"},
     {"bad_lesion_closed.yaml", "vessel.lesions.0.grade (line 14)", "between 0 and 0.99"},
