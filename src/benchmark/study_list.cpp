@@ -1,6 +1,7 @@
 #include "benchmark/study_list.h"
 
 #include "benchmark/reversal/reversal_study.h"
+#include "benchmark/sleeve/sleeve_study.h"
 #include "benchmark/studies/accuracy.h"
 #include "benchmark/studies/contact_study.h"
 #include "benchmark/studies/hand_force_study.h"
@@ -24,6 +25,7 @@ const std::vector<Study>& studies()
       {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},
       {"reversal", "Torque after a reversal", "torque at the hand over the speed and the time step", reversalTables(),
        reversalStudy},
+      {"sleeve", "Rod through a sleeve", "force at the hand against the exact elastica", sleeveTables(), sleeveStudy},
       {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
       {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
   return list;
