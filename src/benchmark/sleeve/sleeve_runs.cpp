@@ -15,6 +15,7 @@ constexpr double kBendingStiffness = 1e-3;  // EI [N·m²]
 constexpr double kLength = 0.8;             // of the wire [m]
 constexpr double kDisturbed = 0.7;          // arc length of the lateral load that selects the side of buckling [m]
 constexpr double kDisturbance = 1e-4;       // that load [N]
+constexpr double kTurn = 0.01;              // length over L beyond the last one, at which the motion reverses
 constexpr double kForceUnit = kBendingStiffness / (kDistance * kDistance);
 
 class SleeveRun
@@ -29,20 +30,21 @@ public:
                              Eigen::Vector3d(0.0, kDisturbance, 0.0)});
   }
 
+  /** Moves at constant speed to the first step at or beyond a length. */
   SleeveForce moveTo(double length)
   {
     const double target = length * kDistance;
-    while (input_.inserted_length != target)
+    const double way = target > input_.inserted_length ? 1.0 : -1.0;
+    while (way * (target - input_.inserted_length) > 0.0)
     {
-      const double travel = motion_.speed * motion_.time_step;
-      input_.inserted_length += std::clamp(target - input_.inserted_length, -travel, travel);
+      input_.inserted_length += way * motion_.speed * motion_.time_step;
       std::uint32_t pass = 0;
       if (!stepper_.step(state_, input_, motion_.time_step, pass, nullptr, timer_).solved)
         throw std::runtime_error("sleeve: a step was rejected");
       ++input_.step;
     }
     const rod::HandForceParts& parts = state_.hand_parts;
-    return {length, (state_.hand_force - parts.drag - parts.inertia) / kForceUnit, parts.configurational / kForceUnit,
+    return {input_.inserted_length / kDistance, (state_.hand_force - parts.drag - parts.inertia) / kForceUnit, parts.configurational / kForceUnit,
             stepper_.energy(state_).bending / (kForceUnit * kDistance)};
   }
 
@@ -90,6 +92,7 @@ SleeveCurve runSleeve(const SleeveMotion& motion)
   SleeveCurve curve;
   for (const double length : motion.lengths)
     curve.in.push_back(run.moveTo(length));
+  run.moveTo(motion.lengths.back() + kTurn);
   for (auto length = motion.lengths.rbegin(); length != motion.lengths.rend(); ++length)
     curve.out.push_back(run.moveTo(*length));
   std::reverse(curve.out.begin(), curve.out.end());

@@ -19,7 +19,7 @@ struct SleeveMotion
 /** Force on the hand at an inserted length, over EI/L². */
 struct SleeveForce
 {
-  double length = 0.0;           ///< inserted length over L
+  double length = 0.0;           ///< inserted length over L, of the step that reaches the given one
   double force = 0.0;            ///< drag and damping excluded
   double configurational = 0.0;  ///< part by which the sleeve pushes the rod out, negative
   double energy = 0.0;           ///< bending energy, over EI/L

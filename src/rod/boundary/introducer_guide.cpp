@@ -48,17 +48,16 @@ void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector
     const double t = inside * kPoint[q];
     const double depth = (reach_ - x0 - t * (x1 - x0)) * inverse;
     const double stiffness = scale * kWeight[q] * depth * depth * depth;
-    const double slope = -3.0 * inverse / depth;  // logarithmic derivative of the stiffness by X
+    const double slope = -3.0 * inverse / depth;  // of the stiffness by X, relative to it; the second one: slope² 2/3
     const Eigen::Vector3d y = (1.0 - t) * y0 + t * y1;
     const double squared = y.squaredNorm();
     edge.energy += 0.5 * stiffness * squared;
     const Eigen::Vector3d force = stiffness * (y + (0.5 * slope * squared) * direction_);
     edge.gradient[0] += (1.0 - t) * force;
     edge.gradient[1] += t * force;
-    // BᵀB with B = I − aaᵀ + slope y aᵀ: exact but for the second derivative along the axis.
     const Eigen::Vector3d coupling = slope * y;
     Eigen::Matrix3d hessian = coupling * direction_.transpose() + direction_ * coupling.transpose() +
-                              (slope * slope * squared - 1.0) * direction_ * direction_.transpose();
+                              (slope * slope * squared / 3.0 - 1.0) * direction_ * direction_.transpose();
     hessian.diagonal().array() += 1.0;
     hessian *= stiffness;
     edge.first += (1.0 - t) * (1.0 - t) * hessian;

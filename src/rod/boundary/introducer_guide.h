@@ -16,8 +16,8 @@ struct GuidedEdge
 {
   double energy = 0.0;                      ///< [J]
   std::array<Eigen::Vector3d, 2> gradient;  ///< [N]
-  /** Positive semi-definite approximation of the second derivatives: block of the first node, of the second one (row)
-   *  with the first one, of the second node [N/m]. */
+  /** Second derivatives: block of the first node, of the second one (row) with the first one, of the second node
+   *  [N/m]. */
   Eigen::Matrix3d first, across, second;
 
   void reset();
@@ -30,7 +30,10 @@ struct GuidedEdge
  *  with the axial coordinate X (0 at the mouth), the lateral offset Y, and the decay length λ. The wire bends in it like
  *  a wire that is clamped at the mouth: X_e = kReach λ compensates for its compliance. The potential depends on the
  *  positions alone. It therefore pushes a bent wire out with the configurational force ½EIκ². Edges are integrated
- *  exactly up to X_e, where the potential and its first two derivatives vanish. */
+ *  exactly up to X_e, where the potential and its first two derivatives vanish.
+ *
+ *  The second derivatives are exact and therefore indefinite. A semi-definite form overestimates those along the axis,
+ *  and the force on the hand would then depend on the travel per step. */
 class IntroducerGuide
 {
 public:

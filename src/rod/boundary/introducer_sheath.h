@@ -12,7 +12,8 @@ namespace endovascular_sim::rod
 
 /** Tube of the introducer around its guide: a stiff potential in space beyond the radial clearance of the wire. Nodes
  *  touch the tube, with a stiffness that fades over the last millimetres to the mouth; its rim touches the wire inside
- *  an edge. The force on the rim is normal to the wire. */
+ *  an edge. The force on the rim is normal to the wire. Second derivatives are
+ *  approximated by positive semi-definite ones. */
 class IntroducerSheath
 {
 public:
