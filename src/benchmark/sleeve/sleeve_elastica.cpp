@@ -14,7 +14,7 @@ namespace
 
 using State = Eigen::Matrix<double, 5, 1>;  // angle, curvature, x, y, energy
 
-constexpr int kSteps = 400;           // of the Runge–Kutta method over the length
+constexpr int kSteps = 400;            // of the Runge–Kutta method over the length
 constexpr double kLongestMove = 0.01;  // of the length in one continuation
 constexpr double kTolerance = 1e-10;
 constexpr int kMaxIterations = 40;

@@ -22,12 +22,13 @@ class SleeveRun
 {
 public:
   explicit SleeveRun(const SleeveMotion& motion)
-    : motion_(motion), stepper_(discretisation(motion.nodes), boundary(motion), environment(), rod::StepperSettings()),
+    : motion_(motion),
+      stepper_(discretisation(motion.nodes), boundary(motion), environment(), rod::StepperSettings()),
       state_(stepper_.initialState(kDistance, 0.0))
   {
     input_.inserted_length = kDistance;
-    input_.forces.push_back({static_cast<int>(kDisturbed / kLength * (motion.nodes - 1)),
-                             Eigen::Vector3d(0.0, kDisturbance, 0.0)});
+    input_.forces.push_back(
+        {static_cast<int>(kDisturbed / kLength * (motion.nodes - 1)), Eigen::Vector3d(0.0, kDisturbance, 0.0)});
   }
 
   /** Moves at constant speed to the first step at or beyond a length. */
@@ -44,8 +45,8 @@ public:
       ++input_.step;
     }
     const rod::HandForceParts& parts = state_.hand_parts;
-    return {input_.inserted_length / kDistance, (state_.hand_force - parts.drag - parts.inertia) / kForceUnit, parts.configurational / kForceUnit,
-            stepper_.energy(state_).bending / (kForceUnit * kDistance)};
+    return {input_.inserted_length / kDistance, (state_.hand_force - parts.drag - parts.inertia) / kForceUnit,
+            parts.configurational / kForceUnit, stepper_.energy(state_).bending / (kForceUnit * kDistance)};
   }
 
 private:

@@ -23,8 +23,8 @@ double signChange(const std::vector<SleeveForce>& forces)
 {
   for (std::size_t k = 0; k + 1 < forces.size(); ++k)
     if (forces[k].force > 0.0 && forces[k + 1].force <= 0.0)
-      return forces[k].length + (forces[k + 1].length - forces[k].length) * forces[k].force /
-                                    (forces[k].force - forces[k + 1].force);
+      return forces[k].length +
+             (forces[k + 1].length - forces[k].length) * forces[k].force / (forces[k].force - forces[k + 1].force);
   return NAN;
 }
 
@@ -76,7 +76,8 @@ std::vector<Section> sleeveStudy(const StudyOptions& options, const Progress& pr
       "less the configurational force ½EIκ² at the sleeve, and must pull from 2.04 L on.";
   sections[1].text = "Largest errors over all inserted lengths of `sleeve.csv`.";
   const std::vector<double> at = lengths(options.quick);
-  const std::vector<double> guides = options.quick ? std::vector<double>{19e-3} : std::vector<double>{12e-3, 19e-3, 30e-3};
+  const std::vector<double> guides =
+      options.quick ? std::vector<double>{19e-3} : std::vector<double>{12e-3, 19e-3, 30e-3};
   const std::vector<int> counts = options.quick ? std::vector<int>{241} : std::vector<int>{241, 341, 481};
   double done = 0.0;
   for (const double guide : guides)

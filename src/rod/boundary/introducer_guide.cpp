@@ -26,7 +26,8 @@ void GuidedEdge::reset()
 }
 
 IntroducerGuide::IntroducerGuide(const Boundary& boundary)
-  : origin_(boundary.origin), direction_(boundary.direction),
+  : origin_(boundary.origin),
+    direction_(boundary.direction),
     decay_(boundary.introducer ? std::min(boundary.guide_decay, kLongestDecay * boundary.guide_length) : 0.0),
     reach_(kReach * decay_)
 {

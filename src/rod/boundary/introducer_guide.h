@@ -27,8 +27,8 @@ struct GuidedEdge
  *
  *      U = ∫ ½ EI ((X_e − X)/λ)³/λ⁴ |Y|² ds   over the wire at X < X_e,
  *
- *  with the axial coordinate X (0 at the mouth), the lateral offset Y, and the decay length λ. The wire bends in it like
- *  a wire that is clamped at the mouth: X_e = kReach λ compensates for its compliance. The potential depends on the
+ *  with the axial coordinate X (0 at the mouth), the lateral offset Y, and the decay length λ. The wire bends in it
+ * like a wire that is clamped at the mouth: X_e = kReach λ compensates for its compliance. The potential depends on the
  *  positions alone. It therefore pushes a bent wire out with the configurational force ½EIκ². Edges are integrated
  *  exactly up to X_e, where the potential and its first two derivatives vanish.
  *

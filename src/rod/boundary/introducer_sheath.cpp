@@ -33,16 +33,16 @@ bool IntroducerSheath::evaluateNode(const Eigen::Vector3d& position, double cell
     return false;
   const double depth = distance - clearance_;
   const Eigen::Vector3d outward = lateral / distance;
-  const double root = std::min(1.0, -x / kMouthLength);  // of the share of the stiffness
+  const double root = std::min(1.0, -x / kMouthLength);                  // of the share of the stiffness
   const double slope = root < 1.0 ? -2.0 / (root * kMouthLength) : 0.0;  // logarithmic derivative of the share by x
   const double stiffness = kStiffness * cell * root * root;
   node.reset();
   node.energy = 0.5 * stiffness * depth * depth;
   node.gradient[0] = stiffness * depth * (outward + (0.5 * slope * depth) * direction_);
   const Eigen::Vector3d coupling = slope * depth * outward;
-  node.first = stiffness * (curvatureOf(outward, direction_, depth / distance) + coupling * direction_.transpose() +
-                            direction_ * coupling.transpose() +
-                            coupling.squaredNorm() * direction_ * direction_.transpose());
+  node.first =
+      stiffness * (curvatureOf(outward, direction_, depth / distance) + coupling * direction_.transpose() +
+                   direction_ * coupling.transpose() + coupling.squaredNorm() * direction_ * direction_.transpose());
   return true;
 }
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "rod/boundary/introducer_sheath.h"
 #include "test/rod/rod_fixtures.h"
@@ -83,8 +83,8 @@ TEST(IntroducerGuide, ForceAndStiffnessAreTheDerivativesOfItsEnergy)
   const Boundary boundary = obliqueBoundary();
   const IntroducerGuide guide(boundary);
   // Inside; across the mouth; across the guide's end; short part before its end.
-  for (const auto& [from, to] : {std::pair(-7e-3, -4.5e-3), std::pair(-1e-3, 1.2e-3), std::pair(4e-3, 7e-3),
-                                 std::pair(5.7e-3, 8.5e-3)})
+  for (const auto& [from, to] :
+       {std::pair(-7e-3, -4.5e-3), std::pair(-1e-3, 1.2e-3), std::pair(4e-3, 7e-3), std::pair(5.7e-3, 8.5e-3)})
   {
     SCOPED_TRACE(from);
     const Vector3d first = at(boundary, from, 0.3e-3, -0.1e-3);

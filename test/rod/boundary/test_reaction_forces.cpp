@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "rod/boundary/introducer_guide.h"
 #include "rod/mixed/mixed_stepper.h"
 #include "rod/paper/paper_stepper.h"
 #include "test/rod/rod_fixtures.h"
@@ -75,9 +76,9 @@ TEST_P(ForceOnTheHand, OfAWireBentInItsGuideIsTheAxialLoad)
                           .norm();
   EXPECT_GT(bent, 0.0);
   double push = 0.0;
-  IntroducerGuide(boundary).forEachEdge(
-      stepper->discretisation(), state, [&push, &boundary](int /*edge*/, const GuidedEdge& edge)
-      { push -= boundary.direction.dot(edge.gradient[0] + edge.gradient[1]); });
+  IntroducerGuide(boundary).forEachEdge(stepper->discretisation(), state,
+                                        [&push, &boundary](int /*edge*/, const GuidedEdge& edge)
+                                        { push -= boundary.direction.dot(edge.gradient[0] + edge.gradient[1]); });
   const double moment = 0.03 * std::hypot(0.1, 0.05);
   EXPECT_NEAR(push, 0.5 * moment * moment / kEi, 0.3 * push);  // ½EIκ² of the nearly straight wire
   EXPECT_NEAR(state.hand_force, 0.02 - push, 1e-6);
