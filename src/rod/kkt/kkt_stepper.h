@@ -7,7 +7,7 @@
 #include "rod/contact/wall_friction.h"
 #include "rod/energy/energy_audit.h"
 #include "rod/kkt/active_set_solver.h"
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 #include "rod/kkt/kkt_assembly.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/kkt_reactions.h"

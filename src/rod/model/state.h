@@ -54,6 +54,7 @@ struct LayerState
   double friction_turn = 0.0;       ///< mean angle to the next outer layer at which both stick [rad]
   double friction_share = 0.0;      ///< acting part of the friction torque with the next outer layer, −1 to 1
   std::vector<double> load;         ///< normal load on the next outer layer [N/m], n
+  std::vector<Eigen::Vector3d> bore_shift;  ///< shift of the layers inside the next outer one in its bore [m], n
   double force_offset = 0.0;        ///< part of hand_force since the last change of the reference; fades [N]
   double hand_force = 0.0;          ///< axial force on the hand, positive when it pushes back [N]
   double hand_torque = 0.0;         ///< torque that the hand holds [N·m]
