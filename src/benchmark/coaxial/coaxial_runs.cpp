@@ -13,16 +13,18 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kBendRadius = 0.03;   // m
-constexpr double kBefore = 0.04;       // m, straight part from the introducer to the bend
-constexpr double kBeyond = 0.02;       // m, straight part of the catheter after the bend
-constexpr double kProtrusion = 0.02;   // m, of the wire beyond the catheter
-constexpr double kSpare = 0.02;        // m of the wire outside the introducer
+constexpr double kBendRadius = 0.03;  // m
+constexpr double kBefore = 0.04;      // m, straight part from the introducer to the bend
+constexpr double kBeyond = 0.02;      // m, straight part of the catheter after the bend
+constexpr double kProtrusion = 0.02;  // m, of the wire beyond the catheter
+constexpr double kSpare = 0.02;       // m of the wire outside the introducer
 constexpr double kWireRadius = 4.445e-4;
 constexpr double kCatheterClearance = 2e-5;  // m between catheter and vessel: it follows the bend
 constexpr double kTimeStep = 1e-3;           // s
-constexpr double kSpeed = 0.02;              // m/s
-constexpr double kStart = 1.5e-3;            // m of sliding before the force is measured
+constexpr double kReferenceStep = 2e-4;      // s: friction of walls uses normal forces of the last solution
+constexpr double kSpeed = 5e-3;              // m/s
+constexpr double kRest = 0.1;                // s before the motion
+constexpr double kStart = 1e-3;              // m of sliding before the force is measured
 
 /** Path of the bend by arc length from the introducer. */
 Vector3d pathAt(double s, double angle)
@@ -66,7 +68,7 @@ std::vector<double> nodesOf(const CoaxialCase& at)
 rod::Environment surroundings()
 {
   rod::Environment environment;
-  environment.damping = 200.0;
+  environment.damping = 50.0;
   return environment;
 }
 
@@ -121,7 +123,7 @@ CoaxialPair::CoaxialPair(const CoaxialCase& at) : wall_(std::make_unique<Wall>(a
   state_ = stepper_->initialState(input_.layers);
   bendTo(at, position, state_);
   input_.forces.push_back({static_cast<int>(position.size()) - 1, tipForce(at)});
-  for (int k = 0; k < 100; ++k)
+  for (int k = 0; k < std::lround(kRest / kTimeStep); ++k)
     step();
   work_ = 0.0;
 }
@@ -179,18 +181,18 @@ double forceInTube(const CoaxialCase& at)
   const double direction = at.pull ? -1.0 : 1.0;
   const auto move = [&](double travel, double speed)
   {
-    const int steps = static_cast<int>(std::lround(travel / (kSpeed * kTimeStep)));
+    const int steps = static_cast<int>(std::lround(travel / (kSpeed * kReferenceStep)));
     double sum = 0.0;
     for (int k = 0; k < steps; ++k)
     {
-      wire.input.inserted_length += direction * speed * kTimeStep;
-      if (!wire.step(kTimeStep))
+      wire.input.inserted_length += direction * speed * kReferenceStep;
+      if (!wire.step(kReferenceStep))
         throw std::runtime_error("coaxial: a step of the reference was rejected");
       sum += wire.state.hand_force;
     }
     return sum / steps;
   };
-  move(kStart, 0.0);
+  move(kSpeed * kRest, 0.0);
   move(kStart, kSpeed);
   return direction * move(measuredTravel(at), kSpeed);
 }

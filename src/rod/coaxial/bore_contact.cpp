@@ -14,7 +14,7 @@ constexpr double kTolerance = 1e-9;     // m, change of a shift in the last iter
 constexpr int kMaxIterations = 12;
 constexpr int kMaxHalvings = 5;
 constexpr double kRounding = 1e-12;  // relative error of the energy
-constexpr std::size_t kHeld = 2;  // nodes that stay on the centreline
+constexpr std::size_t kHeld = 2;     // nodes that stay on the centreline
 
 /** Number of nodes with a shift: all but the one after the last. */
 std::size_t shifted(const std::vector<BoreNode>& nodes)
@@ -73,6 +73,9 @@ void BoreContact::addElasticity(const std::vector<BoreNode>& nodes)
     elastic_[i].own += pull;
     elastic_[i].next -= pull;
     elastic_[i + 1].own += pull;
+    const Eigen::Vector2d push = (std::min(0.0, nodes[i].tension) / nodes[i].edge) * (before_[i + 1] - before_[i]);
+    force_[i] += push;
+    force_[i + 1] -= push;
   }
 }
 

@@ -65,7 +65,7 @@ private:
   };
 
   std::vector<Row> elastic_;
-  std::vector<Eigen::Vector2d> force_;          ///< of the centreline's shape and the tension at every node [N]
+  std::vector<Eigen::Vector2d> force_;           ///< of the centreline's shape and the tension at every node [N]
   std::vector<Eigen::Vector2d> before_, trial_;  ///< shifts at the beginning, and before the present iteration [m]
   BandedLdlt<kBandwidth, 2> matrix_;
   std::vector<double> rhs_;

@@ -76,7 +76,8 @@ void InterlayerLoads::updateMoments(const LayerTwists& twists, const State& stat
   }
 }
 
-/** Updates the axial force of all layers together: the multiplier, and the derivative of bending by the edge's length. */
+/** Updates the axial force of all layers together: the multiplier, and the derivative of bending by the edge's length.
+ */
 void InterlayerLoads::updateStackTension(const State& state)
 {
   const int n = model_.rod.nodes();
@@ -160,7 +161,8 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
   }
 }
 
-/** Updates the tension from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted wire. */
+/** Updates the tension from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted wire.
+ */
 void InterlayerLoads::updateTension(const LayerPair& pair, int end, const std::vector<double>& vessel_share,
                                     const State& state)
 {

@@ -23,9 +23,9 @@ struct LayerPair
 
 /** Normal loads between neighbouring layers (docs/PHYSICS.md, "Friction between layers").
  *
- *  The layers inside a gap are one wire in the bore of the next layer, whose axis is the centreline. Its tension is that
- *  of the stack beyond the tip of the outer layer, and from there to the introducer it changes with its curvature and
- *  with the friction in the gap. The friction is that of the loads of the last step. */
+ *  The layers inside a gap are one wire in the bore of the next layer, whose axis is the centreline. Its tension is
+ * that of the stack beyond the tip of the outer layer, and from there to the introducer it changes with its curvature
+ * and with the friction in the gap. The friction is that of the loads of the last step. */
 class InterlayerLoads
 {
 public:

@@ -21,8 +21,8 @@ void archive(Archive& archive, HandForceParts& parts)
 void archive(Archive& archive, LayerState& layer)
 {
   archive(layer.inserted_length, layer.rotation, layer.speed, layer.twist_angle, layer.friction_stretch,
-          layer.friction_turn, layer.friction_share, layer.load, layer.bore_shift, layer.force_offset,
-          layer.hand_force, layer.hand_torque);
+          layer.friction_turn, layer.friction_share, layer.load, layer.bore_shift, layer.force_offset, layer.hand_force,
+          layer.hand_torque);
 }
 
 void archive(Archive& archive, State& state)
