@@ -8,7 +8,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kWallStiffness = 5e7;  // N/m² of the bore per length: 1 µm at 50 N/m
+constexpr double kWallStiffness = 5e8;  // N/m² of the bore per length: 0.1 µm at 50 N/m
 constexpr double kRestoring = 2e3;      // N/m² per length against the change of the shift in one solution
 constexpr double kTolerance = 1e-9;     // m, change of a shift in the last iteration
 constexpr int kMaxIterations = 12;

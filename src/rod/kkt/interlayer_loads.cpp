@@ -158,6 +158,10 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
     node.wall = std::min(stack_.profile(pair.outer).cover(i), groupCover(pair.inner, i));
     node.clearance = std::max(0.0, stack_.layer(pair.outer).lumen - groupRadius(pair.inner, i));
     node.shift = across(state.layers[pair.inner].bore_shift[i], i);
+    // A wire on the inner side of a bend is bent more than the centreline.
+    const Eigen::Vector2d sharper = node.curvature.dot(node.shift) * node.curvature;
+    node.curvature += sharper;
+    node.moment += node.stiffness * sharper;
   }
 }
 
