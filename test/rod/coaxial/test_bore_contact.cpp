@@ -61,7 +61,7 @@ TEST(BoreContact, AWireUnderTensionBearsOnTheInnerSideOfABendWithTensionTimesCur
   EXPECT_NEAR(nodes[60].shift.x(), 0.0, 1e-12);
 }
 
-TEST(BoreContact, AWireWithoutTensionBearsOnTheOuterSideInsideABendAndOnTheInnerSideOutsideOfIt)
+TEST(BoreContact, AWireWithoutTensionBearsOnTheInnerSideInsideABendAndOnTheOuterSideBeforeIt)
 {
   std::vector<BoreNode> nodes = nodesOf(160, 0.0, 3e-4);
   bendCentreline(nodes, 60, 100, Vector2d(0.0, 1.0 / 0.03));
@@ -69,9 +69,13 @@ TEST(BoreContact, AWireWithoutTensionBearsOnTheOuterSideInsideABendAndOnTheInner
   for (int k = 0; k < 200; ++k)
     bore.solve(nodes);
   double inside = 0.0;
-  for (std::size_t i = 62; i < 98; ++i)
-    inside = std::min(inside, nodes[i].shift.y());
-  EXPECT_LT(inside, -3e-4);  // away from the centre of the bend
+  double before = 0.0;
+  for (std::size_t i = 60; i < 100; ++i)
+    inside = std::max(inside, nodes[i].shift.y());
+  for (std::size_t i = 2; i < 60; ++i)
+    before = std::min(before, nodes[i].shift.y());
+  EXPECT_GT(inside, 3e-4);   // towards the centre of the bend
+  EXPECT_LT(before, -3e-4);  // away from it
   EXPECT_GT(sumOf(bore.load()), 0.0);
 }
 
