@@ -83,8 +83,9 @@ class SanitizedRunner(run_tests.Runner):
             setup = os.path.join(self.sanitized, "thread", "devel", "setup.bash")
             command = ["--results-filename=" + run.name + ".xml" if part.startswith("--results-filename=") else part
                        for part in run.command]
-            run.command = without_real_time() + ["bash", "-c", '. "$0" && export ROS_PACKAGE_PATH="$1:/usr/share" && shift && exec "$@"',
-                           setup, self.repository] + command
+            run.command = without_real_time() + [
+                "bash", "-c", '. "$0" && export ROS_PACKAGE_PATH="$1:/usr/share" && shift && exec "$@"',
+                setup, self.repository] + command
             run.environment.update(self.environment("thread"))
             run.environment["GRAPH_TEST_SECONDS"] = str(SECONDS_PER_ROSTEST - 60)  # read by the launch files
             run.environment["TSAN_OPTIONS"] += ":exitcode=0:log_path=" + self.report_prefix(run)

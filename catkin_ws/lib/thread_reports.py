@@ -12,8 +12,7 @@ the sources of this project own all of its accesses.
 import re
 import sys
 
-BLOCK = re.compile(r"^  (?:Atomic |Previous |Concurrent |atomic |\[failed to restore the stack\]|Write |Read |write |read )*"
-                   r".*(?:of size \d+ at |acquired here|by (?:main )?thread)")
+BLOCK = re.compile(r"^  .*(?:of size \d+ at |acquired here|by (?:main )?thread)")
 FRAME = re.compile(r"^    #\d+ (.*)$")
 TRANSPARENT = re.compile(r"/include/c\+\+/|/eigen3/|/bits/|<null> \((?!lib)[\w.]+\+0x")
 

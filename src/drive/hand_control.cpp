@@ -64,7 +64,7 @@ CommandVerdict HandControl::command(const std::string& client, const std::option
   last_refusal_ = std::string(command ? nameOf(command->kind) : "command") + " of " + client + ": " + reasonOf(verdict);
   const bool was_move =
       command && (command->kind == CommandKind::kMovePosition || command->kind == CommandKind::kMoveRelative);
-  state_.revision += was_move;  // a client that waits for the end of its move learns that there is none
+  state_.revision += was_move;  // publishes the state: the replaced move has ended
   return verdict;
 }
 

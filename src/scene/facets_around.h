@@ -19,8 +19,8 @@ struct FacetsAround
   std::string text(contact::WallShape wall) const;
 };
 
-/** Counts the facets around the lumen from the dihedral angles of the mesh: 2π over the angle by which the wall turns
- *  from facet to facet around the lumen. It needs no centreline and takes milliseconds. Caps do not count. */
+/** Number of facets around the lumen, from the dihedral angles of the mesh: 2π divided by the dihedral angle across the
+ *  direction of the lumen. No centreline is needed. Caps do not count. */
 FacetsAround facetsAround(const geometry::TriangleMesh& mesh);
 
 }  // namespace endovascular_sim::scene

@@ -89,8 +89,8 @@ std::vector<Section> facetsStudy(const StudyOptions& options, const Progress& pr
 {
   std::vector<Section> sections = {Section(facetsTables(), "facets_torque")};
   sections[0].text =
-      "A soft wire (EI 5 N·mm²) with a 3 mm J is turned at 1 rad/s in a straight tube of 6 mm; mean over a full turn "
-      "after the first one, steps of 1 ms. Without friction only damping resists: 6.8 µN·m, in proportion to the rate.";
+      "A soft wire (EI 5 N·mm²) with a 3 mm J is turned at 1 rad/s in a straight tube of 6 mm. Means are over the "
+      "second turn, with steps of 1 ms. Without friction only damping resists: 6.8 µN·m, in proportion to the rate.";
   const std::vector<int> facets =
       options.quick ? std::vector<int>{16, 48} : std::vector<int>{8, 12, 16, 24, 48, 96, 192, 384};
   double done = 0.0;

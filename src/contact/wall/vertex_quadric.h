@@ -26,9 +26,10 @@ struct VertexQuadric
 /** Least-squares quadrics of all vertices through their neighbours (second-order jets, Cazals & Pouget 2005). */
 std::vector<VertexQuadric> fitVertexQuadrics(const Wall& wall);
 
-/** Angle [rad], averaged over the edges of every vertex, by which the vertex's quadric and the quadric of the other end
- *  disagree about the normals at both ends. It is 0 for spheres and cylinders of any resolution, and half the dihedral
- *  angle or more at a crease between flat parts. */
+/** Disagreement of the quadrics around every vertex [rad]. At one end of an edge, it is the angle between the normal of
+ *  that end's own quadric and the normal that the other end's quadric predicts there. The result is the mean over both
+ *  ends of all edges of the vertex. It is 0 for spheres and cylinders of any resolution, and half the dihedral angle or
+ *  more at a crease between flat parts. */
 std::vector<double> quadricDisagreement(const Wall& wall, const std::vector<VertexQuadric>& quadrics);
 
 }  // namespace endovascular_sim::contact
