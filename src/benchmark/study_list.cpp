@@ -2,6 +2,7 @@
 
 #include "benchmark/facets/facets_study.h"
 #include "benchmark/reversal/reversal_study.h"
+#include "benchmark/sleeve/sleeve_study.h"
 #include "benchmark/studies/accuracy.h"
 #include "benchmark/studies/contact_study.h"
 #include "benchmark/studies/hand_force_study.h"
@@ -27,6 +28,7 @@ const std::vector<Study>& studies()
        reversalStudy},
       {"facets", "Facets around the lumen", "torque of a J tip over the facets, facetted and smooth wall",
        facetsTables(), facetsStudy},
+      {"sleeve", "Rod through a sleeve", "force at the hand against the exact elastica", sleeveTables(), sleeveStudy},
       {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
       {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
   return list;

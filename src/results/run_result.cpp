@@ -25,12 +25,13 @@ struct HandPart
   double rod::HandForceParts::*value;
 };
 constexpr double kSlowStep = 300e-6;  // step time above which a step is counted as slow [s]
-constexpr std::array<HandPart, 6> kHandParts = {{{"bending", &rod::HandForceParts::bending},
+constexpr std::array<HandPart, 7> kHandParts = {{{"bending", &rod::HandForceParts::bending},
                                                  {"friction", &rod::HandForceParts::friction},
                                                  {"inertia", &rod::HandForceParts::inertia},
                                                  {"drag", &rod::HandForceParts::drag},
                                                  {"load", &rod::HandForceParts::load},
-                                                 {"valve", &rod::HandForceParts::valve}}};
+                                                 {"valve", &rod::HandForceParts::valve},
+                                                 {"configurational", &rod::HandForceParts::configurational}}};
 
 /** Statistics of a quantity; null without samples. */
 Json toJson(const RunningValue& value)

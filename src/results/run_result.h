@@ -65,7 +65,7 @@ private:
   std::uint64_t strained_steps_ = 0;
   RunningValue hand_force_;
   RunningValue hand_torque_;
-  std::array<RunningValue, 6> hand_parts_;  ///< contributions to the rendered force, in the order of kHandParts
+  std::array<RunningValue, 7> hand_parts_;  ///< contributions to the rendered force, in the order of kHandParts
   rod::StepReport work_;
   std::uint64_t rejected_steps_ = 0;
   std::string treatment_ = "null";  ///< outcome of balloons and stents as JSON

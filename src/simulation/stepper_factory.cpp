@@ -15,7 +15,25 @@ namespace
 
 constexpr double kLeastClearance = 20e-6;  // m
 constexpr double kClearanceShare = 0.9;    // of the clearance between wire and vessel at the introducer's mouth
+constexpr double kDecayPerEdge = 0.9;      // least decay length of the guide over the edges: limits the force's ripple
 constexpr double kSamplingPeriod = 10e-3;  // s between two updates of adaptive sampling
+
+/** Wire of the longest instrument, which determines the nodes. */
+const rod::Wire& longestWire(const scene::Scene& scene)
+{
+  return std::max_element(scene.instruments.begin(), scene.instruments.end(),
+                          [](const scene::DrivenInstrument& a, const scene::DrivenInstrument& b)
+                          { return a.instrument.wire.length() < b.instrument.wire.length(); })
+      ->instrument.wire;
+}
+
+/** Longest edge of the scene's wire [m]. */
+double longestEdge(const scene::Scene& scene)
+{
+  if (scene.sampling.kind == scene::SamplingKind::kAdaptive)
+    return scene.sampling.max_edge;
+  return longestWire(scene).length() / (scene.sampling.nodes - 1);
+}
 
 /** Boundary of the scene's wire. The introducer is narrower than the vessel around it. */
 rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entry)
@@ -26,6 +44,7 @@ rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entr
   boundary.direction = entry.direction;
   boundary.director = entry.d1;
   boundary.guide_length = scene.solver.guide_length;
+  boundary.guide_decay = std::max(boundary.guide_decay, kDecayPerEdge * longestEdge(scene));
   double radius = 0.0;
   for (const scene::DrivenInstrument& driven : scene.instruments)
     for (const rod::Section& section : driven.instrument.wire.sections)
@@ -35,15 +54,6 @@ rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entr
   boundary.distal = scene.distal_end;
   boundary.distal_twist_held = scene.distal.twist_held;
   return boundary;
-}
-
-/** Wire of the longest instrument, which determines the nodes. */
-const rod::Wire& longestWire(const scene::Scene& scene)
-{
-  return std::max_element(scene.instruments.begin(), scene.instruments.end(),
-                          [](const scene::DrivenInstrument& a, const scene::DrivenInstrument& b)
-                          { return a.instrument.wire.length() < b.instrument.wire.length(); })
-      ->instrument.wire;
 }
 
 std::uint64_t stepsIn(double seconds, const scene::Scene& scene)

@@ -133,9 +133,9 @@ void writeHandForce(std::ofstream& file, const simulation::Simulation& simulatio
   const rod::State& state = simulation.state();
   const rod::HandForceParts& parts = state.hand_parts;
   char line[240];
-  std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
+  std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
                 state.inserted_length, state.hand_force, parts.bending, parts.friction, parts.inertia, parts.drag,
-                parts.load, parts.valve);
+                parts.load, parts.valve, parts.configurational);
   file << line;
 }
 
@@ -150,7 +150,7 @@ public:
       trajectory_(options.out + "/trajectory.csv", scene.record.trajectory_rate),
       hand_force_(tools::openFile(options.out + "/hand_force.csv"))
   {
-    hand_force_ << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve\n";
+    hand_force_ << "time,insertion,hand_force,bending,friction,inertia,drag,load,valve,configurational\n";
     if (options.records("nodes"))
     {
       nodes_.emplace(tools::openFile(options.out + "/nodes.csv"));

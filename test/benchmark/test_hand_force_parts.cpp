@@ -90,14 +90,18 @@ rod::HandForceParts recomputedParts(PushedWire& wire)
   rod::slideAlongItself(state.position, std::vector<Vector3d>(state.position.size(), Vector3d::Zero()),
                         state.first_node, last_held, boundary.direction, slide);
   const std::vector<Vector3d> gradient = rod::KktStepperPeer::elasticGradient(wire.stepper, state, wire.input);
+  std::vector<Vector3d> guide(state.position.size(), Vector3d::Zero());
+  rod::IntroducerGuide(boundary).forEachEdge(rod, state,
+                                             [&guide](int edge, const rod::GuidedEdge& term)
+                                             {
+                                               guide[edge] += term.gradient[0];
+                                               guide[edge + 1] += term.gradient[1];
+                                             });
   rod::HandForceParts parts;
   parts.bending = parts.friction = parts.inertia = parts.drag = parts.load = 0.0;
   for (int i = state.first_node; i < rod.nodes(); ++i)
   {
-    Vector3d lateral = state.position[i];
-    lateral.x() = 0.0;
-    const Vector3d stiff = gradient[i] - state.wall_force[i] + held.guideStiffness(i, state) * lateral;
-    parts.bending += slide[i].dot(stiff);
+    parts.bending += slide[i].dot(gradient[i] - state.wall_force[i] + guide[i]);
     parts.friction -= slide[i].dot(rod::frictionForce(state, i, rod::StepperSettings().friction_slip));
     if (i > last_held)
       parts.inertia += rod.mass[i] * slide[i].dot(state.velocity[i] - wire.before.velocity[i]) / kDt;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "rod/boundary/introducer_guide.h"
 #include "rod/kkt/kkt_stepper.h"
 
 namespace endovascular_sim::rod
@@ -58,6 +59,15 @@ inline Boundary heldAtBothEnds(double length, int nodes, EndHold hold)
 inline double heldLength(double length, int nodes, EndHold hold)
 {
   return hold == EndHold::kClamped ? length * (nodes - 1) / (nodes - 2) : length;
+}
+
+/** Energy of the introducer's guide [J]. */
+inline double guideEnergy(const Discretisation& rod, const Boundary& boundary, const State& state)
+{
+  double sum = 0.0;
+  IntroducerGuide(boundary).forEachEdge(rod, state,
+                                        [&sum](int /*edge*/, const GuidedEdge& edge) { sum += edge.energy; });
+  return sum;
 }
 
 /** Steps until the wire is at rest.

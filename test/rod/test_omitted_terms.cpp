@@ -29,7 +29,7 @@ Boundary bareClamp()
   boundary.introducer = false;
   boundary.proximal = EndHold::kClamped;
   boundary.director.setConstant(std::nan(""));
-  boundary.guide_stiffness = std::nan("");
+  boundary.guide_decay = std::nan("");
   return boundary;
 }
 

@@ -117,15 +117,6 @@ void BoundaryConditions::placeDistalEnd(State& state, const EndMotion& motion, d
   }
 }
 
-double BoundaryConditions::guideStiffness(int node, const State& state) const
-{
-  const double beyond = bodyPosition(node, state.inserted_length);
-  if (!boundary_.introducer || beyond >= 0.0 || beyond < -boundary_.guide_length)
-    return 0.0;
-  const double depth = beyond / boundary_.guide_length;
-  return boundary_.guide_stiffness * rod_.cell_length[node] * depth * depth;
-}
-
 TwistBoundary BoundaryConditions::twistBoundary(const State& state, double tip_torque) const
 {
   TwistBoundary twist;

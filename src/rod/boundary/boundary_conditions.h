@@ -64,9 +64,6 @@ public:
    *  and turns the edge about it. */
   void placeDistalEnd(State& state, const EndMotion& motion, double dt) const;
 
-  /** Lateral stiffness of the introducer's guide on a node [N/m]; 0 outside it. */
-  double guideStiffness(int node, const State& state) const;
-
   /** Computes the quasi-static state.twist_angle and state.hand_torque for the present centreline.
    *  @return true when the twist acts on the centreline */
   bool relaxTwist(QuasiStaticTwist& twist, State& state, double tip_torque, PhaseTimer& timer) const;

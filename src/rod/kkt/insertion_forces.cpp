@@ -160,6 +160,9 @@ double InsertionForces::jointForce(int k, double arc_length, const Section& befo
              (bent * (then.energyUnder(moment) - now.energyUnder(moment)) +
               (1.0 - bent) * (then.straightEnergy() - now.straightEnergy()));
   }
+  const Eigen::Vector3d position = (1.0 - at.parameter) * state.position[at.node] +
+                                   at.parameter * state.position[std::min(at.node + 1, model_.rod.nodes() - 1)];
+  force += guide_.density(position) * (before.bending_stiffness - (after != nullptr ? after->bending_stiffness : 0.0));
   if (after == nullptr || !twists_.isActive(k) || at.node <= state.first_node ||
       at.node + 2 >= stack_.profile(k).rod().nodes())
     return force;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "rod/boundary/introducer_guide.h"
 #include "rod/kkt/concentric_stack.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_model.h"
@@ -24,12 +25,13 @@ class InsertionForces
 public:
   /** @param stack, model, twists must outlive this */
   InsertionForces(const ConcentricStack& stack, const KktModel& model, const LayerTwists& twists)
-    : stack_(stack), model_(model), twists_(twists)
+    : stack_(stack), model_(model), twists_(twists), guide_(model.boundary)
   {
   }
 
   /** ∂E/∂ℓ of a layer at fixed nodes and angles, the other insertions fixed, averaged over the nodes that its joints
-   *  pass [N]. The energy is elastic, that of weight, and that of the wall at the layer's tip. */
+   *  pass [N]. The energy is elastic, that of the introducer's guide, of weight, and of
+   *  the wall at the layer's tip. */
   double gradient(int k, const State& state) const;
 
   /** Friction of the wall on the nodes at which a layer is the outermost one [N]. */
@@ -61,6 +63,7 @@ private:
   const ConcentricStack& stack_;
   const KktModel& model_;
   const LayerTwists& twists_;
+  IntroducerGuide guide_;
 };
 
 /** Tangent of the centreline at a node, by central differences. */

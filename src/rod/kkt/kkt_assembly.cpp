@@ -14,8 +14,6 @@ using Matrix = KktSystem::Matrix;
 
 /** Compliance of an edge times Δt² [s²]: negligible, but it keeps the pivots away from zero. */
 constexpr double kEdgeCompliance = 1e-16;
-constexpr double kSheathStiffness = 4e7;  // N/m², of the introducer's wall per length of wire
-constexpr double kMouthLength = 2.5e-3;   // m, length of wire that the contact at the mouth's rim represents
 
 }  // namespace
 
@@ -46,7 +44,7 @@ void KktAssembly::assemble(const KktIterate& at)
   for (int i = system_.first; i < n; ++i)
     addNodeTerms(i, at);
   if (model_.boundary.introducer)
-    addMouth(at);
+    addIntroducer(at);
   for (const NodalForce& load : at.forces)
     if (load.node >= system_.first)
       for (int axis = 0; axis < 3; ++axis)
@@ -176,56 +174,6 @@ void KktAssembly::addConstraint(int edge, const KktIterate& at)
   system_.rhs[rm] = -scale * (length - model_.rod.rest_length[edge]);
 }
 
-KktAssembly::MouthPoint KktAssembly::mouthPoint(const State& state) const
-{
-  const double inserted = state.inserted_length;
-  int edge = state.first_node;
-  while (edge + 2 < model_.rod.nodes() && model_.conditions.bodyPosition(edge + 1, inserted) < 0.0)
-    ++edge;
-  return {edge, -model_.conditions.bodyPosition(edge, inserted) / model_.rod.rest_length[edge]};
-}
-
-/** Adds the contact of the wire with the rim of the introducer's mouth, inside an edge. */
-void KktAssembly::addMouth(const KktIterate& at)
-{
-  const MouthPoint mouth = mouthPoint(at.state);
-  if (mouth.parameter >= 0.0 && mouth.parameter <= 1.0)
-    addSheath(mouth.edge, mouth.parameter, at);
-}
-
-/** Adds the contact of the introducer's tube with a point of the wire: a penalty beyond the radial clearance.
- *  @param parameter of the point on its edge, 0 to 1 */
-void KktAssembly::addSheath(int edge, double parameter, const KktIterate& at)
-{
-  const Boundary& boundary = model_.boundary;
-  const std::array<double, 2> weight = {1.0 - parameter, parameter};
-  Eigen::Vector3d off = weight[0] * at.state.position[edge] - boundary.origin;
-  if (parameter > 0.0)
-    off += parameter * at.state.position[edge + 1];
-  const Eigen::Vector3d lateral = off - boundary.direction.dot(off) * boundary.direction;
-  const double distance = lateral.norm();
-  if (distance <= boundary.sheath_clearance)
-    return;
-  const Eigen::Vector3d outward = lateral / distance;
-  const double length = parameter > 0.0 ? kMouthLength : model_.rod.cell_length[edge];
-  const double stiffness = at.dt * at.dt * kSheathStiffness * length;
-  const double tilt = 1.0 - boundary.sheath_clearance / distance;  // the normal turns with the point
-  const Eigen::Matrix3d radial = outward * outward.transpose();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary.direction * boundary.direction.transpose();
-  const Eigen::Matrix3d hessian = stiffness * (radial + tilt * (across - radial));
-  const Eigen::Vector3d force = (stiffness * (distance - boundary.sheath_clearance)) * outward;
-  for (int end = 0; end < (parameter > 0.0 ? 2 : 1); ++end)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-      system_.rhs[system_.row(edge + end) + axis] -= weight[end] * force[axis];
-    addBlock(edge + end, weight[end] * weight[end] * hessian);
-  }
-  for (int col = 0; parameter > 0.0 && col < 3; ++col)
-    for (int line = 0; line < 3; ++line)
-      system_.matrix.at(system_.row(edge + 1) + line, system_.row(edge) + col) +=
-          weight[0] * weight[1] * hessian(line, col);
-}
-
 void KktAssembly::addNodeTerms(int node, const KktIterate& at)
 {
   const double dt = at.dt;
@@ -259,59 +207,56 @@ void KktAssembly::addNodeTerms(int node, const KktIterate& at)
   }
   if (at.slides != nullptr)
     residual += resistance_.slide[node];
-  addGuide(node, at, residual);
   for (int axis = 0; axis < 3; ++axis)
     system_.rhs[system_.row(node) + axis] -= residual[axis];
 }
 
-/** Adds the lateral force of the introducer's guide, whose stiffness fades towards the mouth, and its tube. */
-void KktAssembly::addGuide(int node, const KktIterate& at, Eigen::Vector3d& residual)
+/** Adds the potentials of the introducer's guide and of its sheath. */
+void KktAssembly::addIntroducer(const KktIterate& at)
 {
-  const Boundary& boundary = model_.boundary;
-  const double beyond = model_.conditions.bodyPosition(node, at.state.inserted_length);
-  if (!boundary.introducer || beyond >= 0.0 || beyond < -boundary.guide_length)
-    return;
-  const double depth = beyond / boundary.guide_length;
-  const double stiffness = at.dt * at.dt * boundary.guide_stiffness * model_.rod.cell_length[node] * depth * depth;
-  const Eigen::Matrix3d across =
-      stiffness * (Eigen::Matrix3d::Identity() - boundary.direction * boundary.direction.transpose());
-  residual += across * (at.state.position[node] - boundary.origin);
-  addBlock(node, across);
-  addSheath(node, 0.0, at);
+  configurational_force_ = 0.0;
+  const double factor = at.dt * at.dt;
+  visitIntroducer(at.state,
+                  [this, factor](int edge, bool both, const GuidedEdge& term)
+                  {
+                    for (int end = 0; end < (both ? 2 : 1); ++end)
+                    {
+                      configurational_force_ += model_.boundary.direction.dot(term.gradient[end]);
+                      for (int axis = 0; axis < 3; ++axis)
+                        system_.rhs[system_.row(edge + end) + axis] -= factor * term.gradient[end][axis];
+                    }
+                    addBlock(edge, factor * term.first);
+                    if (!both)
+                      return;
+                    addBlock(edge + 1, factor * term.second);
+                    for (int col = 0; col < 3; ++col)
+                      for (int line = 0; line < 3; ++line)
+                        system_.matrix.at(system_.row(edge + 1) + line, system_.row(edge) + col) +=
+                            factor * term.across(line, col);
+                  });
 }
 
-double KktAssembly::sheathEnergy(int edge, double parameter, const State& state) const
+/** Calls visit(edge, both, term) with the terms of the introducer; both: the term acts on both nodes of the edge. */
+template <typename Visit>
+void KktAssembly::visitIntroducer(const State& state, Visit visit) const
 {
-  const Boundary& boundary = model_.boundary;
-  Eigen::Vector3d off = (1.0 - parameter) * state.position[edge] - boundary.origin;
-  if (parameter > 0.0)
-    off += parameter * state.position[edge + 1];
-  const double distance = (off - boundary.direction.dot(off) * boundary.direction).norm();
-  if (distance <= boundary.sheath_clearance)
-    return 0.0;
-  const double depth = distance - boundary.sheath_clearance;
-  return 0.5 * kSheathStiffness * (parameter > 0.0 ? kMouthLength : model_.rod.cell_length[edge]) * depth * depth;
+  const Discretisation& rod = model_.rod;
+  guide_.forEachEdge(rod, state, [&visit](int edge, const GuidedEdge& term) { visit(edge, true, term); });
+  GuidedEdge term;
+  for (int edge = state.first_node; edge < rod.nodes() && sheath_.isInside(state.position[edge]); ++edge)
+  {
+    if (sheath_.evaluateNode(state.position[edge], rod.cell_length[edge], term))
+      visit(edge, false, term);
+    if (edge + 1 < rod.nodes() && sheath_.evaluateRim(state.position[edge], state.position[edge + 1], term))
+      visit(edge, true, term);
+  }
 }
 
 double KktAssembly::introducerEnergy(const State& state) const
 {
-  if (!model_.boundary.introducer)
-    return 0.0;
   double energy = 0.0;
-  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
-  {
-    const double beyond = model_.conditions.bodyPosition(i, state.inserted_length);
-    if (beyond >= 0.0)
-      break;
-    if (beyond < -model_.boundary.guide_length)
-      continue;
-    const Eigen::Vector3d off = state.position[i] - model_.boundary.origin;
-    const double lateral = (off - model_.boundary.direction.dot(off) * model_.boundary.direction).squaredNorm();
-    energy += 0.5 * model_.conditions.guideStiffness(i, state) * lateral + sheathEnergy(i, 0.0, state);
-  }
-  const MouthPoint mouth = mouthPoint(state);
-  if (mouth.parameter >= 0.0 && mouth.parameter <= 1.0)
-    energy += sheathEnergy(mouth.edge, mouth.parameter, state);
+  if (model_.boundary.introducer)
+    visitIntroducer(state, [&energy](int /*edge*/, bool /*both*/, const GuidedEdge& term) { energy += term.energy; });
   return energy;
 }
 

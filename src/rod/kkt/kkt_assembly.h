@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "rod/boundary/introducer_guide.h"
+#include "rod/boundary/introducer_sheath.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/kkt_system.h"
 #include "rod/kkt/layer_model.h"
@@ -44,35 +46,33 @@ public:
   /** Adds bending and the forces of the twist alone. */
   void addAllBending(const KktIterate& at);
 
-  /** Energy of the introducer's guide and of its tube: their forces are its derivatives by the positions [J]. */
+  /** Energy of the introducer's guide and of its sheath: their forces are its derivatives by the positions [J]. */
   double introducerEnergy(const State& state) const;
+
+  /** Axial force of the wire on the introducer's guide and sheath in the system assembled last: the configurational
+   *  part of the force on the hand [N]. */
+  double configurationalForce() const { return configurational_force_; }
 
   /** Resistances in the system assembled last. */
   const NodeResistance& resistance() const { return resistance_; }
 
 private:
-  /** Point of the wire at the introducer's mouth. */
-  struct MouthPoint
-  {
-    int edge = 0;
-    double parameter = 0.0;  ///< on the edge; outside 0 to 1: no such point
-  };
-
   BendingPairInput bendingInput(int first, int second, const KktIterate& at) const;
   void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const KktIterate& at);
-  void addMouth(const KktIterate& at);
-  MouthPoint mouthPoint(const State& state) const;
-  double sheathEnergy(int edge, double parameter, const State& state) const;
-  void addSheath(int edge, double parameter, const KktIterate& at);
+  void addIntroducer(const KktIterate& at);
+  template <typename Visit>
+  void visitIntroducer(const State& state, Visit visit) const;
   void addNodeTerms(int node, const KktIterate& at);
-  void addGuide(int node, const KktIterate& at, Eigen::Vector3d& residual);
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
 
   const KktModel& model_;
   KktSystem& system_;
+  IntroducerGuide guide_{model_.boundary};
+  IntroducerSheath sheath_{model_.boundary};
   NodeResistance resistance_;
+  double configurational_force_ = 0.0;  ///< [N]
 };
 
 }  // namespace endovascular_sim::rod

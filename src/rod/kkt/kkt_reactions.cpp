@@ -73,6 +73,7 @@ void KktReactions::updateHandParts(const KktSolution& solution, State& state)
     parts.friction += slide_[term.node].dot(term.pullAfter(solution.motion[term.node]));
   }
   parts.bending = state.hand_force - (parts.friction + parts.inertia + parts.drag + parts.load);
+  parts.configurational = solution.configurational_force;
   state.hand_parts = parts;
 }
 

@@ -320,8 +320,8 @@ void KktStepper::accept(State& state, double dt)
   contacts_.updateWallForces(state, motion_);
   if (audit_ != nullptr)
     noteForces(dt);
-  reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(), layers_->slides(), friction_,
-                     last_input_.forces, dt},
+  reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
+                     assembly_.configurationalForce(), layers_->slides(), friction_, last_input_.forces, dt},
                     state);
 }
 

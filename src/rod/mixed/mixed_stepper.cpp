@@ -173,6 +173,7 @@ void MixedStepper::assemble(const State& state, const StepInput& input, double d
   friction_.linearise();
   for (int i = state.first_node; i < rod_.nodes(); ++i)
     addNodeTerms(i, state, dt, first_solve);
+  addGuide(state);
   for (const NodalForce& load : input.forces)
     if (load.node >= state.first_node)
       for (int axis = 0; axis < 3; ++axis)
@@ -218,7 +219,7 @@ void MixedStepper::addBlock(const State& state, int node, const Eigen::Matrix3d&
       base_.at(r + line, r + col) += block(line, col);
 }
 
-/** Adds weight, drag of the fluid, and the introducer's guide. */
+/** Adds weight and drag of the fluid. */
 void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool first_solve)
 {
   const BoundaryConditions held = conditions();
@@ -234,17 +235,29 @@ void MixedStepper::addNodeTerms(int node, const State& state, double dt, bool fi
     block.diagonal().array() += drag;
     force += drag * travel;
   }
-  const double stiffness = held.guideStiffness(node, state);
-  if (stiffness > 0.0)
-  {
-    const Eigen::Matrix3d across =
-        stiffness * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
-    block += across;
-    force += across * (state.position[node] - boundary_.origin);
-  }
   addBlock(state, node, block);
   for (int axis = 0; axis < 3; ++axis)
     gradient_[model_.positionRow(state, node) + axis] += force[axis];
+}
+
+/** Adds the potential of the introducer's guide, on the chords. */
+void MixedStepper::addGuide(const State& state)
+{
+  guide_.forEachEdge(rod_, state,
+                     [this, &state](int edge, const GuidedEdge& term)
+                     {
+                       addBlock(state, edge, term.first);
+                       addBlock(state, edge + 1, term.second);
+                       const int row = model_.positionRow(state, edge);
+                       const int next_row = model_.positionRow(state, edge + 1);
+                       for (int col = 0; col < 3; ++col)
+                       {
+                         gradient_[row + col] += term.gradient[0][col];
+                         gradient_[next_row + col] += term.gradient[1][col];
+                         for (int line = 0; line < 3; ++line)
+                           base_.at(next_row + line, row + col) += term.across(line, col);
+                       }
+                     });
 }
 
 /** Largest strain of the edges between nodes that are not both prescribed. */

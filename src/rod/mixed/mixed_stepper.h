@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/boundary/boundary_conditions.h"
+#include "rod/boundary/introducer_guide.h"
 #include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/mixed/mixed_twist.h"
@@ -48,6 +49,7 @@ private:
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve);
   void addInertia(const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt, bool first_solve);
+  void addGuide(const State& state);
   void addBlock(const State& state, int node, const Eigen::Matrix3d& block);
   void addFriction(const State& state, const WallFriction::Term& term);
   void addSpring(const State& state, std::size_t index);
@@ -64,6 +66,7 @@ private:
   const Boundary boundary_;
   const Environment environment_;
   const StepperSettings settings_;
+  const IntroducerGuide guide_{boundary_};
   ContactSolver contacts_;
   WallFriction friction_{settings_.friction_slip};
   MixedRod model_;

@@ -39,6 +39,9 @@ struct HandForceParts
   double drag = std::numeric_limits<double>::quiet_NaN();      ///< drag of the fluid, and damping [N]
   double load = std::numeric_limits<double>::quiet_NaN();      ///< weight, external forces, a held distal end [N]
   double valve = 0.0;                                          ///< dry friction of the introducer's valve [N]
+  /** Axial force of the introducer's guide and sheath on the wire, with its sign reversed: negative where they push a
+   *  bent wire out. Contained in bending, no part of the sum [N]. */
+  double configurational = std::numeric_limits<double>::quiet_NaN();
 
   double sum() const { return bending + friction + inertia + drag + load + valve; }
 };

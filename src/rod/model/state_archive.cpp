@@ -15,7 +15,7 @@ void archive(Archive& archive, EndMotion& motion)
 
 void archive(Archive& archive, HandForceParts& parts)
 {
-  archive(parts.bending, parts.friction, parts.inertia, parts.drag, parts.load, parts.valve);
+  archive(parts.bending, parts.friction, parts.inertia, parts.drag, parts.load, parts.valve, parts.configurational);
 }
 
 void archive(Archive& archive, LayerState& layer)

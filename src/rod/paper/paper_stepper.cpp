@@ -157,6 +157,7 @@ void PaperStepper::assemble(const State& state, const StepInput& input, double d
   }
   for (int i = first_; i < n; ++i)
     addNodeTerms(i, state, dt);
+  addGuide(state, dt);
   addContacts(state, dt);
   for (const NodalForce& load : input.forces)
     if (load.node >= first_)
@@ -237,15 +238,21 @@ void PaperStepper::addNodeTerms(int node, const State& state, double dt)
     diagonal += dt * environment_.fluid_density * environment_.drag_coefficient * rod_.radius[node] *
                 rod_.cell_length[node] * velocity.norm();
   Eigen::Matrix3d block = diagonal * Eigen::Matrix3d::Identity();
-  const double guide = dt * dt * held.guideStiffness(node, state);
-  if (guide > 0.0)
-  {
-    const Eigen::Matrix3d across =
-        guide * (Eigen::Matrix3d::Identity() - boundary_.direction * boundary_.direction.transpose());
-    block += across;
-    addForce(node, across * (boundary_.origin - state.position[node]));
-  }
   addBlock(node, node, block);
+}
+
+void PaperStepper::addGuide(const State& state, double dt)
+{
+  const double factor = dt * dt;
+  guide_.forEachEdge(rod_, state,
+                     [this, factor](int edge, const GuidedEdge& term)
+                     {
+                       addForce(edge, -factor * term.gradient[0]);
+                       addForce(edge + 1, -factor * term.gradient[1]);
+                       addBlock(edge, edge, factor * term.first);
+                       addBlock(edge + 1, edge, factor * term.across);
+                       addBlock(edge + 1, edge + 1, factor * term.second);
+                     });
 }
 
 /** Prescribes nodes, factorises and solves. */

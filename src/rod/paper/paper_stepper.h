@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/boundary/boundary_conditions.h"
+#include "rod/boundary/introducer_guide.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/linear/banded_ldlt.h"
 #include "rod/linear/sparse_solver.h"
@@ -60,6 +61,7 @@ private:
   void addBending(int node, const State& state, double dt);
   void addStretch(int edge, const State& state, double dt);
   void addNodeTerms(int node, const State& state, double dt);
+  void addGuide(const State& state, double dt);
   void addContacts(const State& state, double dt);
   Spring spring(const contact::Feature& feature, const State& state, double dt) const;
   void addForce(int node, const Eigen::Vector3d& force);
@@ -77,6 +79,7 @@ private:
   const Environment environment_;
   const StepperSettings settings_;
 
+  const IntroducerGuide guide_{boundary_};
   QuasiStaticTwist twist_;
   bool twist_active_ = false;
   FastProjection projection_;

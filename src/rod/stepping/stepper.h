@@ -39,8 +39,9 @@ struct Boundary
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();      ///< mouth of the introducer, or the proximal end [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< initial direction of the wire, unit
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();   ///< material direction d1 at rotation 0, unit, ⟂ direction
-  double guide_length = 19e-3;                           ///< length over which the introducer's lateral guide fades [m]
-  double guide_stiffness = 5300.0;  ///< lateral, at the guide's outer end, per length of wire [N/m²]
+  double guide_length = 19e-3;                           ///< length of the introducer's guide before the mouth [m]
+  /** Length over which a deflection of the wire decays inside the guide, at most a quarter of its length [m]. */
+  double guide_decay = 3e-3;
   /** Radial clearance between wire and introducer sheath [m]. It is at most the clearance between wire and vessel at
    *  the mouth. */
   double sheath_clearance = std::numeric_limits<double>::infinity();

@@ -215,7 +215,7 @@ struct SolverScene
   rod::StepperSettings stepper;             ///< settings of the scheme
   double time_step = 1e-3;                  ///< time step [s]
   double max_travel_per_substep = 0.05e-3;  ///< largest travel of a handle per sub-step [m]
-  double guide_length = 19e-3;              ///< length over which the stiffness of the introducer's guide decays [m]
+  double guide_length = 19e-3;              ///< length of the introducer's guide before its mouth [m]
 
   const rod::SchemeTraits& traits() const { return rod::schemeTraits(scheme); }
 };

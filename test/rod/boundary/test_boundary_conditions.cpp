@@ -44,26 +44,6 @@ TEST_F(BoundaryConditionsInAnIntroducer, AddsNodesAtTheHandlesSpeedWhileTheWireI
   EXPECT_NEAR(state.velocity[first].x(), -0.06, 1e-12);
 }
 
-TEST_F(BoundaryConditionsInAnIntroducer, GuideFadesFromItsOuterEndToTheMouth)
-{
-  const BoundaryConditions held(rod, boundary);
-  const State state = held.initialState(0.03, 0.0);
-  double before = boundary.guide_stiffness * rod.cell_length[5];
-  for (int i = 0; i < rod.nodes(); ++i)
-  {
-    const double beyond = held.bodyPosition(i, 0.03);
-    const double stiffness = held.guideStiffness(i, state);
-    if (beyond < -boundary.guide_length || beyond >= 0.0)
-    {
-      EXPECT_EQ(stiffness, 0.0);
-      continue;
-    }
-    EXPECT_GT(stiffness, 0.0);
-    EXPECT_LT(stiffness, before);
-    before = stiffness;
-  }
-}
-
 TEST_F(BoundaryConditionsInAnIntroducer, QueriesContactsBeyondTheMouthOnly)
 {
   const BoundaryConditions held(rod, boundary);

@@ -170,6 +170,43 @@ TEST(EnergyAudit, StoresTheWorkOfATurningHandInAWireHeldAtBothEnds)
   EXPECT_NEAR(balance.error(), 0.0, 1e-6 * stored);
 }
 
+/** A wire that is pushed through the introducer against a pin, and buckles, from 1.05 to 1.5 times the distance. */
+EnergyBalance pushAgainstAPin(double dt)
+{
+  const double length = 0.1;
+  Boundary boundary;
+  boundary.distal = EndHold::kPinned;
+  Environment environment;
+  environment.damping = 30.0;
+  KktStepper stepper(discretiseUniformly(uniformWire(0.25, kEi, kRadius, kDensity), 101), boundary, environment,
+                     StepperSettings());
+  State state = stepper.initialState(length, 0.0);
+  StepInput input;
+  input.inserted_length = length;
+  input.forces.push_back({80, Eigen::Vector3d(0.0, 1e-5, 0.0)});
+  PhaseTimer timer;
+  EnergyAudit audit;
+  while (input.inserted_length < 1.5 * length)
+  {
+    if (input.inserted_length > 1.05 * length)
+      stepper.setAudit(&audit);
+    input.inserted_length += 0.02 * dt;
+    std::uint32_t pass = 0;
+    stepper.step(state, input, dt, pass, nullptr, timer);
+  }
+  return audit.balance();
+}
+
+// The hand supplies the energy of the wire. Without the configurational force it would supply three times as much.
+TEST(EnergyAudit, ClosesWhileAWireBentAtTheIntroducersMouthIsPushedIn)
+{
+  const EnergyBalance coarse = pushAgainstAPin(1e-3);
+  const EnergyBalance fine = pushAgainstAPin(5e-4);
+  EXPECT_NEAR(coarse.push, coarse.bending + coarse.guide, 0.02 * coarse.push);
+  EXPECT_LT(std::abs(coarse.error()), 2e-3 * coarse.push);
+  EXPECT_LT(std::abs(fine.error()), 0.7 * std::abs(coarse.error()) + 1e-5 * fine.push);
+}
+
 TEST(EnergyAudit, PotentialEnergyAtRelaxedAnglesEqualsTheStepper)
 {
   Boundary boundary = freeBoundary();

@@ -131,7 +131,10 @@ TEST(StackSliding, WorkOfEveryHandleEqualsTheGainOfEnergy)
     const int moving = 1;
     WireAndCatheter setup({{0.12, 0.0}, {0.06, 0.0}}, wire, catheter, environment);
     const auto energy = [&]
-    { return setup.energy() + weightEnergy(setup.stepper->discretisation(), environment, setup.state); };
+    {
+      const Discretisation& rod = setup.stepper->discretisation();
+      return setup.energy() + weightEnergy(rod, environment, setup.state) + guideEnergy(rod, Boundary(), setup.state);
+    };
     const double begin = energy();
     double work = 0.0;
     double force = setup.state.layers[moving].hand_force;
