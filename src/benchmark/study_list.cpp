@@ -1,5 +1,6 @@
 #include "benchmark/study_list.h"
 
+#include "benchmark/coaxial/coaxial_study.h"
 #include "benchmark/facets/facets_study.h"
 #include "benchmark/reversal/reversal_study.h"
 #include "benchmark/sleeve/sleeve_study.h"
@@ -21,6 +22,8 @@ const std::vector<Study>& studies()
        accuracyStudy},
       {"work-precision", "Work and precision", "error over run time", workPrecisionTables(), workPrecisionStudy},
       {"speed", "Speed", "time per step by phase over the number of nodes", speedTables(), speedStudy},
+      {"coaxial", "Friction between layers", "hand force in a catheter against a rigid tube", coaxialTables(),
+       coaxialStudy},
       {"contact", "Contact", "detection: bounding volumes, time per step, growth with the triangles", contactTables(),
        contactStudy},
       {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},

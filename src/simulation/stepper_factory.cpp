@@ -106,7 +106,7 @@ std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene
   {
     std::vector<rod::Layer> layers;
     for (const scene::DrivenInstrument& driven : scene.instruments)
-      layers.push_back({driven.instrument.wire, driven.friction, driven.fit_load});
+      layers.push_back({driven.instrument.wire, driven.friction, driven.fit_load, driven.instrument.inner_radius});
     return std::make_unique<rod::KktStepper>(layers, nodes.position, boundary, environment, settings);
   }
   if (scene.solver.scheme == "paper")

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod

@@ -101,6 +101,7 @@ bool BentTube::measure(const Eigen::Vector3d& axis, int face, contact::Feature& 
   feature.gap = clearance_ - distance;
   feature.point = axis - feature.gap * feature.normal;
   feature.clearance_radius = clearance_;
+  feature.friction = friction_;
   return true;
 }
 

@@ -71,16 +71,16 @@ private:
   double friction_;
 };
 
-/** Frictionless tube: straight along x, an arc towards y, and a straight continuation. */
+/** Tube: straight along x, an arc towards y, and a straight continuation. */
 class BentTube : public SmoothWall
 {
 public:
   /** @param clearance largest distance between the axes of wire and tube [m]
    *  @param straight length along x before the bend, which begins at (straight, 0, 0) [m]
    *  @param radius radius of the bend, infinite for a straight tube [m]
-   *  @param angle angle of the bend, below π [rad] */
-  BentTube(double clearance, double straight, double radius, double angle)
-    : clearance_(clearance), straight_(straight), radius_(radius), angle_(angle)
+   *  @param angle angle of the bend, at most π [rad] */
+  BentTube(double clearance, double straight, double radius, double angle, double friction = 0.0)
+    : clearance_(clearance), straight_(straight), radius_(radius), angle_(angle), friction_(friction)
   {
   }
 
@@ -94,6 +94,7 @@ private:
   double straight_;
   double radius_;
   double angle_;
+  double friction_;
 };
 
 }  // namespace endovascular_sim::benchmark

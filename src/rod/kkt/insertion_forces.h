@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "rod/boundary/introducer_guide.h"
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_model.h"
 #include "rod/kkt/layer_twists.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rod/model/node_curvature.h"
-
 namespace endovascular_sim::rod
 {
 namespace
@@ -24,7 +22,8 @@ InterlayerFriction::InterlayerFriction(const ConcentricStack& stack, const KktMo
     model_(model),
     turn_before_(static_cast<std::size_t>(stack.count()), 0.0),
     share_before_(static_cast<std::size_t>(stack.count()), 0.0),
-    torque_limit_(static_cast<std::size_t>(stack.count()))
+    torque_limit_(static_cast<std::size_t>(stack.count())),
+    loads_(stack, model)
 {
 }
 
@@ -52,49 +51,14 @@ void InterlayerFriction::drag(State& state, const StepInput& input) const
 void InterlayerFriction::updateLoads(State& state, const LayerTwists& twists)
 {
   updateVesselShares(state);
-  int last = -1;  // outermost layer with friction on its next outer one
+  pairs_.clear();
   for (int k = 0; k < stack_.count(); ++k)
-    if (nextOuter(k, state) >= 0 && stack_.layer(k).friction > 0.0)
-      last = k;
-  if (last < 0)
-    return;
-  binormal_.resize(state.position.size());
-  for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
-    binormal_[i] = binormalAt(model_.rod, state, i).value;
-  moment_.assign(state.position.size(), Eigen::Vector3d::Zero());
-  for (int k = 0; k <= last; ++k)
   {
-    addMoments(k, state, twists);
     const int outer = nextOuter(k, state);
-    if (outer >= 0 && stack_.layer(k).friction > 0.0)
-      setLoad(state.layers[k].load, std::min(model_.rod.nodes() - 1, stack_.profile(outer).rod().nodes()), state);
+    if (outer >= 0)
+      pairs_.push_back({k, outer, stack_.layer(k).friction, state.layers[k].friction_stretch / kLayerSlip});
   }
-}
-
-/** Adds the moments that bend a layer to those of the layers inside it. */
-void InterlayerFriction::addMoments(int k, const State& state, const LayerTwists& twists)
-{
-  const Discretisation& layer = stack_.profile(k).rod();
-  for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
-  {
-    Eigen::Vector3d strain = binormal_[i];
-    if (twists.isActive(k) && i >= twists.of(k).firstCurved() && i + 1 < layer.nodes())
-      strain -= twists.of(k).restCurvatureBinormal(i);
-    moment_[i] += (layer.bending_stiffness[i] / layer.cell_length[i]) * strain;
-  }
-}
-
-/** @param end node before which the outer layer ends */
-void InterlayerFriction::setLoad(std::vector<double>& load, int end, const State& state) const
-{
-  std::fill(load.begin(), load.end(), 0.0);
-  for (int i = state.first_node + 1; i < end; ++i)
-  {
-    const Eigen::Vector3d after = i + 1 < end ? moment_[i + 1] : Eigen::Vector3d::Zero();
-    const Eigen::Vector3d force = (after - moment_[i]) / model_.rod.rest_length[i] -
-                                  (moment_[i] - moment_[i - 1]) / model_.rod.rest_length[i - 1];
-    load[i] = force.norm() / model_.rod.cell_length[i];
-  }
+  loads_.update(pairs_, vessel_share_, twists, state);
 }
 
 void InterlayerFriction::updateVesselShares(const State& state)

@@ -4,7 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
+#include "rod/kkt/interlayer_loads.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_twists.h"
 
@@ -28,8 +29,7 @@ public:
   /** Advances the stretches of all pairs to the insertions at the end of a step. */
   void drag(State& state, const StepInput& input) const;
 
-  /** Updates the normal loads between neighbours: the forces that bend a layer and those inside it away from their rest
-   *  shape. */
+  /** Updates the normal loads between neighbours. */
   void updateLoads(State& state, const LayerTwists& twists);
 
   /** Axial friction force of the next outer layer on a layer, positive against insertion [N]. */
@@ -56,8 +56,6 @@ public:
 
 private:
   void updateVesselShares(const State& state);
-  void addMoments(int k, const State& state, const LayerTwists& twists);
-  void setLoad(std::vector<double>& load, int end, const State& state) const;
   double load(int k, int outer, int node, const State& state) const;
   bool canStick(int k, const State& state) const;
   double meanTurn(int k, int outer, const State& state) const;
@@ -70,7 +68,8 @@ private:
   std::vector<std::vector<double>>
       torque_limit_;                  ///< largest friction torque with the next outer layer, per edge [N·m]
   std::vector<double> vessel_share_;  ///< part of every node's cell that is in the vessel, 0 to 1
-  std::vector<Eigen::Vector3d> binormal_, moment_;
+  InterlayerLoads loads_;
+  std::vector<LayerPair> pairs_;
 };
 
 }  // namespace endovascular_sim::rod

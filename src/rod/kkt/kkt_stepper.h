@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
+#include "rod/coaxial/concentric_stack.h"
 #include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
 #include "rod/energy/energy_audit.h"
 #include "rod/kkt/active_set_solver.h"
-#include "rod/kkt/concentric_stack.h"
 #include "rod/kkt/kkt_assembly.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/kkt_reactions.h"

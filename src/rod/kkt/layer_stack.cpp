@@ -48,6 +48,7 @@ State LayerStack::initialState(const std::vector<LayerInput>& layers) const
     state.layers.back().inserted_length = input.inserted_length;
     state.layers.back().rotation = input.rotation;
     state.layers.back().load.assign(state.position.size(), 0.0);
+    state.layers.back().bore_shift.assign(state.position.size(), Eigen::Vector3d::Zero());
     state.layers.back().twist_angle.assign(state.twist_angle.size(), input.rotation);
   }
   for (int k = 0; k < stack_.count(); ++k)

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 #include "rod/kkt/insertion_forces.h"
 #include "rod/kkt/interlayer_friction.h"
 #include "rod/kkt/kkt_model.h"

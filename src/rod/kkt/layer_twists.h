@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 #include "rod/kkt/layer_model.h"
 #include "rod/twist/surface_twist.h"
 #include "rod/twist/twist.h"

@@ -49,17 +49,18 @@ struct HandForceParts
 /** State of one of several instruments on one centreline (concentric_stack.h). */
 struct LayerState
 {
-  double inserted_length = 0.0;     ///< tip beyond the introducer; negative: outside [m]
-  double rotation = 0.0;            ///< rotation of the handle [rad]
-  double speed = 0.0;               ///< insertion speed in the last step [m/s]
-  std::vector<double> twist_angle;  ///< material frame against Bishop frame [rad], n−1
-  double friction_stretch = 0.0;    ///< elastic displacement in the next outer layer before sliding [m]
-  double friction_turn = 0.0;       ///< mean angle to the next outer layer at which both stick [rad]
-  double friction_share = 0.0;      ///< acting part of the friction torque with the next outer layer, −1 to 1
-  std::vector<double> load;         ///< normal load on the next outer layer [N/m], n
-  double force_offset = 0.0;        ///< part of hand_force since the last change of the reference; fades [N]
-  double hand_force = 0.0;          ///< axial force on the hand, positive when it pushes back [N]
-  double hand_torque = 0.0;         ///< torque that the hand holds [N·m]
+  double inserted_length = 0.0;             ///< tip beyond the introducer; negative: outside [m]
+  double rotation = 0.0;                    ///< rotation of the handle [rad]
+  double speed = 0.0;                       ///< insertion speed in the last step [m/s]
+  std::vector<double> twist_angle;          ///< material frame against Bishop frame [rad], n−1
+  double friction_stretch = 0.0;            ///< elastic displacement in the next outer layer before sliding [m]
+  double friction_turn = 0.0;               ///< mean angle to the next outer layer at which both stick [rad]
+  double friction_share = 0.0;              ///< acting part of the friction torque with the next outer layer, −1 to 1
+  std::vector<double> load;                 ///< normal load on the next outer layer [N/m], n
+  std::vector<Eigen::Vector3d> bore_shift;  ///< shift of the layers inside the next outer one in its bore [m], n
+  double force_offset = 0.0;                ///< part of hand_force since the last change of the reference; fades [N]
+  double hand_force = 0.0;                  ///< axial force on the hand, positive when it pushes back [N]
+  double hand_torque = 0.0;                 ///< torque that the hand holds [N·m]
 };
 
 /** State of the wire, which every step changes. Arrays run over all nodes (n) or edges (n−1) of the wire; nodes before

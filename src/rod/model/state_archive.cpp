@@ -21,7 +21,7 @@ void archive(Archive& archive, HandForceParts& parts)
 void archive(Archive& archive, LayerState& layer)
 {
   archive(layer.inserted_length, layer.rotation, layer.speed, layer.twist_angle, layer.friction_stretch,
-          layer.friction_turn, layer.friction_share, layer.load, layer.force_offset, layer.hand_force,
+          layer.friction_turn, layer.friction_share, layer.load, layer.bore_shift, layer.force_offset, layer.hand_force,
           layer.hand_torque);
 }
 
@@ -36,11 +36,11 @@ void archive(Archive& archive, State& state)
 
 static void requireFit(const LayerState& layer, std::size_t nodes)
 {
-  requireLength(nodes, layer.load);
+  requireLength(nodes, layer.load, layer.bore_shift);
   requireLength(nodes - 1, layer.twist_angle);
   requireFinite(layer.inserted_length, layer.rotation, layer.speed, layer.twist_angle, layer.friction_stretch,
-                layer.friction_turn, layer.friction_share, layer.load, layer.force_offset, layer.hand_force,
-                layer.hand_torque);
+                layer.friction_turn, layer.friction_share, layer.load, layer.bore_shift, layer.force_offset,
+                layer.hand_force, layer.hand_torque);
 }
 
 // wall_offset and hand_parts contain NaN in valid states.

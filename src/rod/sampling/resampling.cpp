@@ -141,21 +141,23 @@ void Resampling::carryEdges(const Discretisation& from, const Discretisation& to
   for (std::size_t k = 0; k < state.layers.size(); ++k)
   {
     carryTwist(from, to, state.first_node, state.layers[k].twist_angle, next_.layers[k].twist_angle);
-    carryLoad(from, to, state.layers[k].load, next_.layers[k].load);
+    carryMeans(from, to, state.layers[k].load, next_.layers[k].load);
+    carryMeans(from, to, state.layers[k].bore_shift, next_.layers[k].bore_shift);
   }
 }
 
-/** Transfers loads per length: a new node gets the mean of its neighbours. */
-void Resampling::carryLoad(const Discretisation& from, const Discretisation& to, const std::vector<double>& load,
-                           std::vector<double>& next) const
+/** Transfers values of nodes: a new node gets the mean of its neighbours. */
+template <typename Value>
+void Resampling::carryMeans(const Discretisation& from, const Discretisation& to, const std::vector<Value>& value,
+                            std::vector<Value>& next) const
 {
   next.resize(to.position.size());
   for (int i = 0; i < from.nodes(); ++i)
     if (new_node_[i] >= 0)
-      next[new_node_[i]] = load[i];
+      next[new_node_[i]] = value[i];
   for (const Change& change : changes_)
     if (change.split)
-      next[change.fine] = 0.5 * (load[change.coarse] + load[change.coarse + 1]);
+      next[change.fine] = 0.5 * (value[change.coarse] + value[change.coarse + 1]);
 }
 
 void Resampling::carryTwist(const Discretisation& from, const Discretisation& to, int first_node,

@@ -48,8 +48,9 @@ private:
   void carryEdges(const Discretisation& from, const Discretisation& to, const State& state);
   void carryTwist(const Discretisation& from, const Discretisation& to, int first_node,
                   const std::vector<double>& angle, std::vector<double>& next) const;
-  void carryLoad(const Discretisation& from, const Discretisation& to, const std::vector<double>& load,
-                 std::vector<double>& next) const;
+  template <typename Value>
+  void carryMeans(const Discretisation& from, const Discretisation& to, const std::vector<Value>& value,
+                  std::vector<Value>& next) const;
   void carryNodes(const Discretisation& from, const Discretisation& to, const State& state);
   void insert(const Change& change, const Discretisation& from, const State& state);
   void remove(const Change& change, const Discretisation& to, const State& state);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "rod/kkt/layer_profile.h"
+#include "rod/coaxial/layer_profile.h"
 #include "test/rod/stack_fixtures.h"
 
 namespace endovascular_sim::rod

@@ -1,4 +1,4 @@
-#include "rod/kkt/concentric_stack.h"
+#include "rod/coaxial/concentric_stack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "rod/kkt/layer_profile.h"
+#include "rod/coaxial/layer_profile.h"
 
 #include <algorithm>
 #include <cmath>

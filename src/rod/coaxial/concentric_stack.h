@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rod/kkt/layer_profile.h"
+#include "rod/coaxial/layer_profile.h"
 
 namespace endovascular_sim::rod
 {
@@ -13,6 +13,7 @@ struct Layer
   Wire wire;
   double friction = 0.0;  ///< Coulomb coefficient with the next outer layer [1]
   double fit_load = 0.0;  ///< normal load between the two without bending [N/m]
+  double lumen = 0.0;     ///< radius of the layer's own lumen; 0: it fits the layers inside without clearance [m]
 };
 
 /** Several instruments on one centreline, as one rod (docs/PHYSICS.md, "Concentric stack").
