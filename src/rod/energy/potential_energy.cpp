@@ -72,14 +72,20 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
   double energy = 0.0;
   Bishop frame{hold.tangent, hold.director};  // of the edge before the node, from the first twisted edge on
   const auto direction = [&state](int edge) { return (state.position[edge + 1] - state.position[edge]).normalized(); };
+  if (first == 0)
+    frame.moveTo(direction(0));
   for (int i = 1; i + 1 < rod.nodes(); ++i)
   {
     const Eigen::Vector3d kb = binormalAt(rod, state, i).value - state.curvature_offset[i];
     double strain = kb.squaredNorm();
-    if (i > first)
+    if (i == first)
     {
-      if (i == first + 1)
-        frame.moveTo(direction(first));
+      frame.moveTo(direction(first));
+      if (i >= rod.first_curved)
+        strain -= 4.0 * rod.shareBeyond(i, hold.position) * kb.dot(frame.halfBinormal(rod.rest_curvature[i], angle[i]));
+    }
+    else if (i > first)
+    {
       Bishop after = frame;
       after.moveTo(direction(i));
       if (i >= rod.first_curved)

@@ -43,11 +43,12 @@ double InsertionForces::gradientAtNode(int k, int node, const State& state) cons
 class InsertionForces::Side
 {
 public:
-  /** @param rest curvature in space [1/m] */
-  void add(double bending_stiffness, const Eigen::Vector3d& rest)
+  /** @param rest curvature in space [1/m]
+   *  @param acting part of it that acts, 0 inside the introducer to 1 beyond the mouth */
+  void add(double bending_stiffness, const Eigen::Vector3d& rest, double acting)
   {
     stiffness_ += bending_stiffness;
-    rest_moment_ += bending_stiffness * rest;
+    rest_moment_ += acting * bending_stiffness * rest;
     straight_energy_ += 0.5 * bending_stiffness * rest.squaredNorm();
   }
 
@@ -99,11 +100,23 @@ Eigen::Vector3d InsertionForces::restAt(int k, const Eigen::Vector2d& curvature,
   return (1.0 - at.parameter) * rest(at.node) + at.parameter * rest(at.node + 1);
 }
 
+/** Part of the rest curvature that acts at a location. */
+double InsertionForces::restShare(const Location& at, const State& state) const
+{
+  if (!model_.boundary.introducer)
+    return 1.0;
+  const double mouth = model_.rod.length() - state.inserted_length;
+  const int last = model_.rod.nodes() - 2;
+  const auto share = [&](int node) { return model_.rod.shareBeyond(std::clamp(node, 1, last), mouth); };
+  return (1.0 - at.parameter) * share(at.node) + at.parameter * share(at.node + 1);
+}
+
 /** Sections of the other layers at an arc length.
  *  @param at location at which their angles are taken */
 InsertionForces::Side InsertionForces::othersAt(int k, double arc_length, const Location& at, const State& state) const
 {
   Side side;
+  const double acting = restShare(at, state);
   for (int m = 0; m < stack_.count(); ++m)
   {
     const LayerProfile& profile = stack_.profile(m);
@@ -113,7 +126,7 @@ InsertionForces::Side InsertionForces::othersAt(int k, double arc_length, const 
     if (m == k || section == profile.wire().sections.size())
       continue;
     const Section& part = profile.wire().sections[section];
-    side.add(part.bending_stiffness, restAt(m, part.rest_curvature, at, state));
+    side.add(part.bending_stiffness, restAt(m, part.rest_curvature, at, state), acting);
   }
   return side;
 }
@@ -146,6 +159,7 @@ double InsertionForces::jointForce(int k, double arc_length, const Section& befo
     const double straight = model_.rod.length() - state.inserted_length - model_.boundary.guide_length;
     bent = std::max(0.0, std::min(1.0, (arc_length - straight) / kBlur));
   }
+  const double acting = restShare(at, state);
   double force = 0.0;
   double end = 0.0;
   for (double begin = arc_length - kBlur; begin < arc_length + kBlur; begin = end)
@@ -153,9 +167,9 @@ double InsertionForces::jointForce(int k, double arc_length, const Section& befo
     end = nextEnd(k, begin, arc_length + kBlur);
     Side now = othersAt(k, 0.5 * (begin + end), at, state);
     Side then = now;
-    then.add(before.bending_stiffness, rest_before);
+    then.add(before.bending_stiffness, rest_before, acting);
     if (after != nullptr)
-      now.add(after->bending_stiffness, rest_after);
+      now.add(after->bending_stiffness, rest_after, acting);
     force += (end - begin) / (2.0 * kBlur) *
              (bent * (then.energyUnder(moment) - now.energyUnder(moment)) +
               (1.0 - bent) * (then.straightEnergy() - now.straightEnergy()));

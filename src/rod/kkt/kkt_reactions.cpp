@@ -35,6 +35,7 @@ void KktReactions::update(const KktSolution& solution, State& state)
       state, solution.model.boundary,
       [&conditions, free](int node) { return node < free || conditions.isDistalHeld(node); },
       [&solution](int node) { return forceOnHold(solution, node); });
+  state.hand_force += solution.rest_force;
   updateHandParts(solution, state);
 }
 
@@ -73,7 +74,7 @@ void KktReactions::updateHandParts(const KktSolution& solution, State& state)
     parts.friction += slide_[term.node].dot(term.pullAfter(solution.motion[term.node]));
   }
   parts.bending = state.hand_force - (parts.friction + parts.inertia + parts.drag + parts.load);
-  parts.configurational = solution.configurational_force;
+  parts.configurational = solution.introducer_force + solution.rest_force;
   state.hand_parts = parts;
 }
 

@@ -21,8 +21,9 @@ struct KktSolution
   const std::vector<Eigen::Vector3d>& motion;  ///< increment of every node [m]
   const std::vector<Eigen::Vector3d>& begin;   ///< positions at the beginning of the step [m]
   const NodeResistance& resistance;
-  double configurational_force;  ///< see KktAssembly [N]
-  const LayerSlides* slides;     ///< null: every mass moves with its node
+  double introducer_force;    ///< KktAssembly::configurationalForce() [N]
+  double rest_force;          ///< LayerModel::restForce() [N]
+  const LayerSlides* slides;  ///< null: every mass moves with its node
   const WallFriction& friction;
   const std::vector<NodalForce>& forces;
   double dt;  ///< [s]

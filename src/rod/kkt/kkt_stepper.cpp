@@ -320,9 +320,10 @@ void KktStepper::accept(State& state, double dt)
   contacts_.updateWallForces(state, motion_);
   if (audit_ != nullptr)
     noteForces(dt);
-  reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
-                     assembly_.configurationalForce(), layers_->slides(), friction_, last_input_.forces, dt},
-                    state);
+  reactions_.update(
+      {model_, system_, solution(), motion_, begin_, assembly_.resistance(), assembly_.configurationalForce(),
+       layers_->restForce(state), layers_->slides(), friction_, last_input_.forces, dt},
+      state);
 }
 
 void KktStepper::finish(State& state, double dt)

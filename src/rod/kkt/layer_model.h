@@ -107,6 +107,10 @@ public:
   /** Angle of the outer surface at every node at the beginning of the step [rad]. */
   virtual void initialSurfaceAngles(const State& state, std::vector<double>& angle) const = 0;
 
+  /** Force that the rest curvature exerts along the wire where it begins to act, at the introducer's mouth, on the part
+   *  inside the introducer: the derivative of the bending energy by the insertion of all layers at fixed nodes [N]. */
+  virtual double restForce(const State& state) const = 0;
+
   /** Motion of the layers over the nodes in the step; null: none. */
   virtual const LayerSlides* slides() const = 0;
 

@@ -332,6 +332,15 @@ void LayerStack::relaxAtRest(State& state, const StepInput& input, WallFriction&
   relaxTwist(state, input, frictionAtRest(*this, model_.rod, state, friction), unused);
 }
 
+double LayerStack::restForce(const State& state) const
+{
+  double force = 0.0;
+  for (int k = 0; k < stack_.count(); ++k)
+    if (twists_.isActive(k))
+      force -= twists_.of(k).holdForce(stack_.profile(k).rod(), state);
+  return force;
+}
+
 void LayerStack::surfaceAngles(const State& state, std::vector<double>& angle) const
 {
   angle.assign(state.position.size(), 0.0);

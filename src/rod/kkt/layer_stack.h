@@ -44,6 +44,7 @@ public:
                      PhaseTimer& timer) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
+  double restForce(const State& state) const override;
   const LayerSlides* slides() const override { return sliding_ ? &slides_ : nullptr; }
   void finish(State& state, double dt) override;
   double handleWork(const State& before, const State& after) const override;

@@ -120,6 +120,11 @@ void SingleLayer::initialSurfaceAngles(const State& state, std::vector<double>& 
   nodeAngles(initial_twist_, state.first_node, angle);
 }
 
+double SingleLayer::restForce(const State& state) const
+{
+  return model_.rod.first_curved < model_.rod.nodes() ? -twist_.holdForce(model_.rod, state) : 0.0;
+}
+
 double SingleLayer::handleWork(const State& before, const State& after) const
 {
   return std::abs(after.hand_force * (after.inserted_length - before.inserted_length)) +

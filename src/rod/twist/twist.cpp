@@ -103,10 +103,15 @@ void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& b
   first_edge_ = state.first_node;
   while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
     ++first_edge_;
-  first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
+  // The node before the first edge beyond the hold has the angle of that edge; its own edge turns with the handle.
+  const bool has_mouth = first_edge_ > state.first_node;
+  mouth_share_ = has_mouth ? rod.shareBeyond(first_edge_, boundary.position) : 0.0;
+  first_curved_ = std::max(rod.first_curved, has_mouth ? first_edge_ : first_edge_ + 1);
   if (first_curved_ > n - 2)
     first_curved_ = n;
-  first_own_ = first_curved_;
+  first_own_ = first_curved_ < n ? std::max(first_curved_, first_edge_ + 1) : n;
+  if (first_own_ > n - 2)
+    first_own_ = first_curved_ = n;
   if (boundary.hasFriction() && first_edge_ + 1 <= n - 2)
     first_own_ = std::min(first_own_, std::clamp(boundary.friction->front().node, first_edge_ + 1, n - 2));
   held_friction_ = 0.0;
@@ -218,9 +223,9 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
     diagonal_[i] += k;
     diagonal_[i - 1] += k;
     upper_[i - 1] -= k;
-    if (i >= first_curved_)
-      addRestCurvature(rod, i);
   }
+  for (int i = first_curved_; i + 1 < n; ++i)
+    addRestCurvature(rod, i);
   if (boundary.hasFriction())
     addFriction(boundary, state, secants);
   tip_gradient_ = gradient_[n - 2];
@@ -238,7 +243,7 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
 /** Computes sines and cosines of the curved tip's edges, which two nodes each need. */
 void QuasiStaticTwist::turnFrames(const State& state)
 {
-  for (int j = first_curved_ - 1; j + 1 < static_cast<int>(cosine_.size()); ++j)
+  for (int j = firstFrame(first_curved_); j + 1 < static_cast<int>(cosine_.size()); ++j)
   {
     cosine_[j] = std::cos(state.twist_angle[j]);
     sine_[j] = std::sin(state.twist_angle[j]);
@@ -248,9 +253,11 @@ void QuasiStaticTwist::turnFrames(const State& state)
 /** Adds the bending of a node of the curved tip. */
 void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
 {
-  const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
+  double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
+  if (firstFrame(node) == node)
+    b *= 2.0 * restShare(node);
   const Eigen::Vector2d& rest = rod.rest_curvature[node];
-  for (int j = node - 1; j <= node; ++j)
+  for (int j = firstFrame(node); j <= node; ++j)
   {
     const double c = cosine_[j];
     const double s = sine_[j];
@@ -410,13 +417,24 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
     const double k = rod.torsional_stiffness[i] / rod.cell_length[i];
     torque_[i] = k * m;
     energy_ += 0.5 * k * m * m;
-    if (i >= first_curved_)
-    {
-      rest_binormal_[i].setZero();
-      for (int j = i - 1; j <= i; ++j)
-        rest_binormal_[i] += binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
-    }
   }
+  for (int i = first_curved_; i + 1 < n; ++i)
+  {
+    const double share = firstFrame(i) == i ? 2.0 * restShare(i) : 1.0;
+    rest_binormal_[i].setZero();
+    for (int j = firstFrame(i); j <= i; ++j)
+      rest_binormal_[i] += share * binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
+  }
+}
+
+double QuasiStaticTwist::holdForce(const Discretisation& rod, const State& state) const
+{
+  const int i = first_edge_;
+  if (first_curved_ != i || mouth_share_ <= 0.0 || mouth_share_ >= 1.0)
+    return 0.0;
+  const Eigen::Vector3d rest = 2.0 * binormalOnEdge(rod.rest_curvature[i], i, cosine_[i], sine_[i]);
+  return rod.bending_stiffness[i] / (rod.cell_length[i] * rod.cell_length[i]) *
+         binormalAt(rod, state, i).value.dot(rest);
 }
 
 /** Half of a node's rest curvature binormal in the material frame of one of its two edges. */
@@ -432,8 +450,9 @@ Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvatu
                                              const std::vector<double>& twist_angle) const
 {
   Eigen::Vector3d binormal = Eigen::Vector3d::Zero();
-  for (int j = node - 1; j <= node; ++j)
-    binormal += binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
+  const double share = firstFrame(node) == node ? 2.0 : 1.0;
+  for (int j = firstFrame(node); j <= node; ++j)
+    binormal += share * binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
   return binormal;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
@@ -81,17 +82,25 @@ public:
   void turn(const Discretisation& rod, const TwistBoundary& boundary, const std::vector<double>& turns, double share,
             State& state);
 
-  /** First node at which rest curvature acts: beyond the hold and on the curved tip. */
+  /** First node at which rest curvature acts: on the curved tip, with a part of its cell beyond the hold. */
   int firstCurved() const { return first_curved_; }
 
-  /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁ [1]. */
+  /** Part of a curved node's cell beyond the hold, 0 to 1: the part on which its rest curvature acts. */
+  double restShare(int node) const { return node == first_edge_ ? mouth_share_ : 1.0; }
+
+  /** Derivative of the bending energy by the arc length of the hold, at fixed positions and angles [N]: the rest
+   *  curvature acts on the part of the wire beyond the hold. */
+  double holdForce(const Discretisation& rod, const State& state) const;
+
+  /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁, times the part
+   *  of the node's cell beyond the hold [1]. */
   const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
 
   /** Rest curvature binormals of all nodes from firstCurved() on [1]. */
   const std::vector<Eigen::Vector3d>& restCurvatureBinormals() const { return rest_binormal_; }
 
   /** Rest curvature binormal, in space, of another rest curvature at a node of the curved tip, in the unit of
-   *  @p rest_curvature. */
+   *  @p rest_curvature, for a cell that is wholly beyond the hold. */
   Eigen::Vector3d binormalOf(const Eigen::Vector2d& rest_curvature, int node,
                              const std::vector<double>& twist_angle) const;
 
@@ -112,6 +121,7 @@ private:
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state, bool secants);
   void turnFrames(const State& state);
   Eigen::Vector3d binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine, double sine) const;
+  int firstFrame(int node) const { return std::max(node - 1, first_edge_); }
   void addRestCurvature(const Discretisation& rod, int node);
   void addFriction(const TwistBoundary& boundary, const State& state, bool secants);
   double balanced(const TwistBoundary& boundary) const;
@@ -122,10 +132,11 @@ private:
   void prepareBody(const Discretisation& rod, const TwistBoundary& boundary);
   double bodyTorque(const TwistBoundary& boundary, double angle) const;
 
-  int first_edge_ = 0;    ///< first edge beyond the hold
-  int first_curved_ = 0;  ///< first curved node beyond the hold; n without
-  int first_own_ = 0;     ///< first node with angles of their own on both sides; n without
-  int last_body_ = 0;     ///< last edge of the straight body
+  int first_edge_ = 0;        ///< first edge beyond the hold
+  int first_curved_ = 0;      ///< first curved node with a part of its cell beyond the hold; n without
+  int first_own_ = 0;         ///< first node with angles of their own on both sides; n without
+  double mouth_share_ = 1.0;  ///< part beyond the hold of the cell of the node before the first edge beyond it
+  int last_body_ = 0;         ///< last edge of the straight body
   double body_stiffness_ = 0.0;
   double body_load_ = 0.0;        ///< external torque on the body before its last edge [N·m]
   double body_load_angle_ = 0.0;  ///< rotation of the body's last edge by that torque [rad]
