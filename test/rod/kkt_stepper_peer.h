@@ -39,7 +39,7 @@ struct KktStepperPeer
     std::vector<double> gradient(state.layers.size(), 0.0);
     for (int k = 0; k < layers.stack_.count(); ++k)
       if (k != state.reference)
-        gradient[k] = layers.forces_.gradient(k, state);
+        gradient[k] = layers.forces_.gradient(k, state) + layers.forces_.wedging(k, state);
     return gradient;
   }
 

@@ -34,8 +34,9 @@ IntroducerGuide::IntroducerGuide(const Boundary& boundary)
 }
 
 void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight,
-                               GuidedEdge& edge) const
+                               GuidedEdge& edge, GuideStiffness form) const
 {
+  const double along = form == GuideStiffness::kExact ? 1.0 / 3.0 : 1.0;  // of the square of the slope
   edge.reset();
   const double x0 = axial(first);
   const double x1 = axial(second);
@@ -58,7 +59,7 @@ void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector
     edge.gradient[1] += t * force;
     const Eigen::Vector3d coupling = slope * y;
     Eigen::Matrix3d hessian = coupling * direction_.transpose() + direction_ * coupling.transpose() +
-                              (slope * slope * squared / 3.0 - 1.0) * direction_ * direction_.transpose();
+                              (along * slope * slope * squared - 1.0) * direction_ * direction_.transpose();
     hessian.diagonal().array() += 1.0;
     hessian *= stiffness;
     edge.first += (1.0 - t) * (1.0 - t) * hessian;

@@ -23,6 +23,13 @@ struct GuidedEdge
   void reset();
 };
 
+/** Second derivatives of the guide's potential. */
+enum class GuideStiffness
+{
+  kExact,        ///< indefinite
+  kSemiDefinite  ///< positive semi-definite: too stiff along the axis, for schemes whose matrix must be definite
+};
+
 /** Guide of the introducer: a potential in space that holds the wire on the introducer's axis,
  *
  *      U = ∫ ½ EI ((X_e − X)/λ)³/λ⁴ |Y|² ds   over the wire at X < X_e,
@@ -32,8 +39,8 @@ struct GuidedEdge
  *  positions alone. It therefore pushes a bent wire out with the configurational force ½EIκ². Edges are integrated
  *  exactly up to X_e, where the potential and its first two derivatives vanish.
  *
- *  The second derivatives are exact and therefore indefinite. A semi-definite form overestimates those along the axis,
- *  and the force on the hand would then depend on the travel per step. */
+ *  The exact second derivatives are indefinite. The semi-definite form overestimates those along the axis; the force on
+ *  the hand then depends on the travel per step. */
 class IntroducerGuide
 {
 public:
@@ -49,20 +56,22 @@ public:
   /** Calls visit(edge, term) for every edge of a wire in the guide. The wire leaves the guide once: what returns to its
    *  space is outside. */
   template <typename Visit>
-  void forEachEdge(const Discretisation& rod, const State& state, Visit visit) const
+  void forEachEdge(const Discretisation& rod, const State& state, Visit visit,
+                   GuideStiffness form = GuideStiffness::kExact) const
   {
     GuidedEdge term;
     for (int j = state.first_node; j + 1 < rod.nodes() && holds(state.position[j]); ++j)
     {
       const double stiffness = 0.5 * (rod.bending_stiffness[j] + rod.bending_stiffness[j + 1]);
-      evaluate(state.position[j], state.position[j + 1], stiffness * rod.rest_length[j], term);
+      evaluate(state.position[j], state.position[j + 1], stiffness * rod.rest_length[j], term, form);
       visit(j, term);
     }
   }
 
   /** Computes the potential of an edge.
    *  @param weight bending stiffness times rest length [N·m³] */
-  void evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight, GuidedEdge& edge) const;
+  void evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight, GuidedEdge& edge,
+                GuideStiffness form = GuideStiffness::kExact) const;
 
   /** Energy per length and bending stiffness at a point of the wire [1/m²]. */
   double density(const Eigen::Vector3d& position) const;

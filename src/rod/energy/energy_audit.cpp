@@ -214,7 +214,9 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   pending_.positions += by_positions.sum() - (last - at_begin).sum();
   pending_.twisting +=
       by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist - (last - first).twist;
-  pending_.configurational += (with_insertion - first).sum() - (with_insertion - first).twist;
+  const double by_insertion = (with_insertion - first).sum() - (with_insertion - first).twist;
+  pending_.configurational += by_insertion;
+  pending_.insertion += part.insertion_work - by_insertion;
   turn_balance_ -= by_angles.sum();
 }
 

@@ -55,6 +55,7 @@ struct AuditedPart
   double wall_energy;                            ///< springs of contacts after the part [J]
   double layer_friction_push;                    ///< work of the friction between layers along the wire [J]
   double layer_friction_turn;                    ///< about the wire [J]
+  double insertion_work;                         ///< of the hands, on the potentials at fixed nodes [J]
 };
 
 /** Energy audit of a wire: the balance of every accepted part of its steps (docs/PHYSICS.md, "Energy audit").

@@ -39,11 +39,12 @@ struct EnergyBalance
   double lengths = 0.0;     ///< inextensibility: work of the tensions on edges that turn
   double iteration = 0.0;   ///< minus the work of the residual that the last solve leaves at the free nodes
   double contact = 0.0;     ///< work of the wall's normal forces minus the change of its energy
+  double insertion = 0.0;   ///< work of the hands' configurational forces minus the change of energy at fixed nodes
   double resampling = 0.0;  ///< change of nodes, its offsets that fade, and change of a stack's reference
   double rejected = 0.0;    ///< kinetic energy of rejected steps
 
   // No part of the sum.
-  double configurational = 0.0;  ///< change of the potentials by the insertion at fixed nodes; contained in error
+  double configurational = 0.0;  ///< change of the potentials by the insertion at fixed nodes
   double turn_error = 0.0;       ///< part of error of the equations of the twist
   double turnover = 0.0;         ///< sum of the magnitudes of the work of all steps
 
@@ -52,7 +53,7 @@ struct EnergyBalance
   double dissipated() const { return wall_friction + wall_rolling + layer_friction + valve + damping + drag; }
   double numerical() const
   {
-    return inertia + positions + twisting + lengths + iteration + contact + resampling + rejected;
+    return inertia + positions + twisting + lengths + iteration + contact + insertion + resampling + rejected;
   }
   /** Closing error: work that no term explains. */
   double error() const { return work() - stored() - dissipated() - numerical(); }
@@ -68,7 +69,7 @@ struct BalanceTerm
 };
 
 /** All terms in the order of the struct. */
-constexpr std::array<BalanceTerm, 27> kBalanceTerms = {{
+constexpr std::array<BalanceTerm, 28> kBalanceTerms = {{
     {"push", &EnergyBalance::push},
     {"turn", &EnergyBalance::turn},
     {"loads", &EnergyBalance::loads},
@@ -91,6 +92,7 @@ constexpr std::array<BalanceTerm, 27> kBalanceTerms = {{
     {"lengths", &EnergyBalance::lengths},
     {"iteration", &EnergyBalance::iteration},
     {"contact", &EnergyBalance::contact},
+    {"insertion", &EnergyBalance::insertion},
     {"resampling", &EnergyBalance::resampling},
     {"rejected", &EnergyBalance::rejected},
     {"configurational", &EnergyBalance::configurational},

@@ -27,16 +27,15 @@ double InsertionForces::widening(int k, int node, const LayerProfile::Slope& slo
          (slope.cover * (stack_.profile(k).rod().radius[node] - inside) + stack_.profile(k).cover(node) * slope.radius);
 }
 
-/** Gradient of weight and buoyancy, and of the wall's energy where the layer's tip lies between the wall and the layers
- *  inside [N]. */
-double InsertionForces::gradientAtNode(int k, int node, const State& state) const
+/** Gradient of weight and buoyancy [N]. */
+double InsertionForces::gravityAtNode(int k, int node, const State& state) const
 {
   const LayerProfile::Slope slope = stack_.profile(k).slope(node);
   const double wider = widening(k, node, slope);
   const double displaced =
       model_.environment.fluid_density * 2.0 * M_PI * model_.rod.radius[node] * wider * model_.rod.cell_length[node];
   const double height = -model_.environment.gravity.dot(state.position[node] - model_.boundary.origin);
-  return (slope.mass - displaced) * height + state.wall_force[node].norm() * wider;
+  return (slope.mass - displaced) * height;
 }
 
 /** Cross-section of the stack on one side of a joint between sections of a layer. */
@@ -195,7 +194,16 @@ double InsertionForces::gradient(int k, const State& state) const
         jointForce(k, profile.sectionEnd(m), sections[m], m + 1 < sections.size() ? &sections[m + 1] : nullptr, state);
   for (const int i : profile.slidingNodes())
     if (i > state.first_node)
-      force += gradientAtNode(k, i, state);
+      force += gravityAtNode(k, i, state);
+  return force;
+}
+
+double InsertionForces::wedging(int k, const State& state) const
+{
+  double force = 0.0;
+  for (const int i : stack_.profile(k).slidingNodes())
+    if (i > state.first_node)
+      force += state.wall_force[i].norm() * widening(k, i, stack_.profile(k).slope(i));
   return force;
 }
 

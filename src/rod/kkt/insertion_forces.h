@@ -30,9 +30,11 @@ public:
   }
 
   /** ∂E/∂ℓ of a layer at fixed nodes and angles, the other insertions fixed, averaged over the nodes that its joints
-   *  pass [N]. The energy is elastic, that of the introducer's guide, of weight, and of
-   *  the wall at the layer's tip. */
+   *  pass [N]. The energy is elastic, that of the introducer's guide, and of weight. */
   double gradient(int k, const State& state) const;
+
+  /** Force of the wall against the insertion of a layer's tip between the wall and the layers inside [N]. */
+  double wedging(int k, const State& state) const;
 
   /** Friction of the wall on the nodes at which a layer is the outermost one [N]. */
   double wallDrag(int k, const State& state) const;
@@ -59,7 +61,7 @@ private:
   double nextEnd(int k, double begin, double end) const;
   double jointForce(int k, double arc_length, const Section& before, const Section* after, const State& state) const;
   double widening(int k, int node, const LayerProfile::Slope& slope) const;
-  double gradientAtNode(int k, int node, const State& state) const;
+  double gravityAtNode(int k, int node, const State& state) const;
 
   const ConcentricStack& stack_;
   const KktModel& model_;

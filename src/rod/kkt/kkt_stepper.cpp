@@ -392,7 +392,7 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
   audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
                    resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_, spring_energy_,
-                   layers.push, layers.turn});
+                   layers.push, layers.turn, layers_->insertionWork(before, after)});
   layers_->restore(after);
 }
 

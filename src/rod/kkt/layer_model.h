@@ -127,6 +127,10 @@ public:
    *  those of that state. */
   virtual void addElasticEnergy(const State& state, PotentialEnergy& energy) = 0;
 
+  /** Work of the forces on the hands that belong to the change of the potentials at fixed nodes, in a part of a step:
+   *  of layers that slide over the nodes, and of rest curvature that begins to act [J]. */
+  virtual double insertionWork(const State& before, const State& after) const = 0;
+
   /** Work of the friction between layers in a part of a step. */
   virtual LayerFrictionWork frictionWork(const State& /*before*/, const State& /*after*/) const { return {}; }
 

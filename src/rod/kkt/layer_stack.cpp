@@ -364,7 +364,7 @@ void LayerStack::updateHandForces(State& state, double dt) const
     LayerState& layer = state.layers[k];
     layer.hand_force = layer.force_offset;
     if (k != state.reference)
-      layer.hand_force += forces_.gradient(k, state) + forces_.wallDrag(k, state) +
+      layer.hand_force += forces_.gradient(k, state) + forces_.wedging(k, state) + forces_.wallDrag(k, state) +
                           forces_.motionDrag(k, motion_[k], slides(), state, dt);
   }
   for (int k = 0; k < stack_.count(); ++k)
@@ -441,6 +441,16 @@ LayerFrictionWork LayerStack::frictionWork(const State& before, const State& aft
     work.push += friction_.axialForce(k, outer, after) * (travel(k) - travel(outer));
     work.turn += friction_.turnWork(k, outer, before, after);
   }
+  return work;
+}
+
+double LayerStack::insertionWork(const State& before, const State& after) const
+{
+  const auto travel = [&](int m) { return after.layers[m].inserted_length - before.layers[m].inserted_length; };
+  double work = restForce(after) * travel(after.reference);
+  for (int k = 0; k < stack_.count(); ++k)
+    if (k != after.reference && travel(k) != travel(after.reference))
+      work += forces_.gradient(k, after) * (travel(k) - travel(after.reference));
   return work;
 }
 

@@ -51,6 +51,7 @@ public:
   /** Sum over all layers; bending counts from each layer's own rest shape. */
   Energy energy(const State& state, const StepInput& input, WallFriction& friction) override;
   void addElasticEnergy(const State& state, PotentialEnergy& energy) override;
+  double insertionWork(const State& before, const State& after) const override;
   LayerFrictionWork frictionWork(const State& before, const State& after) const override;
   void resample() override { stack_.setNodes(model_.rod.position); }
   void restore(const State& state) override { place(state); }

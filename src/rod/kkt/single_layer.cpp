@@ -125,6 +125,11 @@ double SingleLayer::restForce(const State& state) const
   return model_.rod.first_curved < model_.rod.nodes() ? -twist_.holdForce(model_.rod, state) : 0.0;
 }
 
+double SingleLayer::insertionWork(const State& before, const State& after) const
+{
+  return restForce(after) * (after.inserted_length - before.inserted_length);
+}
+
 double SingleLayer::handleWork(const State& before, const State& after) const
 {
   return std::abs(after.hand_force * (after.inserted_length - before.inserted_length)) +

@@ -37,6 +37,7 @@ public:
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
   double restForce(const State& state) const override;
+  double insertionWork(const State& before, const State& after) const override;
   const LayerSlides* slides() const override { return nullptr; }
   void finish(State& /*state*/, double /*dt*/) override {}
   double handleWork(const State& before, const State& after) const override;

@@ -244,15 +244,17 @@ void PaperStepper::addNodeTerms(int node, const State& state, double dt)
 void PaperStepper::addGuide(const State& state, double dt)
 {
   const double factor = dt * dt;
-  guide_.forEachEdge(rod_, state,
-                     [this, factor](int edge, const GuidedEdge& term)
-                     {
-                       addForce(edge, -factor * term.gradient[0]);
-                       addForce(edge + 1, -factor * term.gradient[1]);
-                       addBlock(edge, edge, factor * term.first);
-                       addBlock(edge + 1, edge, factor * term.across);
-                       addBlock(edge + 1, edge + 1, factor * term.second);
-                     });
+  guide_.forEachEdge(
+      rod_, state,
+      [this, factor](int edge, const GuidedEdge& term)
+      {
+        addForce(edge, -factor * term.gradient[0]);
+        addForce(edge + 1, -factor * term.gradient[1]);
+        addBlock(edge, edge, factor * term.first);
+        addBlock(edge + 1, edge, factor * term.across);
+        addBlock(edge + 1, edge + 1, factor * term.second);
+      },
+      GuideStiffness::kSemiDefinite);
 }
 
 /** Prescribes nodes, factorises and solves. */

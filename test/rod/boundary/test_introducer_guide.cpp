@@ -98,6 +98,25 @@ TEST(IntroducerGuide, ForceAndStiffnessAreTheDerivativesOfItsEnergy)
   }
 }
 
+TEST(IntroducerGuide, SemiDefiniteStiffnessDiffersFromTheExactOneAlongTheAxisOnly)
+{
+  const Boundary boundary = obliqueBoundary();
+  const IntroducerGuide guide(boundary);
+  GuidedEdge exact, semi;
+  const Vector3d first = at(boundary, -7e-3, 0.3e-3, -0.1e-3);
+  const Vector3d second = at(boundary, -4.5e-3, 0.9e-3, 0.4e-3);
+  guide.evaluate(first, second, 2.5e-7, exact);
+  guide.evaluate(first, second, 2.5e-7, semi, GuideStiffness::kSemiDefinite);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> exact_values(hessianOf(exact));
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> semi_values(hessianOf(semi));
+  EXPECT_LT(exact_values.eigenvalues().minCoeff(), -1e-3 * exact_values.eigenvalues().maxCoeff());
+  EXPECT_GT(semi_values.eigenvalues().minCoeff(), -1e-9 * semi_values.eigenvalues().maxCoeff());
+  EXPECT_EQ(gradientOf(exact), gradientOf(semi));
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - boundary.direction * boundary.direction.transpose();
+  EXPECT_LT((across * (semi.first - exact.first)).norm(), 1e-12 * exact.first.norm());
+  EXPECT_LT((across * (semi.across - exact.across)).norm(), 1e-12 * exact.first.norm());
+}
+
 TEST(IntroducerGuide, EnergyOfAnEdgeIsTheIntegralOfItsDensity)
 {
   const Boundary boundary = obliqueBoundary();

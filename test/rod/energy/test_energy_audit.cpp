@@ -207,6 +207,50 @@ TEST(EnergyAudit, ClosesWhileAWireBentAtTheIntroducersMouthIsPushedIn)
   EXPECT_LT(std::abs(fine.error()), 0.7 * std::abs(coarse.error()) + 1e-5 * fine.push);
 }
 
+// A curved tip without contact: its energy at the mouth falls from ½EIκ̄² per length to zero.
+TEST(EnergyAudit, ACurvedTipPushesItselfOutOfTheIntroducerAndIsWithdrawnWithItsBendingEnergy)
+{
+  const double curvature = 60.0;
+  Wire wire = uniformWire(0.2, kEi, kRadius, kDensity);
+  wire.sections.push_back(wire.sections[0]);
+  wire.sections[1].length = 0.03;
+  wire.sections[1].rest_curvature = Eigen::Vector2d(0.0, curvature);
+  Environment environment;
+  environment.damping = 400.0;
+  KktStepper stepper(discretiseUniformly(wire, 116), Boundary(), environment, StepperSettings());
+  const double exact = -0.5 * kEi * curvature * curvature;
+  State state = stepper.initialState(2e-3, 0.0);
+  StepInput input;
+  input.inserted_length = 2e-3;
+  EnergyAudit audit;
+  stepper.setAudit(&audit);
+  PhaseTimer timer;
+  const double dt = 1e-3;
+  std::vector<double> work;
+  for (const double speed : {5e-3, -5e-3})
+  {
+    double sum = 0.0;
+    int count = 0;
+    double push = -audit.balance().push;
+    for (int k = 0; k < 4000; ++k)
+    {
+      input.inserted_length += speed * dt;
+      std::uint32_t pass = 0;
+      stepper.step(state, input, dt, pass, nullptr, timer);
+      if (input.inserted_length < 6e-3 || input.inserted_length > 18e-3)  // six edges
+        continue;
+      sum += state.hand_force;
+      ++count;
+    }
+    push += audit.balance().push;
+    EXPECT_NEAR(sum / count, exact, 0.03 * std::abs(exact)) << speed;
+    work.push_back(push);
+  }
+  EXPECT_LT(work[0], 0.0);
+  EXPECT_NEAR(work[1], -work[0], 5e-3 * work[1]);
+  EXPECT_LT(std::abs(audit.balance().error()), 1e-3 * audit.balance().turnover);
+}
+
 TEST(EnergyAudit, PotentialEnergyAtRelaxedAnglesEqualsTheStepper)
 {
   Boundary boundary = freeBoundary();

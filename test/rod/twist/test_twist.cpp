@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rod/energy/potential_energy.h"
 #include "test/rod/kkt_stepper_peer.h"
 #include "test/rod/rod_fixtures.h"
 
@@ -67,6 +68,83 @@ TEST(QuasiStaticTwist, TotalForceIncludingTheTwistEqualsFiniteDifferencesOfTheRe
       const double difference = (a.bending + a.twist - b.bending - b.twist) / (2.0 * step);
       EXPECT_NEAR(gradient[i][axis], difference, 2e-6 * largest) << "node " << i << " axis " << axis;
     }
+}
+
+/** Clamped wire whose hold of the twist is a part of an edge before the curved tip. */
+struct TipAtTheMouth
+{
+  Discretisation rod = discretiseUniformly(curvedTipWire(80.0), 25);
+  KktStepper stepper;
+  State state;
+  TwistBoundary boundary;
+  int node = 22;  // whose cell contains the hold
+
+  static Boundary clamped()
+  {
+    Boundary clamped;
+    clamped.introducer = false;
+    clamped.proximal = EndHold::kClamped;
+    return clamped;
+  }
+
+  TipAtTheMouth() : stepper(rod, clamped(), Environment(), StepperSettings()), state(bentState(stepper, 0.9))
+  {
+    boundary.rotation = 0.9;
+    boundary.tangent = (state.position[node] - state.position[node - 1]).normalized();
+    boundary.director = boundary.tangent.unitOrthogonal();
+  }
+
+  /** Places the hold. @param share of the node's cell beyond it */
+  void hold(double share)
+  {
+    boundary.position = rod.position[node] + (0.5 - share) * rod.cell_length[node];
+    std::fill(state.twist_angle.begin(), state.twist_angle.begin() + node, boundary.rotation);
+  }
+
+  double potential() const
+  {
+    PotentialEnergy energy;
+    addElasticEnergy(rod, boundary, state, state.twist_angle, energy);
+    return energy.bending;
+  }
+};
+
+TEST(QuasiStaticTwist, ForceAtTheHoldIsTheDerivativeOfTheBendingEnergyByItsArcLength)
+{
+  TipAtTheMouth tip;
+  QuasiStaticTwist twist;
+  tip.hold(0.6);
+  twist.solve(tip.rod, tip.boundary, tip.state);
+  ASSERT_EQ(twist.firstCurved(), tip.node);
+  ASSERT_NEAR(twist.restShare(tip.node), 0.6, 1e-9);
+  const double force = twist.holdForce(tip.rod, tip.state);
+  const double step = 1e-3;
+  tip.hold(0.6 - step);
+  double difference = tip.potential();
+  tip.hold(0.6 + step);
+  difference -= tip.potential();
+  EXPECT_GT(std::abs(force), 1e-3);
+  EXPECT_NEAR(force, difference / (2.0 * step * tip.rod.cell_length[tip.node]), 1e-6 * std::abs(force));
+}
+
+TEST(QuasiStaticTwist, RestCurvatureBeginsToActContinuouslyWhereTheHoldIsPassed)
+{
+  TipAtTheMouth tip;
+  QuasiStaticTwist twist;
+  const auto binormals = [&](double share)
+  {
+    tip.hold(share);
+    twist.solve(tip.rod, tip.boundary, tip.state);
+    std::vector<Eigen::Vector3d> rest(tip.rod.nodes(), Eigen::Vector3d::Zero());
+    for (int i = twist.firstCurved(); i + 1 < tip.rod.nodes(); ++i)
+      rest[i] = twist.restCurvatureBinormal(i);
+    return rest;
+  };
+  const std::vector<Eigen::Vector3d> full = binormals(1.0 - 1e-9);
+  EXPECT_GT(full[tip.node].norm(), 1e-2);
+  EXPECT_LT(binormals(1e-9)[tip.node].norm(), 1e-8);
+  const std::vector<Eigen::Vector3d> half = binormals(0.5);
+  EXPECT_NEAR(half[tip.node].norm(), 0.5 * full[tip.node].norm(), 1e-9);
 }
 
 TEST(QuasiStaticTwist, AStraightWireTurnsAtItsTipExactlyAsAtTheHandle)
