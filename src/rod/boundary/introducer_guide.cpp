@@ -37,6 +37,7 @@ void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector
                                GuidedEdge& edge, GuideStiffness form) const
 {
   const double along = form == GuideStiffness::kExact ? 1.0 / 3.0 : 1.0;  // of the square of the slope
+  const double axial_share = form == GuideStiffness::kLateral ? 0.0 : 1.0;
   edge.reset();
   const double x0 = axial(first);
   const double x1 = axial(second);
@@ -50,7 +51,8 @@ void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector
     const double t = inside * kPoint[q];
     const double depth = (reach_ - x0 - t * (x1 - x0)) * inverse;
     const double stiffness = scale * kWeight[q] * depth * depth * depth;
-    const double slope = -3.0 * inverse / depth;  // of the stiffness by X, relative to it; the second one: slope² 2/3
+    // Of the stiffness by X, relative to it; the second one: slope² 2/3.
+    const double slope = -3.0 * axial_share * inverse / depth;
     const Eigen::Vector3d y = (1.0 - t) * y0 + t * y1;
     const double squared = y.squaredNorm();
     edge.energy += 0.5 * stiffness * squared;

@@ -26,8 +26,9 @@ struct GuidedEdge
 /** Second derivatives of the guide's potential. */
 enum class GuideStiffness
 {
-  kExact,        ///< indefinite
-  kSemiDefinite  ///< positive semi-definite: too stiff along the axis, for schemes whose matrix must be definite
+  kExact,         ///< indefinite
+  kSemiDefinite,  ///< positive semi-definite: too stiff along the axis, for schemes whose matrix must be definite
+  kLateral        ///< neither force nor stiffness along the axis
 };
 
 /** Guide of the introducer: a potential in space that holds the wire on the introducer's axis,

@@ -44,7 +44,7 @@ StepReport PaperStepper::step(State& state, const StepInput& input, double dt, s
   backup_ = state;
   if (!haveContacts(state, report))
     hold(state);
-  else if (!advance(state, input, dt, report))
+  else if (!advanceOrRetry(state, input, dt, report))
   {
     report.solved = false;
     hold(state);
@@ -98,6 +98,18 @@ void PaperStepper::detect(const State& state, StepReport& report)
   step_is_stale_ = contacts_.stale;
   contacts_valid_ = true;
   ++*pass_;
+}
+
+/** Far from the introducer's axis the guide's axial force changes too fast for a linear step. The step is then repeated
+ *  without it. */
+bool PaperStepper::advanceOrRetry(State& state, const StepInput& input, double dt, StepReport& report)
+{
+  guide_form_ = GuideStiffness::kSemiDefinite;
+  if (advance(state, input, dt, report))
+    return true;
+  state = backup_;
+  guide_form_ = GuideStiffness::kLateral;
+  return advance(state, input, dt, report);
 }
 
 bool PaperStepper::advance(State& state, const StepInput& input, double dt, StepReport& report)
@@ -254,7 +266,7 @@ void PaperStepper::addGuide(const State& state, double dt)
         addBlock(edge + 1, edge, factor * term.across);
         addBlock(edge + 1, edge + 1, factor * term.second);
       },
-      GuideStiffness::kSemiDefinite);
+      guide_form_);
 }
 
 /** Prescribes nodes, factorises and solves. */

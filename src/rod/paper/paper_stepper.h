@@ -55,6 +55,7 @@ private:
   bool haveContacts(const State& state, StepReport& report);
   void detect(const State& state, StepReport& report);
   void hold(State& state);
+  bool advanceOrRetry(State& state, const StepInput& input, double dt, StepReport& report);
   bool advance(State& state, const StepInput& input, double dt, StepReport& report);
   void beginStep(State& state, const StepInput& input, double dt);
   void assemble(const State& state, const StepInput& input, double dt);
@@ -80,6 +81,7 @@ private:
   const StepperSettings settings_;
 
   const IntroducerGuide guide_{boundary_};
+  GuideStiffness guide_form_ = GuideStiffness::kSemiDefinite;
   QuasiStaticTwist twist_;
   bool twist_active_ = false;
   FastProjection projection_;
