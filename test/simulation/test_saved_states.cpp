@@ -214,7 +214,9 @@ TEST(SavedStates, OfAnotherPhysicsAreRefusedWithTheVersionThatWroteThem)
   std::memcpy(&letters, &state[kWriterAt], sizeof letters);
   const int physics = kPhysicsNumber + 1;
   std::memcpy(&state[kWriterAt + sizeof letters + letters], &physics, sizeof physics);
-  const std::string refusal = refusalOf(bench, withFormat(state, 5));
+  std::uint32_t format = 0;
+  std::memcpy(&format, &state[kFormatAt], sizeof format);
+  const std::string refusal = refusalOf(bench, withFormat(state, format));
   const std::string writer = "physics number " + std::to_string(physics) + " by endovascular_sim " + version();
   EXPECT_NE(refusal.find(writer), std::string::npos) << refusal;
 }
