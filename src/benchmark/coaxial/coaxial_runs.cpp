@@ -22,9 +22,9 @@ constexpr double kWireRadius = 4.445e-4;
 constexpr double kCatheterClearance = 5e-6;  // m between catheter and vessel: it follows the bend
 constexpr double kTimeStep = 1e-3;           // s
 constexpr double kReferenceStep = 2e-4;      // s: friction of walls uses normal forces of the last solution
-constexpr double kSpeed = 5e-3;              // m/s
+constexpr double kSpeed = 3e-3;              // m/s
 constexpr double kRest = 0.1;                // s before the motion
-constexpr double kStart = 1e-3;              // m of sliding before the force is measured
+constexpr double kStart = 4e-3;              // m of sliding before the force is measured: takes up the slack c·θ
 
 /** Path of the bend by arc length from the introducer. */
 Vector3d pathAt(double s, double angle)

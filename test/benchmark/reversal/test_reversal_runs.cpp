@@ -57,6 +57,7 @@ TEST(Reversal, InATroughTheWireRollsAndIsTwistedAsInTheClosedForm)
   const double radius = 1.8e-4;
   const double clearance = 2e-4;
   const double weight = 7900.0 * M_PI * radius * radius * 1000.0;  // N/m
+  const double ei = 1e-5;
   const double gj = 1e-5;
   const ReversalCurve curve = reversalInTrough()->run(motion(2.0, 1e-3, 0.6));
   const double sliding = curve.slidingTorque();
@@ -65,6 +66,8 @@ TEST(Reversal, InATroughTheWireRollsAndIsTwistedAsInTheClosedForm)
   EXPECT_NEAR(length, 0.155, 0.01);
   const double kappa = weight * radius * radius / clearance;
   const double slope = std::sqrt(gj * kappa) * std::tanh(length * std::sqrt(kappa / gj));
+  // The introducer clamps the wire at its mouth: next to it the wire cannot roll, and its friction reverses at once.
+  const double clamped = std::pow(ei * clearance / weight, 0.25) / length;
   const std::size_t reversal = curve.angle.size() / 2;
   int rolling = 0;
   for (std::size_t k = reversal; k < curve.angle.size(); ++k)
@@ -73,7 +76,7 @@ TEST(Reversal, InATroughTheWireRollsAndIsTwistedAsInTheClosedForm)
     const double expected = sliding - slope * back;
     if (expected < -0.9 * sliding)
       break;
-    EXPECT_NEAR(curve.torque[k], expected, 0.05 * sliding) << back;
+    EXPECT_NEAR(curve.torque[k], expected - clamped * sliding, (0.05 + clamped) * sliding) << back;
     ++rolling;
   }
   EXPECT_GE(rolling, 20);
