@@ -23,9 +23,8 @@ double cutoffAt(const Query& query, std::size_t node)
 
 }  // namespace
 
-/** Feet of a node within the cutoff, reached from the local minima of the distance to the facets. Every point of the
- *  smooth wall within the cutoff belongs to a facet within the cutoff plus this facet's deviation; without one there is
- *  no foot. */
+/** Feet of a node within the cutoff. Every triangle whose patch may contain one starts a walk, unless an earlier walk
+ *  has ended inside that patch. */
 void Detector::findFeet(const Query& query, std::size_t node)
 {
   feet_.clear();
@@ -33,28 +32,21 @@ void Detector::findFeet(const Query& query, std::size_t node)
   if (!list.hasTriangles())
     return;
   const SmoothWall& smooth = *model_->smooth();
-  const NarrowPhase facets = model_->narrowPhase();
   const SmoothFootSearch search(smooth);
   const Eigen::Vector3d& point = query.nodes[node];
   const double cutoff = cutoffAt(query, node);
-  const double reach = reachAt(query, node);
-  if (distanceToListed(list, point, cutoff) > cutoff)
-    return;
-  started_.clear();
-  NarrowPhase::Minimum minimum;
   const auto start = [&](int triangle)
   {
-    if (!facets.faceFeature(point, triangle, reach, minimum))
+    if (!smooth.mayHaveFoot(triangle, model_->bounds().triangle(triangle).heights(point), cutoff))
       return;
-    const Feature& from = minimum.feature;
-    if (std::find(started_.begin(), started_.end(), from.id) != started_.end())
+    const std::int64_t id = featureId(triangle, FeatureKind::kFace);
+    if (std::any_of(feet_.begin(), feet_.end(), [id](const SmoothFoot& foot) { return foot.id == id; }))
       return;
-    started_.push_back(from.id);
-    const SmoothFoot foot = search.walk(point, from.triangle, from.point);
+    const SmoothFoot foot = search.walk(point, triangle);
     if (std::abs(foot.height) <= cutoff)
       feet_.push_back(foot);
   };
-  list.forEachTriangle(point, reach, start);
+  list.forEachTriangle(point, reachAt(query, node), start);
 }
 
 /** Features of a node: all feet in front of the wall with distinct normals, and the nearest foot if it is behind. */
@@ -163,7 +155,7 @@ void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vecto
     const auto found = [t](const Feature& other) { return std::abs(other.parameter - t) < kSamePlace; };
     if (std::any_of(features.begin() + static_cast<std::ptrdiff_t>(first), features.end(), found))
       return;
-    const SmoothFoot foot = search.walk(begin + t * along, minimum.feature.triangle, minimum.feature.point);
+    const SmoothFoot foot = search.walk(begin + t * along, minimum.feature.triangle);
     const double slope = slopeOf(foot);
     const double end = slope < 0.0 ? 1.0 : 0.0;
     const SmoothFoot at_end = search.walk(begin + end * along, foot);
