@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "contact/detector.h"
+#include "contact/narrow_phase/smooth_edge_walk.h"
 
 namespace endovascular_sim::contact
 {
@@ -12,14 +13,8 @@ namespace
 constexpr double kSameDistance = 1e-12;  // m
 constexpr double kEnd = 1e-3;            // share of a wire's edge at its ends that is left to the nodes' features
 constexpr double kSameDirection = 0.5;   // cosine between the normals at both ends of an edge beside one sheet of wall
-constexpr double kSamePlace = 0.02;      // of an edge: closer minima from different starts are one
-constexpr int kMostTrials = 12;          // of the search along an edge
-constexpr double kFoundSlope = 1e-6;     // sine of the angle between edge and wall at a minimum
-
-double cutoffAt(const Query& query, std::size_t node)
-{
-  return query.radius[node] + query.margin[node];
-}
+constexpr double kSamePlace = 0.02;      // of an edge: closer minima of one sheet of wall are one
+constexpr double kSameSheet = 0.9;       // cosine between the normals of one sheet there
 
 }  // namespace
 
@@ -94,78 +89,52 @@ void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vecto
   if (!list.hasTriangles())
     return;
   const SmoothFootSearch search(*model_->smooth());
-  const NarrowPhase facets = model_->narrowPhase();
   const Eigen::Vector3d& begin = query.nodes[node];
-  const Eigen::Vector3d along = query.nodes[node + 1] - begin;
+  const Eigen::Vector3d& end = query.nodes[node + 1];
   const double taper = query.radius[node + 1] - query.radius[node];
-  const double length = along.norm();
-  const auto slopeOf = [&](const SmoothFoot& foot) { return foot.normal.dot(along) - taper; };
+  const SmoothEdgeWalk edge(search, begin, end - begin, taper);
   const std::size_t first = features.size();
-
-  // Refines the minimum between parameters with a falling and a rising distance (Illinois method).
-  const auto refine = [&](double low, SmoothFoot at_low, double high, const SmoothFoot& at_high)
+  const auto add = [&](const SmoothEdgeWalk::Place& place)
   {
-    double slope_low = slopeOf(at_low);
-    double slope_high = slopeOf(at_high);
-    SmoothFoot foot = at_low;
-    double t = low;
-    for (int trial = 0; trial < kMostTrials; ++trial)
-    {
-      t = (low * slope_high - high * slope_low) / (slope_high - slope_low);
-      foot = search.walk(begin + t * along, foot);
-      const double slope = slopeOf(foot);
-      if (std::abs(slope) < kFoundSlope * length)
-        break;
-      if (slope < 0.0)
-      {
-        low = t;
-        slope_low = slope;
-        slope_high *= 0.5;
-      }
-      else
-      {
-        high = t;
-        slope_high = slope;
-        slope_low *= 0.5;
-      }
-    }
+    const double t = place.parameter;
     const double cutoff = (1.0 - t) * cutoffAt(query, node) + t * cutoffAt(query, node + 1);
-    if (t <= kEnd || t >= 1.0 - kEnd || std::abs(foot.height) > cutoff)
+    if (t <= kEnd || t >= 1.0 - kEnd || std::abs(place.foot.height) > cutoff)
       return;
     // The back of another sheet of wall is no contact.
-    if (foot.height >= 0.0 || model_->signedDistance(begin + t * along, foot.triangle) < 0.0)
-      addSmoothMinimum(query, node, t, foot, first, features);
+    if (place.foot.height >= 0.0 || model_->signedDistance(begin + t * (end - begin), place.foot.triangle) < 0.0)
+      addSmoothMinimum(query, node, t, place.foot, first, features);
   };
 
   const SmoothFoot& foot0 = nearest_feet_[node];
   const SmoothFoot& foot1 = nearest_feet_[node + 1];
-  const bool one_sheet = foot0.triangle >= 0 && foot1.triangle >= 0 && foot0.normal.dot(foot1.normal) > kSameDirection;
-  if (one_sheet && slopeOf(foot0) < 0.0 && slopeOf(foot1) > 0.0)
-    refine(0.0, foot0, 1.0, foot1);
+  if (foot0.triangle >= 0 && foot1.triangle >= 0 && foot0.normal.dot(foot1.normal) > kSameDirection)
+  {
+    const SmoothEdgeWalk::Place place0 = edge.placeOf(0.0, foot0);
+    const SmoothEdgeWalk::Place place1 = edge.placeOf(1.0, foot1);
+    if (place0.slope < 0.0 && place1.slope > 0.0)
+      add(edge.minimumBetween(place0, place1));
+  }
   if (!list.hasEdges())
     return;
+  const NarrowPhase facets = model_->narrowPhase();
   const double reach = std::max(reachAt(query, node), reachAt(query, node + 1));
-  const NarrowPhase::WireEdge wire_edge(begin, query.nodes[node + 1], taper);
+  const NarrowPhase::WireEdge wire_edge(begin, end, taper);
   NarrowPhase::Minimum minimum;
   const auto test = [&](int wall_edge)
   {
     if (!facets.edgeEdgeFeature(wire_edge, wall_edge, reach, minimum))
       return;
     const double t = minimum.feature.parameter;
-    const auto found = [t](const Feature& other) { return std::abs(other.parameter - t) < kSamePlace; };
+    // Different sheets of wall may be met at the same place.
+    const Eigen::Vector3d& normal = minimum.feature.normal;
+    const auto found = [t, &normal](const Feature& other)
+    { return std::abs(other.parameter - t) < kSamePlace && other.normal.dot(normal) > kSameSheet; };
     if (std::any_of(features.begin() + static_cast<std::ptrdiff_t>(first), features.end(), found))
       return;
-    const SmoothFoot foot = search.walk(begin + t * along, minimum.feature.triangle);
-    const double slope = slopeOf(foot);
-    const double end = slope < 0.0 ? 1.0 : 0.0;
-    const SmoothFoot at_end = search.walk(begin + end * along, foot);
-    const double slope_at_end = slopeOf(at_end);
-    if (slope < 0.0 && slope_at_end > 0.0)
-      refine(t, foot, end, at_end);
-    else if (slope >= 0.0 && slope_at_end < 0.0)
-      refine(end, at_end, t, foot);
+    if (const auto place = edge.minimumFrom(t, minimum.feature.triangle))
+      add(*place);
   };
-  list.forEachEdge(wire_edge.begin, wire_edge.end, wire_edge.taper, reach, test);
+  list.forEachEdge(begin, end, taper, reach, test);
 }
 
 }  // namespace endovascular_sim::contact

@@ -20,7 +20,7 @@ namespace
 constexpr double kCreaseAngle = 0.35;      // rad: mean disagreement of the quadrics around a crease vertex
 constexpr double kLeastRise = 0.4;         // of a corner's quadric along the directions of its triangle
 constexpr double kLargestBend = 0.5;       // 4 |q q''| / q'² of the distance to a corner's quadric
-constexpr double kLargestDeviation = 0.2;  // of the triangle's longest edge
+constexpr double kLargestDeviation = 0.1;  // of the triangle's longest edge
 constexpr double kWidestDihedral = 0.42;   // rad: refinement of coarser meshes
 constexpr int kMostLevels = 2;
 constexpr double kCreaseOfFacets = 1.2;  // rad between a triangle and the mean normal at a crease of a coarse mesh
@@ -110,11 +110,11 @@ void SmoothWall::markCreases()
   deviation_ = *std::max_element(deviations_.begin(), deviations_.end());
 }
 
-/** Bound of a corner's share w |h| of the displacement over a part of a triangle; infinite where it is unbounded. With
+/** Bounds of a corner's distance |h| over a part of a triangle; infinite where it is unbounded. With
  * the value q of the quadric at a point, its derivative q' along the direction and half of the second derivative c, |h|
  * = 2 |q|/(q' + √(q'² − 4 c q)). Value and derivative are quadratic functions of the coordinates.
  *  @param part barycentric coordinates of the part's corners */
-double SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const
+SmoothWall::HeightBound SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const
 {
   const double infinity = std::numeric_limits<double>::infinity();
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
@@ -142,8 +142,9 @@ double SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vec
   const double largest = std::max(-heights.first, heights.second);
   const double bend = 2.0 * quadric.bend.norm() * largest / (least_rise * least_rise);  // directions are at most unit
   if (!(least_rise >= kLeastRise) || !(bend <= kLargestBend))
-    return infinity;
-  return weight * 2.0 * largest / (least_rise * (1.0 + std::sqrt(1.0 - bend)));
+    return {infinity, infinity};
+  const double bound = 2.0 * largest / (least_rise * (1.0 + std::sqrt(1.0 - bend)));
+  return {bound, weight * bound};
 }
 
 /** Bound of the displacement over a triangle, from its parts. Sets the corners whose quadric is not bounded by a share
@@ -158,17 +159,21 @@ double SmoothWall::boundOf(int triangle)
   const auto add = [&](const std::array<Eigen::Vector3d, 3>& part)
   {
     double sum = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < 3; ++k)
     {
       if (crease_[corners[k]] != 0)
         continue;
-      const double share = boundAt(triangle, k, part);
-      if (share <= kLargestDeviation * longest)
-        sum += share;
-      else
+      const HeightBound height = boundAt(triangle, k, part);
+      if (!(height.share <= kLargestDeviation * longest))
+      {
         crease_[corners[k]] = 1;
+        continue;
+      }
+      sum += height.share;
+      largest = std::max(largest, height.whole);
     }
-    bound = std::max(bound, sum);
+    bound = std::max(bound, std::min(sum, largest));
   };
   const auto at = [](int i, int j) -> Eigen::Vector3d { return Eigen::Vector3d(kParts - i - j, i, j) / kParts; };
   for (int i = 0; i < kParts; ++i)

@@ -68,7 +68,13 @@ private:
   void markCreases();
   void boundTilts();
   double boundOf(int triangle);
-  double boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const;
+  /** Bounds over a part of a triangle [m]. */
+  struct HeightBound
+  {
+    double whole;  ///< of the distance |h| to a corner's quadric
+    double share;  ///< of its share w |h| of the displacement
+  };
+  HeightBound boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const;
   Eigen::Vector3d pointOf(int triangle, const Eigen::Vector3d& weights) const;
   Eigen::Vector3d direction(int triangle, const Eigen::Vector3d& weights) const;
   double displacement(int triangle, const Eigen::Vector3d& blend, const Eigen::Vector3d& point,
