@@ -87,7 +87,6 @@ private:
   std::vector<SmoothFoot>
       nearest_feet_;                   ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
   std::vector<SmoothFoot> feet_;  ///< smooth wall: feet of the present node
-  std::vector<std::int64_t> started_;
 };
 
 /** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.

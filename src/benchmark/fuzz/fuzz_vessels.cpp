@@ -25,7 +25,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kCheckedTriangles = 3e5;  // of the tessellation of a smooth wall, about
+constexpr double kCheckedTriangles = 1e6;  // of the tessellation of a smooth wall, about
 constexpr int kForks = 6;
 constexpr int kTries = 200;
 constexpr double kSmoothedUpTo = 20000;  // largest number of triangles of a mesh that is also used after smoothing
