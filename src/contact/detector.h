@@ -85,7 +85,7 @@ private:
   NeighbourList::Scratch scratch_;
   double deviation_ = 0.0;  ///< WallModel::deviation() [m]
   std::vector<SmoothFoot>
-      nearest_feet_;                   ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
+      nearest_feet_;              ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
   std::vector<SmoothFoot> feet_;  ///< smooth wall: feet of the present node
 };
 

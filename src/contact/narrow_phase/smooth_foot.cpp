@@ -5,7 +5,8 @@
 #include <limits>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
+
+#include "geometry/closest_point_on_triangle.h"
 
 namespace endovascular_sim::contact
 {
@@ -17,8 +18,8 @@ constexpr int kMostSteps = 80;           // of a walk
 constexpr int kFreeSteps = 12;           // after which steps are shortened, against cycles
 constexpr double kLeastStiffness = 0.1;  // 1 − height·curvature of the Newton matrix: 0 at the centre of curvature
 constexpr double kOnBorder = 1e-12;      // barycentric coordinate below which a point lies on an edge
-constexpr double kOnFeature = 1e-9;           // m: closer offsets have no direction
-constexpr double kSameNormal = 1e-3;          // between offset and normal of a foot inside a patch
+constexpr double kOnFeature = 1e-9;      // m: closer offsets have no direction
+constexpr double kSameNormal = 1e-3;     // between offset and normal of a foot inside a patch
 constexpr double kLeastClearance = 0.05e-3;  // m
 
 /** Edge of a triangle opposite to a corner. */
@@ -49,8 +50,8 @@ Eigen::Vector2d coordinatesAlong(const Eigen::Vector3d& e1, const Eigen::Vector3
   return Eigen::Vector2d(d * x - b * y, a * y - b * x) / (a * d - b * b);
 }
 
-/** Barycentric coordinates of a point's foot on a triangle's plane, moved into the triangle. */
-Eigen::Vector3d weightsIn(const Wall& wall, int triangle, const Eigen::Vector3d& point)
+/** Barycentric coordinates of a point on a triangle. */
+Eigen::Vector3d weightsOf(const Wall& wall, int triangle, const Eigen::Vector3d& point)
 {
   const Eigen::Vector3i& c = wall.triangles[triangle];
   const Eigen::Vector3d& origin = wall.vertices[c[0]];
@@ -289,16 +290,19 @@ struct SmoothFootSearch::Walker
     on_vertex = other.on_vertex;
   }
 
+  /** Walks to a foot. A walk that would end farther from the point than it began stays at its begin. */
   void run()
   {
     evaluate();
-    for (int step = 0; step < kMostSteps; ++step)
+    const Walker begin(*this);
+    bool done = false;
+    for (int step = 0; step < kMostSteps && !done; ++step)
     {
       const double factor = step < kFreeSteps ? 1.0 : 0.5;
-      const bool done = on_vertex >= 0 ? stepAtVertex() : on_edge >= 0 ? stepOnEdge(factor) : stepInPatch(factor);
-      if (done)
-        return;
+      done = on_vertex >= 0 ? stepAtVertex() : on_edge >= 0 ? stepOnEdge(factor) : stepInPatch(factor);
     }
+    if ((point - at.position).squaredNorm() > (point - begin.at.position).squaredNorm())
+      take(begin);
   }
 
   /** Direction that separates the lumen from the tissue at the present point. */
@@ -311,8 +315,7 @@ struct SmoothFootSearch::Walker
     const WallEdge& edge = wall.edges[on_edge];
     Walker beside(smooth, point);
     beside.triangle = otherTriangle(edge, triangle);
-    beside.weights =
-        weightsOnEdge(beside.triangle, edge, weights[cornerOf(wall, triangle, edge.vertices[1])]);
+    beside.weights = weightsOnEdge(beside.triangle, edge, weights[cornerOf(wall, triangle, edge.vertices[1])]);
     beside.evaluate();
     return (at.normal + beside.at.normal).normalized();
   }
@@ -346,7 +349,10 @@ SmoothFoot SmoothFootSearch::walk(const Eigen::Vector3d& point, int triangle) co
 {
   Walker walker(smooth_, point);
   walker.triangle = triangle;
-  walker.weights = weightsIn(wall_, triangle, point);
+  const Eigen::Vector3i& c = wall_.triangles[triangle];
+  const geometry::TrianglePoint closest =
+      geometry::closestPointOnTriangle(point, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]]);
+  walker.weights = weightsOf(wall_, triangle, closest.point);
   walker.run();
   return walker.result();
 }

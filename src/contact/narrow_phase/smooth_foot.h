@@ -13,13 +13,14 @@ namespace endovascular_sim::contact
  *  signed distance. */
 struct SmoothFoot
 {
-  int triangle = -1;                                    ///< patch that contains the foot
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero();    ///< its barycentric coordinates
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< towards the lumen, unit
-  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< as SmoothWall::Point; zero on a sharp edge or a crease [1/m]
-  double height = 0.0;                                  ///< signed distance, negative behind the wall [m]
-  std::int64_t id = 0;                                  ///< as Feature::id
+  int triangle = -1;                                   ///< patch that contains the foot
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();   ///< its barycentric coordinates
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< towards the lumen, unit
+  Eigen::Matrix3d curvature =
+      Eigen::Matrix3d::Zero();  ///< as SmoothWall::Point; zero on a sharp edge or a crease [1/m]
+  double height = 0.0;          ///< signed distance, negative behind the wall [m]
+  std::int64_t id = 0;          ///< as Feature::id
 };
 
 /** Search of feet on a smooth wall by walking over its patches. */
@@ -29,9 +30,10 @@ public:
   /** @param wall must outlive the object */
   explicit SmoothFootSearch(const SmoothWall& wall) : smooth_(wall), wall_(wall.wall()) {}
 
-  /** The foot that the walk reaches from the patch over a facet, begun at the facet's closest point. Steps of a quasi-Newton method cross edges where the next
-   *  step leads on, follow them while both sides push back, and end at a vertex if all of its edges and triangles do.
-   *  @param triangle where the walk begins */
+  /** The foot that the walk reaches from the patch over a facet, begun at the facet's closest point. Steps of a
+   *  quasi-Newton method cross edges where the next step leads on, follow them while both sides push back, and end at a
+   *  vertex if all of its edges and triangles do. A walk never ends farther from the point than it began.
+   *  @param triangle the facet */
   SmoothFoot walk(const Eigen::Vector3d& point, int triangle) const;
 
   /** A walk from an earlier foot, of a nearby point. */

@@ -16,10 +16,10 @@ namespace endovascular_sim::contact
  *
  *  Every vertex has a quadric fitted to its neighbours. A point p of a triangle with barycentric coordinates b moves
  *  along the direction Σ b_i n_i, n_i the normals of the vertices, by the blend Σ w_i h_i of the distances h_i to the
- *  quadrics of the corners, w_i = b_i²/Σ b_j². On an edge both triangles give the same point: the surface is closed. Its
- *  normal turns there by as much as the quadrics of the edge's ends disagree, in all not by more than a few degrees. At
- *  a crease vertex, whose quadric does not represent its neighbours, the plane of every triangle replaces the quadric:
- *  the normal jumps across the edges there. */
+ *  quadrics of the corners, w_i = b_i²/Σ b_j². On an edge both triangles give the same point: the surface is closed.
+ * Its normal turns there by as much as the quadrics of the edge's ends disagree, in all not by more than a few degrees.
+ * At a crease vertex, whose quadric does not represent its neighbours, the plane of every triangle replaces the
+ * quadric: the normal jumps across the edges there. */
 class SmoothWall
 {
 public:

@@ -19,12 +19,7 @@ namespace
 struct Fixture
 {
   explicit Fixture(const geometry::TriangleMesh& mesh)
-    : wall(mesh),
-      bounds(wall),
-      smooth(wall),
-      search(smooth),
-      fine(tessellate(smooth, 10)),
-      reference(fine)
+    : wall(mesh), bounds(wall), smooth(wall), search(smooth), fine(tessellate(smooth, 10)), reference(fine)
   {
   }
 
@@ -75,8 +70,8 @@ TEST(SmoothFoot, IsTheClosestPointOfTheSurface)
     const Fixture fixture(bumpy(geometry::midpointSubdivision(bentTube(), 1), bump));
     double worst = 0.0;
     for (const Eigen::Vector3d& point : randomPoints(fixture, 300))
-      worst = std::max(worst, std::abs(std::abs(fixture.nearest(point).height) -
-                                       fixture.reference.closest(point).distance));
+      worst = std::max(worst,
+                       std::abs(std::abs(fixture.nearest(point).height) - fixture.reference.closest(point).distance));
     EXPECT_LT(worst, 5e-6) << bump;  // of the tessellation
   }
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <vector>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
