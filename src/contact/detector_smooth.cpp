@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -86,9 +87,8 @@ void Detector::addSmoothMinimum(const Query& query, std::size_t node, double par
 void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vector<Feature>& features)
 {
   const NeighbourList& list = listOf(query, node);
-  if (!list.hasTriangles())
-    return;
-  const SmoothFootSearch search(*model_->smooth());
+  const SmoothWall& smooth = *model_->smooth();
+  const SmoothFootSearch search(smooth);
   const Eigen::Vector3d& begin = query.nodes[node];
   const Eigen::Vector3d& end = query.nodes[node + 1];
   const double taper = query.radius[node + 1] - query.radius[node];
@@ -125,6 +125,10 @@ void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vecto
     if (!facets.edgeEdgeFeature(wire_edge, wall_edge, reach, minimum))
       return;
     const double t = minimum.feature.parameter;
+    const std::array<int, 2>& sides = smooth.wall().edges[wall_edge].triangles;
+    const double away = std::max(smooth.deviationOf(sides[0]), smooth.deviationOf(sides[1]));
+    if (minimum.distance > away + (1.0 - t) * cutoffAt(query, node) + t * cutoffAt(query, node + 1))
+      return;
     // Different sheets of wall may be met at the same place.
     const Eigen::Vector3d& normal = minimum.feature.normal;
     const auto found = [t, &normal](const Feature& other)

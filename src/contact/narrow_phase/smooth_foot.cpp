@@ -13,7 +13,7 @@ namespace endovascular_sim::contact
 namespace
 {
 
-constexpr double kConverged = 1e-10;     // m: length of the last step
+constexpr double kConverged = 1e-9;      // m: length of the last step
 constexpr int kMostSteps = 80;           // of a walk
 constexpr int kFreeSteps = 12;           // after which steps are shortened, against cycles
 constexpr double kLeastStiffness = 0.1;  // 1 − height·curvature of the Newton matrix: 0 at the centre of curvature
