@@ -15,12 +15,6 @@ constexpr double kSameDistance = 1e-12;   // m
 constexpr std::size_t kListsAtOnce = 16;  // for which memory is reserved together as the wire enters
 constexpr std::size_t kUsualNodes = 512;  // of a wire
 
-/** Distance from the axis up to which features of a node are needed [m]. */
-double cutoffAt(const Query& query, std::size_t node)
-{
-  return query.radius[node] + query.margin[node];
-}
-
 /** Index of the node at the other end of the edge behind a node; the tip has no such edge. */
 std::size_t nextNode(const Query& query, std::size_t node)
 {

@@ -69,6 +69,8 @@ private:
   void detectSmoothEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
   void addSmoothMinimum(const Query& query, std::size_t node, double parameter, const SmoothFoot& foot,
                         std::size_t first, std::vector<Feature>& features);
+  /** Distance from the axis up to which features of a node are needed [m]. */
+  static double cutoffAt(const Query& query, std::size_t node) { return query.radius[node] + query.margin[node]; }
   double reachAt(const Query& query, std::size_t node) const;
   double listCutoff(const Query& query, std::size_t node) const;
   void addLaw(const Query& query, std::vector<Feature>& features) const;
@@ -83,9 +85,8 @@ private:
   NeighbourList::Scratch scratch_;
   double deviation_ = 0.0;  ///< WallModel::deviation() [m]
   std::vector<SmoothFoot>
-      nearest_feet_;                   ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
-  std::vector<SmoothFoot> feet_;       ///< smooth wall: feet of the present node
-  std::vector<std::int64_t> started_;  ///< smooth wall: features of the facets from which walks began
+      nearest_feet_;              ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
+  std::vector<SmoothFoot> feet_;  ///< smooth wall: feet of the present node
 };
 
 /** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.

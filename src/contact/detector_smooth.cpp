@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "contact/detector.h"
+#include "contact/narrow_phase/smooth_edge_walk.h"
 
 namespace endovascular_sim::contact
 {
@@ -12,20 +14,13 @@ namespace
 constexpr double kSameDistance = 1e-12;  // m
 constexpr double kEnd = 1e-3;            // share of a wire's edge at its ends that is left to the nodes' features
 constexpr double kSameDirection = 0.5;   // cosine between the normals at both ends of an edge beside one sheet of wall
-constexpr double kSamePlace = 0.02;      // of an edge: closer minima from different starts are one
-constexpr int kMostTrials = 12;          // of the search along an edge
-constexpr double kFoundSlope = 1e-6;     // sine of the angle between edge and wall at a minimum
-
-double cutoffAt(const Query& query, std::size_t node)
-{
-  return query.radius[node] + query.margin[node];
-}
+constexpr double kSamePlace = 0.02;      // of an edge: closer minima of one sheet of wall are one
+constexpr double kSameSheet = 0.9;       // cosine between the normals of one sheet there
 
 }  // namespace
 
-/** Feet of a node within the cutoff, reached from the local minima of the distance to the facets. Every point of the
- *  smooth wall within the cutoff belongs to a facet within the cutoff plus this facet's deviation; without one there is
- *  no foot. */
+/** Feet of a node within the cutoff. Every triangle whose patch may contain one starts a walk, unless an earlier walk
+ *  has ended inside that patch. */
 void Detector::findFeet(const Query& query, std::size_t node)
 {
   feet_.clear();
@@ -33,28 +28,21 @@ void Detector::findFeet(const Query& query, std::size_t node)
   if (!list.hasTriangles())
     return;
   const SmoothWall& smooth = *model_->smooth();
-  const NarrowPhase facets = model_->narrowPhase();
   const SmoothFootSearch search(smooth);
   const Eigen::Vector3d& point = query.nodes[node];
   const double cutoff = cutoffAt(query, node);
-  const double reach = reachAt(query, node);
-  if (distanceToListed(list, point, cutoff) > cutoff)
-    return;
-  started_.clear();
-  NarrowPhase::Minimum minimum;
   const auto start = [&](int triangle)
   {
-    if (!facets.faceFeature(point, triangle, reach, minimum))
+    if (!smooth.mayHaveFoot(triangle, model_->bounds().triangle(triangle).heights(point), cutoff))
       return;
-    const Feature& from = minimum.feature;
-    if (std::find(started_.begin(), started_.end(), from.id) != started_.end())
+    const std::int64_t id = featureId(triangle, FeatureKind::kFace);
+    if (std::any_of(feet_.begin(), feet_.end(), [id](const SmoothFoot& foot) { return foot.id == id; }))
       return;
-    started_.push_back(from.id);
-    const SmoothFoot foot = search.walk(point, from.triangle, from.point);
+    const SmoothFoot foot = search.walk(point, triangle);
     if (std::abs(foot.height) <= cutoff)
       feet_.push_back(foot);
   };
-  list.forEachTriangle(point, reach, start);
+  list.forEachTriangle(point, reachAt(query, node), start);
 }
 
 /** Features of a node: all feet in front of the wall with distinct normals, and the nearest foot if it is behind. */
@@ -99,81 +87,58 @@ void Detector::addSmoothMinimum(const Query& query, std::size_t node, double par
 void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vector<Feature>& features)
 {
   const NeighbourList& list = listOf(query, node);
-  if (!list.hasTriangles())
-    return;
-  const SmoothFootSearch search(*model_->smooth());
-  const NarrowPhase facets = model_->narrowPhase();
+  const SmoothWall& smooth = *model_->smooth();
+  const SmoothFootSearch search(smooth);
   const Eigen::Vector3d& begin = query.nodes[node];
-  const Eigen::Vector3d along = query.nodes[node + 1] - begin;
+  const Eigen::Vector3d& end = query.nodes[node + 1];
   const double taper = query.radius[node + 1] - query.radius[node];
-  const double length = along.norm();
-  const auto slopeOf = [&](const SmoothFoot& foot) { return foot.normal.dot(along) - taper; };
+  const SmoothEdgeWalk edge(search, begin, end - begin, taper);
   const std::size_t first = features.size();
-
-  // Refines the minimum between parameters with a falling and a rising distance (Illinois method).
-  const auto refine = [&](double low, SmoothFoot at_low, double high, const SmoothFoot& at_high)
+  const auto add = [&](const SmoothEdgeWalk::Place& place)
   {
-    double slope_low = slopeOf(at_low);
-    double slope_high = slopeOf(at_high);
-    SmoothFoot foot = at_low;
-    double t = low;
-    for (int trial = 0; trial < kMostTrials; ++trial)
-    {
-      t = (low * slope_high - high * slope_low) / (slope_high - slope_low);
-      foot = search.walk(begin + t * along, foot);
-      const double slope = slopeOf(foot);
-      if (std::abs(slope) < kFoundSlope * length)
-        break;
-      if (slope < 0.0)
-      {
-        low = t;
-        slope_low = slope;
-        slope_high *= 0.5;
-      }
-      else
-      {
-        high = t;
-        slope_high = slope;
-        slope_low *= 0.5;
-      }
-    }
+    const double t = place.parameter;
     const double cutoff = (1.0 - t) * cutoffAt(query, node) + t * cutoffAt(query, node + 1);
-    if (t <= kEnd || t >= 1.0 - kEnd || std::abs(foot.height) > cutoff)
+    if (t <= kEnd || t >= 1.0 - kEnd || std::abs(place.foot.height) > cutoff)
       return;
     // The back of another sheet of wall is no contact.
-    if (foot.height >= 0.0 || model_->signedDistance(begin + t * along, foot.triangle) < 0.0)
-      addSmoothMinimum(query, node, t, foot, first, features);
+    if (place.foot.height >= 0.0 || model_->signedDistance(begin + t * (end - begin), place.foot.triangle) < 0.0)
+      addSmoothMinimum(query, node, t, place.foot, first, features);
   };
 
   const SmoothFoot& foot0 = nearest_feet_[node];
   const SmoothFoot& foot1 = nearest_feet_[node + 1];
-  const bool one_sheet = foot0.triangle >= 0 && foot1.triangle >= 0 && foot0.normal.dot(foot1.normal) > kSameDirection;
-  if (one_sheet && slopeOf(foot0) < 0.0 && slopeOf(foot1) > 0.0)
-    refine(0.0, foot0, 1.0, foot1);
+  if (foot0.triangle >= 0 && foot1.triangle >= 0 && foot0.normal.dot(foot1.normal) > kSameDirection)
+  {
+    const SmoothEdgeWalk::Place place0 = edge.placeOf(0.0, foot0);
+    const SmoothEdgeWalk::Place place1 = edge.placeOf(1.0, foot1);
+    if (place0.slope < 0.0 && place1.slope > 0.0)
+      add(edge.minimumBetween(place0, place1));
+  }
   if (!list.hasEdges())
     return;
+  const NarrowPhase facets = model_->narrowPhase();
   const double reach = std::max(reachAt(query, node), reachAt(query, node + 1));
-  const NarrowPhase::WireEdge wire_edge(begin, query.nodes[node + 1], taper);
+  const NarrowPhase::WireEdge wire_edge(begin, end, taper);
   NarrowPhase::Minimum minimum;
   const auto test = [&](int wall_edge)
   {
     if (!facets.edgeEdgeFeature(wire_edge, wall_edge, reach, minimum))
       return;
     const double t = minimum.feature.parameter;
-    const auto found = [t](const Feature& other) { return std::abs(other.parameter - t) < kSamePlace; };
+    const std::array<int, 2>& sides = smooth.wall().edges[wall_edge].triangles;
+    const double away = std::max(smooth.deviationOf(sides[0]), smooth.deviationOf(sides[1]));
+    if (minimum.distance > away + (1.0 - t) * cutoffAt(query, node) + t * cutoffAt(query, node + 1))
+      return;
+    // Different sheets of wall may be met at the same place.
+    const Eigen::Vector3d& normal = minimum.feature.normal;
+    const auto found = [t, &normal](const Feature& other)
+    { return std::abs(other.parameter - t) < kSamePlace && other.normal.dot(normal) > kSameSheet; };
     if (std::any_of(features.begin() + static_cast<std::ptrdiff_t>(first), features.end(), found))
       return;
-    const SmoothFoot foot = search.walk(begin + t * along, minimum.feature.triangle, minimum.feature.point);
-    const double slope = slopeOf(foot);
-    const double end = slope < 0.0 ? 1.0 : 0.0;
-    const SmoothFoot at_end = search.walk(begin + end * along, foot);
-    const double slope_at_end = slopeOf(at_end);
-    if (slope < 0.0 && slope_at_end > 0.0)
-      refine(t, foot, end, at_end);
-    else if (slope >= 0.0 && slope_at_end < 0.0)
-      refine(end, at_end, t, foot);
+    if (const auto place = edge.minimumFrom(t, minimum.feature.triangle))
+      add(*place);
   };
-  list.forEachEdge(wire_edge.begin, wire_edge.end, wire_edge.taper, reach, test);
+  list.forEachEdge(begin, end, taper, reach, test);
 }
 
 }  // namespace endovascular_sim::contact

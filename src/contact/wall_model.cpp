@@ -57,7 +57,7 @@ WallModel::WallModel(const geometry::TriangleMesh& mesh, WallShape shape) : wall
   if (shape == WallShape::kSmooth)
   {
     smooth_ = std::make_unique<const SmoothWall>(wall_);
-    bounds_.openCones();  // the cones of the tree are open from the start
+    bounds_.admitSmoothWall(*smooth_);  // the cones of the tree are open from the start
     return;
   }
   std::vector<Bvh::Cone> cones;
@@ -82,12 +82,33 @@ double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* ne
   const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
   if (smooth_)
-    return SmoothFootSearch(*smooth_).walk(point, found.triangle, closest.point).height;
+    return smoothDistance(point, found);
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
                                       ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
                                       : wall_.normals[found.triangle];
   return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
+}
+
+/** @param nearest the nearest facet: its distance plus the deviation bounds that of the smooth wall */
+double WallModel::smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest) const
+{
+  const SmoothFootSearch search(*smooth_);
+  double height = search.walk(point, nearest.triangle).height;
+  std::vector<int> triangles, owners;
+  const double reach = std::abs(height) + smooth_->deviation();
+  bvh_.collect({point, Eigen::Vector3d::Zero(), reach, 0.0}, {point, Eigen::Vector3d::Zero(), 0.0, 0.0}, triangles,
+               owners);
+  std::sort(triangles.begin(), triangles.end());
+  for (int triangle : triangles)
+  {
+    if (!smooth_->mayHaveFoot(triangle, bounds_.triangle(triangle).heights(point), std::abs(height)))
+      continue;
+    const double other = search.walk(point, triangle).height;
+    if (std::abs(other) < std::abs(height))
+      height = other;
+  }
+  return height;
 }
 
 const NeighbourList::WallMovement& WallModel::moveVertices(const std::vector<int>& indices,

@@ -44,8 +44,8 @@ public:
   double deviation() const { return smooth_ ? smooth_->deviation() : 0.0; }
   NarrowPhase narrowPhase() const { return NarrowPhase(wall_, bounds_); }
 
-  /** Signed distance from a point to the wall, positive inside the lumen [m]. For a smooth wall that of the foot that
-   * is reached from the nearest facet.
+  /** Signed distance from a point to the wall, positive inside the lumen [m]. For a smooth wall that of the nearest
+   *  foot.
    *  @param hint triangle to start the search with, or −1; the result does not depend on it
    *  @param nearest receives the nearest triangle, unless it is null */
   double signedDistance(const Eigen::Vector3d& point, int hint = -1, int* nearest = nullptr) const;
@@ -62,6 +62,7 @@ public:
 private:
   WallModel(const geometry::TriangleMesh& mesh, WallShape shape);
   WallModel(const WallModel& other);
+  double smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest) const;
 
   Wall wall_;
   WallBounds bounds_;

@@ -1,12 +1,12 @@
 #include "geometry/loop_subdivision.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "geometry/mesh_topology.h"
+#include "geometry/vertex_normals.h"
 
 namespace endovascular_sim::geometry
 {
@@ -93,37 +93,20 @@ TriangleMesh subdivide(TriangleMesh mesh, int levels, bool smooth)
   return mesh;
 }
 
-/** Unit vertex normals, weighted by the corners' angles; zero at creases. */
+/** Angle-weighted vertex normals; zero at creases. */
 std::vector<Eigen::Vector3d> smoothNormals(const TriangleMesh& mesh, double crease_angle)
 {
-  std::vector<Eigen::Vector3d> facet(mesh.triangles.size());
-  std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (std::size_t t = 0; t < facet.size(); ++t)
-  {
-    const Eigen::Vector3i& c = mesh.triangles[t];
-    std::array<Eigen::Vector3d, 3> side;
-    for (int k = 0; k < 3; ++k)
-      side[static_cast<std::size_t>(k)] =
-          (mesh.vertices[static_cast<std::size_t>(c[(k + 1) % 3])] - mesh.vertices[static_cast<std::size_t>(c[k])])
-              .normalized();
-    facet[t] = side[0].cross(side[1]).normalized();
-    for (int k = 0; k < 3; ++k)
-    {
-      const double cosine = -side[static_cast<std::size_t>(k)].dot(side[static_cast<std::size_t>((k + 2) % 3)]);
-      sum[static_cast<std::size_t>(c[k])] += std::acos(std::clamp(cosine, -1.0, 1.0)) * facet[t];
-    }
-  }
-  for (Eigen::Vector3d& normal : sum)
-    normal.normalize();
-  std::vector<Eigen::Vector3d> smooth = sum;
+  const std::vector<Eigen::Vector3d> normals = angleWeightedNormals(mesh);
+  std::vector<Eigen::Vector3d> smooth = normals;
   const double least = std::cos(crease_angle);
-  for (std::size_t t = 0; t < facet.size(); ++t)
+  for (const Eigen::Vector3i& t : mesh.triangles)
+  {
+    const auto at = [&](int k) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d facet = (at(1) - at(0)).cross(at(2) - at(1)).normalized();
     for (int k = 0; k < 3; ++k)
-    {
-      const auto v = static_cast<std::size_t>(mesh.triangles[t][k]);
-      if (!(facet[t].dot(sum[v]) > least))
-        smooth[v].setZero();
-    }
+      if (!(facet.dot(normals[static_cast<std::size_t>(t[k])]) > least))
+        smooth[static_cast<std::size_t>(t[k])].setZero();
+  }
   return smooth;
 }
 

@@ -1,5 +1,9 @@
 #include "geometry/vertex_normals.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 namespace endovascular_sim::geometry
@@ -17,6 +21,26 @@ std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh)
   }
   for (Eigen::Vector3d& normal : normals)
     normal = normal.norm() > 0.0 ? Eigen::Vector3d(normal.normalized()) : Eigen::Vector3d::UnitZ();
+  return normals;
+}
+
+std::vector<Eigen::Vector3d> angleWeightedNormals(const TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+  {
+    std::array<Eigen::Vector3d, 3> side;  // unit, from each corner to the next
+    for (std::size_t k = 0; k < 3; ++k)
+      side[k] = (mesh.vertices[static_cast<std::size_t>(t[static_cast<int>((k + 1) % 3)])] -
+                 mesh.vertices[static_cast<std::size_t>(t[static_cast<int>(k)])])
+                    .normalized();
+    const Eigen::Vector3d facet = side[0].cross(side[1]).normalized();
+    for (std::size_t k = 0; k < 3; ++k)
+      normals[static_cast<std::size_t>(t[static_cast<int>(k)])] +=
+          std::acos(std::clamp(-side[k].dot(side[(k + 2) % 3]), -1.0, 1.0)) * facet;
+  }
+  for (Eigen::Vector3d& normal : normals)
+    normal.normalize();
   return normals;
 }
 

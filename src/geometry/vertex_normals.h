@@ -13,6 +13,11 @@ namespace endovascular_sim::geometry
 /** Unit vertex normals: area-weighted means of the adjacent face normals. */
 std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh);
 
+/** Unit vertex normals: means of the adjacent face normals, weighted by the angles of the corners. They do not depend
+ *  on the triangulation of flat parts (Bærentzen & Aanæs 2005). contact::Wall keeps the same normals, turned to the
+ *  lumen, under movements of the wall. */
+std::vector<Eigen::Vector3d> angleWeightedNormals(const TriangleMesh& mesh);
+
 /** Barycentric coordinates of a point on a triangle; 1/3 each for a degenerate triangle. */
 Eigen::Vector3d barycentric(const TriangleMesh& mesh, const ClosestPoint& at);
 

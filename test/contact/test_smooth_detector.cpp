@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -96,6 +97,65 @@ TEST(SmoothDetector, FindsTheMinimumBetweenTheNodesOverABulge)
   for (int k = 0; k <= 200; ++k)
     brute = std::min(brute, distance.closest(query.nodes[0] + k / 200.0 * (query.nodes[1] - query.nodes[0])).distance);
   EXPECT_NEAR(found, brute - 0.4e-3, kTolerance);
+}
+
+/** An edge of a wire that crosses a random reflex edge of a wall, up to 0.6 mm away from it. */
+Query crossingWire(const Wall& wall, std::mt19937& random)
+{
+  std::uniform_int_distribution<std::size_t> any(0, wall.edges.size() - 1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::size_t e = any(random);
+  while (wall.edges[e].reflex_angle < 0.1)
+    e = any(random);
+  const WallEdge& edge = wall.edges[e];
+  const Eigen::Vector3d middle = 0.5 * (wall.vertices[edge.vertices[0]] + wall.vertices[edge.vertices[1]]);
+  const Eigen::Vector3d t1 = edge.normal.unitOrthogonal();
+  const double angle = 2.0 * M_PI * share(random);
+  const Eigen::Vector3d along = std::cos(angle) * t1 + std::sin(angle) * edge.normal.cross(t1);
+  const Eigen::Vector3d over = middle + 0.6e-3 * share(random) * edge.normal;
+  Query query;
+  query.radius.assign(2, 0.4e-3);
+  query.margin.assign(2, 0.25e-3);
+  query.nodes = {over - 1.8e-3 * share(random) * along, over};
+  query.nodes[1] = query.nodes[0] + 1.8e-3 * along;
+  return query;
+}
+
+TEST(SmoothDetector, FindsTheWallAlongEveryEdgeOfTheWireInACreasedMesh)
+{
+  const geometry::TriangleMesh mesh = bumpy(geometry::midpointSubdivision(bentTube(), 1), 0.15);
+  Detector detector(mesh, smoothLaw());
+  EXPECT_GT(detector.model()->smooth()->creaseShare(), 0.1);
+  const geometry::MeshDistance distance(tessellate(*detector.model()->smooth(), 6));
+  std::mt19937 random(17);
+  ContactSet set;
+  int between = 0;
+  double worst = 0.0;
+  for (int trial = 0; trial < 400; ++trial)
+  {
+    const Query query = crossingWire(detector.wall(), random);
+    detector.detect(query, set);
+    double least = std::numeric_limits<double>::infinity();
+    bool inside = true;
+    int least_at = 0;
+    for (int k = 0; k <= 30; ++k)
+    {
+      const Eigen::Vector3d p = query.nodes[0] + k / 30.0 * (query.nodes[1] - query.nodes[0]);
+      const double gap = distance.closest(p).distance - query.radius[0];
+      inside = inside && detector.signedDistance(p) > 0.0;
+      least_at = gap < least ? k : least_at;
+      least = std::min(least, gap);
+    }
+    if (!inside || least > query.margin[0])
+      continue;
+    between += least_at > 0 && least_at < 30;
+    double found = query.margin[0];
+    for (const Feature& feature : set.features)
+      found = std::min(found, feature.gap);
+    worst = std::max(worst, found - least);
+  }
+  EXPECT_GT(between, 50);
+  EXPECT_LT(worst, kTolerance);
 }
 
 TEST(SmoothDetector, FreeDistancesReachNoPointOfTheWall)

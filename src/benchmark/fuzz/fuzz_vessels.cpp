@@ -25,7 +25,7 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kCheckedTriangles = 3e5;  // of the tessellation of a smooth wall, about
+constexpr double kCheckedSag = 10e-6;  // of the chords of the tessellation of a smooth wall, mostly [m]
 constexpr int kForks = 6;
 constexpr int kTries = 200;
 constexpr double kSmoothedUpTo = 20000;  // largest number of triangles of a mesh that is also used after smoothing
@@ -152,8 +152,14 @@ void setWall(FuzzVessel& vessel, bool smooth)
   vessel.law.shape = contact::WallShape::kSmooth;
   vessel.vessel.mesh = contact::refinedForSmoothWall(std::move(vessel.vessel.mesh));
   const contact::Wall wall(vessel.vessel.mesh);
-  const double parts = std::sqrt(kCheckedTriangles / static_cast<double>(wall.triangles.size()));
-  vessel.checked = contact::tessellate(contact::SmoothWall(wall), static_cast<int>(std::clamp(parts, 2.0, 8.0)));
+  const contact::SmoothWall surface(wall);
+  std::vector<double> deviations;
+  for (int t = 0; t < static_cast<int>(wall.triangles.size()); ++t)
+    deviations.push_back(surface.deviationOf(t));
+  const auto large = deviations.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(deviations.size()));
+  std::nth_element(deviations.begin(), large, deviations.end());
+  const int parts = std::clamp(static_cast<int>(std::lround(std::sqrt(*large / kCheckedSag))), 2, 8);
+  vessel.checked = contact::tessellate(surface, parts);
   vessel.check = std::make_unique<WireCheck>(vessel.checked);
 }
 

@@ -106,7 +106,7 @@ double triangleClearance(const TriangleSlab& slab, const Eigen::Vector3d& begin,
   // Lower bound of the lateral distance over the interval.
   const double beside = std::max(0.0, TriangleSlab::distanceBeyond(first.max(last)));
   const double height = std::max({0.0, low, -high});
-  const double clearance = std::sqrt(height * height + beside * beside) - cutoff;
+  const double clearance = std::sqrt(height * height + beside * beside) - (cutoff - slab.before_cutoff);
   return slab.has_moved ? clearance : std::max(clearance, coneClearance(low, high, beside, slab.bulge(), cutoff));
 }
 
@@ -227,7 +227,10 @@ void NeighbourList::rebuild(const Bvh& bvh, const WallBounds& bounds, Scratch& s
   for (int t : scratch.owners)
     for (int e : bounds.triangle(t).own_edges)
       if (e >= 0)
-        add(e, edgeClearance(bounds.edge(e), bounds.triangle(t).has_moved, segment, cutoff_, skin_), edges_);
+        add(e,
+            edgeClearance(bounds.edge(e), bounds.triangle(t).has_moved, segment,
+                          cutoff_ - bounds.triangle(t).before_cutoff, skin_),
+            edges_);
   // Sorted, so that results do not depend on the order of the tree's traversal.
   const auto by_index = [](const Entry& one, const Entry& other) { return one.index < other.index; };
   std::sort(triangles_.begin(), triangles_.end(), by_index);

@@ -5,19 +5,21 @@
 #include <limits>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
+
+#include "geometry/closest_point_on_triangle.h"
 
 namespace endovascular_sim::contact
 {
 namespace
 {
 
-constexpr double kConverged = 1e-10;     // m: length of the last step
+constexpr double kConverged = 1e-9;      // m: length of the last step
 constexpr int kMostSteps = 80;           // of a walk
 constexpr int kFreeSteps = 12;           // after which steps are shortened, against cycles
 constexpr double kLeastStiffness = 0.1;  // 1 − height·curvature of the Newton matrix: 0 at the centre of curvature
 constexpr double kOnBorder = 1e-12;      // barycentric coordinate below which a point lies on an edge
-constexpr double kOnFeature = 1e-12;     // m: closer offsets have no direction
+constexpr double kOnFeature = 1e-9;      // m: closer offsets have no direction
+constexpr double kSameNormal = 1e-3;     // between offset and normal of a foot inside a patch
 constexpr double kLeastClearance = 0.05e-3;  // m
 
 /** Edge of a triangle opposite to a corner. */
@@ -37,21 +39,25 @@ int cornerOf(const Wall& wall, int triangle, int vertex)
   return c[0] == vertex ? 0 : c[1] == vertex ? 1 : 2;
 }
 
-Eigen::Vector3d weightsIn(const Wall& wall, int triangle, const Eigen::Vector3d& point)
+/** Coordinates of a vector in a plane along two vectors that span the plane. */
+Eigen::Vector2d coordinatesAlong(const Eigen::Vector3d& e1, const Eigen::Vector3d& e2, const Eigen::Vector3d& vector)
 {
-  const Eigen::Vector3i& c = wall.triangles[triangle];
-  const Eigen::Vector3d e1 = wall.vertices[c[1]] - wall.vertices[c[0]];
-  const Eigen::Vector3d e2 = wall.vertices[c[2]] - wall.vertices[c[0]];
-  const Eigen::Vector3d from = point - wall.vertices[c[0]];
   const double a = e1.dot(e1);
   const double b = e1.dot(e2);
   const double d = e2.dot(e2);
-  const double determinant = a * d - b * b;
-  Eigen::Vector3d weights;
-  weights[1] = (d * e1.dot(from) - b * e2.dot(from)) / determinant;
-  weights[2] = (a * e2.dot(from) - b * e1.dot(from)) / determinant;
-  weights[0] = 1.0 - weights[1] - weights[2];
-  weights = weights.cwiseMax(0.0);
+  const double x = e1.dot(vector);
+  const double y = e2.dot(vector);
+  return Eigen::Vector2d(d * x - b * y, a * y - b * x) / (a * d - b * b);
+}
+
+/** Barycentric coordinates of a point on a triangle. */
+Eigen::Vector3d weightsOf(const Wall& wall, int triangle, const Eigen::Vector3d& point)
+{
+  const Eigen::Vector3i& c = wall.triangles[triangle];
+  const Eigen::Vector3d& origin = wall.vertices[c[0]];
+  const Eigen::Vector2d other =
+      coordinatesAlong(wall.vertices[c[1]] - origin, wall.vertices[c[2]] - origin, point - origin);
+  const Eigen::Vector3d weights = Eigen::Vector3d(1.0 - other.sum(), other[0], other[1]).cwiseMax(0.0);
   return weights / weights.sum();
 }
 
@@ -71,7 +77,7 @@ struct SmoothFootSearch::Walker
   int triangle = -1;
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();
   SmoothWall::Point at;
-  int on_edge = -1;    ///< sharp edge that the foot lies on
+  int on_edge = -1;    ///< edge that the foot lies on
   int on_vertex = -1;  ///< vertex that the foot lies on
 
   void evaluate() { at = smooth.at(triangle, weights); }
@@ -100,31 +106,14 @@ struct SmoothFootSearch::Walker
     return ((d * x - b * y) / determinant) * t1 + ((a * y - b * x) / determinant) * t2;
   }
 
-  void moveTo(int other, int edge)
-  {
-    const Eigen::Vector3d before = weights;
-    const int from = triangle;
-    triangle = other;
-    weights.setZero();
-    for (int vertex : wall.edges[edge].vertices)
-      weights[cornerOf(wall, triangle, vertex)] = before[cornerOf(wall, from, vertex)];
-    weights /= weights.sum();
-  }
-
-  /** Change of the barycentric coordinates of the full step in the present patch. */
+  /** Change of the barycentric coordinates by a step in the tangent plane. */
   Eigen::Vector3d change(const Eigen::Vector3d& step) const
   {
-    return smooth.weightsChange(triangle, weights, at, step);
+    const Eigen::Vector2d other = coordinatesAlong(at.tangents.col(0), at.tangents.col(1), step);
+    return {-other.sum(), other[0], other[1]};
   }
 
-  int cornerWithLeast(const Eigen::Vector3d& values) const
-  {
-    int corner = 0;
-    values.minCoeff(&corner);
-    return corner;
-  }
-
-  /** One step inside the patch, over a smooth edge or onto a sharp one. @return whether the walk has converged */
+  /** One step inside the patch, onto its border or over it. @return whether the walk has converged */
   bool stepInPatch(double factor)
   {
     const Eigen::Vector3d step = factor * stepFrom(at);
@@ -144,38 +133,43 @@ struct SmoothFootSearch::Walker
     if (corner >= 0)
       weights[corner] = 0.0;
     weights /= weights.sum();
-    if (corner < 0)
-    {
+    if (corner >= 0)
+      cross(edgeOpposite(wall, triangle, corner));
+    else
       evaluate();
-      return false;
-    }
-    const int edge = edgeOpposite(wall, triangle, corner);
-    const int other = otherTriangle(wall.edges[edge], triangle);
-    if (!smooth.isSharp(edge))
-    {
-      moveTo(other, edge);
-      evaluate();
-      return false;
-    }
-    on_edge = edge;
-    evaluate();
     return false;
   }
 
-  /** Whether a step from the present point of the border leads into a triangle that contains it. */
-  bool leadsInto(int candidate, const Eigen::Vector3d& weights_there, double& length) const
+  /** Continues on the other side of an edge where the next step leads on, otherwise along the edge. */
+  void cross(int border)
   {
+    const WallEdge& edge = wall.edges[border];
+    const int other = otherTriangle(edge, triangle);
     Walker there(smooth, point);
-    there.triangle = candidate;
-    there.weights = weights_there;
-    there.evaluate();
-    const Eigen::Vector3d step = there.stepFrom(there.at);
-    length = step.norm();
-    if (length < kConverged)
+    there.triangle = other;
+    for (int vertex : edge.vertices)
+      there.weights[cornerOf(wall, other, vertex)] = weights[cornerOf(wall, triangle, vertex)];
+    if (there.leadsInside())
+    {
+      triangle = other;
+      weights = there.weights;
+      at = there.at;
+      return;
+    }
+    on_edge = border;
+    evaluate();
+  }
+
+  /** Evaluates a point of the border. @return whether the next step leads into the triangle */
+  bool leadsInside()
+  {
+    evaluate();
+    const Eigen::Vector3d step = stepFrom(at);
+    if (step.squaredNorm() < kConverged * kConverged)
       return false;
-    const Eigen::Vector3d direction = there.change(step);
+    const Eigen::Vector3d direction = change(step);
     for (int k = 0; k < 3; ++k)
-      if (weights_there[k] <= kOnBorder && direction[k] <= 0.0)
+      if (weights[k] <= kOnBorder && direction[k] <= 0.0)
         return false;
     return true;
   }
@@ -188,96 +182,142 @@ struct SmoothFootSearch::Walker
     return there;
   }
 
-  /** One step on a sharp edge: into one of its triangles, or along it. @return whether the walk has converged */
+  /** One step on an edge: into one of its triangles, or along it. @return whether the walk has converged */
   bool stepOnEdge(double factor)
   {
     const WallEdge& edge = wall.edges[on_edge];
     const double parameter = weights[cornerOf(wall, triangle, edge.vertices[1])];
     for (int other : edge.triangles)
     {
-      const Eigen::Vector3d there = weightsOnEdge(other, edge, parameter);
-      double length = 0.0;
-      if (!leadsInto(other, there, length))
+      Walker there(smooth, point);
+      there.triangle = other;
+      there.weights = weightsOnEdge(other, edge, parameter);
+      if (!there.leadsInside())
         continue;
       triangle = other;
-      weights = there;
+      weights = there.weights;
+      at = there.at;
       on_edge = -1;
-      evaluate();
       return false;
     }
-    const Eigen::Vector3d along = wall.vertices[edge.vertices[1]] - wall.vertices[edge.vertices[0]];
-    const double motion = factor * (point - at.position).dot(along) / along.squaredNorm();
+    // Newton's method along the curve that the edge's points form.
+    const Eigen::Vector3d offset = point - at.position;
+    const Eigen::Vector3d along = tangentOf(edge);
+    const double stiffness = std::max(kLeastStiffness * along.squaredNorm(),
+                                      along.squaredNorm() - offset.dot(at.normal) * along.dot(at.curvature * along));
+    const double motion = factor * offset.dot(along) / stiffness;
     const double moved = std::clamp(parameter + motion, 0.0, 1.0);
     const bool at_end = moved <= 0.0 || moved >= 1.0;
+    if (!at_end && std::abs(motion) * along.norm() < kConverged)
+      return true;
     weights = weightsOnEdge(triangle, edge, moved);
     evaluate();
     if (at_end)
     {
       on_vertex = edge.vertices[moved <= 0.0 ? 0 : 1];
       on_edge = -1;
-      return false;
     }
-    return std::abs(motion) * along.norm() < kConverged;
+    return false;
   }
 
-  /** Leaves a vertex by the triangle or the sharp edge with the longest step. @return whether there is none */
+  /** Derivative of the position along an edge of the present triangle by the weight of its second vertex. */
+  Eigen::Vector3d tangentOf(const WallEdge& edge) const
+  {
+    const auto derivative = [this](int vertex)
+    {
+      const int corner = cornerOf(wall, triangle, vertex);
+      return corner == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(at.tangents.col(corner - 1));
+    };
+    return derivative(edge.vertices[1]) - derivative(edge.vertices[0]);
+  }
+
+  /** Leaves a vertex by the triangle or the edge with the longest step. @return whether there is none */
   bool stepAtVertex()
   {
     double longest = kConverged;
-    int into = -1;
-    int onto = -1;
-    const auto weights_at = [this](int candidate)
-    { return Eigen::Vector3d(Eigen::Vector3d::Unit(cornerOf(wall, candidate, on_vertex))); };
+    Walker best(smooth, point);
     for (int e : wall.vertex_edges[on_vertex])
     {
       const WallEdge& edge = wall.edges[e];
       for (int candidate : edge.triangles)
       {
-        double length = 0.0;
-        if (leadsInto(candidate, weights_at(candidate), length) && length > longest)
-        {
-          longest = length;
-          into = candidate;
-          onto = -1;
-        }
-      }
-      const Eigen::Vector3d along = (wall.vertices[edge.otherEnd(on_vertex)] - wall.vertices[on_vertex]).normalized();
-      const double down = (point - at.position).dot(along);
-      if (smooth.isSharp(e) && down > longest)
-      {
-        longest = down;
-        onto = e;
-        into = -1;
+        Walker there(smooth, point);
+        there.triangle = candidate;
+        there.weights[cornerOf(wall, candidate, on_vertex)] = 1.0;
+        if (!there.leadsInside())
+          continue;
+        const double length = there.stepFrom(there.at).norm();
+        if (length <= longest)
+          continue;
+        longest = length;
+        best.take(there);
       }
     }
-    if (into < 0 && onto < 0)
-      return true;
-    triangle = into >= 0 ? into : wall.edges[onto].triangles[0];
-    weights = weights_at(triangle);
-    if (onto >= 0)
+    for (int e : wall.vertex_edges[on_vertex])
     {
+      const WallEdge& edge = wall.edges[e];
+      const Eigen::Vector3d chord = wall.vertices[edge.otherEnd(on_vertex)] - wall.vertices[on_vertex];
+      Walker there(smooth, point);
+      there.triangle = edge.triangles[0];
+      there.weights[cornerOf(wall, there.triangle, on_vertex)] = 1.0;
+      there.evaluate();
+      const Eigen::Vector3d along = there.tangentOf(edge);
+      const double sign = edge.vertices[0] == on_vertex ? 1.0 : -1.0;
+      const double down = sign * (point - there.at.position).dot(along.normalized());
+      if (down <= longest)
+        continue;
+      longest = down;
       // Away from the vertex, which would end the walk again.
-      const WallEdge& edge = wall.edges[onto];
-      const double length = (wall.vertices[edge.vertices[1]] - wall.vertices[edge.vertices[0]]).norm();
-      const double share = std::min(0.5, longest / length);
-      weights = weightsOnEdge(triangle, edge, edge.vertices[0] == on_vertex ? share : 1.0 - share);
+      const double share = std::min(0.5, down / chord.norm());
+      best.triangle = there.triangle;
+      best.weights = there.weightsOnEdge(there.triangle, edge, sign > 0.0 ? share : 1.0 - share);
+      best.on_edge = e;
     }
-    on_edge = onto;
-    on_vertex = -1;
+    if (best.triangle < 0)
+      return true;
+    take(best);
     evaluate();
     return false;
   }
 
+  /** Takes the place of another walk to the same point. */
+  void take(const Walker& other)
+  {
+    triangle = other.triangle;
+    weights = other.weights;
+    at = other.at;
+    on_edge = other.on_edge;
+    on_vertex = other.on_vertex;
+  }
+
+  /** Walks to a foot. A walk that would end farther from the point than it began stays at its begin. */
   void run()
   {
     evaluate();
-    for (int step = 0; step < kMostSteps; ++step)
+    const Walker begin(*this);
+    bool done = false;
+    for (int step = 0; step < kMostSteps && !done; ++step)
     {
       const double factor = step < kFreeSteps ? 1.0 : 0.5;
-      const bool done = on_vertex >= 0 ? stepAtVertex() : on_edge >= 0 ? stepOnEdge(factor) : stepInPatch(factor);
-      if (done)
-        return;
+      done = on_vertex >= 0 ? stepAtVertex() : on_edge >= 0 ? stepOnEdge(factor) : stepInPatch(factor);
     }
+    if ((point - at.position).squaredNorm() > (point - begin.at.position).squaredNorm())
+      take(begin);
+  }
+
+  /** Direction that separates the lumen from the tissue at the present point. */
+  Eigen::Vector3d inward() const
+  {
+    if (on_vertex >= 0)
+      return wall.vertex_normals[on_vertex];
+    if (on_edge < 0)
+      return at.normal;
+    const WallEdge& edge = wall.edges[on_edge];
+    Walker beside(smooth, point);
+    beside.triangle = otherTriangle(edge, triangle);
+    beside.weights = weightsOnEdge(beside.triangle, edge, weights[cornerOf(wall, triangle, edge.vertices[1])]);
+    beside.evaluate();
+    return (at.normal + beside.at.normal).normalized();
   }
 
   SmoothFoot result() const
@@ -286,31 +326,33 @@ struct SmoothFootSearch::Walker
     foot.triangle = triangle;
     foot.weights = weights;
     foot.position = at.position;
-    foot.normal = at.normal;
-    const Eigen::Vector3d offset = point - at.position;
-    const bool at_border = on_edge >= 0 || (on_vertex >= 0 && smooth.isCrease(on_vertex));
-    if (!at_border)
-    {
+    const bool is_sharp = on_edge >= 0 ? smooth.isSharp(on_edge) : on_vertex >= 0 && smooth.isCrease(on_vertex);
+    if (!is_sharp)
       foot.curvature = at.curvature;
-      foot.height = offset.dot(at.normal);
-      foot.id = featureId(triangle, FeatureKind::kFace);
-      return foot;
-    }
-    const Eigen::Vector3d& inward = on_edge >= 0 ? wall.edges[on_edge].normal : wall.vertex_normals[on_vertex];
+    foot.id = on_edge >= 0     ? featureId(on_edge, FeatureKind::kEdge)
+              : on_vertex >= 0 ? featureId(on_vertex, FeatureKind::kVertex)
+                               : featureId(triangle, FeatureKind::kFace);
+    const Eigen::Vector3d offset = point - at.position;
     const double distance = offset.norm();
-    const double sign = offset.dot(inward) < 0.0 ? -1.0 : 1.0;
-    foot.normal = distance > kOnFeature ? Eigen::Vector3d((sign / distance) * offset) : inward;
+    const Eigen::Vector3d towards_lumen = inward();
+    const double sign = offset.dot(towards_lumen) < 0.0 ? -1.0 : 1.0;
+    foot.normal = distance > kOnFeature ? Eigen::Vector3d((sign / distance) * offset) : towards_lumen;
+    // Close to the surface the offset has no exact direction.
+    if (on_edge < 0 && on_vertex < 0 && (foot.normal - at.normal).norm() < kSameNormal)
+      foot.normal = at.normal;
     foot.height = sign * distance;
-    foot.id = on_edge >= 0 ? featureId(on_edge, FeatureKind::kEdge) : featureId(on_vertex, FeatureKind::kVertex);
     return foot;
   }
 };
 
-SmoothFoot SmoothFootSearch::walk(const Eigen::Vector3d& point, int triangle, const Eigen::Vector3d& start) const
+SmoothFoot SmoothFootSearch::walk(const Eigen::Vector3d& point, int triangle) const
 {
   Walker walker(smooth_, point);
   walker.triangle = triangle;
-  walker.weights = weightsIn(wall_, triangle, start);
+  const Eigen::Vector3i& c = wall_.triangles[triangle];
+  const geometry::TrianglePoint closest =
+      geometry::closestPointOnTriangle(point, wall_.vertices[c[0]], wall_.vertices[c[1]], wall_.vertices[c[2]]);
+  walker.weights = weightsOf(wall_, triangle, closest.point);
   walker.run();
   return walker.result();
 }

@@ -8,17 +8,19 @@
 namespace endovascular_sim::contact
 {
 
-/** Foot of a point on a smooth wall: the offset from the wall is along its normal. On a sharp edge or a crease vertex
- * the offset lies in the cone of normals, and the normal is the offset's direction. */
+/** Foot of a point on a smooth wall: a local minimum of the distance. The offset is along the surface's normal; on an
+ *  edge or a vertex it lies in the cone of normals. The normal is the offset's direction, which is the gradient of the
+ *  signed distance. */
 struct SmoothFoot
 {
-  int triangle = -1;                                    ///< patch that contains the foot
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero();    ///< its barycentric coordinates
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< towards the lumen, unit
-  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< as SmoothWall::Point; zero on an edge or a vertex [1/m]
-  double height = 0.0;                                  ///< signed distance, negative behind the wall [m]
-  std::int64_t id = 0;                                  ///< as Feature::id
+  int triangle = -1;                                   ///< patch that contains the foot
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();   ///< its barycentric coordinates
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< towards the lumen, unit
+  Eigen::Matrix3d curvature =
+      Eigen::Matrix3d::Zero();  ///< as SmoothWall::Point; zero on a sharp edge or a crease [1/m]
+  double height = 0.0;          ///< signed distance, negative behind the wall [m]
+  std::int64_t id = 0;          ///< as Feature::id
 };
 
 /** Search of feet on a smooth wall by walking over its patches. */
@@ -28,10 +30,11 @@ public:
   /** @param wall must outlive the object */
   explicit SmoothFootSearch(const SmoothWall& wall) : smooth_(wall), wall_(wall.wall()) {}
 
-  /** The foot that the walk reaches from a point of a facet. Steps of a quasi-Newton method cross smooth edges, follow
-   *  sharp ones while both sides push back, and end at a vertex if all of its edges and triangles do.
-   *  @param triangle, start where the walk begins: a point on the facet [m] */
-  SmoothFoot walk(const Eigen::Vector3d& point, int triangle, const Eigen::Vector3d& start) const;
+  /** The foot that the walk reaches from the patch over a facet, begun at the facet's closest point. Steps of a
+   *  quasi-Newton method cross edges where the next step leads on, follow them while both sides push back, and end at a
+   *  vertex if all of its edges and triangles do. A walk never ends farther from the point than it began.
+   *  @param triangle the facet */
+  SmoothFoot walk(const Eigen::Vector3d& point, int triangle) const;
 
   /** A walk from an earlier foot, of a nearby point. */
   SmoothFoot walk(const Eigen::Vector3d& point, const SmoothFoot& from) const;

@@ -23,7 +23,10 @@ struct alignas(64) TriangleSlab  // the data of every query fill two cache lines
   double edge_slope = 0.0;
   double corner_slope = 0.0;                 ///< the same bound for a local minimum at a corner that the triangle owns
   std::array<int, 3> own_edges{-1, -1, -1};  ///< reflex edges that the triangle owns; a mesh edge has one owner
-  bool has_moved = false;                    ///< whether the triangle, its edges or a neighbour have ever moved
+  /** Distance by which the triangle's features end before the cutoff of a query: that of a smooth wall includes its
+   *  largest deviation from the facets. 0 for facets [m] */
+  double before_cutoff = 0.0;
+  bool has_moved = false;  ///< whether the triangle, its edges or a neighbour have ever moved
 
   /** Bound for any of these local minima: the foot lies at most bulge() · height beyond the triangle's border. */
   double bulge() const { return std::max(edge_slope, corner_slope); }

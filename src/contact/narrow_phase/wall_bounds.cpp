@@ -15,11 +15,14 @@ WallBounds::WallBounds(const Wall& wall)
     edges_.push_back(makeEdgeBounds(wall, edge));
 }
 
-void WallBounds::openCones()
+void WallBounds::admitSmoothWall(const SmoothWall& smooth)
 {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (TriangleSlab& slab : slabs_)
-    slab.edge_slope = slab.corner_slope = infinity;
+  for (std::size_t t = 0; t < slabs_.size(); ++t)
+  {
+    slabs_[t].edge_slope = slabs_[t].corner_slope = infinity;
+    slabs_[t].before_cutoff = smooth.deviation() - smooth.deviationOf(static_cast<int>(t));
+  }
   for (EdgeBounds& edge : edges_)
     edge.cone_slope = infinity;
 }

@@ -4,6 +4,7 @@
 
 #include "contact/narrow_phase/edge_bounds.h"
 #include "contact/narrow_phase/triangle_slab.h"
+#include "contact/wall/smooth_wall.h"
 #include "contact/wall/wall.h"
 
 namespace endovascular_sim::contact
@@ -29,9 +30,8 @@ public:
   /** Recomputes the bounds of the changed triangles and edges. */
   void refit(const Wall& wall, const Wall::Changes& changes, Refit& refit);
 
-  /** Opens all cones: the bounds then hold for any surface within a distance of the facets, not for the facets alone.
-   */
-  void openCones();
+  /** Makes the bounds hold for a smooth wall: opens all cones, and ends every triangle's reach by its own deviation. */
+  void admitSmoothWall(const SmoothWall& smooth);
 
 private:
   std::vector<TriangleSlab> slabs_;

@@ -20,13 +20,15 @@ namespace
 constexpr double kCreaseAngle = 0.35;      // rad: mean disagreement of the quadrics around a crease vertex
 constexpr double kLeastRise = 0.4;         // of a corner's quadric along the directions of its triangle
 constexpr double kLargestBend = 0.5;       // 4 |q q''| / q'² of the distance to a corner's quadric
-constexpr double kLargestDeviation = 0.2;  // of the triangle's longest edge
+constexpr double kLargestDeviation = 0.1;  // of the triangle's longest edge
 constexpr double kWidestDihedral = 0.42;   // rad: refinement of coarser meshes
 constexpr int kMostLevels = 2;
 constexpr double kCreaseOfFacets = 1.2;  // rad between a triangle and the mean normal at a crease of a coarse mesh
 constexpr int kParts = 4;                // of every edge, for bounds
 constexpr double kFlat = 1e-6;           // rad: angle between triangles below which their edge is never sharp
-constexpr double kLeastFactor = 0.2;     // of a tangential motion per motion of the surface's point
+constexpr double kTiltFactor = 1.25;     // of the largest sampled angle, for a bound
+constexpr double kTiltSlack = 0.03;      // rad, the same
+constexpr double kLargestTilt = 1.3;     // rad, above which the tilt is unbounded
 
 /** Weights w_i of the corners' quadrics. They and their derivatives across an edge depend, on that edge, on its own
  * ends only. */
@@ -34,6 +36,17 @@ Eigen::Vector3d blendOf(const Eigen::Vector3d& weights)
 {
   const Eigen::Vector3d squares = weights.cwiseProduct(weights);
   return squares / squares.sum();
+}
+
+/** Distance along a direction to a quadric: the root of q + q' h − bend/2 h² next to 0. @param from vector from the
+ *  quadric's vertex */
+double heightOver(const VertexQuadric& quadric, const Eigen::Vector3d& from, const Eigen::Vector3d& along)
+{
+  const Eigen::Vector3d bent = quadric.bend * from;
+  const double height = quadric.normal.dot(from) - 0.5 * from.dot(bent);
+  const double rise = (quadric.normal - bent).dot(along);
+  const double bend = along.dot(quadric.bend * along);
+  return -2.0 * height / (rise + std::sqrt(std::max(0.0, rise * rise + 2.0 * bend * height)));
 }
 
 /** Range of a quadratic function over a triangle, from its values at the corners and at the middles of the edges: that
@@ -65,6 +78,7 @@ SmoothWall::SmoothWall(const Wall& wall) : wall_(wall), quadrics_(fitVertexQuadr
     const bool at_crease = crease_[edge.vertices[0]] != 0 || crease_[edge.vertices[1]] != 0;
     sharp_[e] = at_crease && std::abs(edge.reflex_angle) > kFlat ? 1 : 0;
   }
+  boundTilts();
 }
 
 SmoothWall::SmoothWall(const SmoothWall& other, const Wall& wall)
@@ -73,6 +87,7 @@ SmoothWall::SmoothWall(const SmoothWall& other, const Wall& wall)
     crease_(other.crease_),
     sharp_(other.sharp_),
     deviations_(other.deviations_),
+    tilts_(other.tilts_),
     deviation_(other.deviation_)
 {
 }
@@ -95,11 +110,11 @@ void SmoothWall::markCreases()
   deviation_ = *std::max_element(deviations_.begin(), deviations_.end());
 }
 
-/** Bound of a corner's share w |h| of the displacement over a part of a triangle; infinite where it is unbounded. With
+/** Bounds of a corner's distance |h| over a part of a triangle; infinite where it is unbounded. With
  * the value q of the quadric at a point, its derivative q' along the direction and half of the second derivative c, |h|
  * = 2 |q|/(q' + √(q'² − 4 c q)). Value and derivative are quadratic functions of the coordinates.
  *  @param part barycentric coordinates of the part's corners */
-double SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const
+SmoothWall::HeightBound SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const
 {
   const double infinity = std::numeric_limits<double>::infinity();
   const Eigen::Vector3i& corners = wall_.triangles[triangle];
@@ -127,8 +142,9 @@ double SmoothWall::boundAt(int triangle, int corner, const std::array<Eigen::Vec
   const double largest = std::max(-heights.first, heights.second);
   const double bend = 2.0 * quadric.bend.norm() * largest / (least_rise * least_rise);  // directions are at most unit
   if (!(least_rise >= kLeastRise) || !(bend <= kLargestBend))
-    return infinity;
-  return weight * 2.0 * largest / (least_rise * (1.0 + std::sqrt(1.0 - bend)));
+    return {infinity, infinity};
+  const double bound = 2.0 * largest / (least_rise * (1.0 + std::sqrt(1.0 - bend)));
+  return {bound, weight * bound};
 }
 
 /** Bound of the displacement over a triangle, from its parts. Sets the corners whose quadric is not bounded by a share
@@ -143,17 +159,21 @@ double SmoothWall::boundOf(int triangle)
   const auto add = [&](const std::array<Eigen::Vector3d, 3>& part)
   {
     double sum = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < 3; ++k)
     {
       if (crease_[corners[k]] != 0)
         continue;
-      const double share = boundAt(triangle, k, part);
-      if (share <= kLargestDeviation * longest)
-        sum += share;
-      else
+      const HeightBound height = boundAt(triangle, k, part);
+      if (!(height.share <= kLargestDeviation * longest))
+      {
         crease_[corners[k]] = 1;
+        continue;
+      }
+      sum += height.share;
+      largest = std::max(largest, height.whole);
     }
-    bound = std::max(bound, sum);
+    bound = std::max(bound, std::min(sum, largest));
   };
   const auto at = [](int i, int j) -> Eigen::Vector3d { return Eigen::Vector3d(kParts - i - j, i, j) / kParts; };
   for (int i = 0; i < kParts; ++i)
@@ -164,6 +184,56 @@ double SmoothWall::boundOf(int triangle)
         add({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   return bound;
+}
+
+/** Samples the angles between every triangle's normal and those of its patch, of the directions of its corners, and of
+ *  the patches beside it where they meet: at a bulge, the offset of a foot on the border lies between both. */
+void SmoothWall::boundTilts()
+{
+  std::vector<double> widest(wall_.triangles.size(), 0.0);
+  const auto widen = [&](int triangle, const Eigen::Vector3d& normal)
+  { widest[triangle] = std::max(widest[triangle], angleBetween(normal, wall_.normals[triangle])); };
+  for (int t = 0; t < static_cast<int>(widest.size()); ++t)
+    for (int i = 0; i <= kParts; ++i)
+      for (int j = 0; i + j <= kParts; ++j)
+      {
+        const Eigen::Vector3d normal = at(t, Eigen::Vector3d(kParts - i - j, i, j) / kParts).normal;
+        widen(t, normal);
+        const Eigen::Vector3i multiple(kParts - i - j, i, j);
+        for (int k = 0; k < 3; ++k)
+          if (multiple[(k + 2) % 3] == 0)
+            for (int other : wall_.edges[wall_.triangle_edges[t][k]].triangles)
+              widen(other, normal);
+      }
+  for (const WallEdge& edge : wall_.edges)
+    for (int vertex : edge.vertices)
+      for (int t : edge.triangles)
+      {
+        widen(t, quadrics_[vertex].normal);
+        if (crease_[vertex] != 0)
+          for (int e : wall_.vertex_edges[vertex])
+            for (int other : wall_.edges[e].triangles)
+              widen(t, wall_.normals[other]);
+      }
+  tilts_.clear();
+  for (double angle : widest)
+  {
+    const double bound = kTiltFactor * angle + kTiltSlack;
+    tilts_.push_back(bound < kLargestTilt ? std::sin(bound) : 1.0);
+  }
+}
+
+/** With the displacement H along the direction and the signed distance D along the normal, the point's height over the
+ *  triangle's plane is at least |D| cos − |H|, and its foot lies at most (|H| + |D|) sin beyond the border. */
+bool SmoothWall::mayHaveFoot(int triangle, const Eigen::Array4d& heights, double cutoff) const
+{
+  const double away = deviations_[triangle];
+  const double height = std::abs(heights[0]);
+  if (height > cutoff + away)
+    return false;
+  const double sine = tilts_[triangle];
+  const double farthest = sine < 1.0 ? std::min(cutoff, (height + away) / std::sqrt(1.0 - sine * sine)) : cutoff;
+  return -std::min({heights[1], heights[2], heights[3]}) <= (away + farthest) * sine;
 }
 
 Eigen::Vector3d SmoothWall::pointOf(int triangle, const Eigen::Vector3d& weights) const
@@ -186,18 +256,8 @@ double SmoothWall::displacement(int triangle, const Eigen::Vector3d& blend, cons
   const Eigen::Vector3i& c = wall_.triangles[triangle];
   double sum = 0.0;
   for (int k = 0; k < 3; ++k)
-  {
-    if (crease_[c[k]] != 0 || blend[k] == 0.0)
-      continue;
-    const VertexQuadric& quadric = quadrics_[c[k]];
-    const Eigen::Vector3d from = point - wall_.vertices[c[k]];
-    const Eigen::Vector3d bent = quadric.bend * from;
-    const double height = quadric.normal.dot(from) - 0.5 * from.dot(bent);
-    const double rise = (quadric.normal - bent).dot(direction);
-    const double bend = direction.dot(quadric.bend * direction);
-    // The root of q + q' h − bend/2 h² next to 0.
-    sum -= blend[k] * 2.0 * height / (rise + std::sqrt(std::max(0.0, rise * rise + 2.0 * bend * height)));
-  }
+    if (crease_[c[k]] == 0 && blend[k] != 0.0)
+      sum += blend[k] * heightOver(quadrics_[c[k]], point - wall_.vertices[c[k]], direction);
   return sum;
 }
 
@@ -211,55 +271,47 @@ Eigen::Vector3d SmoothWall::positionAt(int triangle, const Eigen::Vector3d& weig
 SmoothWall::Point SmoothWall::at(int triangle, const Eigen::Vector3d& weights) const
 {
   const Eigen::Vector3i& c = wall_.triangles[triangle];
-  const Eigen::Vector3d blend = blendOf(weights);
+  const double squares = weights.squaredNorm();
   const Eigen::Vector3d foot = pointOf(triangle, weights);
   const Eigen::Vector3d along = direction(triangle, weights);
+  Eigen::Matrix<double, 3, 2> foot_change, along_change;
+  for (int k = 0; k < 2; ++k)
+  {
+    foot_change.col(k) = wall_.vertices[c[k + 1]] - wall_.vertices[c[0]];
+    along_change.col(k) = quadrics_[c[k + 1]].normal - quadrics_[c[0]].normal;
+  }
+  const Eigen::RowVector2d squares_change = 2.0 * (weights.tail<2>().transpose().array() - weights[0]);
+  double height = 0.0;
+  Eigen::RowVector2d height_change = Eigen::RowVector2d::Zero();
   Point point;
-  point.position = foot + displacement(triangle, blend, foot, along) * along;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   point.curvature.setZero();
   for (int k = 0; k < 3; ++k)
   {
     if (crease_[c[k]] != 0)
-    {
-      sum += blend[k] * wall_.normals[triangle];
-      continue;
-    }
+      continue;  // its height is 0
     const VertexQuadric& quadric = quadrics_[c[k]];
-    sum += blend[k] * quadric.gradient(point.position - wall_.vertices[c[k]]);
-    point.curvature += blend[k] * quadric.bend;
+    const double blend = weights[k] * weights[k] / squares;
+    Eigen::RowVector2d blend_change = -blend / squares * squares_change;
+    if (k == 0)
+      blend_change.array() -= 2.0 * weights[0] / squares;
+    else
+      blend_change[k - 1] += 2.0 * weights[k] / squares;
+    const Eigen::Vector3d from = foot - wall_.vertices[c[k]];
+    const double own = heightOver(quadric, from, along);
+    const Eigen::Vector3d gradient = quadric.gradient(from + own * along);
+    const Eigen::RowVector2d own_change =
+        gradient.transpose() * (foot_change + own * along_change) / -gradient.dot(along);
+    height += blend * own;
+    height_change += own * blend_change + blend * own_change;
+    point.curvature += blend / gradient.norm() * quadric.bend;
   }
-  const double length = sum.norm();
-  point.normal = sum / length;
-  const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - point.normal * point.normal.transpose();
-  point.curvature = (tangent * point.curvature * tangent / length).eval();
+  point.position = foot + height * along;
+  point.tangents = foot_change + along * height_change + height * along_change;
+  // The triangles are oriented with their normals out of the lumen.
+  point.normal = point.tangents.col(1).cross(point.tangents.col(0)).normalized();
+  const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - point.normal * point.normal.transpose();
+  point.curvature = (tangential * point.curvature * tangential).eval();
   return point;
-}
-
-Eigen::Vector3d SmoothWall::weightsChange(int triangle, const Eigen::Vector3d& weights, const Point& point,
-                                          const Eigen::Vector3d& tangential) const
-{
-  const Eigen::Vector3i& c = wall_.triangles[triangle];
-  const Eigen::Vector3d& facet_normal = wall_.normals[triangle];
-  const Eigen::Vector3d along = direction(triangle, weights);
-  const Eigen::Vector3d foot = pointOf(triangle, weights);
-  // The directions converge where the wall is concave: the foot on the facet moves by (1 + hK) per motion of the point.
-  const double height = (point.position - foot).dot(point.normal);
-  Eigen::Vector3d motion = tangential + height * (point.curvature * tangential);
-  motion -= facet_normal.dot(motion) / std::max(kLeastFactor, facet_normal.dot(along)) * along;
-  Eigen::Vector3d change;
-  const Eigen::Vector3d e1 = wall_.vertices[c[1]] - wall_.vertices[c[0]];
-  const Eigen::Vector3d e2 = wall_.vertices[c[2]] - wall_.vertices[c[0]];
-  const double a = e1.dot(e1);
-  const double b = e1.dot(e2);
-  const double d = e2.dot(e2);
-  const double x = e1.dot(motion);
-  const double y = e2.dot(motion);
-  const double determinant = a * d - b * b;
-  change[1] = (d * x - b * y) / determinant;
-  change[2] = (a * y - b * x) / determinant;
-  change[0] = -change[1] - change[2];
-  return change;
 }
 
 double SmoothWall::creaseShare() const

@@ -16,9 +16,10 @@ namespace endovascular_sim::contact
  *
  *  Every vertex has a quadric fitted to its neighbours. A point p of a triangle with barycentric coordinates b moves
  *  along the direction Σ b_i n_i, n_i the normals of the vertices, by the blend Σ w_i h_i of the distances h_i to the
- *  quadrics of the corners, w_i = b_i²/Σ b_j². On an edge both triangles give the same point and the same normal. At a
- *  crease vertex, whose quadric does not represent its neighbours, the plane of every triangle replaces the quadric:
- * the surface stays closed, and its normal jumps across the edges there. */
+ *  quadrics of the corners, w_i = b_i²/Σ b_j². On an edge both triangles give the same point: the surface is closed.
+ * Its normal turns there by as much as the quadrics of the edge's ends disagree, in all not by more than a few degrees.
+ * At a crease vertex, whose quadric does not represent its neighbours, the plane of every triangle replaces the
+ * quadric: the normal jumps across the edges there. */
 class SmoothWall
 {
 public:
@@ -34,8 +35,10 @@ public:
   struct Point
   {
     Eigen::Vector3d position;
-    Eigen::Vector3d normal;     ///< towards the lumen, unit
-    Eigen::Matrix3d curvature;  ///< curvature tensor in the tangent plane, positive where the wall is concave [1/m]
+    /** Derivatives of the position by the second and the third barycentric coordinate; the first one decreases. */
+    Eigen::Matrix<double, 3, 2> tangents;
+    Eigen::Vector3d normal;     ///< perpendicular to the tangents, towards the lumen, unit
+    Eigen::Matrix3d curvature;  ///< mean of the quadrics' tensors in the tangent plane, positive where concave [1/m]
   };
 
   /** Point of the patch over a triangle. @param weights barycentric coordinates */
@@ -44,18 +47,18 @@ public:
   /** Position alone, see at(). */
   Eigen::Vector3d positionAt(int triangle, const Eigen::Vector3d& weights) const;
 
-  /** Change of the barycentric coordinates that moves the surface's point by a tangential vector, to first order.
-   *  @param point the point at @p weights */
-  Eigen::Vector3d weightsChange(int triangle, const Eigen::Vector3d& weights, const Point& point,
-                                const Eigen::Vector3d& tangential) const;
-
   /** Bound of the distance between every point of the surface and the point of its triangle with the same barycentric
    *  coordinates [m]. It bounds the distances from the surface to the facets and from the facets to the surface. */
   double deviation() const { return deviation_; }
   double deviationOf(int triangle) const { return deviations_[triangle]; }  ///< the same of one triangle [m]
 
+  /** Whether the surface over a triangle may contain a foot of a point: a closest point of the patch's surroundings.
+   *  @param heights of the point over the planes of the triangle's slab [m]
+   *  @param cutoff largest distance of interest [m] */
+  bool mayHaveFoot(int triangle, const Eigen::Array4d& heights, double cutoff) const;
+
   bool isCrease(int vertex) const { return crease_[vertex] != 0; }
-  /** Whether the normal jumps across an edge. */
+  /** Whether an edge ends at a crease, so that the normal may jump across it. */
   bool isSharp(int edge) const { return sharp_[edge] != 0; }
   double creaseShare() const;  ///< share of the vertices that are creases
 
@@ -63,8 +66,15 @@ public:
 
 private:
   void markCreases();
+  void boundTilts();
   double boundOf(int triangle);
-  double boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const;
+  /** Bounds over a part of a triangle [m]. */
+  struct HeightBound
+  {
+    double whole;  ///< of the distance |h| to a corner's quadric
+    double share;  ///< of its share w |h| of the displacement
+  };
+  HeightBound boundAt(int triangle, int corner, const std::array<Eigen::Vector3d, 3>& part) const;
   Eigen::Vector3d pointOf(int triangle, const Eigen::Vector3d& weights) const;
   Eigen::Vector3d direction(int triangle, const Eigen::Vector3d& weights) const;
   double displacement(int triangle, const Eigen::Vector3d& blend, const Eigen::Vector3d& point,
@@ -75,6 +85,7 @@ private:
   std::vector<char> crease_;  ///< per vertex
   std::vector<char> sharp_;   ///< per edge
   std::vector<double> deviations_;
+  std::vector<double> tilts_;  ///< per triangle: sine of the largest angle between its normal and those of its feet
   double deviation_ = 0.0;
 };
 
