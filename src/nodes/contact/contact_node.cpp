@@ -33,7 +33,7 @@ ContactNode::ContactNode(const ros::NodeHandle& node, const scene::Scene& scene,
   subscribe();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("contact", this, &ContactNode::diagnose);
-  timer_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  timer_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 void ContactNode::subscribe()

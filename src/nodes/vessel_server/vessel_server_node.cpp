@@ -64,7 +64,7 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   diagnostics_.setHardwareID("none");
   diagnostics_.add("vessel", this, &VesselServerNode::diagnose);
   diagnostics_timer_ =
-      node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+      node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO("%s, %zu triangles, %zu branches", vessel.source.c_str(), vessel.mesh.triangles.size(),
            vessel.centreline.branches.size());
 }
