@@ -70,8 +70,9 @@ void DrivenHands::restAt(const Simulation& simulation)
     if (!controls_[k])
       continue;
     const HandState hand = simulation.hand(static_cast<int>(k));
-    controls_[k]->restAt(simulation.reached(static_cast<int>(k)),
-                         scene_.instruments[k].instrument.balloon ? std::optional<double>(hand.pressure) : std::nullopt);
+    controls_[k]->restAt(simulation.reached(static_cast<int>(k)), scene_.instruments[k].instrument.balloon
+                                                                      ? std::optional<double>(hand.pressure)
+                                                                      : std::nullopt);
   }
 }
 

@@ -59,10 +59,11 @@ TEST(ASavedHandControl, ContinuesEveryModeBitForBit)
   for (const CommandKind kind : {CommandKind::kServoPosition, CommandKind::kServoRelative, CommandKind::kServoVelocity,
                                  CommandKind::kServoForce, CommandKind::kMovePosition, CommandKind::kMoveRelative})
     for (const int steps : {0, 40, 210})
-      expectSameMotion([kind](HandControl& control)
-                       { EXPECT_EQ(control.command("/a", JointCommand{kind, 0.06, 0.001, std::nullopt}),
-                                   CommandVerdict::kAccepted); },
-                       steps);
+      expectSameMotion(
+          [kind](HandControl& control) {
+            EXPECT_EQ(control.command("/a", JointCommand{kind, 0.06, 0.001, std::nullopt}), CommandVerdict::kAccepted);
+          },
+          steps);
 }
 
 TEST(ASavedHandControl, KeepsItsOperatingState)

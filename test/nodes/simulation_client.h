@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
+#include <nlohmann/json.hpp>
 
 #include "common/error.h"
 #include "common/hash.h"
@@ -32,10 +32,7 @@ namespace endovascular_sim
 class SimulationClient
 {
 public:
-  SimulationClient()
-    : step_(node_.serviceClient<StepSimulation>(nodes::names::kSimulationStep, true))
-  {
-  }
+  SimulationClient() : step_(node_.serviceClient<StepSimulation>(nodes::names::kSimulationStep, true)) {}
 
   static bool waitForServices() { return ros::service::waitForService(nodes::names::kSimulationStep, 90000); }
 

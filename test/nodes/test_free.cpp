@@ -24,8 +24,8 @@ TEST(Free, TheTrajectoryIsThatOfSimulateAndTheRecordingIsComplete)
   std::atomic<std::uint64_t> recorded{0};
   ros::NodeHandle node;
   const ros::Subscriber subscriber = node.subscribe<SessionProgress>(
-      nodes::names::kSessionProgress, 10, [&recorded](const SessionProgressConstPtr& progress)
-      { recorded = progress->steps; });
+      nodes::names::kSessionProgress, 10,
+      [&recorded](const SessionProgressConstPtr& progress) { recorded = progress->steps; });
   ASSERT_TRUE(waitUntil(90.0, [&recorded] { return recorded > 500; })) << "the graph steps";
   EXPECT_TRUE(killNode("/contact"));  // its restart is waited for
   ASSERT_TRUE(waitUntil(120.0, [&recorded] { return recorded == kSteps; })) << recorded;

@@ -182,8 +182,8 @@ TEST_F(Stepped, F_ADeadClientLeavesNoForceAndTheNextOneContinues)
   std::atomic<double> force{1.0};
   ros::NodeHandle node;
   const ros::Subscriber subscriber = node.subscribe<sensor_msgs::JointState>(
-      "instruments/wire/setpoint_js", 1, [&force](const sensor_msgs::JointStateConstPtr& joints)
-      { force = joints->effort.at(0); });
+      "instruments/wire/setpoint_js", 1,
+      [&force](const sensor_msgs::JointStateConstPtr& joints) { force = joints->effort.at(0); });
   ASSERT_TRUE(client_->step(100, {command("wire", "resume", {})}).success);
   const std::uint64_t before = client_->step(0).step;
   const pid_t other = fork();
@@ -194,7 +194,8 @@ TEST_F(Stepped, F_ADeadClientLeavesNoForceAndTheNextOneContinues)
     _exit(1);
   }
   // The call is under way when the clock moves.
-  EXPECT_TRUE(waitUntil(60.0, [before] { return ros::Time::now().toSec() > 1e-3 * static_cast<double>(before) + 0.1; }));
+  EXPECT_TRUE(
+      waitUntil(60.0, [before] { return ros::Time::now().toSec() > 1e-3 * static_cast<double>(before) + 0.1; }));
   kill(other, SIGKILL);
   waitpid(other, nullptr, 0);
   const StepSimulation::Response response = client_->step(1);

@@ -22,7 +22,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kContactTimeout = 3e-3;  ///< longest wait for one contact set in real time [s]
+constexpr double kContactTimeout = 3e-3;   ///< longest wait for one contact set in real time [s]
 constexpr double kContactPatience = 10.0;  ///< the same in the other paces, which wait also for a restart [s]
 
 /** Newest version of the wall, which may have moved since the latched message. */
@@ -36,7 +36,8 @@ std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
 
 }  // namespace
 
-GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene, Pace pace)
+GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene,
+                                 Pace pace)
   : node_(node),
     scene_(std::move(scene)),
     clock_(node_, parameters, pace, scene_.solver.time_step),

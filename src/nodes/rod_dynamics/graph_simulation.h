@@ -68,8 +68,8 @@ public:
 
   const scene::Scene& scene() const { return scene_; }
   const simulation::Simulation& simulation() const { return *simulation_; }
-  const vessel::Vessel& vessel() const { return vessel_; }          ///< initial vessel; empty without one
-  RemoteContactSource* contacts() { return contacts_.get(); }       ///< null without a vessel
+  const vessel::Vessel& vessel() const { return vessel_; }     ///< initial vessel; empty without one
+  RemoteContactSource* contacts() { return contacts_.get(); }  ///< null without a vessel
   const RemoteContactSource* contacts() const { return contacts_.get(); }
   DriveCommands& drives() { return drives_; }
   const InstrumentPublisher& instruments() const { return instruments_; }

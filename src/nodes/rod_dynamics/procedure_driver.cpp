@@ -16,7 +16,8 @@ ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scen
 {
 }
 
-const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation, ros::Time now)
+const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation,
+                                                                  ros::Time now)
 {
   const std::vector<simulation::HandCommand>& commands = operator_.next(simulation);
   publishProgress(simulation, now);

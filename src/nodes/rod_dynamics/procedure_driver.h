@@ -35,7 +35,7 @@ private:
   void publishProgress(const simulation::Simulation& simulation, ros::Time now);
   void publish(std::size_t record, const simulation::Simulation& simulation, ros::Time now);
 
-  std::uint64_t last_step_;  ///< last step of the scene's duration
+  std::uint64_t last_step_;        ///< last step of the scene's duration
   procedure::Operator beginning_;  ///< operator before the first step
   procedure::Operator operator_;
   ros::Publisher publisher_;

@@ -16,9 +16,9 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
-constexpr int kStepQueue = 10000;     ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
-constexpr int kVisualQueue = 1000;    ///< data for display of as many steps
+constexpr double kVisualRate = 60.0;   ///< rate of the data for display [Hz]
+constexpr int kStepQueue = 10000;      ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
+constexpr int kVisualQueue = 1000;     ///< data for display of as many steps
 constexpr int kTreatmentQueue = 1000;  ///< the recorder must not lose an event
 
 }  // namespace

@@ -54,9 +54,9 @@ private:
   std::atomic<double> longest_step_{0.0};       ///< [s]
   std::atomic<double> worst_delay_{0.0};        ///< largest delay of a step's end behind its deadline [s]
   std::atomic<double> total_step_{0.0};         ///< sum of all step times [s]
-  mutable std::mutex mutex_;  ///< guards the next two
-  std::string held_;          ///< reason for which no step is taken; empty without one
-  bool is_fault_ = false;     ///< of another node
+  mutable std::mutex mutex_;                    ///< guards the next two
+  std::string held_;                            ///< reason for which no step is taken; empty without one
+  bool is_fault_ = false;                       ///< of another node
 };
 
 }  // namespace endovascular_sim::nodes

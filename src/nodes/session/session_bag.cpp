@@ -158,12 +158,12 @@ std::string incompleteness(const SessionBag& session)
   const std::uint64_t end = session.first_step + found;
   if (session.recorded_steps && *session.recorded_steps == end && session.steps.rbegin()->first + 1 == end)
     return session.damage.empty() ? "" : "the bag is damaged: " + session.damage;
-  std::string reason = session.recorded_steps
-                           ? "the bag holds " + std::to_string(found) + " of the session's " +
-                                 std::to_string(*session.recorded_steps -
-                                                std::min(*session.recorded_steps, session.first_step)) +
-                                 " steps"
-                                              : "the bag has no end (session/end)";
+  std::string reason =
+      session.recorded_steps
+          ? "the bag holds " + std::to_string(found) + " of the session's " +
+                std::to_string(*session.recorded_steps - std::min(*session.recorded_steps, session.first_step)) +
+                " steps"
+          : "the bag has no end (session/end)";
   return reason + damageOf(session);
 }
 

@@ -68,8 +68,8 @@ SessionRecorder::SessionRecorder(const ros::NodeHandle& node, scene::Scene scene
     scene_(std::move(scene)),
     settings_(std::move(settings)),
     info_(infoOf(scene_)),
-    recording_(std::make_unique<Recording>(scene_, createRecordingFolder(settings_.folder),
-                                           stepsOf(scene_, settings_))),
+    recording_(
+        std::make_unique<Recording>(scene_, createRecordingFolder(settings_.folder), stepsOf(scene_, settings_))),
     last_step_(ros::SteadyTime::now())
 {
   info_publisher_ = node_.advertise<SessionInfo>(names::kSessionInfo, 1, true);
@@ -314,7 +314,8 @@ void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>&
   recording_->results.report().addFluoroscopyFrame();
   if (scene_.record.x_ray_frames)
     recording_->bag.write(node_.resolveName(names::kFluoroscopyImage), event);
-  if (settings_.picture_interval > 0 && recording_->frames++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
+  if (settings_.picture_interval > 0 &&
+      recording_->frames++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
     savePicture(event.getMessage());
 }
 
@@ -485,8 +486,8 @@ void SessionRecorder::update()
   try
   {
     // The last steps of the previous run may arrive after the announcement.
-    const bool is_complete = next_ && (run_ == 0 || recording_->results.report().lastStep() >= next_->previous_steps ||
-                                       durationIsOver());
+    const bool is_complete =
+        next_ && (run_ == 0 || recording_->results.report().lastStep() >= next_->previous_steps || durationIsOver());
     if (is_complete || (next_ && (ros::SteadyTime::now() - next_since_).toSec() > kLongestSettling))
       beginRun();
   }

@@ -109,10 +109,10 @@ private:
   RecorderSettings settings_;
   SessionInfo info_;
   std::unique_ptr<Recording> recording_;
-  std::uint32_t run_ = 0;         ///< run of the recording; 0 before the first message about it
-  std::uint64_t handled_ = 0;     ///< number of steps, up to the last one that has arrived
-  SimulationRunConstPtr next_;    ///< run that is to be recorded; null without one
-  ros::SteadyTime next_since_;    ///< arrival of next_
+  std::uint32_t run_ = 0;       ///< run of the recording; 0 before the first message about it
+  std::uint64_t handled_ = 0;   ///< number of steps, up to the last one that has arrived
+  SimulationRunConstPtr next_;  ///< run that is to be recorded; null without one
+  ros::SteadyTime next_since_;  ///< arrival of next_
   /** Messages that begin every recording, by their topic and publisher. */
   std::map<std::string, std::function<void(Recording&)>> latched_;
   bool info_published_ = false;

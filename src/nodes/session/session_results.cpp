@@ -80,8 +80,7 @@ void SessionResults::add(const DriveApplied& drive)
 {
   // Simulated time says nothing about the elapsed one.
   const double now = ros::Time::isSimTime() ? ros::WallTime::now().toSec() : drive.header.stamp.toSec();
-  report_.addStep(drive.step, now, drive.first_stale_pass != contact::kNoStalePass,
-                  drive.state_hash);
+  report_.addStep(drive.step, now, drive.first_stale_pass != contact::kNoStalePass, drive.state_hash);
   const std::size_t hands = std::min(drive.hand_force.size(), drive.hand_torque.size());
   for (std::size_t k = 0; k < hands; ++k)
     report_.addHand(drive.hand_force[k], drive.hand_torque[k]);

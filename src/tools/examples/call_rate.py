@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures calls of simulation/step per second, by the number of steps per call. Start, in two terminals:
 
-    roslaunch endovascular_sim sim.launch pace:=stepped scene:=SCENE.yaml
+    roslaunch endovascular_sim sim.launch pace:=stepped scene:=$(rospack find endovascular_sim)/config/scenes/fork.yaml
     rosrun endovascular_sim call_rate.py
 """
 import argparse

@@ -1,7 +1,7 @@
 // Pushes an instrument until the wall resists with a force, and holds that force, by velocities in real time. Start, in
 // two terminals:
 //
-//     roslaunch endovascular_sim sim.launch overrides:="drive.source=topic haptic_device=false"
+//     roslaunch endovascular_sim sim.launch scene:=$(rospack find endovascular_sim)/config/scenes/fork.yaml
 //     rosrun endovascular_sim push_to_force _force:=0.1
 
 #include <algorithm>
@@ -28,7 +28,7 @@ int main(int argc, char** argv)
   ros::NodeHandle node;
   ros::NodeHandle parameters("~");
   const std::string topic = "instruments/" + parameters.param<std::string>("instrument", "guidewire") + "/";
-  const double wanted = parameters.param("force", 0.1);     // [N]
+  const double wanted = parameters.param("force", 0.1);      // [N]
   const double longest = parameters.param("seconds", 60.0);  // until the force is reached [s]
 
   double force = NAN;  // not a number before the first measurement

@@ -2,7 +2,7 @@
 """Pushes an instrument until the wall resists with a force, and holds that force, by velocities in real time. Start, in two
 terminals:
 
-    roslaunch endovascular_sim sim.launch overrides:="drive.source=topic haptic_device=false"
+    roslaunch endovascular_sim sim.launch scene:=$(rospack find endovascular_sim)/config/scenes/fork.yaml
     rosrun endovascular_sim push_to_force.py --force 0.1
 """
 import argparse

@@ -2,8 +2,8 @@
 """Steers a wire into a branch of the vessel: pushes, and where it enters another branch, pulls back, turns and tries again.
 This program is the clock of the simulation. Start, in two terminals:
 
-    roslaunch endovascular_sim sim.launch pace:=stepped overrides:="drive.source=topic haptic_device=false"
-    rosrun endovascular_sim steer_into_branch.py --branch left_common_carotid
+    roslaunch endovascular_sim sim.launch pace:=stepped scene:=$(rospack find endovascular_sim)/config/scenes/fork.yaml
+    rosrun endovascular_sim steer_into_branch.py --branch right
 """
 import argparse
 import sys
@@ -14,8 +14,9 @@ from endovascular_sim.srv import StepSimulation
 from sensor_msgs.msg import JointState
 
 STEPS = 20  # of one call: the wire is observed every 20 ms
-SPEED = 0.06  # of push and withdrawal [m/s]
+SPEED = 0.03  # of push and withdrawal [m/s]
 TURN = 1.0  # between two attempts [rad]
+DEPTH = 0.01  # in a wrong branch from which it is left [m]
 
 
 class Wire:
@@ -49,29 +50,26 @@ class Wire:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--instrument", default="guidewire")
-    parser.add_argument("--branch", default="left_common_carotid", help="goal")
-    parser.add_argument("--parent", default="aortic_arch", help="branch from which the goal leaves")
+    parser.add_argument("--branch", default="right", help="goal")
+    parser.add_argument("--parent", default="trunk", help="branch from which the goal leaves")
     parser.add_argument("--seconds", type=float, default=120.0, help="longest simulated time [s]")
     options = parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("steer_into_branch", anonymous=True)
     wire = Wire(options.instrument)
-    attempts, furthest, since = 1, wire.insertion, wire.time
-    passed_parent = False
+    attempts, begun, has_passed = 1, wire.time, False
     while wire.branch != options.branch:
         if wire.time > options.seconds:
             sys.exit("not in %s after %.0f s and %d attempts" % (options.branch, wire.time, attempts))
+        has_passed = has_passed or wire.branch == options.parent
+        if not has_passed or wire.branch == options.parent:
+            on_way = wire.insertion  # as far as the wire has been on its way
         wire.advance(SPEED)
-        passed_parent = passed_parent or wire.branch == options.parent
-        if wire.insertion > furthest + 1e-3:
-            furthest, since = wire.insertion, wire.time
-        is_wrong = passed_parent and wire.branch not in (options.parent, options.branch)
-        if is_wrong or wire.time > since + 1.0:  # in another branch, or stuck
+        if wire.insertion > on_way + DEPTH or wire.time > begun + 10.0:
             print("%6.2f s: in %s, attempt %d" % (wire.time, wire.branch, attempts))
-            begin = wire.insertion
-            while wire.insertion > 0.02 and (wire.branch != options.parent or wire.insertion > begin - 0.03):
+            while wire.insertion > max(0.02, on_way - 3 * DEPTH):
                 wire.advance(-SPEED)
             wire.turn(TURN)
-            attempts, furthest, since = attempts + 1, wire.insertion, wire.time
+            attempts, begun = attempts + 1, wire.time
     print("%6.2f s: reached %s with %.0f mm of wire, attempt %d" %
           (wire.time, options.branch, 1e3 * wire.insertion, attempts))
 

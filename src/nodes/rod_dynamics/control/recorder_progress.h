@@ -53,7 +53,7 @@ private:
 
   DirectCallbackQueue queue_;
   mutable std::mutex mutex_;
-  SessionProgress newest_;  ///< guarded
+  SessionProgress newest_;      ///< guarded
   ros::Subscriber subscriber_;  ///< last, so that it ends before the members that its callback uses
 };
 

@@ -29,9 +29,9 @@ public:
   void publish(std::uint64_t steps);
 
 private:
-  double time_step_;             ///< [s]
-  std::uint64_t period_;         ///< [steps]
-  ros::Publisher publisher_;     ///< invalid without simulated time
+  double time_step_;          ///< [s]
+  std::uint64_t period_;      ///< [steps]
+  ros::Publisher publisher_;  ///< invalid without simulated time
 };
 
 }  // namespace endovascular_sim::nodes

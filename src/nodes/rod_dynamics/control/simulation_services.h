@@ -22,7 +22,7 @@ public:
   struct Operations
   {
     std::function<std::string()> pause, resume, reset;
-    std::function<std::string(const std::string& file)> save_state, load_state;
+    std::function<std::string(const std::string&file)> save_state, load_state;
     /** Fills the response, also for a refusal. */
     std::function<void(const StepSimulation::Request&, StepSimulation::Response&)> step;
   };

@@ -123,11 +123,10 @@ std::string DriveCommands::giveOne(const std::string& client, const InstrumentCo
       return where + ": unknown command '" + command.command +
              "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, enable, disable, pause, resume, "
              "home and unhome";
-    const bool accepted =
-        kind ? control.command(client, drive::jointCommand(*kind, command.joints.name,
-                                                           valuesOf(command.joints, *kind))) ==
-                   drive::CommandVerdict::kAccepted
-             : control.stateCommand(client, command.command);
+    const bool accepted = kind ? control.command(client, drive::jointCommand(*kind, command.joints.name,
+                                                                             valuesOf(command.joints, *kind))) ==
+                                     drive::CommandVerdict::kAccepted
+                               : control.stateCommand(client, command.command);
     return accepted ? "" : where + ": " + command.instrument + ": " + control.lastRefusal();
   }
   catch (const InputError& error)

@@ -36,8 +36,7 @@ geometry_msgs::Pose tipPose(const simulation::Simulation& simulation, std::size_
 bool isOn(const simulation::Simulation& simulation, std::size_t instrument, const simulation::WallContact& contact)
 {
   const std::vector<double>& arc = simulation.discretisation().position;
-  const double inserted =
-      arc[static_cast<std::size_t>(contact.node)] - arc.back() + simulation.state().inserted_length;
+  const double inserted = arc[static_cast<std::size_t>(contact.node)] - arc.back() + simulation.state().inserted_length;
   for (auto k = static_cast<int>(instrument) + 1; k < simulation.instruments(); ++k)
     if (simulation.hand(k).insertion >= inserted)
       return false;

@@ -16,8 +16,8 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr int kJointQueue = 1;             ///< readers use the newest values only
-constexpr int kStateQueue = 10;            ///< a move may end soon after its begin
+constexpr int kJointQueue = 1;   ///< readers use the newest values only
+constexpr int kStateQueue = 10;  ///< a move may end soon after its begin
 constexpr auto kEnabled = "ENABLED";
 
 }  // namespace
