@@ -37,6 +37,8 @@ public:
   const std::string& bytes() const { return bytes_; }
   /** True if every byte has been read. */
   bool atEnd() const { return at_ == bytes_.size(); }
+  /** Skips the bytes that have not been read, the data of another reader. */
+  void skipRest() { at_ = bytes_.size(); }
 
   template <typename... Values>
   void operator()(Values&... values)

@@ -52,6 +52,9 @@ public:
   double goal() const { return mode_ == Mode::kMove ? move_.goal() : position_; }
   bool isMoving() const { return mode_ == Mode::kMove; }  ///< true during a move
 
+  /** Saves or loads all data that change. @throws ArchiveError for invalid ones */
+  void archive(Archive& archive);
+
 private:
   enum class Mode
   {

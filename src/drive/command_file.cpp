@@ -1,7 +1,5 @@
 #include "drive/command_file.h"
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -15,8 +13,6 @@ namespace endovascular_sim::drive
 {
 namespace
 {
-
-constexpr std::array<const char*, 6> kStateCommands = {"enable", "disable", "pause", "resume", "home", "unhome"};
 
 /** Fields of a row, without blanks at their ends. */
 std::vector<std::string> fieldsOf(const std::string& line)
@@ -61,7 +57,7 @@ TimedCommand commandOf(const Row& row, const std::vector<std::string>& fields)
   TimedCommand command{row.number(fields[0]), fields[1], fields[2], {}, row.line};
   for (std::size_t i = 3; i < fields.size(); ++i)
     command.values.push_back(row.number(fields[i]));
-  const bool is_state = std::find(kStateCommands.begin(), kStateCommands.end(), command.word) != kStateCommands.end();
+  const bool is_state = isStateCommand(command.word);
   if (is_state ? !command.values.empty() : command.values.empty() || command.values.size() > 3)
     row.reject(is_state ? "'" + command.word + "' has no values"
                         : "expected one to three values: insertion, rotation, pressure");

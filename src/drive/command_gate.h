@@ -5,6 +5,11 @@
 #include "drive/drive_limits.h"
 #include "drive/hand_motion.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::drive
 {
 
@@ -73,6 +78,9 @@ public:
 
   /** Simulated time since the last accepted command [s]; infinite before the first. */
   double silence() const;
+
+  /** Saves or loads all data that change, without the numbers of rejections. @throws ArchiveError for invalid ones */
+  void archive(Archive& archive);
 
 private:
   bool isNear(const HandMotion& command) const;

@@ -327,6 +327,17 @@ const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
   return setpoint_;
 }
 
+void HandControl::restAt(const HandMotion& position, std::optional<double> pressure)
+{
+  endMove();
+  setpoint_ = {position, pressure};
+  insertion_.follow(position.insertion);
+  rotation_.follow(position.rotation);
+  gate_.follow(position, 0.0);
+  mode_ = Mode::kRate;
+  driver_.clear();
+}
+
 HandMotion HandControl::goal() const
 {
   return mode_ == Mode::kStream ? gate_.target() : HandMotion{insertion_.goal(), rotation_.goal()};

@@ -72,6 +72,15 @@ public:
   RejectedCommands rejected() const;
   double silence() const;  ///< simulated time since the last accepted command [s]; infinite before the first
 
+  /** Rests at a position, without a driver, as after a pause of all clients.
+   *  @param pressure empty: that of the scene [Pa] */
+  void restAt(const HandMotion& position, std::optional<double> pressure);
+
+  /** Saves or loads all data on which the further motion depends: commands, state and their ages, but not the driver,
+   *  who may have left, nor the numbers of commands.
+   *  @throws ArchiveError for invalid data */
+  void archive(Archive& archive);
+
 private:
   enum class Mode
   {

@@ -63,6 +63,12 @@ std::optional<CommandKind> commandKind(const std::string& name)
   return std::nullopt;
 }
 
+bool isStateCommand(const std::string& name)
+{
+  constexpr std::array<const char*, 6> kNames = {"enable", "disable", "pause", "resume", "home", "unhome"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
 std::optional<JointCommand> jointCommand(CommandKind kind, const std::vector<std::string>& names,
                                          const std::vector<double>& values)
 {

@@ -24,6 +24,9 @@ const char* nameOf(CommandKind kind);
 /** Kind with a CRTK name; none for another text. */
 std::optional<CommandKind> commandKind(const std::string& name);
 
+/** True for enable, disable, pause, resume, home and unhome. */
+bool isStateCommand(const std::string& name);
+
 // Names of the joints of an instrument.
 constexpr auto kInsertionJoint = "insertion";
 constexpr auto kRotationJoint = "rotation";

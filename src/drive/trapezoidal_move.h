@@ -1,5 +1,10 @@
 #pragma once
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::drive
 {
 
@@ -25,6 +30,9 @@ public:
 
   double goal() const { return goal_; }
   double duration() const { return ramp_ + cruise_ + braking_; }  ///< [s]
+
+  /** Saves or loads the move. @throws ArchiveError for numbers that are not finite */
+  void archive(Archive& archive);
 
 private:
   double start_;

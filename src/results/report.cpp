@@ -91,7 +91,7 @@ void SessionReport::addStep(std::uint64_t step, double wall_time, bool stale, st
   {
     first_step_ = step;
     first_wall_time_ = wall_time;
-    missed_steps_ = step;  // a recording starts with step 0
+    missed_steps_ = step - std::min(step, expected_first_);
   }
   else if (step <= last_step_)
   {

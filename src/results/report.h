@@ -67,6 +67,9 @@ public:
   void setMeshHash(std::uint64_t mesh_hash) { identity_.mesh_hash = mesh_hash; }
   const SessionIdentity& identity() const { return identity_; }
 
+  /** Sets the first step that the session should hold, by default 0. */
+  void setFirstStep(std::uint64_t step) { expected_first_ = step; }
+
   /** Adds a step of the simulation.
    *  @param step index of the step, from 0
    *  @param wall_time end of the step on any steady clock [s]
@@ -114,6 +117,7 @@ public:
 private:
   SessionIdentity identity_;
   std::uint64_t steps_ = 0;
+  std::uint64_t expected_first_ = 0;
   std::uint64_t first_step_ = 0;
   std::uint64_t last_step_ = 0;
   std::uint64_t missed_steps_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/archive.h"
 #include "common/error.h"
 #include "scene/schema/scene_schema.h"
 
@@ -13,29 +14,27 @@ namespace
 
 constexpr double kSameTime = 1e-9;  ///< tolerance of the time of a command [s]
 
-/** Index of an instrument that clients drive. */
-std::size_t commandedInstrument(const scene::Scene& scene, const std::string& file, const drive::TimedCommand& command)
+}  // namespace
+
+std::size_t commandedInstrument(const scene::Scene& scene, const std::string& name, const std::string& file,
+                                const std::string& where)
 {
-  const std::string where = "line " + std::to_string(command.line);
-  const auto found = std::find_if(scene.instruments.begin(), scene.instruments.end(),
-                                  [&command](const scene::DrivenInstrument& driven)
-                                  { return driven.instrument.name == command.instrument; });
+  const auto found =
+      std::find_if(scene.instruments.begin(), scene.instruments.end(),
+                   [&name](const scene::DrivenInstrument& driven) { return driven.instrument.name == name; });
   if (found == scene.instruments.end())
   {
     std::string names;
     for (const scene::DrivenInstrument& driven : scene.instruments)
       names += (names.empty() ? "" : ", ") + driven.instrument.name;
-    throw InputError(file, where, "the scene has no instrument '" + command.instrument + "'; it has " + names);
+    throw InputError(file, where, "the scene has no instrument '" + name + "'; it has " + names);
   }
   const auto k = static_cast<std::size_t>(found - scene.instruments.begin());
   if (!isCommanded(*found))
-    throw InputError(
-        file, where,
-        "no command drives '" + command.instrument + "'; set " + scene::drivePath(scene, k) + "drive.source=topic");
+    throw InputError(file, where,
+                     "no command drives '" + name + "'; set " + scene::drivePath(scene, k) + "drive.source=topic");
   return k;
 }
-
-}  // namespace
 
 bool isCommanded(const scene::DrivenInstrument& driven)
 {
@@ -62,6 +61,26 @@ drive::HandControl* DrivenHands::control(std::size_t instrument)
 const drive::HandControl* DrivenHands::control(std::size_t instrument) const
 {
   return controls_[instrument] ? &*controls_[instrument] : nullptr;
+}
+
+void DrivenHands::restAt(const Simulation& simulation)
+{
+  for (std::size_t k = 0; k < controls_.size(); ++k)
+  {
+    if (!controls_[k])
+      continue;
+    const HandState hand = simulation.hand(static_cast<int>(k));
+    controls_[k]->restAt(simulation.reached(static_cast<int>(k)), scene_.instruments[k].instrument.balloon
+                                                                      ? std::optional<double>(hand.pressure)
+                                                                      : std::nullopt);
+  }
+}
+
+void DrivenHands::archive(Archive& archive)
+{
+  for (std::optional<drive::HandControl>& control : controls_)
+    if (control)
+      archive(*control);
 }
 
 const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
@@ -96,7 +115,8 @@ CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
 {
   for (drive::TimedCommand& command : commands)
   {
-    const std::size_t instrument = commandedInstrument(scene, file, command);
+    const std::size_t instrument =
+        commandedInstrument(scene, command.instrument, file, "line " + std::to_string(command.line));
     entries_.push_back({std::move(command), instrument});
   }
 }
@@ -114,6 +134,13 @@ void CommandPlayer::play(double time, DrivenHands& hands)
     if (!accepted)
       refusals_.push_back(file_ + ": line " + std::to_string(command.line) + ": refused: " + control.lastRefusal());
   }
+}
+
+void CommandPlayer::startFrom(double time)
+{
+  const auto first = std::find_if(entries_.begin(), entries_.end(),
+                                  [time](const Entry& entry) { return entry.command.time >= time - kSameTime; });
+  next_ = static_cast<std::size_t>(first - entries_.begin());
 }
 
 }  // namespace endovascular_sim::simulation

@@ -9,11 +9,22 @@
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
+namespace endovascular_sim
+{
+class Archive;
+}
+
 namespace endovascular_sim::simulation
 {
 
 /** True for an instrument that clients drive: a robot, a haptic device, or a file of commands. */
 bool isCommanded(const scene::DrivenInstrument& driven);
+
+/** Index of the instrument with a name.
+ *  @param file, where name the origin of the command in errors
+ *  @throws InputError when the scene has no such instrument, or no client drives it */
+std::size_t commandedInstrument(const scene::Scene& scene, const std::string& name, const std::string& file,
+                                const std::string& where);
 
 /** Commands of every step to the instruments of a scene, each from its drive: the control of an instrument that clients
  *  drive (drive::HandControl), the scripted operator, or the profile in the scene. The nodes and `simulate` run this
@@ -33,6 +44,12 @@ public:
   const std::vector<HandCommand>& next(const Simulation& simulation,
                                        const std::vector<HandCommand>* scripted = nullptr);
 
+  /** Holds all instruments that clients drive where they are. */
+  void restAt(const Simulation& simulation);
+
+  /** Saves or loads all controls. @throws ArchiveError for invalid data */
+  void archive(Archive& archive);
+
 private:
   const scene::Scene& scene_;
   std::vector<std::optional<drive::HandControl>> controls_;  ///< one per instrument
@@ -51,6 +68,9 @@ public:
   /** Gives the commands that are due.
    *  @param time simulated time at the beginning of the coming step [s] */
   void play(double time, DrivenHands& hands);
+
+  /** Leaves out the commands before a time, and gives the later ones (again) [s]. */
+  void startFrom(double time);
 
   /** Refusals so far, each with file and line. */
   const std::vector<std::string>& refusals() const { return refusals_; }

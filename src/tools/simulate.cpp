@@ -261,6 +261,8 @@ std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
   {
     if (session != nullptr)
       session->archive(archive);
+    if (archive.reading())
+      archive.skipRest();  // the drives of a state that rod_dynamics has saved
   };
 }
 

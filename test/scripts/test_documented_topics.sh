@@ -13,7 +13,7 @@ import xmlrpc.client
 folder, repository = sys.argv[1:]
 OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
 ONLY_IN_RECORDINGS = {"session/end"}
-FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|fluoroscopy)"
+FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy)"
 
 
 def text(name):

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <boost/make_shared.hpp>
+
 #include "common/error.h"
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/conversions/contact_conversions.h"
@@ -17,6 +19,7 @@ namespace
 
 constexpr int kQueue = 4;
 constexpr int kDisplacementQueue = 1000;  ///< none may be lost
+constexpr int kVesselPatience = 5;        ///< wait for the vessel of a connected vessel server [s]
 
 }  // namespace
 
@@ -33,7 +36,21 @@ ContactNode::ContactNode(const ros::NodeHandle& node, const scene::Scene& scene,
   subscribe();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("contact", this, &ContactNode::diagnose);
-  timer_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  timer_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTimer(); });
+}
+
+void ContactNode::onTimer()
+{
+  // By the steady clock: simulated time may stand still.
+  diagnostics_.force_update();
+  // roscpp can lose a latched message to a subscriber that connects while it is published.
+  const bool is_missing = !detector_ && vessel_subscriber_.getNumPublishers() > 0;
+  seconds_without_vessel_ = is_missing ? seconds_without_vessel_ + 1 : 0;
+  GetVessel vessel;
+  if (seconds_without_vessel_ <= kVesselPatience || !ros::service::call(node_.resolveName(names::kGetVessel), vessel))
+    return;
+  ROS_WARN("the vessel has not arrived as a message; using that of the service");
+  receiveVessel(boost::make_shared<VesselMesh>(vessel.response.mesh));
 }
 
 void ContactNode::subscribe()

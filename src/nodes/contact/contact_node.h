@@ -36,6 +36,7 @@ public:
       std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
 
 private:
+  void onTimer();
   void subscribe();
   void receiveVessel(const VesselMeshConstPtr& message);
   void receiveDisplacement(const WallDisplacementConstPtr& message);
@@ -53,6 +54,7 @@ private:
   std::unique_ptr<contact::Detector> detector_;   ///< null before the first vessel
   std::deque<WallDisplacementConstPtr> pending_;  ///< displacements that no rod state has requested yet
   RodStateConstPtr deferred_;                     ///< rod state that waits for its version of the wall
+  int seconds_without_vessel_ = 0;                ///< with a connected vessel server [s]
   contact::Query query_;
   StampedContactSet response_;
   // Counters for /diagnostics, which another thread publishes.

@@ -30,7 +30,8 @@ ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene:
     map_period_(periodInSteps(kMapRate, time_step_)),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / time_step_))),
     samples_(node, scene),
-    map_(scene.record.wall_force_threshold, vessel),
+    empty_map_(scene.record.wall_force_threshold, vessel),
+    map_(empty_map_),
     forces_publisher_(node.advertise<ContactForces>(names::kContactForces, 2)),
     map_publisher_(node.advertise<ContactForceMap>(names::kContactForceMap, 1, true))
 {
@@ -38,25 +39,25 @@ ContactForcePublisher::ContactForcePublisher(ros::NodeHandle& node, const scene:
   map_message_.content_hash = content_hash;
 }
 
-void ContactForcePublisher::publishStep(const simulation::Simulation& simulation, bool counted)
+void ContactForcePublisher::publishStep(const simulation::Simulation& simulation, bool counted, ros::Time now)
 {
   simulation::wallContacts(simulation, contacts_);
   if (counted)
   {
     results::addStep(map_, simulation, contacts_, time_step_);
-    samples_.publishStep(simulation, contacts_);
+    samples_.publishStep(simulation, contacts_, now);
   }
   if (simulation.steps() % forces_period_ == 0 && forces_publisher_.getNumSubscribers() > 0)
-    publishForces(simulation);
+    publishForces(simulation, now);
   // Always published at the scene's last step: a session that ends there would miss the next map.
   if (simulation.steps() == last_step_ ||
       (simulation.steps() % map_period_ == 0 && map_publisher_.getNumSubscribers() > 0))
-    publishMap(simulation);
+    publishMap(simulation, now);
 }
 
-void ContactForcePublisher::publishForces(const simulation::Simulation& simulation)
+void ContactForcePublisher::publishForces(const simulation::Simulation& simulation, ros::Time now)
 {
-  forces_message_.header.stamp = ros::Time::now();
+  forces_message_.header.stamp = now;
   forces_message_.step = simulation.steps() - 1;
   forces_message_.contacts.clear();
   for (const simulation::WallContact& contact : contacts_)
@@ -72,12 +73,18 @@ void ContactForcePublisher::publishForces(const simulation::Simulation& simulati
   forces_publisher_.publish(forces_message_);
 }
 
-void ContactForcePublisher::publishMap(const simulation::Simulation& simulation)
+void ContactForcePublisher::publishMap(const simulation::Simulation& simulation, ros::Time now)
 {
-  map_message_.header.stamp = ros::Time::now();
+  map_message_.header.stamp = now;
   map_message_.step = simulation.steps() > 0 ? simulation.steps() - 1 : 0;
   toMessage(map_.summary(), map_.touched(), map_message_);
   map_publisher_.publish(map_message_);
+}
+
+void ContactForcePublisher::reset()
+{
+  map_ = empty_map_;
+  samples_.reset();
 }
 
 }  // namespace endovascular_sim::nodes

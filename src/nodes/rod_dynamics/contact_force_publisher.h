@@ -25,20 +25,24 @@ public:
   /** Adds a step to the map and to the samples of the session, and publishes at the rates of the topics. Call it after
    *  every step.
    *  @param counted false after the end of the procedure: map and samples stay those of its end */
-  void publishStep(const simulation::Simulation& simulation, bool counted);
+  void publishStep(const simulation::Simulation& simulation, bool counted, ros::Time now);
 
   /** Reports whether the samples of the session have a subscriber. */
   bool isSampled() const { return samples_.hasSubscriber(); }
 
   /** Publishes the current map, also without a subscriber: the topic is latched. */
-  void publishMap(const simulation::Simulation& simulation);
+  void publishMap(const simulation::Simulation& simulation, ros::Time now);
+
+  /** Begins a new run: the sums start at zero. */
+  void reset();
 
 private:
-  void publishForces(const simulation::Simulation& simulation);
+  void publishForces(const simulation::Simulation& simulation, ros::Time now);
 
   double time_step_;                                      ///< duration of a step [s]
   std::uint64_t forces_period_, map_period_, last_step_;  ///< [steps]
   SamplePublisher samples_;
+  results::WallForceMap empty_map_;  ///< map of a new run
   results::WallForceMap map_;
   std::vector<simulation::WallContact> contacts_;
   ros::Publisher forces_publisher_, map_publisher_;

@@ -10,21 +10,37 @@ namespace endovascular_sim::nodes
 ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scene, const vessel::CentrelineTree& tree,
                                  const Eigen::Vector3d& entry)
   : last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step))),
-    operator_(scene, tree, entry),
+    beginning_(scene, tree, entry),
+    operator_(beginning_),
     publisher_(node.advertise<ProcedureStep>(names::kProcedureStep, 100, true))
 {
 }
 
-const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation)
+const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation,
+                                                                  ros::Time now)
 {
   const std::vector<simulation::HandCommand>& commands = operator_.next(simulation);
-  publishProgress(simulation);
+  publishProgress(simulation, now);
   return commands;
+}
+
+void ProcedureDriver::reset()
+{
+  operator_ = beginning_;
+  published_ = ProcedureStep();
+  is_complete_ = false;
+}
+
+void ProcedureDriver::archive(Archive& archive)
+{
+  operator_.archive(archive);
+  published_ = ProcedureStep();
+  is_complete_ = false;
 }
 
 /** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
  * step the newest record is published in any case, with the time of its last observation. */
-void ProcedureDriver::publishProgress(const simulation::Simulation& simulation)
+void ProcedureDriver::publishProgress(const simulation::Simulation& simulation, ros::Time now)
 {
   const std::vector<procedure::StepRecord>& records = operator_.records();
   const std::size_t newest = published_.begun == 0 ? 0 : published_.begun - 1;
@@ -35,17 +51,17 @@ void ProcedureDriver::publishProgress(const simulation::Simulation& simulation)
                             static_cast<std::uint32_t>(records[k].retries) != published_.new_tries ||
                             static_cast<std::uint32_t>(records[k].wrong_branches) != published_.wrong_branches;
     if (is_new || is_changed || simulation.steps() + 1 == last_step_)
-      publish(k, simulation);
+      publish(k, simulation, now);
     if (is_new)
       ROS_INFO("procedure step %zu: %s", k + 1, records[k].name.c_str());
   }
 }
 
-void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& simulation)
+void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& simulation, ros::Time now)
 {
   const bool was_over = !published_.failure.empty() || is_complete_;
   const procedure::StepRecord& step = operator_.records()[record];
-  published_.header.stamp = ros::Time::now();
+  published_.header.stamp = now;
   published_.step = simulation.steps();
   published_.time = step.end;
   published_.begun = static_cast<std::uint32_t>(record + 1);

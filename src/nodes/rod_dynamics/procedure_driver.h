@@ -20,16 +20,23 @@ public:
                   const Eigen::Vector3d& entry);
 
   /** Commands of the coming step, one per instrument. */
-  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
+  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation, ros::Time now);
+
+  /** Begins the procedure again. */
+  void reset();
+
+  /** Saves or loads the operator; all of its records are published again. */
+  void archive(Archive& archive);
 
   /** True if the procedure is complete or has failed. */
   bool isOver() const { return operator_.progress() != procedure::Progress::kRunning; }
 
 private:
-  void publishProgress(const simulation::Simulation& simulation);
-  void publish(std::size_t record, const simulation::Simulation& simulation);
+  void publishProgress(const simulation::Simulation& simulation, ros::Time now);
+  void publish(std::size_t record, const simulation::Simulation& simulation, ros::Time now);
 
-  std::uint64_t last_step_;  ///< last step of the scene's duration
+  std::uint64_t last_step_;        ///< last step of the scene's duration
+  procedure::Operator beginning_;  ///< operator before the first step
   procedure::Operator operator_;
   ros::Publisher publisher_;
   ProcedureStep published_;   ///< last published progress

@@ -1,11 +1,13 @@
 #include "nodes/rod_dynamics/remote_contact_source.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <boost/make_shared.hpp>
 
 #include "contact/contract/contact_set_validation.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -15,6 +17,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 constexpr int kQueue = 4;
+constexpr double kRepeat = 0.2;  ///< interval of a query without a response, which a restarted node may have missed [s]
 
 }  // namespace
 
@@ -80,6 +83,18 @@ void RemoteContactSource::ask(const contact::Query& query, double wanted_free_di
   publish();
 }
 
+/** Waits for the response to the last query. A long wait repeats the query. */
+bool RemoteContactSource::waitForResponse(double seconds)
+{
+  for (; seconds > kRepeat && ros::ok() && !isStopRequested(); seconds -= kRepeat)
+  {
+    if (waitForAnswer(kRepeat))
+      return true;
+    publish();
+  }
+  return waitForAnswer(std::min(seconds, kRepeat));
+}
+
 bool RemoteContactSource::waitForAnswer(double seconds)
 {
   std::unique_lock<std::mutex> lock(mutex_);
@@ -99,7 +114,7 @@ void RemoteContactSource::freeDistances(const contact::Query& query, double want
 void RemoteContactSource::request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set)
 {
   ask(query, wanted_free_distance);
-  if (waitForAnswer(timeout_.next()))
+  if (waitForResponse(timeout_.next()))
   {
     timeout_.received();
     const std::lock_guard<std::mutex> lock(mutex_);

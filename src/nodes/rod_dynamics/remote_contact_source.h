@@ -48,6 +48,7 @@ public:
 private:
   boost::shared_ptr<StampedContactSet> emptyMessage();
   void receive(const boost::shared_ptr<StampedContactSet>& message);
+  bool waitForResponse(double seconds);
   bool waitForAnswer(double seconds);
   void ask(const contact::Query& query, double wanted_free_distance);
   void request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set);

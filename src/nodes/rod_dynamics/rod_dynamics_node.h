@@ -1,40 +1,39 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include <ros/ros.h>
 
-#include "nodes/rod_dynamics/contact_force_publisher.h"
-#include "nodes/rod_dynamics/instruments/drive_commands.h"
-#include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
-#include "nodes/rod_dynamics/instruments/instrument_publisher.h"
-#include "nodes/rod_dynamics/procedure_driver.h"
-#include "nodes/rod_dynamics/remote_contact_source.h"
-#include "nodes/rod_dynamics/remote_deformable_wall.h"
-#include "nodes/rod_dynamics/rod_publisher.h"
-#include "nodes/rod_dynamics/rt_throttle_guard.h"
-#include "nodes/rod_dynamics/step_scheduler.h"
+#include "nodes/rod_dynamics/control/pace.h"
+#include "nodes/rod_dynamics/control/recorder_progress.h"
+#include "nodes/rod_dynamics/control/rt_throttle_guard.h"
+#include "nodes/rod_dynamics/control/simulation_services.h"
+#include "nodes/rod_dynamics/control/step_observer.h"
+#include "nodes/rod_dynamics/control/step_scheduler.h"
+#include "nodes/rod_dynamics/graph_simulation.h"
 #include "nodes/rod_dynamics/step_statistics.h"
-#include "nodes/rod_dynamics/vessel_server_monitor.h"
 #include "nodes/runtime/real_time.h"
-#include "simulation/simulation.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** ROS node of the rod: one simulation step per slot of the steady clock, in lock-step with the contact node.
+/** ROS node of the rod: takes the steps of the simulation at a pace, in lock-step with the contact node.
  *
- *  A late step starts at once, and the slots keep their times: the simulation catches up. Without a response of the
- *  contact node, steps use the stale contact set. After the parameter `pause_after` the simulation pauses and the
- *  rendered force ramps to zero. It continues, with new slots, at the next response. The node ends when vessel_server
- *  ends, because the deformed wall is lost with it. */
+ *  In real time a step begins with each slot of the steady clock. A late step starts at once, and the slots keep their
+ *  times: the simulation catches up. Without a response of the contact node, steps use the stale contact set. After the
+ *  parameter `pause_after` the simulation pauses and continues, with new slots, at the next response. In the other
+ *  paces the steps follow each other, or the calls of simulation/step; they wait for the contact node, and for the
+ *  recorder if it lags behind. Whenever no step is taken, the rendered force ramps to zero. The node ends when
+ *  vessel_server ends, because the deformed wall is lost with it. */
 class RodDynamicsNode
 {
 public:
   /** @param parameters handle of the private parameters
-   *  @param request requests the scheduling of the process; called after set-up */
+   *  @param request requests the scheduling of the process; called after set-up, in real time only */
   RodDynamicsNode(
       const ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene,
       std::function<SchedulingGrant()> request = [] { return SchedulingGrant(); });
@@ -46,34 +45,61 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  bool makeSimulation();
-  bool waitForVessel(scene::EntryPose& entry, vessel::Vessel& vessel);
+  SimulationServices::Operations operations();
+  void requestScheduling();
   void waitForRecorder() const;
-  void runSteps(std::uint64_t last_step);
-  void step();
+  void runSteps();
+  void step(StepScheduler& scheduler, Clock::time_point awake);
   bool isOver();
+  bool isAtEnd() const { return simulation_.simulation().steps() >= last_step_; }
+
+  // Times without a step.
+  std::string obstacle();
   bool isContactLost() const;
-  void pause();
+  bool isContactMissing();
+  bool isRecorderBehind();
+  void hold(const std::string& reason);
+  void beginHold(double patience);
+  void announceHold(const std::string& reason);
+  void release();
+  void publishHeld();
+
+  // Services.
+  std::string pauseByClient();
+  std::string resumeByClient();
+  std::string reset();
+  std::string saveState(const std::string& file);
+  std::string loadState(const std::string& file);
+  void stepByClient(const StepSimulation::Request& request, StepSimulation::Response& response);
+  std::string refusalOf(const StepSimulation::Request& request) const;
+  std::string takeSteps(std::uint32_t steps);
+  std::string waitForClearance();
+  void announceRun(const std::string& state, std::uint64_t previous_steps);
+  std::string beginRun(const std::string& state, std::uint64_t previous_steps);
 
   ros::NodeHandle node_;
   ros::NodeHandle parameters_;
-  scene::Scene scene_;
   std::function<SchedulingGrant()> request_;
   SchedulingGrant grant_;
-  double pause_after_;                             ///< silence of the contact node that causes a pause [s]
-  double seconds_;                                 ///< simulated time until the end; 0: no end [s]
-  std::unique_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
-  std::unique_ptr<VesselServerMonitor> server_;    ///< null without a vessel
-  std::unique_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
-  std::unique_ptr<simulation::Simulation> simulation_;
-  std::unique_ptr<ProcedureDriver> procedure_;  ///< null without a procedure in the scene
-  RodPublisher publisher_;
+  Pace pace_;
+  double pause_after_;           ///< silence of the contact node that causes a pause in real time [s]
+  double seconds_;               ///< simulated time until the end; 0: no end [s]
+  std::uint64_t last_step_ = 0;  ///< number of steps until the end
+  GraphSimulation simulation_;
   RtThrottleGuard throttle_guard_;
-  std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
-  DriveCommands drives_;
-  InstrumentPublisher instruments_;
-  HandForceRenderer renderer_;
   StepStatistics statistics_;
+  RecorderProgress recorder_;
+  ros::Publisher run_publisher_;
+  std::uint32_t run_ = 0;         ///< number of the run
+  bool is_paused_ = false;        ///< by a client
+  bool is_held_ = false;          ///< true while no step is taken
+  bool is_faded_ = false;         ///< true when forces have been faded since the last step
+  std::string held_reason_;       ///< announced reason of the hold; empty while waiting for calls
+  bool is_listening_ = false;     ///< for a response of the contact node
+  Clock::time_point held_since_;  ///< begin of the forces' ramp to zero
+  Clock::time_point next_held_;   ///< time of the next publication while held
+  std::unique_ptr<StepObserver> observer_;
+  std::unique_ptr<SimulationServices> services_;  ///< last, so that it ends before the members that it uses
 };
 
 }  // namespace endovascular_sim::nodes

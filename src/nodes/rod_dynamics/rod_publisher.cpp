@@ -16,18 +16,19 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
-constexpr int kStepQueue = 10000;     ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
-constexpr int kTreatmentQueue = 100;  ///< the recorder must not lose an event
+constexpr double kVisualRate = 60.0;   ///< rate of the data for display [Hz]
+constexpr int kStepQueue = 10000;      ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
+constexpr int kVisualQueue = 1000;     ///< data for display of as many steps
+constexpr int kTreatmentQueue = 1000;  ///< the recorder must not lose an event
 
 }  // namespace
 
-RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene)
+RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pace pace)
   : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step))))),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step)))
 {
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
-  visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, 2);
+  visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, pace == Pace::kRealTime ? 2 : kVisualQueue);
   if (simulation::hasBalloon(scene))
     treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
   applied_message_.insertion.resize(scene.instruments.size());

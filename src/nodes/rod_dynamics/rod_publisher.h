@@ -9,6 +9,7 @@
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
+#include "nodes/rod_dynamics/control/pace.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 #include "simulation/simulation.h"
 
@@ -19,11 +20,15 @@ namespace endovascular_sim::nodes
 class RodPublisher
 {
 public:
-  RodPublisher(ros::NodeHandle& node, const scene::Scene& scene);
+  /** @param pace in which every message must arrive, except in real time, where readers use the newest data */
+  RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pace pace);
 
   /** Publishes a step: used input, rendered forces and state hash; at its rate also the data for display.
    *  @param hands one per instrument */
   void publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands, ros::Time now);
+
+  /** Begins a new run. */
+  void reset() { treatment_message_ = TreatmentVisual(); }
 
   /** Reports whether drive/applied has a subscriber. */
   bool isRecorded() const { return applied_.getNumSubscribers() > 0; }

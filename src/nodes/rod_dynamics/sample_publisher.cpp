@@ -19,12 +19,12 @@ SamplePublisher::SamplePublisher(ros::NodeHandle& node, const scene::Scene& scen
 }
 
 void SamplePublisher::publishStep(const simulation::Simulation& simulation,
-                                  const std::vector<simulation::WallContact>& contacts)
+                                  const std::vector<simulation::WallContact>& contacts, ros::Time now)
 {
   if (!sampler_.addStep(scene_, simulation, contacts) || !hasSubscriber())
     return;
   toMessage(sampler_.sample(), message_);
-  message_.header.stamp = ros::Time::now();
+  message_.header.stamp = now;
   message_.step = simulation.steps() - 1;
   publisher_.publish(message_);
 }

@@ -20,7 +20,11 @@ public:
 
   /** Adds a step, and publishes at the first step of every sampling interval.
    *  @param contacts wall contacts of the step */
-  void publishStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts);
+  void publishStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts,
+                   ros::Time now);
+
+  /** Begins a new run. */
+  void reset() { sampler_ = results::SessionSampler(); }
 
   bool hasSubscriber() const { return publisher_.getNumSubscribers() > 0; }
 

@@ -26,6 +26,14 @@ void StepStatistics::addStep(const simulation::Simulation& simulation, const Ste
   total_step_ = total_step_ + seconds;
 }
 
+void StepStatistics::setHeld(const std::string& reason, bool is_fault)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pauses_ += is_fault && !reason.empty();
+  held_ = reason;
+  is_fault_ = is_fault;
+}
+
 void StepStatistics::setContactSets(std::uint64_t stale, std::uint64_t rejected)
 {
   stale_sets_ = stale;
@@ -37,8 +45,10 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
   const std::uint64_t steps = steps_;
   const std::uint64_t late = late_steps_;
   const double on_time = steps > 0 ? 100.0 * (1.0 - static_cast<double>(late) / static_cast<double>(steps)) : 100.0;
-  if (paused_)
-    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "paused: no response of the contact node");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!held_.empty())
+    status.summary(is_fault_ ? diagnostic_msgs::DiagnosticStatus::ERROR : diagnostic_msgs::DiagnosticStatus::WARN,
+                   "paused: " + held_);
   else if (is_rejecting_)
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
                    "the solver rejects steps: the wire is held, without force");

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
+#include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
@@ -32,8 +34,9 @@ public:
   /** Sets the totals of the contact source. */
   void setContactSets(std::uint64_t stale, std::uint64_t rejected);
 
-  void addPause() { ++pauses_; }
-  void setPaused(bool paused) { paused_ = paused; }
+  /** Sets the reason for which no step is taken at present; empty without one.
+   *  @param is_fault false for a wish of a client */
+  void setHeld(const std::string& reason, bool is_fault);
   void addDiscardedBacklog() { ++discarded_backlogs_; }
 
   void diagnose(const SchedulingGrant& grant, diagnostic_updater::DiagnosticStatusWrapper& status) const;
@@ -51,7 +54,9 @@ private:
   std::atomic<double> longest_step_{0.0};       ///< [s]
   std::atomic<double> worst_delay_{0.0};        ///< largest delay of a step's end behind its deadline [s]
   std::atomic<double> total_step_{0.0};         ///< sum of all step times [s]
-  std::atomic<bool> paused_{false};
+  mutable std::mutex mutex_;                    ///< guards the next two
+  std::string held_;                            ///< reason for which no step is taken; empty without one
+  bool is_fault_ = false;                       ///< of another node
 };
 
 }  // namespace endovascular_sim::nodes

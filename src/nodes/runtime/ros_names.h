@@ -42,6 +42,16 @@ constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionSample = "session/sample";
 constexpr auto kSessionEnd = "session/end";  ///< in recordings only
 constexpr auto kSessionStop = "session/stop";
+constexpr auto kSessionProgress = "session/progress";
+
+constexpr auto kClock = "/clock";
+constexpr auto kSimulationRun = "simulation/run";
+constexpr auto kSimulationPause = "simulation/pause";
+constexpr auto kSimulationResume = "simulation/resume";
+constexpr auto kSimulationReset = "simulation/reset";
+constexpr auto kSimulationSave = "simulation/save_state";
+constexpr auto kSimulationLoad = "simulation/load_state";
+constexpr auto kSimulationStep = "simulation/step";
 
 constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";
 constexpr auto kFluoroscopyImage = "fluoroscopy/image";

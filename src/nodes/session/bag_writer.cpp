@@ -223,4 +223,10 @@ std::string BagWriter::error() const
   return error_;
 }
 
+bool BagWriter::isHalfFull() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return queue_.size() > kQueueCapacity / 2;
+}
+
 }  // namespace endovascular_sim::nodes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -34,14 +35,22 @@ public:
   template <typename Message>
   void write(const std::string& topic, const ros::MessageEvent<Message const>& event)
   {
-    push([topic, event](rosbag::Bag& bag) { bag.write(topic, event); });
+    write(topic, event.getReceiptTime(), event);
+  }
+
+  /** Queues a received message with another time in the bag, e.g. a latched one of an earlier bag. Does not block. */
+  template <typename Message>
+  void write(const std::string& topic, ros::Time time, const ros::MessageEvent<Message const>& event)
+  {
+    push([topic, time, event](rosbag::Bag& bag)
+         { bag.write(topic, valid(time), *event.getConstMessage(), event.getConnectionHeaderPtr()); });
   }
 
   /** Queues a message of this process. Does not block. @param time time of the message in the bag */
   template <typename Message>
   void write(const std::string& topic, ros::Time time, const boost::shared_ptr<Message>& message)
   {
-    push([topic, time, message](rosbag::Bag& bag) { bag.write(topic, time, *message); });
+    push([topic, time, message](rosbag::Bag& bag) { bag.write(topic, valid(time), *message); });
   }
 
   /** Queues a message of this process on a latched topic. Does not block. */
@@ -56,7 +65,7 @@ public:
     (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
     (*header)["message_definition"] = ros::message_traits::definition<Message>();
     const ros::Time now = ros::Time::now();
-    push([topic, copy, header, now](rosbag::Bag& bag) { bag.write(topic, now, *copy, header); });
+    push([topic, copy, header, now](rosbag::Bag& bag) { bag.write(topic, valid(now), *copy, header); });
   }
 
   /** Queues other work of the thread, for example an image to write; it does not count as a message. */
@@ -70,8 +79,12 @@ public:
   std::uint64_t messages() const;  ///< number of messages written
   std::uint64_t dropped() const;   ///< number of messages dropped, for whatever reason
   std::string error() const;       ///< reason of an early end; empty without one
+  bool isHalfFull() const;         ///< true while the queue holds more than half of its capacity
 
 private:
+  /** Simulated time begins at 0, which no bag may hold. */
+  static ros::Time valid(ros::Time time) { return std::max(time, ros::TIME_MIN); }
+
   using Work = std::function<void(rosbag::Bag&)>;
   struct Item
   {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "common/archive.h"
 #include "common/error.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
@@ -52,6 +54,17 @@ RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::s
     contacts_ = std::make_unique<simulation::ReplayContactSource>(*detector_);
   }
   simulation_.emplace(scene_, entry_, contacts_.get(), &vessel_.centreline, wall_.get());
+  if (!recording.state.empty())
+    loadState(recording);
+}
+
+/** @throws InputError when the state is damaged, or of another version */
+void RecordedSimulation::loadState(const SessionBag& recording)
+{
+  std::istringstream stream(recording.state);
+  // The commands are those of the recording: the states of operator and drives are not needed.
+  simulation_->load(stream, recording.mesh ? recording.mesh->content_hash : 0, file_ + ": " + names::kSimulationRun,
+                    [](Archive& archive) { archive.skipRest(); });
 }
 
 void RecordedSimulation::setCommands(const DriveApplied& applied)
@@ -89,6 +102,7 @@ ReplayOutcome replay(const SessionBag& recording, RecordedSimulation& session, b
   const simulation::Simulation& simulation = session.simulation();
   ReplayOutcome outcome;
   outcome.steps = std::max(recording.recorded_steps.value_or(0), recording.steps.rbegin()->first + 1);
+  outcome.steps -= std::min(outcome.steps, recording.first_step);
   outcome.incomplete = incompleteness(recording);
   for (const auto& [step, applied] : recording.steps)
   {

@@ -38,6 +38,7 @@ public:
 
 private:
   void setCommands(const DriveApplied& applied);
+  void loadState(const SessionBag& recording);
 
   std::string file_;
   scene::Scene scene_;
@@ -53,7 +54,7 @@ private:
 /** Comparison of a recorded session with its simulation. */
 struct ReplayOutcome
 {
-  std::uint64_t compared = 0;                    ///< number of steps compared, from step 0
+  std::uint64_t compared = 0;                    ///< number of steps compared, from the first one
   std::uint64_t different = 0;                   ///< number of these steps that differ
   std::optional<std::uint64_t> first_different;  ///< first step that differs
   std::uint64_t recorded_hash = 0;               ///< state hash of that step in the recording

@@ -1,11 +1,13 @@
 #include "nodes/session/session_bag.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
 #include "endovascular_sim/SessionEnd.h"
+#include "endovascular_sim/SimulationRun.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/session/bag_records.h"
 
@@ -90,6 +92,12 @@ void addMessage(const std::string& file, const BagMessage& message, std::optiona
     session.mesh = readMessage<VesselMesh>(file, names::kVesselMesh, message);
   else if (isTopic(message.topic, names::kVesselCentreline) && !session.centreline)
     session.centreline = readMessage<VesselCentreline>(file, names::kVesselCentreline, message);
+  else if (isTopic(message.topic, names::kSimulationRun))
+  {
+    const auto run = readMessage<SimulationRun>(file, names::kSimulationRun, message);
+    session.first_step = run->first_step;
+    session.state.assign(run->state.begin(), run->state.end());
+  }
   else if (isTopic(message.topic, names::kSessionEnd))
     session.recorded_steps = readMessage<SessionEnd>(file, names::kSessionEnd, message)->steps;
 }
@@ -147,11 +155,15 @@ SessionBag readSessionBag(const std::string& file)
 std::string incompleteness(const SessionBag& session)
 {
   const std::uint64_t found = session.steps.size();
-  if (session.recorded_steps && *session.recorded_steps == found && session.steps.rbegin()->first + 1 == found)
+  const std::uint64_t end = session.first_step + found;
+  if (session.recorded_steps && *session.recorded_steps == end && session.steps.rbegin()->first + 1 == end)
     return session.damage.empty() ? "" : "the bag is damaged: " + session.damage;
-  std::string reason = session.recorded_steps ? "the bag holds " + std::to_string(found) + " of the session's " +
-                                                    std::to_string(*session.recorded_steps) + " steps"
-                                              : "the bag has no end (session/end)";
+  std::string reason =
+      session.recorded_steps
+          ? "the bag holds " + std::to_string(found) + " of the session's " +
+                std::to_string(*session.recorded_steps - std::min(*session.recorded_steps, session.first_step)) +
+                " steps"
+          : "the bag has no end (session/end)";
   return reason + damageOf(session);
 }
 

@@ -20,6 +20,8 @@ struct SessionBag
   VesselMeshConstPtr mesh;              ///< initial wall; null without a vessel
   VesselCentrelineConstPtr centreline;  ///< null without a vessel
   std::map<std::uint64_t, DriveAppliedConstPtr> steps;
+  std::uint64_t first_step = 0;  ///< number of steps before the first one of the recording
+  std::string state;             ///< saved state from which the recording continues; empty at the scene's beginning
   std::optional<std::uint64_t> recorded_steps;  ///< number of steps of the session; empty: the bag has no end
   std::string damage;                           ///< first damage of the file; empty without one
 };

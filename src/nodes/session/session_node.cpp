@@ -62,6 +62,7 @@ bool SessionNode::run()
   while (ros::ok() && stop_signal == 0)
   {
     ros::spinOnce();
+    recorder_.update();
     ros::WallDuration(kPeriod).sleep();
   }
   ros::spinOnce();

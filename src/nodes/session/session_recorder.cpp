@@ -30,11 +30,11 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kJointRate = 100.0;   ///< rate of setpoint_js in the bag [Hz]
-constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [Hz]
 /** Queue length of topics at the step rate: 10 s of messages. */
 constexpr std::uint32_t kStepQueue = 10000;
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kQueue = 1000;
+constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+constexpr double kProgressPeriod = 0.02;    ///< [s]
 /** Time from the last step to the end of the recording, and its largest value without the wall forces of that step [s].
  */
 constexpr double kSettling = 0.2;
@@ -61,19 +61,6 @@ std::uint64_t stepsOf(const scene::Scene& scene, const RecorderSettings& setting
                                    : std::numeric_limits<std::uint64_t>::max();
 }
 
-/** Creates the folder of a session, which must not contain an earlier one. @return the folder */
-std::string createFolder(const std::string& folder)
-{
-  std::error_code error;
-  std::filesystem::create_directories(folder + "/fluoroscopy", error);
-  if (error)
-    throw InputError(folder, "results", "the folder cannot be created (" + error.message() + "); choose another one");
-  for (const char* name : {"/session.bag", "/report.json"})
-    if (std::filesystem::exists(folder + name))
-      throw InputError(folder, "results", "the folder already contains a session; choose another one");
-  return folder;
-}
-
 }  // namespace
 
 SessionRecorder::SessionRecorder(const ros::NodeHandle& node, scene::Scene scene, RecorderSettings settings)
@@ -81,16 +68,15 @@ SessionRecorder::SessionRecorder(const ros::NodeHandle& node, scene::Scene scene
     scene_(std::move(scene)),
     settings_(std::move(settings)),
     info_(infoOf(scene_)),
-    results_(scene_, createFolder(settings_.folder), stepsOf(scene_, settings_)),
-    bag_(settings_.folder + "/session.bag"),
-    pose_(scene_.record.pose_rate),
-    joints_(kJointRate),
-    contacts_(kContactRate),
+    recording_(
+        std::make_unique<Recording>(scene_, createRecordingFolder(settings_.folder), stepsOf(scene_, settings_))),
     last_step_(ros::SteadyTime::now())
 {
   info_publisher_ = node_.advertise<SessionInfo>(names::kSessionInfo, 1, true);
+  progress_publisher_ = node_.advertise<SessionProgress>(names::kSessionProgress, 1, true);
   if (!scene_.vessel)
     publishInfo();
+  listen<SimulationRun>(names::kSimulationRun, kQueue, [this](const auto& event) { onRun(event); });
   subscribeToWire();
   if (scene_.vessel)
     subscribeToVessel();
@@ -126,7 +112,34 @@ void SessionRecorder::record(const std::string& topic, std::uint32_t queue)
 {
   const std::string resolved = node_.resolveName(topic);
   listen<Message>(topic, queue,
-                  [this, resolved](const ros::MessageEvent<Message const>& event) { bag_.write(resolved, event); });
+                  [this, resolved](const ros::MessageEvent<Message const>& event)
+                  { recording_->bag.write(resolved, event); });
+}
+
+template <typename Message>
+void SessionRecorder::recordLatched(const std::string& topic, std::uint32_t queue)
+{
+  const std::string resolved = node_.resolveName(topic);
+  listen<Message>(topic, queue,
+                  [this, resolved](const ros::MessageEvent<Message const>& event)
+                  {
+                    recording_->bag.write(resolved, event);
+                    latched_[resolved + " " + event.getPublisherName()] = [resolved, event](Recording& recording)
+                    { recording.bag.write(resolved, ros::Time::now(), event); };
+                  });
+}
+
+template <typename Message>
+void SessionRecorder::addToMetrics(Recording& recording, const Message& message)
+{
+  try
+  {
+    recording.results.metrics().add(message);
+  }
+  catch (const InputError& error)
+  {
+    ROS_WARN_THROTTLE(10.0, "omitted from the metrics: %s", error.what());
+  }
 }
 
 template <typename Message>
@@ -136,15 +149,8 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
   listen<Message>(topic, queue,
                   [this, resolved](const ros::MessageEvent<Message const>& event)
                   {
-                    bag_.write(resolved, event);
-                    try
-                    {
-                      results_.metrics().add(*event.getMessage());
-                    }
-                    catch (const InputError& error)
-                    {
-                      ROS_WARN_THROTTLE(10.0, "omitted from the metrics: %s", error.what());
-                    }
+                    recording_->bag.write(resolved, event);
+                    addToMetrics(*recording_, *event.getMessage());
                   });
 }
 
@@ -156,15 +162,15 @@ void SessionRecorder::subscribeToWire()
   for (const scene::DrivenInstrument& driven : scene_.instruments)
   {
     const std::string instrument = names::kInstruments + driven.instrument.name;
-    record<crtk_msgs::OperatingState>(instrument + names::kOperatingState, kQueue);
-    record<crtk_msgs::StringStamped>(instrument + names::kStateReason, kQueue);
+    recordLatched<crtk_msgs::OperatingState>(instrument + names::kOperatingState, kQueue);
+    recordLatched<crtk_msgs::StringStamped>(instrument + names::kStateReason, kQueue);
   }
 }
 
 void SessionRecorder::subscribeToVessel()
 {
   listen<VesselMesh>(names::kVesselMesh, 1, [this](const auto& event) { onVessel(event); });
-  measure<VesselCentreline>(names::kVesselCentreline, 1);
+  listen<VesselCentreline>(names::kVesselCentreline, 1, [this](const auto& event) { onCentreline(event); });
   measure<WallDisplacement>(names::kWallDisplacement, kStepQueue);
   if (scene_.procedure)
     measure<ProcedureStep>(names::kProcedureStep, kStepQueue);
@@ -184,7 +190,7 @@ void SessionRecorder::subscribeToGraph()
   listen<diagnostic_msgs::DiagnosticArray>(names::kDiagnostics, kQueue,
                                            [this](const auto& event) { onDiagnostics(event); });
   record<tf2_msgs::TFMessage>("/tf", kStepQueue);
-  record<tf2_msgs::TFMessage>("/tf_static", kQueue);
+  recordLatched<tf2_msgs::TFMessage>("/tf_static", kQueue);
 }
 
 void SessionRecorder::publishInfo()
@@ -194,17 +200,18 @@ void SessionRecorder::publishInfo()
   info_published_ = true;
   info_.header.stamp = ros::Time::now();
   info_publisher_.publish(info_);
-  bag_.writeLatched(node_.resolveName(names::kSessionInfo), info_);
+  recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
 }
 
 void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)
 {
+  const DriveApplied& drive = *event.getMessage();
+  handled_ = drive.step + 1;
   if (finished_ || durationIsOver())
     return;
-  const DriveApplied& drive = *event.getMessage();
-  results_.add(drive);
+  recording_->results.add(drive);
   last_step_ = ros::SteadyTime::now();
-  bag_.write(node_.resolveName(names::kDriveApplied), event);
+  recording_->bag.write(node_.resolveName(names::kDriveApplied), event);
   recordSetpoints(drive, event.getReceiptTime());
 }
 
@@ -214,7 +221,7 @@ void SessionRecorder::recordSetpoints(const DriveApplied& drive, ros::Time time)
 {
   const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
                                       drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
-  if (!joints_.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
+  if (!recording_->joints.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
     return;
   for (std::size_t k = 0; k < hands; ++k)
     recordJoints(k, names::kSetpointJs, {drive.insertion[k], drive.rotation[k], drive.pressure[k]}, drive.hand_force[k],
@@ -239,7 +246,7 @@ void SessionRecorder::recordJoints(std::size_t k, const char* topic, const Joint
   joints->header.stamp = stamp;
   joints->header.frame_id = names::kIntroducerFrame;
   toMessage(instrument.balloon.has_value(), values, force, torque, *joints);
-  bag_.write(node_.resolveName(names::kInstruments + instrument.name + topic), time, joints);
+  recording_->bag.write(node_.resolveName(names::kInstruments + instrument.name + topic), time, joints);
 }
 
 void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event)
@@ -247,12 +254,12 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   if (finished_)
     return;
   const RodStateVisual& rod = *event.getMessage();
-  results_.add(rod);
-  if (error_.empty())
-    error_ = results_.trajectoryError();
+  recording_->results.add(rod);
+  if (recording_->error.empty())
+    recording_->error = recording_->results.trajectoryError();
   recordMeasurements(rod, event.getReceiptTime());
-  if (pose_.passes(rod.time))
-    bag_.write(node_.resolveName(names::kRodStateVisual), event);
+  if (recording_->pose.passes(rod.time))
+    recording_->bag.write(node_.resolveName(names::kRodStateVisual), event);
 }
 
 void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)
@@ -260,37 +267,55 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
   if (finished_)
     return;
   const ContactForces& forces = *event.getMessage();
-  results_.add(forces);
-  if (contacts_.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
-    bag_.write(node_.resolveName(names::kContactForces), event);
+  recording_->results.add(forces);
+  if (recording_->contacts.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
+    recording_->bag.write(node_.resolveName(names::kContactForces), event);
 }
 
 void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>& event)
 {
   if (finished_)
     return;
-  results_.add(event.getConstMessage());
-  bag_.write(node_.resolveName(names::kContactForceMap), event);
+  recording_->results.add(event.getConstMessage());
+  recording_->bag.write(node_.resolveName(names::kContactForceMap), event);
 }
 
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   if (info_published_)
     return;  // later meshes are in vessel/moved already
-  results_.add(event.getConstMessage());
   info_.mesh_hash = event.getConstMessage()->content_hash;
   publishInfo();
-  bag_.write(node_.resolveName(names::kVesselMesh), event);
+  const std::string topic = node_.resolveName(names::kVesselMesh);
+  // The mesh before the centreline, as the metrics need them: maps are in the order of their keys.
+  auto& begin = latched_["1 " + topic] = [topic, event](Recording& recording)
+  {
+    recording.results.add(event.getConstMessage());
+    recording.bag.write(topic, ros::Time::now(), event);
+  };
+  begin(*recording_);
+}
+
+void SessionRecorder::onCentreline(const ros::MessageEvent<VesselCentreline const>& event)
+{
+  const std::string topic = node_.resolveName(names::kVesselCentreline);
+  auto& begin = latched_["2 " + topic] = [topic, event](Recording& recording)
+  {
+    addToMetrics(recording, *event.getConstMessage());
+    recording.bag.write(topic, ros::Time::now(), event);
+  };
+  begin(*recording_);
 }
 
 void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>& event)
 {
   if (finished_)
     return;
-  results_.report().addFluoroscopyFrame();
+  recording_->results.report().addFluoroscopyFrame();
   if (scene_.record.x_ray_frames)
-    bag_.write(node_.resolveName(names::kFluoroscopyImage), event);
-  if (settings_.picture_interval > 0 && frames_++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
+    recording_->bag.write(node_.resolveName(names::kFluoroscopyImage), event);
+  if (settings_.picture_interval > 0 &&
+      recording_->frames++ % static_cast<std::uint64_t>(settings_.picture_interval) == 0)
     savePicture(event.getMessage());
 }
 
@@ -299,47 +324,52 @@ void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
   if (image->encoding != sensor_msgs::image_encodings::MONO8 || image->step != image->width)
     return;
   std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "frame_%06llu.png", static_cast<unsigned long long>(frames_ - 1));
-  results_.report().addFluoroscopyPicture();
-  const std::string file = path("fluoroscopy/") + name.data();
-  bag_.run(
+  std::snprintf(name.data(), name.size(), "frame_%06llu.png", static_cast<unsigned long long>(recording_->frames - 1));
+  recording_->results.report().addFluoroscopyPicture();
+  const std::string file = recording_->path("fluoroscopy/") + name.data();
+  recording_->bag.run(
       [image, file]
       { fluoroscopy::writePng(file, static_cast<int>(image->width), static_cast<int>(image->height), image->data); });
 }
 
 void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event)
 {
-  results_.add(*event.getMessage());
-  bag_.write(node_.resolveName(names::kDiagnostics), event);
+  recording_->results.add(*event.getMessage());
+  recording_->bag.write(node_.resolveName(names::kDiagnostics), event);
 }
 
 bool SessionRecorder::durationIsOver() const
 {
-  return settings_.stop_at_duration && results_.report().lastStep() >= stepsOf(scene_, settings_);
+  return settings_.stop_at_duration && recording_->results.report().lastStep() >= stepsOf(scene_, settings_);
 }
 
 void SessionRecorder::logProgress()
 {
-  const double now = results_.report().simulatedTime();
+  const double now = recording_->results.report().simulatedTime();
   if (now < logged_time_ + 1.0)
     return;
   logged_time_ = std::floor(now);
   ROS_INFO("%.0f of %.0f s simulated, insertion %.1f mm, hand force %.3f N", now, scene_.duration,
-           1e3 * results_.report().insertedLength(), results_.report().handForce().final());
+           1e3 * recording_->results.report().insertedLength(), recording_->results.report().handForce().final());
 }
 
 void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
 {
-  diagnostics_.update();
+  // By the steady clock: simulated time may stand still.
+  if ((ros::SteadyTime::now() - diagnosed_).toSec() >= kDiagnosticsPeriod)
+  {
+    diagnosed_ = ros::SteadyTime::now();
+    diagnostics_.force_update();
+  }
   if (finished_)
     return;
   logProgress();
   if (!settings_.stop_at_duration)
     return;
   const double silence = (ros::SteadyTime::now() - last_step_).toSec();
-  const double patience = results_.report().steps() == 0 ? settings_.start_patience : settings_.patience;
+  const double patience = recording_->results.report().steps() == 0 ? settings_.start_patience : settings_.patience;
   // Messages of the last steps on other topics may arrive after drive/applied.
-  const bool is_settled = silence > kLongestSettling || (silence > kSettling && results_.hasFinalMap());
+  const bool is_settled = silence > kLongestSettling || (silence > kSettling && recording_->results.hasFinalMap());
   if (durationIsOver() && is_settled)
     endWith("");
   else if (durationIsOver())
@@ -352,7 +382,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
 bool SessionRecorder::onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
 {
   response.success = finish();
-  response.message = path("report.json");
+  response.message = recording_->path("report.json");
   return true;
 }
 
@@ -360,7 +390,7 @@ void SessionRecorder::endWith(const std::string& error)
 {
   if (!error.empty())
   {
-    error_ = error;
+    recording_->error = error;
     ROS_ERROR("%s", error.c_str());
   }
   finish();
@@ -369,19 +399,19 @@ void SessionRecorder::endWith(const std::string& error)
 
 void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const
 {
-  const std::string bag_error = bag_.error();
+  const std::string bag_error = recording_->bag.error();
   if (!bag_error.empty())
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "recording ended early: " + bag_error);
-  else if (!error_.empty())
-    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, error_);
-  else if (bag_.dropped() > 0)  // without an error only the queue drops messages
+  else if (!recording_->error.empty())
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, recording_->error);
+  else if (recording_->bag.dropped() > 0)  // without an error only the queue drops messages
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "messages were dropped: the disk is too slow");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, finished_ ? "finished" : "recording");
-  status.add("steps recorded", results_.report().steps());
-  status.add("messages recorded", bag_.messages());
-  status.add("messages dropped", bag_.dropped());
-  status.add("recording [bytes]", bag_.bytes());
+  status.add("steps recorded", recording_->results.report().steps());
+  status.add("messages recorded", recording_->bag.messages());
+  status.add("messages dropped", recording_->bag.dropped());
+  status.add("recording [bytes]", recording_->bag.bytes());
 }
 
 bool SessionRecorder::finish()
@@ -390,21 +420,97 @@ bool SessionRecorder::finish()
     return complete_;
   finished_ = true;
   subscribers_.clear();
+  progress_publisher_.shutdown();  // the simulation waits for this recorder no longer
+  complete_ = closeRecording() && complete_;
+  return complete_;
+}
+
+/** Closes the bag and writes the report of the recording. @return true when everything was written */
+bool SessionRecorder::closeRecording()
+{
+  Recording& recording = *recording_;
   SessionEnd end;
   end.header.stamp = ros::Time::now();
-  end.steps = results_.report().lastStep();
-  bag_.writeLatched(node_.resolveName(names::kSessionEnd), end);
-  bag_.close();
+  end.steps = recording.results.report().lastStep();
+  recording.bag.writeLatched(node_.resolveName(names::kSessionEnd), end);
+  recording.bag.close();
   results::RecordingOutcome outcome;
-  outcome.file = bag_.file();
-  outcome.bytes = bag_.bytes();
-  outcome.messages = bag_.messages();
-  outcome.dropped = bag_.dropped();
-  outcome.error = bag_.error();
-  complete_ = results_.write(outcome, error_) && outcome.error.empty() && error_.empty();
-  ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(results_.report().steps()),
-           settings_.folder.c_str());
-  return complete_;
+  outcome.file = recording.bag.file();
+  outcome.bytes = recording.bag.bytes();
+  outcome.messages = recording.bag.messages();
+  outcome.dropped = recording.bag.dropped();
+  outcome.error = recording.bag.error();
+  const bool written =
+      recording.results.write(outcome, recording.error) && outcome.error.empty() && recording.error.empty();
+  ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(recording.results.report().steps()),
+           recording.folder.c_str());
+  return written;
+}
+
+void SessionRecorder::onRun(const ros::MessageEvent<SimulationRun const>& event)
+{
+  const SimulationRunConstPtr run = event.getConstMessage();
+  if (run_ != 0 && run->run <= run_)
+    return;
+  next_ = run;
+  next_since_ = ros::SteadyTime::now();
+}
+
+/** Records the announced run. The first run belongs to the recording that is open. */
+void SessionRecorder::beginRun()
+{
+  const SimulationRun& run = *next_;
+  if (run_ != 0)
+  {
+    complete_ = closeRecording() && complete_;
+    const std::string folder = settings_.folder + "/run_" + std::to_string(run.run);
+    recording_ = std::make_unique<Recording>(scene_, createRecordingFolder(folder), stepsOf(scene_, settings_));
+    if (info_published_)
+      recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
+    for (const auto& [key, begin] : latched_)
+      begin(*recording_);
+    logged_time_ = 0.0;
+    ROS_INFO("recording run %u in %s", run.run, folder.c_str());
+  }
+  handled_ = run_ == 0 ? std::max(handled_, run.first_step) : run.first_step;
+  run_ = run.run;
+  recording_->results.report().setFirstStep(run.first_step);
+  recording_->bag.writeLatched(node_.resolveName(names::kSimulationRun), run);
+  next_.reset();
+}
+
+void SessionRecorder::update()
+{
+  if (finished_)
+    return;
+  try
+  {
+    // The last steps of the previous run may arrive after the announcement.
+    const bool is_complete =
+        next_ && (run_ == 0 || recording_->results.report().lastStep() >= next_->previous_steps || durationIsOver());
+    if (is_complete || (next_ && (ros::SteadyTime::now() - next_since_).toSec() > kLongestSettling))
+      beginRun();
+  }
+  catch (const InputError& error)
+  {
+    endWith(error.what());
+    return;
+  }
+  publishProgress();
+}
+
+/** Publishes the number of recorded steps on change, unless the disk is too slow for them. */
+void SessionRecorder::publishProgress()
+{
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if ((progress_.run == run_ && progress_.steps == handled_) ||
+      (progress_.run == run_ && (now - reported_).toSec() < kProgressPeriod) || recording_->bag.isHalfFull())
+    return;
+  reported_ = now;
+  progress_.header.stamp = ros::Time::now();
+  progress_.run = run_;
+  progress_.steps = handled_;
+  progress_publisher_.publish(progress_);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,12 @@
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionInfo.h"
+#include "endovascular_sim/SessionProgress.h"
+#include "endovascular_sim/SimulationRun.h"
+#include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/joint_state_conversions.h"
-#include "nodes/session/bag_writer.h"
-#include "nodes/session/session_results.h"
-#include "nodes/session/throttle.h"
+#include "nodes/session/recording.h"
 #include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes
@@ -37,7 +40,8 @@ struct RecorderSettings
   int picture_interval = 15;      ///< interval of the fluoroscopy frames that are saved as PNG [frames]; 0: none
 };
 
-/** Recorder of a session: subscribes to the topics of a scene, records them, and writes the report at the end. */
+/** Recorder of a session: subscribes to the topics of a scene, records them, and writes the report at the end. A reset
+ *  and a loaded state begin a further recording, in the subfolder `run_N`. */
 class SessionRecorder
 {
 public:
@@ -47,6 +51,10 @@ public:
 
   /** Closes the bag and writes the report; further calls have no effect. @return true when everything was written */
   bool finish();
+
+  /** Begins the recording of a new run once that of the last one is complete, and publishes the progress. To be called
+   *  often, also without messages. */
+  void update();
 
 private:
   void subscribeToWire();
@@ -61,9 +69,14 @@ private:
   /** Subscribes to a topic and records all of its messages. */
   template <typename Message>
   void record(const std::string& topic, std::uint32_t queue);
+  /** As record(); the newest message of each publisher also begins every further recording. */
+  template <typename Message>
+  void recordLatched(const std::string& topic, std::uint32_t queue);
   /** As record(); also adds the messages to the metrics. */
   template <typename Message>
   void measure(const std::string& topic, std::uint32_t queue);
+  template <typename Message>
+  static void addToMetrics(Recording& recording, const Message& message);
 
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
@@ -74,8 +87,10 @@ private:
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
+  void onCentreline(const ros::MessageEvent<VesselCentreline const>& event);
   void onImage(const ros::MessageEvent<sensor_msgs::Image const>& event);
   void onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event);
+  void onRun(const ros::MessageEvent<SimulationRun const>& event);
   void onTimer(const ros::SteadyTimerEvent&);
   bool onStop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
@@ -85,25 +100,30 @@ private:
   void logProgress();
   void fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void endWith(const std::string& error);
-  std::string path(const std::string& name) const { return settings_.folder + "/" + name; }
+  void beginRun();
+  bool closeRecording();
+  void publishProgress();
 
   ros::NodeHandle node_;
   scene::Scene scene_;
   RecorderSettings settings_;
   SessionInfo info_;
-  SessionResults results_;
-  BagWriter bag_;
-  Throttle pose_;
-  Throttle joints_;
-  Throttle contacts_;
-  std::uint64_t frames_ = 0;
+  std::unique_ptr<Recording> recording_;
+  std::uint32_t run_ = 0;       ///< run of the recording; 0 before the first message about it
+  std::uint64_t handled_ = 0;   ///< number of steps, up to the last one that has arrived
+  SimulationRunConstPtr next_;  ///< run that is to be recorded; null without one
+  ros::SteadyTime next_since_;  ///< arrival of next_
+  /** Messages that begin every recording, by their topic and publisher. */
+  std::map<std::string, std::function<void(Recording&)>> latched_;
   bool info_published_ = false;
   bool finished_ = false;
-  bool complete_ = false;
-  std::string error_;          ///< reason of an early end; empty without one
+  bool complete_ = true;
   ros::SteadyTime last_step_;  ///< arrival of the last step
   double logged_time_ = 0.0;   ///< simulated time of the last progress message [s]
-  ros::Publisher info_publisher_;
+  ros::SteadyTime diagnosed_;  ///< last publication of diagnostics
+  ros::SteadyTime reported_;   ///< last publication of the progress
+  SessionProgress progress_;   ///< as published
+  ros::Publisher info_publisher_, progress_publisher_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.
   std::vector<ros::Subscriber> subscribers_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ros/console.h>
+#include <ros/time.h>
 
 #include "common/output_file.h"
 #include "common/version.h"
@@ -77,8 +78,9 @@ SessionResults::SessionResults(const scene::Scene& scene, std::string folder, st
 
 void SessionResults::add(const DriveApplied& drive)
 {
-  report_.addStep(drive.step, drive.header.stamp.toSec(), drive.first_stale_pass != contact::kNoStalePass,
-                  drive.state_hash);
+  // Simulated time says nothing about the elapsed one.
+  const double now = ros::Time::isSimTime() ? ros::WallTime::now().toSec() : drive.header.stamp.toSec();
+  report_.addStep(drive.step, now, drive.first_stale_pass != contact::kNoStalePass, drive.state_hash);
   const std::size_t hands = std::min(drive.hand_force.size(), drive.hand_torque.size());
   for (std::size_t k = 0; k < hands; ++k)
     report_.addHand(drive.hand_force[k], drive.hand_torque[k]);

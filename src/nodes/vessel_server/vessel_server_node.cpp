@@ -63,8 +63,8 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   service_ = node_.advertiseService(names::kGetVessel, &VesselServerNode::get, this);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("vessel", this, &VesselServerNode::diagnose);
-  diagnostics_timer_ =
-      node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO("%s, %zu triangles, %zu branches", vessel.source.c_str(), vessel.mesh.triangles.size(),
            vessel.centreline.branches.size());
 }

@@ -12,6 +12,8 @@
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
+#include "endovascular_sim/SessionEnd.h"
+#include "endovascular_sim/SimulationRun.h"
 
 namespace endovascular_sim::nodes
 {
@@ -133,6 +135,34 @@ TEST_F(SessionBagFile, IsRefusedWithAChangedScene)
   info_.scene_yaml += "seed: 5\n";
   write(info_);
   EXPECT_NE(refusal().find("does not match its hash"), std::string::npos) << refusal();
+}
+
+TEST_F(SessionBagFile, OfALoadedStateIsCompleteFromItsFirstStepOn)
+{
+  write(info_, 0);
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Append);
+    SimulationRun run;
+    run.run = 2;
+    run.first_step = 5;
+    run.state = {'s', 't'};
+    bag.write("/room/simulation/run", ros::Time(1.5), run);
+    for (std::uint64_t step = 5; step < 8; ++step)
+    {
+      DriveApplied applied;
+      applied.step = step;
+      bag.write("/room/drive/applied", ros::Time(2.0), applied);
+    }
+    SessionEnd end;
+    end.steps = 8;
+    bag.write("/room/session/end", ros::Time(3.0), end);
+  }
+  SessionBag session = readSessionBag(file_);
+  EXPECT_EQ(session.first_step, 5U);
+  EXPECT_EQ(session.state, "st");
+  EXPECT_EQ(incompleteness(session), "");
+  session.steps.erase(6);
+  EXPECT_EQ(incompleteness(session), "the bag holds 2 of the session's 3 steps");
 }
 
 TEST_F(SessionBagFile, IsIncompleteWithoutAnEnd)

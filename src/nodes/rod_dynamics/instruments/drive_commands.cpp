@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/archive.h"
+#include "common/error.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -44,11 +46,14 @@ ros::Subscriber subscribeTo(ros::NodeHandle& node, const std::string& topic, ros
 
 }  // namespace
 
-DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene)
-  : scene_(scene), hands_(scene), subscribers_(scene.instruments.size())
+DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, const std::string& file)
+  : scene_(scene), subscribers_(scene.instruments.size())
 {
+  if (!file.empty())
+    file_.emplace(scene, file, drive::readCommandFile(file));
+  reset();
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
-    if (hands_.control(k) != nullptr)
+    if (hands_->control(k) != nullptr)
       subscribe(node, k);
 }
 
@@ -71,7 +76,7 @@ void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,
   const sensor_msgs::JointState& message = *event.getConstMessage();
   const std::optional<drive::JointCommand> command = drive::jointCommand(kind, message.name, valuesOf(message, kind));
   const std::lock_guard<std::mutex> lock(mutex_);
-  drive::HandControl& control = *hands_.control(instrument);
+  drive::HandControl& control = *hands_->control(instrument);
   if (control.command(event.getPublisherName(), command) != drive::CommandVerdict::kAccepted)
     ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", scene_.instruments[instrument].instrument.name.c_str(),
                       control.lastRefusal().c_str());
@@ -82,7 +87,7 @@ void DriveCommands::receiveState(std::size_t instrument, const ros::MessageEvent
 {
   const std::string& word = event.getConstMessage()->string;
   const std::lock_guard<std::mutex> lock(mutex_);
-  drive::HandControl& control = *hands_.control(instrument);
+  drive::HandControl& control = *hands_->control(instrument);
   const std::string& name = scene_.instruments[instrument].instrument.name;
   if (control.stateCommand(event.getPublisherName(), word))
     ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), event.getPublisherName().c_str(),
@@ -92,11 +97,101 @@ void DriveCommands::receiveState(std::size_t instrument, const ros::MessageEvent
   updateRevision();
 }
 
+std::string DriveCommands::give(const std::string& client, const std::vector<InstrumentCommand>& commands)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const simulation::DrivenHands before = *hands_;
+  std::string refusal;
+  for (std::size_t n = 0; n < commands.size() && refusal.empty(); ++n)
+    refusal = giveOne(client, commands[n], n);
+  if (!refusal.empty())
+    hands_.emplace(before);
+  updateRevision();
+  return refusal;
+}
+
+/** @param n index of the command in its call. @return reason of a refusal */
+std::string DriveCommands::giveOne(const std::string& client, const InstrumentCommand& command, std::size_t n)
+{
+  const std::string where = "commands[" + std::to_string(n) + "]";
+  try
+  {
+    drive::HandControl& control =
+        *hands_->control(simulation::commandedInstrument(scene_, command.instrument, client, where));
+    const std::optional<drive::CommandKind> kind = drive::commandKind(command.command);
+    if (!kind && !drive::isStateCommand(command.command))
+      return where + ": unknown command '" + command.command +
+             "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, enable, disable, pause, resume, "
+             "home and unhome";
+    const bool accepted = kind ? control.command(client, drive::jointCommand(*kind, command.joints.name,
+                                                                             valuesOf(command.joints, *kind))) ==
+                                     drive::CommandVerdict::kAccepted
+                               : control.stateCommand(client, command.command);
+    return accepted ? "" : where + ": " + command.instrument + ": " + control.lastRefusal();
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+}
+
+void DriveCommands::reset()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  hands_.emplace(scene_);
+  player_ = file_;
+  updateRevision();
+}
+
+void DriveCommands::restAt(const simulation::Simulation& simulation)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  hands_->restAt(simulation);
+  updateRevision();
+}
+
+std::vector<simulation::HandCommand> DriveCommands::present(const simulation::Simulation& simulation)
+{
+  std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, simulation.time());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::size_t k = 0; k < commands.size(); ++k)
+    if (const drive::HandControl* control = hands_->control(k))
+    {
+      commands[k].insertion = control->setpoint().motion.insertion;
+      commands[k].rotation = control->setpoint().motion.rotation;
+      commands[k].pressure = control->setpoint().pressure.value_or(commands[k].pressure);
+    }
+  return commands;
+}
+
+void DriveCommands::playFrom(double time)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (player_)
+    player_->startFrom(time);
+}
+
+void DriveCommands::archive(Archive& archive)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  hands_->archive(archive);
+  updateRevision();
+}
+
+/** Gives the commands of the file that are due. */
+void DriveCommands::playFile(double time)
+{
+  const std::size_t before = player_->refusals().size();
+  player_->play(time, *hands_);
+  for (std::size_t n = before; n < player_->refusals().size(); ++n)
+    ROS_WARN("%s", player_->refusals()[n].c_str());
+}
+
 void DriveCommands::updateRevision()
 {
   std::uint64_t revision = 0;
   for (std::size_t k = 0; k < subscribers_.size(); ++k)
-    if (const drive::HandControl* control = hands_.control(k))
+    if (const drive::HandControl* control = hands_->control(k))
       revision += control->state().revision;
   revision_ = revision;
 }
@@ -105,7 +200,9 @@ const std::vector<simulation::HandCommand>& DriveCommands::next(const simulation
                                                                 const std::vector<simulation::HandCommand>* scripted)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::vector<simulation::HandCommand>& commands = hands_.next(simulation, scripted);
+  if (player_)
+    playFile(simulation.time());
+  const std::vector<simulation::HandCommand>& commands = hands_->next(simulation, scripted);
   updateRevision();
   return commands;
 }
@@ -115,7 +212,7 @@ std::vector<drive::OperatingState> DriveCommands::states()
   std::vector<drive::OperatingState> states(subscribers_.size());
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (const drive::HandControl* control = hands_.control(k))
+    if (const drive::HandControl* control = hands_->control(k))
       states[k] = control->state();
     else
       states[k].state = "ENABLED";
@@ -127,7 +224,7 @@ void DriveCommands::goals(const std::vector<simulation::HandCommand>& used, std:
   goals = used;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t k = 0; k < goals.size(); ++k)
-    if (const drive::HandControl* control = hands_.control(k))
+    if (const drive::HandControl* control = hands_->control(k))
     {
       goals[k].insertion = control->goal().insertion;
       goals[k].rotation = control->goal().rotation;
@@ -148,7 +245,7 @@ std::vector<CommandReport> DriveCommands::reports()
     report.has_publisher = std::any_of(subscribers_[k].begin(), subscribers_[k].end() - 1,
                                        [](const ros::Subscriber& commands) { return commands.getNumPublishers() > 0; });
     const std::lock_guard<std::mutex> lock(mutex_);
-    const drive::HandControl& control = *hands_.control(k);
+    const drive::HandControl& control = *hands_->control(k);
     report.driver = control.silence() < scene_.instruments[k].drive.limits.time_out ? control.driver() : "";
     report.last_refusal = control.lastRefusal();
     report.accepted = control.accepted();

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
+#include "endovascular_sim/InstrumentCommand.h"
 #include "nodes/runtime/direct_callback_queue.h"
 #include "scene/model/scene.h"
 #include "simulation/driven_hands.h"
@@ -36,13 +38,34 @@ class DriveCommands
 {
 public:
   /** Subscribes to the topics of the instruments that clients drive.
-   *  @param scene must outlive this object */
-  DriveCommands(ros::NodeHandle& node, const scene::Scene& scene);
+   *  @param scene must outlive this object
+   *  @param file of commands that are given at their times, as to `simulate`; empty: none
+   *  @throws InputError for an invalid file of commands */
+  DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, const std::string& file = "");
 
   /** Commands of the coming step, one per instrument.
    *  @param scripted commands of the scripted operator; null without one */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation,
                                                    const std::vector<simulation::HandCommand>* scripted);
+
+  /** Gives commands to instruments as a client, all of them or none.
+   *  @return reason of the first refusal; empty if all were accepted */
+  std::string give(const std::string& client, const std::vector<InstrumentCommand>& commands);
+
+  /** Begins a new run at the start of the scene: no client drives. */
+  void reset();
+
+  /** Holds all instruments that clients drive where they are. */
+  void restAt(const simulation::Simulation& simulation);
+
+  /** Commands at present, one per instrument, as in the last step. */
+  std::vector<simulation::HandCommand> present(const simulation::Simulation& simulation);
+
+  /** Continues the file of commands at a time [s]. */
+  void playFrom(double time);
+
+  /** Saves or loads the controls. @throws ArchiveError for invalid data */
+  void archive(Archive& archive);
 
   /** Changes whenever an operating state is to be published. Callable from any thread. */
   std::uint64_t revision() const { return revision_; }
@@ -64,9 +87,14 @@ private:
   void receiveState(std::size_t instrument, const ros::MessageEvent<crtk_msgs::StringStamped const>& event);
   void updateRevision();
 
+  std::string giveOne(const std::string& client, const InstrumentCommand& command, std::size_t n);
+  void playFile(double time);
+
   const scene::Scene& scene_;
-  std::mutex mutex_;  ///< guards hands_
-  simulation::DrivenHands hands_;
+  std::optional<simulation::CommandPlayer> file_;  ///< commands of a file, before the first step
+  std::mutex mutex_;                               ///< guards the next two
+  std::optional<simulation::DrivenHands> hands_;
+  std::optional<simulation::CommandPlayer> player_;  ///< commands of a file
   std::atomic<std::uint64_t> revision_{0};
   DirectCallbackQueue queue_;
   std::vector<std::vector<ros::Subscriber>>

@@ -12,11 +12,13 @@ constexpr double kLeastTorquePeak = 5e-5;  ///< initial peak of the torque limit
 
 }  // namespace
 
-HandForceRenderer::HandForceRenderer(std::size_t instruments)
-  : hands_(instruments),
-    force_limiters_(instruments, simulation::ForceFaultLimiter{kLeastForcePeak}),
-    torque_limiters_(instruments, simulation::ForceFaultLimiter{kLeastTorquePeak})
+HandForceRenderer::HandForceRenderer(const std::vector<simulation::HandCommand>& present)
+  : hands_(present.size()),
+    force_limiters_(present.size(), simulation::ForceFaultLimiter{kLeastForcePeak}),
+    torque_limiters_(present.size(), simulation::ForceFaultLimiter{kLeastTorquePeak})
 {
+  for (std::size_t k = 0; k < present.size(); ++k)
+    hands_[k].command = present[k];
 }
 
 const std::vector<RenderedHand>& HandForceRenderer::render(const simulation::Simulation& simulation,

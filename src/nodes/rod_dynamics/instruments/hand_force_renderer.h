@@ -21,7 +21,8 @@ struct RenderedHand
 class HandForceRenderer
 {
 public:
-  explicit HandForceRenderer(std::size_t instruments);
+  /** @param present commands before the first step, one per instrument */
+  explicit HandForceRenderer(const std::vector<simulation::HandCommand>& present);
 
   /** Renders the forces after a step.
    *  @param used commands of the step, one per instrument

@@ -4,10 +4,10 @@
 
 #include <crtk_msgs/OperatingState.h>
 #include <crtk_msgs/StringStamped.h>
-#include <Eigen/Geometry>
 
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/rod_dynamics/instruments/instrument_observation.h"
 #include "nodes/runtime/ros_names.h"
 #include "procedure/observation.h"
 
@@ -16,20 +16,9 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr int kJointQueue = 1;             ///< readers use the newest values only
-constexpr int kStateQueue = 10;            ///< a move may end soon after its begin
-constexpr double kTangentLength = 0.5e-3;  ///< length at the tip that gives its direction [m]
+constexpr int kJointQueue = 1;   ///< readers use the newest values only
+constexpr int kStateQueue = 10;  ///< a move may end soon after its begin
 constexpr auto kEnabled = "ENABLED";
-
-/** True for the instrument that the wall touches at a length beyond the introducer: the outermost one that reaches it.
- */
-bool isOutermost(const simulation::Simulation& simulation, std::size_t instrument, double inserted)
-{
-  for (auto k = static_cast<int>(instrument) + 1; k < simulation.instruments(); ++k)
-    if (simulation.hand(k).insertion >= inserted)
-      return false;
-  return instrument == 0 || simulation.hand(static_cast<int>(instrument)).insertion >= inserted;
-}
 
 }  // namespace
 
@@ -62,13 +51,12 @@ void InstrumentPublisher::publishStep(const simulation::Simulation& simulation, 
   {
     Channel& channel = channels_[k];
     const simulation::HandState hand = simulation.hand(static_cast<int>(k));
+    channel.last = has_last_ ? channel.now : hand;
+    channel.now = hand;
     if (!has_last_)
-    {
-      channel.last = hand;
       channel.last_command = hands[k].command;
-    }
     if (channel.measured.getNumSubscribers() > 0)
-      publishMeasured(k, hand);
+      publishMeasured(simulation, k);
     if (channel.setpoint.getNumSubscribers() > 0)
       publishSetpoint(k, hands[k], 1.0, true);
     if (channel.tip.getNumSubscribers() > 0)
@@ -80,7 +68,6 @@ void InstrumentPublisher::publishStep(const simulation::Simulation& simulation, 
       has_contacts = true;
       publishWallForce(k, simulation);
     }
-    channel.last = hand;
     channel.last_command = hands[k].command;
   }
   has_last_ = true;
@@ -88,29 +75,43 @@ void InstrumentPublisher::publishStep(const simulation::Simulation& simulation, 
   publishStates();
 }
 
-void InstrumentPublisher::publishPaused(const std::vector<RenderedHand>& hands, double share)
+void InstrumentPublisher::publishPaused(const std::vector<RenderedHand>& hands, double share, ros::Time now)
 {
-  now_ = ros::Time::now();
+  now_ = now;
   for (std::size_t k = 0; k < channels_.size(); ++k)
     if (channels_[k].setpoint.getNumSubscribers() > 0)
       publishSetpoint(k, hands[k], share, false);
   publishStates();
 }
 
-void InstrumentPublisher::publishMeasured(std::size_t k, const simulation::HandState& hand)
+void InstrumentPublisher::measure(const simulation::Simulation& simulation, std::size_t instrument,
+                                  sensor_msgs::JointState& joints) const
 {
-  const Channel& channel = channels_[k];
+  const Channel& channel = channels_[instrument];
+  const simulation::HandState hand = simulation.hand(static_cast<int>(instrument));
+  const simulation::HandState last = has_last_ ? channel.last : hand;
+  setJoints(channel.has_balloon, {hand.insertion, hand.rotation, hand.pressure}, joints.position, joints.name);
+  joints.velocity = {(hand.insertion - last.insertion) / time_step_, (hand.rotation - last.rotation) / time_step_};
+  joints.effort = {hand.force, hand.torque};
+  if (!channel.has_balloon)
+    return;
+  joints.velocity.push_back((hand.pressure - last.pressure) / time_step_);
+  joints.effort.push_back(0.0);
+}
+
+void InstrumentPublisher::reset()
+{
+  has_last_ = false;
+  for (Channel& channel : channels_)
+    channel.published_state.clear();
+  revision_ = ~std::uint64_t{0};
+}
+
+void InstrumentPublisher::publishMeasured(const simulation::Simulation& simulation, std::size_t k)
+{
+  measure(simulation, k, joints_);
   joints_.header.stamp = now_;
-  setJoints(channel.has_balloon, {hand.insertion, hand.rotation, hand.pressure}, joints_.position, joints_.name);
-  joints_.velocity = {(hand.insertion - channel.last.insertion) / time_step_,
-                      (hand.rotation - channel.last.rotation) / time_step_};
-  joints_.effort = {hand.force, hand.torque};
-  if (channel.has_balloon)
-  {
-    joints_.velocity.push_back((hand.pressure - channel.last.pressure) / time_step_);
-    joints_.effort.push_back(0.0);
-  }
-  channel.measured.publish(joints_);
+  channels_[k].measured.publish(joints_);
 }
 
 void InstrumentPublisher::publishSetpoint(std::size_t k, const RenderedHand& hand, double share, bool moves)
@@ -156,33 +157,22 @@ void InstrumentPublisher::publishGoals(const std::vector<RenderedHand>& hands)
 /** An instrument outside the introducer has no valid tip: stamp 0. */
 void InstrumentPublisher::publishTip(std::size_t k, const simulation::Simulation& simulation)
 {
-  const double inserted = simulation.hand(static_cast<int>(k)).insertion;
-  const Eigen::Vector3d tip = procedure::pointAt(simulation, std::max(0.0, inserted));
-  const Eigen::Vector3d behind = procedure::pointAt(simulation, std::max(0.0, inserted) - kTangentLength);
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (tip - behind).normalized());
-  pose_.header.stamp = inserted >= 0.0 ? now_ : ros::Time();
+  pose_.header.stamp = simulation.hand(static_cast<int>(k)).insertion >= 0.0 ? now_ : ros::Time();
   pose_.header.frame_id = names::kPatientFrame;
-  pose_.pose.position = toPoint(tip);
-  pose_.pose.orientation.x = turn.x();
-  pose_.pose.orientation.y = turn.y();
-  pose_.pose.orientation.z = turn.z();
-  pose_.pose.orientation.w = turn.w();
+  pose_.pose = tipPose(simulation, k);
   channels_[k].tip.publish(pose_);
 }
 
 /** Sum of the wall's forces on an instrument, and their moment about its tip. */
 void InstrumentPublisher::publishWallForce(std::size_t k, const simulation::Simulation& simulation)
 {
-  const std::vector<double>& arc = simulation.discretisation().position;
-  const double first = arc.back() - simulation.state().inserted_length;  // arc length at the introducer
   const double inserted = simulation.hand(static_cast<int>(k)).insertion;
   const Eigen::Vector3d tip = procedure::pointAt(simulation, std::max(0.0, inserted));
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const simulation::WallContact& contact : contacts_)
   {
-    if (!isOutermost(simulation, k, arc[static_cast<std::size_t>(contact.node)] - first))
+    if (!isOn(simulation, k, contact))
       continue;
     const Eigen::Vector3d sum = contact.normal_force + contact.friction_force;
     force += sum;
@@ -195,12 +185,12 @@ void InstrumentPublisher::publishWallForce(std::size_t k, const simulation::Simu
   channels_[k].wall_force.publish(wrench_);
 }
 
-void InstrumentPublisher::setSimulationState(const std::string& state, const std::string& reason)
+void InstrumentPublisher::setSimulationState(const std::string& state, const std::string& reason, ros::Time now)
 {
   simulation_state_ = state;
   simulation_reason_ = reason;
   revision_ = ~std::uint64_t{0};
-  now_ = ros::Time::now();
+  now_ = now;
   publishStates();
 }
 

@@ -31,11 +31,17 @@ public:
 
   /** While the simulation is paused: publishes the commands of the last step with the rendered forces scaled by a
    *  share, and the operating states if they have changed. */
-  void publishPaused(const std::vector<RenderedHand>& hands, double share);
+  void publishPaused(const std::vector<RenderedHand>& hands, double share, ros::Time now);
+
+  /** Joints as on measured_js, after a step. */
+  void measure(const simulation::Simulation& simulation, std::size_t instrument, sensor_msgs::JointState& joints) const;
+
+  /** Begins a new run. */
+  void reset();
 
   /** Sets the state of the simulation. Other than ENABLED, it is the state of all instruments.
    *  @param reason empty when enabled */
-  void setSimulationState(const std::string& state, const std::string& reason);
+  void setSimulationState(const std::string& state, const std::string& reason, ros::Time now);
 
 private:
   /** Topics and last values of one instrument. */
@@ -43,14 +49,14 @@ private:
   {
     ros::Publisher measured, setpoint, goal, tip, wall_force, state, reason;
     bool has_balloon = false;
-    simulation::HandState last;            ///< of the step before
+    simulation::HandState now, last;       ///< after the last step, and before it
     simulation::HandCommand last_command;  ///< of the step before
     std::string published_state;
     std::string published_reason;
     std::uint64_t revision = 0;
   };
 
-  void publishMeasured(std::size_t k, const simulation::HandState& hand);
+  void publishMeasured(const simulation::Simulation& simulation, std::size_t k);
   void publishSetpoint(std::size_t k, const RenderedHand& hand, double share, bool moves);
   void publishGoals(const std::vector<RenderedHand>& hands);
   void publishTip(std::size_t k, const simulation::Simulation& simulation);
@@ -60,7 +66,7 @@ private:
   double time_step_;  ///< [s]
   DriveCommands& commands_;
   std::vector<Channel> channels_;
-  bool has_last_ = false;  ///< true after the first step
+  bool has_last_ = false;  ///< true after the first step of a run
   std::string simulation_state_, simulation_reason_;
   std::uint64_t revision_ = ~std::uint64_t{0};  ///< of the commands at the last publication of states
   ros::Time now_;

@@ -1,4 +1,4 @@
-#include "nodes/rod_dynamics/step_scheduler.h"
+#include "nodes/rod_dynamics/control/step_scheduler.h"
 
 #include <gtest/gtest.h>
 

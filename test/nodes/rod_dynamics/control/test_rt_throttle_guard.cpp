@@ -1,4 +1,4 @@
-#include "nodes/rod_dynamics/rt_throttle_guard.h"
+#include "nodes/rod_dynamics/control/rt_throttle_guard.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <ros/ros.h>
+
+#include "nodes/rod_dynamics/contact_force_publisher.h"
+#include "nodes/rod_dynamics/control/pace.h"
+#include "nodes/rod_dynamics/control/simulation_clock.h"
+#include "nodes/rod_dynamics/instruments/drive_commands.h"
+#include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
+#include "nodes/rod_dynamics/instruments/instrument_publisher.h"
+#include "nodes/rod_dynamics/procedure_driver.h"
+#include "nodes/rod_dynamics/remote_contact_source.h"
+#include "nodes/rod_dynamics/remote_deformable_wall.h"
+#include "nodes/rod_dynamics/rod_publisher.h"
+#include "nodes/rod_dynamics/vessel_server_monitor.h"
+#include "simulation/simulation.h"
+#include "vessel/model/vessel.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Simulation of a scene with its connections to the graph: the vessel, the contact node, the commands to its
+ *  instruments, and all of its topics. */
+class GraphSimulation
+{
+public:
+  /** @param parameters handle of the private parameters `commands`, `contact_patience` and `publish_clock`
+   *  @throws InputError for an invalid parameter or file of commands */
+  GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene, Pace pace);
+
+  /** Waits for the vessel and the contact node, and makes the simulation. @return false when ROS shut down before */
+  bool connect();
+
+  /** Advances by one step with the commands of the drives, and publishes it. */
+  void step();
+
+  /** While no step is taken: publishes the commands of the last step with the rendered forces scaled by a share. */
+  void publishHeld(double share);
+
+  /** Lets the rendered forces approach those of the simulation from zero, after publishHeld(). */
+  void fadeForcesIn() { renderer_.reset(); }
+
+  /** Publishes the beginning of a run: the time, and an empty map of the wall forces. */
+  void publishBeginning();
+
+  /** Publishes the end: forces of zero, and the last map of the wall forces. */
+  void publishEnd(const std::string& reason);
+
+  /** Publishes the state of all instruments, as InstrumentPublisher::setSimulationState(). */
+  void setState(const std::string& state, const std::string& reason);
+
+  /** Returns to the beginning of the scene.
+   *  @throws InputError when a balloon has moved the wall, which belongs to vessel_server */
+  void reset();
+
+  /** State in the format of Simulation::save(), followed by that of the scripted operator and of the drives.
+   *  @throws InputError for a scene whose state cannot be saved */
+  std::string save();
+
+  /** Continues from a state of save(), or of `simulate`. A refused one has no effect.
+   *  @param origin names the state in errors
+   *  @throws InputError for an invalid state, or one of another scene */
+  void load(const std::string& state, const std::string& origin);
+
+  const scene::Scene& scene() const { return scene_; }
+  const simulation::Simulation& simulation() const { return *simulation_; }
+  const vessel::Vessel& vessel() const { return vessel_; }     ///< initial vessel; empty without one
+  RemoteContactSource* contacts() { return contacts_.get(); }  ///< null without a vessel
+  const RemoteContactSource* contacts() const { return contacts_.get(); }
+  DriveCommands& drives() { return drives_; }
+  const InstrumentPublisher& instruments() const { return instruments_; }
+  SimulationClock& clock() { return clock_; }
+
+  /** Reports whether forces are faded after rejected steps. */
+  bool isFaded() const { return renderer_.isFaded(); }
+
+  /** Reports whether the topics of the recording have subscribers. */
+  bool isRecorded() const { return publisher_.isRecorded() && (!forces_ || forces_->isSampled()); }
+
+  /** Reports whether vessel_server has ended, and the deformed wall with it. */
+  bool isWithoutVessel() const { return server_ && server_->hasEnded(); }
+
+private:
+  bool waitForVessel();
+  std::unique_ptr<simulation::Simulation> makeSimulation();
+  ros::Time now() const { return clock_.stamp(simulation_ ? simulation_->steps() : 0); }
+  void requireRigidWall() const;
+  void beginRun();
+
+  ros::NodeHandle& node_;
+  scene::Scene scene_;
+  SimulationClock clock_;
+  scene::EntryPose entry_;
+  vessel::Vessel vessel_;
+  std::uint64_t vessel_hash_ = 0;                  ///< content hash of the vessel's mesh; 0 without a vessel
+  std::unique_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
+  std::unique_ptr<VesselServerMonitor> server_;    ///< null without a vessel
+  std::unique_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
+  std::uint64_t initial_wall_ = 0;                 ///< version of the wall at the first step
+  std::unique_ptr<simulation::Simulation> simulation_;
+  std::unique_ptr<ProcedureDriver> procedure_;  ///< null without a procedure in the scene
+  RodPublisher publisher_;
+  std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
+  DriveCommands drives_;
+  InstrumentPublisher instruments_;
+  HandForceRenderer renderer_;
+};
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,162 @@
+#include <algorithm>
+
+#include "common/error.h"
+#include "endovascular_sim/SimulationRun.h"
+#include "nodes/rod_dynamics/control/state_file.h"
+#include "nodes/rod_dynamics/rod_dynamics_node.h"
+#include "nodes/runtime/node_program.h"
+#include "nodes/runtime/ros_names.h"
+
+// Services of RodDynamicsNode. They are called between two steps.
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr std::uint32_t kMostSteps = 100000;  ///< of one call [steps]
+constexpr double kClearance = 10.0;           ///< longest wait of a call for the contact node and the recorder [s]
+constexpr double kNextRecording = 60.0;       ///< longest wait for the begin of a recording [s]
+
+}  // namespace
+
+SimulationServices::Operations RodDynamicsNode::operations()
+{
+  return {[this] { return pauseByClient(); },
+          [this] { return resumeByClient(); },
+          [this] { return reset(); },
+          [this](const std::string& file) { return saveState(file); },
+          [this](const std::string& file) { return loadState(file); },
+          [this](const StepSimulation::Request& request, StepSimulation::Response& response)
+          { stepByClient(request, response); }};
+}
+
+std::string RodDynamicsNode::pauseByClient()
+{
+  is_paused_ = true;
+  return "paused at step " + std::to_string(simulation_.simulation().steps());
+}
+
+std::string RodDynamicsNode::resumeByClient()
+{
+  is_paused_ = false;
+  return "continues at step " + std::to_string(simulation_.simulation().steps());
+}
+
+std::string RodDynamicsNode::reset()
+{
+  const std::uint64_t previous_steps = simulation_.simulation().steps();
+  simulation_.reset();
+  return beginRun("", previous_steps);
+}
+
+std::string RodDynamicsNode::saveState(const std::string& file)
+{
+  return writeStateFile(file, simulation_.save());
+}
+
+std::string RodDynamicsNode::loadState(const std::string& file)
+{
+  const std::uint64_t previous_steps = simulation_.simulation().steps();
+  const std::string state = readStateFile(file);
+  simulation_.load(state, file);
+  return beginRun(state, previous_steps);
+}
+
+/** @param state saved state at the beginning; empty: the beginning of the scene */
+void RodDynamicsNode::announceRun(const std::string& state, std::uint64_t previous_steps)
+{
+  SimulationRun run;
+  run.header.stamp = simulation_.clock().stamp(simulation_.simulation().steps());
+  run.run = ++run_;
+  run.first_step = simulation_.simulation().steps();
+  run.previous_steps = previous_steps;
+  run.state.assign(state.begin(), state.end());
+  run_publisher_.publish(run);
+}
+
+/** Announces a run, and waits until the recorder has closed its recording and begun the next one.
+ *  @throws InputError when the recorder does not respond */
+std::string RodDynamicsNode::beginRun(const std::string& state, std::uint64_t previous_steps)
+{
+  announceRun(state, previous_steps);
+  beginHold(0.0);
+  const Clock::time_point end = Clock::now() + StepScheduler::period(kNextRecording);
+  while (!recorder_.hasBegun(run_) && !isOver())
+  {
+    if (Clock::now() > end)
+      throw InputError("session", "", "has not begun the next recording within 60 s: steps may be missing in it");
+    publishHeld();
+    countProgress();
+    sleepUntil(Clock::now() + StepScheduler::period(1e-3));
+  }
+  simulation_.publishBeginning();
+  return "run " + std::to_string(run_) + " begins at step " + std::to_string(simulation_.simulation().steps());
+}
+
+void RodDynamicsNode::stepByClient(const StepSimulation::Request& request, StepSimulation::Response& response)
+{
+  observer_->begin();
+  response.message = refusalOf(request);
+  if (response.message.empty())
+    response.message = simulation_.drives().give(names::kSimulationStep, request.commands);
+  if (response.message.empty())
+    response.message = takeSteps(request.steps);
+  response.success = response.message.empty() ? 1 : 0;
+  simulation_.clock().publish(simulation_.simulation().steps());
+  observer_->report(simulation_.simulation(), simulation_.instruments(), simulation_.drives(), response);
+}
+
+/** Reason for which a call cannot be executed at all; empty without one. */
+std::string RodDynamicsNode::refusalOf(const StepSimulation::Request& request) const
+{
+  if (pace_ != Pace::kStepped)
+    return std::string("the pace is ") + nameOf(pace_) +
+           "; clients take the steps only with the pace stepped: start with pace:=stepped";
+  if (is_paused_)
+    return "the simulation is paused; call simulation/resume first";
+  if (request.steps > kMostSteps)
+    return "steps is " + std::to_string(request.steps) + "; must be at most " + std::to_string(kMostSteps);
+  return "";
+}
+
+/** Takes the steps of a call. @return reason for which not all of them were taken; else empty */
+std::string RodDynamicsNode::takeSteps(std::uint32_t steps)
+{
+  StepScheduler scheduler(simulation_.scene().solver.time_step);
+  for (std::uint32_t taken = 0; taken < steps; ++taken)
+  {
+    countProgress();
+    std::string reason = waitForClearance();
+    if (reason.empty() && isAtEnd())
+      reason = "the end of the simulated time, parameter seconds, is reached";
+    if (!reason.empty())
+      return reason + "; " + std::to_string(taken) + " of " + std::to_string(steps) + " steps were taken";
+    step(scheduler, Clock::now());
+    observer_->addStep(simulation_.simulation());
+  }
+  return "";
+}
+
+/** Waits until a step can be taken. @return reason for which it still cannot; else empty */
+std::string RodDynamicsNode::waitForClearance()
+{
+  const Clock::time_point end = Clock::now() + StepScheduler::period(kClearance);
+  std::string reason = obstacle();
+  while (!reason.empty() && Clock::now() < end && !isOver())
+  {
+    beginHold(0.0);
+    announceHold(reason);
+    publishHeld();
+    countProgress();
+    sleepUntil(Clock::now() + StepScheduler::period(1e-3));
+    reason = obstacle();
+  }
+  if (isOver())
+    return "the simulation ends";
+  if (reason.empty() && is_held_)
+    release();
+  return reason;
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,41 @@
+#include "nodes/session/recording.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "common/error.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kJointRate = 100.0;   ///< rate of setpoint_js in the bag [Hz]
+constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [Hz]
+
+}  // namespace
+
+Recording::Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps)
+  : folder(std::move(folder_)),
+    results(scene, folder, steps),
+    bag(path("session.bag")),
+    pose(scene.record.pose_rate),
+    joints(kJointRate),
+    contacts(kContactRate)
+{
+}
+
+std::string createRecordingFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder + "/fluoroscopy", error);
+  if (error)
+    throw InputError(folder, "results", "the folder cannot be created (" + error.message() + "); choose another one");
+  for (const char* name : {"/session.bag", "/report.json"})
+    if (std::filesystem::exists(folder + name))
+      throw InputError(folder, "results", "the folder already contains a session; choose another one");
+  return folder;
+}
+
+}  // namespace endovascular_sim::nodes
