@@ -14,10 +14,12 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kBendRadius = 0.03;  // m
-constexpr double kBefore = 0.04;      // m, straight part from the introducer to the bend
+// m, straight part from the introducer to the bend. The introducer's mouth clamps the wire of the reference, but not a
+// wire in a catheter: it must be far from the bend.
+constexpr double kBefore = 0.1;
 constexpr double kBeyond = 0.02;      // m, straight part of the catheter after the bend
 constexpr double kProtrusion = 0.02;  // m, of the wire beyond the catheter
-constexpr double kSpare = 0.02;       // m of the wire outside the introducer
+constexpr double kSpare = 0.03;       // m of the wire outside the introducer
 constexpr double kWireRadius = 4.445e-4;
 constexpr double kCatheterClearance = 5e-6;  // m between catheter and vessel: it follows the bend
 constexpr double kTimeStep = 1e-3;           // s
@@ -75,7 +77,7 @@ rod::Environment surroundings()
 rod::Boundary introducer()
 {
   rod::Boundary boundary;
-  boundary.guide_length = 2e-3;
+  boundary.guide_length = 8e-3;
   return boundary;
 }
 
