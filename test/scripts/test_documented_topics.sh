@@ -49,7 +49,7 @@ def mentioned():
 def in_code():
     """Names of ros_names.h. The CRTK names begin with a slash and belong below instruments/ and haptic/."""
     values = dict(re.findall(r"constexpr auto (k\w+) =\s*\"([^\"]+)\"", text("src/nodes/runtime/ros_names.h")))
-    crtk = {value for key, value in values.items() if value.startswith("/") and key != "kDiagnostics"}
+    crtk = {value for key, value in values.items() if value.startswith("/") and key not in ("kDiagnostics", "kClock")}
     assert {"/measured_js", "/servo_jp", "/operating_state"} < crtk, crtk
     of_devices = {"/measured_js", "/operating_state", "/state_reason"}
     topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "/[a-z_]+", value)}

@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--steps", type=int, default=2000, help="steps of each measurement, from the scene's beginning")
-    parser.add_argument("--sizes", type=int, nargs="+", default=[1, 7, 10, 100, 1000], help="steps per call")
+    parser.add_argument("--sizes", type=int, nargs="+", default=[1, 5, 10, 100, 1000], help="steps per call")
     options = parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("call_rate", anonymous=True)
     for service in ("simulation/reset", "simulation/step"):
