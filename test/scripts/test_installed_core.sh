@@ -47,14 +47,14 @@ if grep -E 'libros|libxmlrpcpp|libcpp_common|libendovascular_sim_nodes' "$folder
 fi
 grep -q libroscpp "$folder/catkin.ldd"
 
-# Of the installed programs, only nodes and the two tools that speak ROS link it.
+# Of the installed programs, only nodes, the two tools that speak ROS and the example of a client link it.
 for program in "$installed"/lib/endovascular_sim/*; do
   name=$(basename "$program")
   [ "$(head -c 4 "$program" | tail -c 3)" = ELF ] || continue
   uses=no
   if ldd "$program" | grep -q libroscpp; then uses=yes; fi
   case "$name" in
-    contact|fluoroscopy|haptic_device|rod_dynamics|session|vessel_server|visualization|replay|device_simulator) wanted=yes ;;
+    contact|fluoroscopy|haptic_device|rod_dynamics|session|vessel_server|visualization|replay|device_simulator|push_to_force) wanted=yes ;;
     *) wanted=no ;;
   esac
   [ $uses = $wanted ] || { echo "$name links ROS: $uses, expected: $wanted"; exit 1; }
