@@ -122,7 +122,7 @@ void Detector::detectSmoothEdge(const Query& query, std::size_t node, std::vecto
   NarrowPhase::Minimum minimum;
   const auto test = [&](int wall_edge)
   {
-    if (!facets.edgeEdgeFeature(wire_edge, wall_edge, reach, minimum))
+    if (!smooth.mayBulge(wall_edge, end - begin) || !facets.edgeEdgeFeature(wire_edge, wall_edge, reach, minimum))
       return;
     const double t = minimum.feature.parameter;
     const std::array<int, 2>& sides = smooth.wall().edges[wall_edge].triangles;

@@ -95,6 +95,8 @@ double WallModel::smoothDistance(const Eigen::Vector3d& point, const Bvh::Neares
 {
   const SmoothFootSearch search(*smooth_);
   double height = search.walk(point, nearest.triangle).height;
+  if (nearest.distance > smooth_->deviation())
+    return height;
   std::vector<int> triangles, owners;
   const double reach = std::abs(height) + smooth_->deviation();
   bvh_.collect({point, Eigen::Vector3d::Zero(), reach, 0.0}, {point, Eigen::Vector3d::Zero(), 0.0, 0.0}, triangles,

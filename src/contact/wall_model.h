@@ -45,7 +45,7 @@ public:
   NarrowPhase narrowPhase() const { return NarrowPhase(wall_, bounds_); }
 
   /** Signed distance from a point to the wall, positive inside the lumen [m]. For a smooth wall that of the nearest
-   *  foot.
+   *  foot; beyond the wall's deviation from its facets, that of the foot reached from the nearest facet.
    *  @param hint triangle to start the search with, or −1; the result does not depend on it
    *  @param nearest receives the nearest triangle, unless it is null */
   double signedDistance(const Eigen::Vector3d& point, int hint = -1, int* nearest = nullptr) const;

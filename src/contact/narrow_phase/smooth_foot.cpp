@@ -1,6 +1,7 @@
 #include "contact/narrow_phase/smooth_foot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -231,6 +232,14 @@ struct SmoothFootSearch::Walker
     return derivative(edge.vertices[1]) - derivative(edge.vertices[0]);
   }
 
+  /** The edge of lower index of a triangle's two edges at one of its vertices. */
+  int firstEdgeAt(int candidate, int vertex) const
+  {
+    const int corner = cornerOf(wall, candidate, vertex);
+    const std::array<int, 3>& edges = wall.triangle_edges[candidate];
+    return std::min(edges[corner], edges[(corner + 2) % 3]);
+  }
+
   /** Leaves a vertex by the triangle or the edge with the longest step. @return whether there is none */
   bool stepAtVertex()
   {
@@ -241,6 +250,8 @@ struct SmoothFootSearch::Walker
       const WallEdge& edge = wall.edges[e];
       for (int candidate : edge.triangles)
       {
+        if (e != firstEdgeAt(candidate, on_vertex))
+          continue;  // two edges at the vertex belong to the triangle
         Walker there(smooth, point);
         there.triangle = candidate;
         there.weights[cornerOf(wall, candidate, on_vertex)] = 1.0;

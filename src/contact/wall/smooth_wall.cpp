@@ -28,6 +28,7 @@ constexpr int kParts = 4;                // of every edge, for bounds
 constexpr double kFlat = 1e-6;           // rad: angle between triangles below which their edge is never sharp
 constexpr double kTiltFactor = 1.25;     // of the largest sampled angle, for a bound
 constexpr double kTiltSlack = 0.03;      // rad, the same
+constexpr double kLeastBulge = 2.0;      // 1/m: curvature of a bulge
 constexpr double kLargestTilt = 1.3;     // rad, above which the tilt is unbounded
 
 /** Weights w_i of the corners' quadrics. They and their derivatives across an edge depend, on that edge, on its own
@@ -312,6 +313,14 @@ SmoothWall::Point SmoothWall::at(int triangle, const Eigen::Vector3d& weights) c
   const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - point.normal * point.normal.transpose();
   point.curvature = (tangential * point.curvature * tangential).eval();
   return point;
+}
+
+bool SmoothWall::mayBulge(int edge, const Eigen::Vector3d& along) const
+{
+  const std::array<int, 2>& ends = wall_.edges[edge].vertices;
+  const auto convex = [&](int vertex)
+  { return along.dot(quadrics_[vertex].bend * along) < -kLeastBulge * along.squaredNorm(); };
+  return isSharp(edge) || convex(ends[0]) || convex(ends[1]);
 }
 
 double SmoothWall::creaseShare() const

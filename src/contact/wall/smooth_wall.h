@@ -60,6 +60,8 @@ public:
   bool isCrease(int vertex) const { return crease_[vertex] != 0; }
   /** Whether an edge ends at a crease, so that the normal may jump across it. */
   bool isSharp(int edge) const { return sharp_[edge] != 0; }
+  /** Whether the surface may bulge into the lumen along a direction near an edge, by 1 µm over 2 mm or more. */
+  bool mayBulge(int edge, const Eigen::Vector3d& along) const;
   double creaseShare() const;  ///< share of the vertices that are creases
 
   const Wall& wall() const { return wall_; }
