@@ -21,7 +21,7 @@ struct SleeveForce
 {
   double length = 0.0;           ///< inserted length over L, of the step that reaches the given one
   double force = 0.0;            ///< drag and damping excluded
-  double configurational = 0.0;  ///< part by which the sleeve pushes the rod out, negative
+  double configurational = 0.0;  ///< configurational force of the sleeve, negative: it pushes the rod out [EI/L²]
   double energy = 0.0;           ///< bending energy, over EI/L
 };
 

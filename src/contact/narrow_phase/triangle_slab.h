@@ -23,8 +23,8 @@ struct alignas(64) TriangleSlab  // the data of every query fill two cache lines
   double edge_slope = 0.0;
   double corner_slope = 0.0;                 ///< the same bound for a local minimum at a corner that the triangle owns
   std::array<int, 3> own_edges{-1, -1, -1};  ///< reflex edges that the triangle owns; a mesh edge has one owner
-  /** Distance by which the triangle's features end before the cutoff of a query: that of a smooth wall includes its
-   *  largest deviation from the facets. 0 for facets [m] */
+  /** Difference between the cutoff of a query and that of this triangle [m]. The cutoff of a smooth wall includes the
+   *  largest deviation of all facets; a triangle needs its own. 0 for facets. */
   double before_cutoff = 0.0;
   bool has_moved = false;  ///< whether the triangle, its edges or a neighbour have ever moved
 
