@@ -111,11 +111,12 @@ double InsertionForces::restShare(const Location& at, const State& state) const
 }
 
 /** Sections of the other layers at an arc length.
- *  @param at location at which their angles are taken */
-InsertionForces::Side InsertionForces::othersAt(int k, double arc_length, const Location& at, const State& state) const
+ *  @param at location at which their angles are taken
+ *  @param acting restShare() there */
+InsertionForces::Side InsertionForces::othersAt(int k, double arc_length, const Location& at, double acting,
+                                                const State& state) const
 {
   Side side;
-  const double acting = restShare(at, state);
   for (int m = 0; m < stack_.count(); ++m)
   {
     const LayerProfile& profile = stack_.profile(m);
@@ -164,7 +165,7 @@ double InsertionForces::jointForce(int k, double arc_length, const Section& befo
   for (double begin = arc_length - kBlur; begin < arc_length + kBlur; begin = end)
   {
     end = nextEnd(k, begin, arc_length + kBlur);
-    Side now = othersAt(k, 0.5 * (begin + end), at, state);
+    Side now = othersAt(k, 0.5 * (begin + end), at, acting, state);
     Side then = now;
     then.add(before.bending_stiffness, rest_before, acting);
     if (after != nullptr)

@@ -57,7 +57,7 @@ private:
   Eigen::Vector3d momentAt(int node, const State& state) const;
   Eigen::Vector3d restAt(int k, const Eigen::Vector2d& curvature, const Location& at, const State& state) const;
   double restShare(const Location& at, const State& state) const;
-  Side othersAt(int k, double arc_length, const Location& at, const State& state) const;
+  Side othersAt(int k, double arc_length, const Location& at, double acting, const State& state) const;
   double nextEnd(int k, double begin, double end) const;
   double jointForce(int k, double arc_length, const Section& before, const Section* after, const State& state) const;
   double widening(int k, int node, const LayerProfile::Slope& slope) const;
