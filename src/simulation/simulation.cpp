@@ -155,8 +155,11 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
   const bool chuck = drive.grip == drive::Grip::kChuck;
   HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
-    rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), command.insertion) : command.insertion) -
-                     channel.slipped_insertion - now.insertion;
+  {
+    // Limited after the slip, or a wire that has slipped in the fingers could not leave the introducer.
+    const double target = command.insertion - channel.slipped_insertion;
+    rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), target) : target) - now.insertion;
+  }
   if (scene_.introducer && chuck)  // the chuck waits at a stop
     rest.insertion = std::clamp(rest.insertion, leastInsertion(instrument) - now.insertion,
                                 std::max(leastInsertion(instrument), mostInsertion(instrument)) - now.insertion);

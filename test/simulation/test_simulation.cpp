@@ -246,6 +246,28 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
   EXPECT_LT(slipping.simulation->state().inserted_length, free.simulation->state().inserted_length - 1e-3);
 }
 
+// The wire sticks in the catheter's curved tip, and the fingers slip on it.
+TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
+{
+  Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.4"});
+  std::vector<HandCommand> commands = {{0.02, 0.0}, {-0.023, 0.0}};
+  const auto move = [&](int instrument, double insertion, double speed)
+  {
+    double& commanded = commands[static_cast<std::size_t>(instrument)].insertion;
+    const double travel = std::copysign(speed * bench.scene.solver.time_step, insertion - commanded);
+    while (std::abs(insertion - commanded) > std::abs(travel))
+    {
+      commanded += travel;
+      bench.simulation->stepAll(commands);
+    }
+  };
+  move(0, 0.15, 0.1);
+  move(1, 0.10, 0.1);
+  move(0, -0.1, 0.05);
+  EXPECT_LT(bench.simulation->reached(0).insertion, bench.simulation->hand(0).insertion - 1e-3);
+  EXPECT_TRUE(bench.simulation->isOutside(0));
+}
+
 TEST(Simulation, CarriesOverMotionBeyondTheLargestSpeed)
 {
   Bench bench("straight_wire.yaml");
