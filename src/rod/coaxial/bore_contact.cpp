@@ -8,11 +8,11 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kWallStiffness = 5e8;  // N/m² of the bore per length: 0.1 µm at 50 N/m
+constexpr double kWallStiffness = 5e7;  // N/m² of the bore per length: 1 µm at 50 N/m
 constexpr double kRestoring = 2e3;      // N/m² per length against the change of the shift in one solution
-constexpr double kTolerance = 1e-9;     // m, change of a shift in the last iteration
-constexpr int kMaxIterations = 12;
-constexpr int kMaxHalvings = 5;
+constexpr double kTolerance = 1e-8;     // m, change of a shift in the last iteration
+constexpr int kMaxIterations = 100;
+constexpr int kMaxHalvings = 20;
 constexpr double kRounding = 1e-12;  // relative error of the energy
 constexpr std::size_t kHeld = 2;     // nodes that stay on the centreline
 

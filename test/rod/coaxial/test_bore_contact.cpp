@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "rod/coaxial/bore_contact.h"
 
@@ -135,6 +137,86 @@ TEST(BoreContact, ASmallChangeOfTheTensionChangesTheLoadsLittle)
       EXPECT_LT(std::abs(sum - before), 0.03) << step;  // N: T times the angle of 2 rad changes by 0.02 N
     }
     before = sum;
+  }
+}
+
+/** Largest force per length that remains at a node with the shifts of a solution [N/m].
+ *  @param before the nodes before the solution */
+double imbalance(const std::vector<BoreNode>& before, const std::vector<BoreNode>& nodes,
+                 const std::vector<double>& load)
+{
+  constexpr double kRestoring = 2e3;  // N/m², of bore_contact.cpp
+  const std::size_t last = nodes.size() - 2;
+  std::vector<Vector2d> force(nodes.size(), Vector2d::Zero());
+  for (std::size_t i = 1; i <= last + 1; ++i)
+  {
+    const Vector2d moment = nodes[i].moment + nodes[i].stiffness * BoreContact::bend(nodes, i);
+    force[i - 1] -= moment / nodes[i - 1].edge;
+    force[i] += moment / nodes[i - 1].edge;
+    if (i > last)
+      continue;
+    force[i] += moment / nodes[i].edge;
+    force[i + 1] -= moment / nodes[i].edge;
+  }
+  double largest = 0.0;
+  for (std::size_t i = 2; i <= last; ++i)
+  {
+    const double tension = 0.5 * (nodes[i - 1].tension + nodes[i].tension);
+    force[i] += tension * nodes[i].cell * nodes[i].curvature;
+    force[i] -= kRestoring * nodes[i].cell * (nodes[i].shift - before[i].shift);
+    const auto pull = [&](std::size_t edge) -> Vector2d
+    {
+      const std::vector<BoreNode>& of = nodes[edge].tension > 0.0 ? nodes : before;  // compression acts explicitly
+      const Vector2d from = of[edge].shift * (edge < 2 ? 0.0 : 1.0);
+      return nodes[edge].tension / nodes[edge].edge * (of[edge + 1].shift - from);
+    };
+    force[i] += (i < last ? pull(i) : Vector2d::Zero().eval()) - pull(i - 1);
+    force[i] -= load[i] * nodes[i].cell * nodes[i].shift.normalized();
+    largest = std::max(largest, force[i].norm() / nodes[i].cell);
+  }
+  return largest;
+}
+
+/** Wire of random stiffness, tension, clearance and bends, with shifts that belong to none of them. */
+std::vector<BoreNode> randomNodes(std::mt19937_64& engine)
+{
+  const auto between = [&engine](double low, double high)
+  { return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1.0p-53; };
+  std::vector<BoreNode> nodes(static_cast<std::size_t>(between(60, 260)));
+  double edge = 1e-3;
+  double stiffness = 1e-5;
+  double tension = 0.0;
+  double clearance = 3e-4;
+  Vector2d curvature = Vector2d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    if (i % 20 == 0)
+    {
+      edge = between(0.25e-3, 4e-3);
+      stiffness = 1.6e-6 * std::pow(100.0, between(0.0, 1.0));
+      tension = between(-0.1, 1.0);
+      clearance = between(1e-4, 8e-4);
+      curvature = Vector2d(between(-60.0, 60.0), between(-60.0, 60.0));
+    }
+    const double angle = between(0.0, 6.28);
+    const Vector2d shift = between(0.0, 1.0) * clearance * Vector2d(std::cos(angle), std::sin(angle));
+    const Vector2d moment = stiffness * between(0.7, 1.0) * curvature;
+    nodes[i] = {edge, edge, stiffness, clearance, 1.0, tension, curvature, moment, shift};
+  }
+  nodes.back().shift.setZero();
+  return nodes;
+}
+
+TEST(BoreContact, TheSolutionIsInEquilibriumFromAnyShiftsAtTheBeginning)
+{
+  std::mt19937_64 engine(5);
+  for (int k = 0; k < 300; ++k)
+  {
+    const std::vector<BoreNode> before = randomNodes(engine);
+    std::vector<BoreNode> nodes = before;
+    BoreContact bore;
+    bore.solve(nodes);
+    EXPECT_LT(imbalance(before, nodes, bore.load()), 0.5) << k;  // N/m; the loads reach several 100 N/m
   }
 }
 
