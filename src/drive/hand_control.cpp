@@ -350,6 +350,14 @@ RejectedCommands HandControl::rejected() const
   return all;
 }
 
+void HandControl::copyRejections(const HandControl& other)
+{
+  const std::uint64_t clamped = rejected_.clamped;  // commands that were taken over
+  rejected_ = other.rejected_;
+  rejected_.clamped = clamped;
+  last_refusal_ = other.last_refusal_;
+}
+
 double HandControl::silence() const
 {
   return accepted_ > 0 ? silence_ : std::numeric_limits<double>::infinity();

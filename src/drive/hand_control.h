@@ -70,6 +70,11 @@ public:
   const std::string& lastRefusal() const { return last_refusal_; }  ///< reason of the last refusal
   std::uint64_t accepted() const { return accepted_; }
   RejectedCommands rejected() const;
+
+  /** Takes over the number and the last reason of rejections, nothing else, e.g. of a control that has been discarded
+   *  because one of several commands was rejected. */
+  void copyRejections(const HandControl& other);
+
   double silence() const;  ///< simulated time since the last accepted command [s]; infinite before the first
 
   /** Rests at a position, without a driver, as after a pause of all clients.

@@ -53,6 +53,13 @@ DrivenHands::DrivenHands(const scene::Scene& scene)
   }
 }
 
+void DrivenHands::copyRejections(const DrivenHands& other)
+{
+  for (std::size_t k = 0; k < controls_.size(); ++k)
+    if (controls_[k])
+      controls_[k]->copyRejections(*other.controls_[k]);
+}
+
 drive::HandControl* DrivenHands::control(std::size_t instrument)
 {
   return controls_[instrument] ? &*controls_[instrument] : nullptr;

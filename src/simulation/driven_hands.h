@@ -47,6 +47,9 @@ public:
   /** Holds all instruments that clients drive where they are. */
   void restAt(const Simulation& simulation);
 
+  /** Takes over the numbers and the last reasons of rejections (HandControl::copyRejections()) of the same scene. */
+  void copyRejections(const DrivenHands& other);
+
   /** Saves or loads all controls. @throws ArchiveError for invalid data */
   void archive(Archive& archive);
 

@@ -32,8 +32,8 @@ bool waitUntil(double seconds, Condition condition)
   return condition();
 }
 
-/** Kills a node, as a crash would. @return false when the node was not found */
-inline bool killNode(const std::string& name)
+/** Process of a node. @return 0 when the node was not found */
+inline pid_t processOf(const std::string& name)
 {
   XmlRpc::XmlRpcValue request, response, payload;
   request[0] = ros::this_node::getName();
@@ -42,11 +42,18 @@ inline bool killNode(const std::string& name)
   std::uint32_t port = 0;
   if (!ros::master::execute("lookupNode", request, response, payload, false) ||
       !ros::network::splitURI(payload, host, port))
-    return false;
+    return 0;
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
   XmlRpc::XmlRpcValue caller, reply;
   caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, reply) && kill(static_cast<int>(reply[2]), SIGKILL) == 0;
+  return client.execute("getPid", caller, reply) ? static_cast<int>(reply[2]) : 0;
+}
+
+/** Kills a node, as a crash would. @return false when the node was not found */
+inline bool killNode(const std::string& name)
+{
+  const pid_t process = processOf(name);
+  return process > 0 && kill(process, SIGKILL) == 0;
 }
 
 }  // namespace endovascular_sim

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -37,12 +38,14 @@ protected:
   {
     client_ = std::make_unique<SimulationClient>();
     ASSERT_TRUE(SimulationClient::waitForServices());
+    diagnostics_ = ros::NodeHandle().subscribe("/diagnostics", 100, &Stepped::receiveDiagnostics);
     folder_ = std::filesystem::temp_directory_path() / ("stepped_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
   static void TearDownTestSuite()
   {
     std::filesystem::remove_all(folder_);
+    diagnostics_.shutdown();
     client_.reset();
   }
 
@@ -68,12 +71,35 @@ protected:
     return last;
   }
 
+  static void receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message)
+  {
+    for (const diagnostic_msgs::DiagnosticStatus& status : message->status)
+    {
+      std::uint64_t sum = 0;
+      bool has_counts = false;
+      for (const diagnostic_msgs::KeyValue& value : status.values)
+        if (value.key.find("instruments/wire: rejected, ") != std::string::npos)
+        {
+          sum += std::stoull(value.value);
+          has_counts = true;
+        }
+      if (has_counts)
+        rejections_ = sum;
+    }
+  }
+
   static std::unique_ptr<SimulationClient> client_;
   static std::filesystem::path folder_;
+  static ros::Subscriber diagnostics_;
+  static std::atomic<std::uint64_t> rejections_;  ///< of commands to the wire, by the diagnostics
+  static std::string waited_for_recorder_;        ///< hash of the trajectory that waited for the recorder
 };
 
 std::unique_ptr<SimulationClient> Stepped::client_;
 std::filesystem::path Stepped::folder_;
+ros::Subscriber Stepped::diagnostics_;
+std::atomic<std::uint64_t> Stepped::rejections_{0};
+std::string Stepped::waited_for_recorder_;
 
 InstrumentCommand command(const std::string& instrument, const std::string& word, std::vector<double> position)
 {
@@ -102,6 +128,7 @@ TEST_F(Stepped, A_RefusedCallsNameTheReasonAndChangeNothing)
   const std::string second = refusal(1, {command("wire", "move_jp", {0.1}), command("wire", "servo_jp", {0.5})});
   EXPECT_NE(second.find("commands[1]: wire: servo_jp of simulation/step"), std::string::npos) << second;
   EXPECT_FALSE(client_->step(0).instruments.at(0).is_busy);
+  EXPECT_TRUE(waitUntil(10.0, [] { return rejections_ == 4U; })) << rejections_ << " rejected commands to the wire";
   ASSERT_TRUE(client_->trigger("simulation/pause").success);
   EXPECT_NE(refusal(1, {}).find("simulation/resume"), std::string::npos);
   ASSERT_TRUE(client_->trigger("simulation/resume").success);
@@ -212,8 +239,25 @@ TEST_F(Stepped, G_AMissingContactNodeIsWaitedFor)
   EXPECT_EQ(Hash64::toHex(run(0, kShortSteps, 100).trajectory_hash), hashOfSimulate(scene(), commands(), kShort));
 }
 
+TEST_F(Stepped, H_StepsWaitForTheRecorderAndNoneIsLost)
+{
+  ASSERT_TRUE(client_->trigger("simulation/reset").success);
+  const pid_t session = processOf("/session");
+  ASSERT_GT(session, 0);
+  ASSERT_EQ(kill(session, SIGSTOP), 0);
+  const StepSimulation::Response behind = client_->step(kShortSteps);
+  ASSERT_EQ(kill(session, SIGCONT), 0);
+  EXPECT_FALSE(behind.success);
+  EXPECT_NE(behind.message.find("the recorder lags behind"), std::string::npos) << behind.message;
+  EXPECT_LT(behind.step, 1000U) << "more than the recorder's queue holds";
+  const StepSimulation::Response rest = client_->step(kShortSteps - static_cast<std::uint32_t>(behind.step));
+  EXPECT_TRUE(rest.success) << rest.message;
+  EXPECT_EQ(rest.step, kShortSteps);
+  waited_for_recorder_ = Hash64::toHex(rest.trajectory_hash);
+}
+
 // Must run last.
-TEST_F(Stepped, H_EveryRunHasARecordingThatReplays)
+TEST_F(Stepped, I_EveryRunHasARecordingThatReplays)
 {
   const std_srvs::Trigger::Response stopped = client_->trigger("session/stop");
   EXPECT_TRUE(stopped.success);
@@ -224,6 +268,7 @@ TEST_F(Stepped, H_EveryRunHasARecordingThatReplays)
     EXPECT_EQ(replayedHash(first / run / "session.bag"), expected) << run;
   replayedHash(first / "run_4/session.bag");
   replayedHash(first / "run_5/session.bag");  // from a loaded state
+  EXPECT_EQ(replayedHash(first / "run_7/session.bag"), waited_for_recorder_);
   EXPECT_TRUE(client_->step(10).success) << "without a recorder";
 }
 

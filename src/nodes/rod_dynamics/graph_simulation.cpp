@@ -4,14 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include <ros/topic.h>
-
 #include "common/archive.h"
 #include "common/error.h"
 #include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/latched_message.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_vessel.h"
@@ -56,9 +55,8 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
 bool GraphSimulation::waitForVessel()
 {
   ROS_INFO("waiting for the vessel");
-  const auto mesh = ros::topic::waitForMessage<VesselMesh>(names::kVesselMesh, node_);
-  const auto centreline =
-      mesh ? ros::topic::waitForMessage<VesselCentreline>(names::kVesselCentreline, node_) : nullptr;
+  const auto mesh = waitForLatched<VesselMesh>(node_, names::kVesselMesh);
+  const auto centreline = waitForLatched<VesselCentreline>(node_, names::kVesselCentreline);
   if (!centreline)
     return false;
   vessel_.mesh = fromMessage(*mesh);

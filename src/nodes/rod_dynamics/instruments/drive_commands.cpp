@@ -100,12 +100,15 @@ void DriveCommands::receiveState(std::size_t instrument, const ros::MessageEvent
 std::string DriveCommands::give(const std::string& client, const std::vector<InstrumentCommand>& commands)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const simulation::DrivenHands before = *hands_;
+  simulation::DrivenHands before = *hands_;
   std::string refusal;
   for (std::size_t n = 0; n < commands.size() && refusal.empty(); ++n)
     refusal = giveOne(client, commands[n], n);
   if (!refusal.empty())
+  {
+    before.copyRejections(*hands_);
     hands_.emplace(before);
+  }
   updateRevision();
   return refusal;
 }

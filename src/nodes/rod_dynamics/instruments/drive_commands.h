@@ -48,7 +48,7 @@ public:
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation,
                                                    const std::vector<simulation::HandCommand>* scripted);
 
-  /** Gives commands to instruments as a client, all of them or none.
+  /** Gives commands to instruments as a client, all of them or none. Rejections are counted.
    *  @return reason of the first refusal; empty if all were accepted */
   std::string give(const std::string& client, const std::vector<InstrumentCommand>& commands);
 
