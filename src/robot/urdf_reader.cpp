@@ -4,11 +4,8 @@
 #include <tinyxml.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <iterator>
-#include <map>
 #include <mutex>
 
 #include "common/error.h"

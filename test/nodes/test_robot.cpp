@@ -235,6 +235,7 @@ TEST_F(Robot, AnUnnamedStreamMovesAllInstrumentsThroughRatioAndBacklash)
                              goal[3] = std::min(goal[3] + 5e-3, 0.3);
                              client_->send("servo_jp", positions(goal));
                            }));
+  ASSERT_TRUE(client_->run(0.1));
   EXPECT_NEAR(client_->position("instruments/catheter/measured_js", 0), kCatheterOffset + goal[0], 1e-4);
   EXPECT_NEAR(client_->position("instruments/catheter/measured_js", 1), -goal[1], 1e-3);
   EXPECT_NEAR(client_->position("instruments/wire/setpoint_js", 0),
@@ -338,7 +339,7 @@ TEST_F(Robot, StateCommandsGoToAllInstruments)
 TEST_F(Robot, PassesTipAndWallForceOfItsFirstInstrument)
 {
   ASSERT_TRUE(client_->move(positions({0.03})));
-  ASSERT_TRUE(waitUntil(10.0, [] { return std::abs(client_->tip().pose.position.z - 0.04) < 5e-3; }))
+  ASSERT_TRUE(waitUntil(10.0, [] { return std::abs(client_->tip().pose.position.z - 0.04) < 0.01; }))
       << client_->tip().pose.position.z;
   EXPECT_EQ(client_->tip().header.frame_id, "patient");
   EXPECT_EQ(client_->wallForce().header.frame_id, "patient");

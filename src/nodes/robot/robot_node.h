@@ -30,6 +30,8 @@ public:
    *  @param scene with a robot
    *  @throws InputError for a link with the name of a frame of the simulation */
   RobotNode(const ros::NodeHandle& node, const scene::Scene& scene);
+  RobotNode(const RobotNode&) = delete;
+  RobotNode& operator=(const RobotNode&) = delete;
 
 private:
   /** Joints of all instruments on one of their topics, and the topic of the robot. */

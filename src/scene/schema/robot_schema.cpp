@@ -87,8 +87,6 @@ void visitRobot(SceneFields& fields, Scene& scene)
   fields.list(
       "joints", links.size(), [&links](std::size_t size) { links.resize(size); },
       [&scene, &links](SceneFields& joint, std::size_t k) { visitLink(joint, scene, links, k); }, Need::kRequired);
-  if (fields.reading() && links.empty())
-    fields.reject("joints", "is empty; list at least one, e.g. {joint: carriage, instrument: wire, motion: insertion}");
 }
 
 }  // namespace endovascular_sim::scene
