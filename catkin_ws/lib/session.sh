@@ -175,7 +175,7 @@ run_session() {
     nodes+=$'\n'visualization
   fi
 
-  for node in vessel_server contact rod_dynamics fluoroscopy haptic_device session visualization; do
+  for node in vessel_server contact rod_dynamics fluoroscopy haptic_device robot session visualization; do
     if grep -qx "$node" <<< "$nodes"; then arguments+=("$node:=true"); else arguments+=("$node:=false"); fi
   done
   say "Scene $scene_file"

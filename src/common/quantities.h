@@ -47,6 +47,9 @@ constexpr Quantity kRotation{"rotations", "rad", D::kAngle, 0.0, 8.001 * M_PI, 0
 constexpr Quantity kRotationRange{"ranges of a rotation", "rad", D::kAngle, 0.0, 1e4, 0.0, 1e5};
 constexpr Quantity kAngularSpeed{"angular speeds", "rad/s", D::kAngularSpeed, 1e-3, 60.0, 0.0, 1e4};
 constexpr Quantity kAngularAcceleration{"angular accelerations", "rad/s²", D::kOther, 0.05, 1000.0, 1e-4, 1e6};
+constexpr Quantity kJointRatio{"ratios of a joint", "motion per motion of the joint", D::kOther, 1e-4, 1e6, 1e-9, 1e12};
+constexpr Quantity kJointOffset{"offsets of a joint", "m, rad or Pa", D::kOther, 0.0, 1e7, 0.0, 1e8};
+constexpr Quantity kBacklash{"plays of a joint", "m, rad or Pa", D::kOther, 1e-6, 1e5, 0.0, 1e7};
 constexpr Quantity kSpeedScale{"speed factors", "1", D::kFraction, 0.05, 20.0, 1e-3, 1000.0};
 
 // Times and rates.

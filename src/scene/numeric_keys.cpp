@@ -41,10 +41,12 @@ const std::vector<std::string> kScenes = {
         kWire +
         "\ndrive: {source: script, speed: 0.01, travel: 0.1, limits: {insertion: [0, 0.5]}}\nfluoroscopy: {isocentre: "
         "[0, 0, 0]}\n",
-    // a mesh, adaptive sampling, profiles
+    // a mesh, adaptive sampling, profiles, a robot
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n"
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +
-        kBentWire + "\ndrive: {source: topic}\nsampling: {kind: adaptive}\n",
+        kBentWire +
+        "\ndrive: {source: topic}\nsampling: {kind: adaptive}\n"
+        "robot: {urdf: r.urdf, joints: [{joint: j, instrument: w, motion: insertion}]}\n",
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, head: [0, 0, 1], left: [1, 0, 0]}\n"
     "entry: {centreline_end: a}\ninstrument: " +
         kWire + "\ndrive: {source: topic}\n",

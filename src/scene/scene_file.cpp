@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "common/file_name.h"
+#include "robot/urdf_reader.h"
 #include "scene/instrument_library.h"
 #include "scene/schema/scene_schema.h"
 #include "scene/yaml/file_search.h"
@@ -62,6 +63,52 @@ void resolveVesselPaths(Scene& scene, const SceneNode& root)
     scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
 }
 
+/** Motion of an instrument at the start. */
+double startOf(const DriveScene& drive, robot::Motion motion)
+{
+  return motion == robot::Motion::kInsertion  ? drive.insertionAt(0.0)
+         : motion == robot::Motion::kRotation ? drive.rotationAt(0.0)
+                                              : drive.pressureAt(0.0);
+}
+
+/** Reads the robot's URDF, checks its joints, and adds their limits to those of the instruments. The resolved text has
+ *  these limits, so that a recording needs no URDF. */
+void resolveRobot(Scene& scene, const SceneNode& root)
+{
+  if (!scene.robot)
+    return;
+  RobotScene& robot = *scene.robot;
+  const SceneNode& node = *root.find("robot");
+  robot.model = robot::readUrdf(findSceneFile(*node.find("urdf"), "robot.urdf", scene.file));
+  std::vector<DriveScene*> drives;
+  std::vector<double> starts;
+  std::vector<drive::DriveLimits> limits;
+  for (const robot::JointLink& link : robot.joints)
+    for (DrivenInstrument& driven : scene.instruments)
+      if (driven.instrument.name == link.instrument)
+      {
+        drives.push_back(&driven.drive);
+        starts.push_back(startOf(driven.drive, link.motion));
+        driven.drive.limits = driven.limits();
+      }
+  if (const std::optional<robot::LinkFault> fault = robot::findFault(robot.model, robot.joints, starts))
+  {
+    const SceneNode& link = node.find("joints")->items[fault->link];
+    const SceneNode* value = link.find(fault->key);
+    throw InputError(scene.file,
+                     "robot.joints." + std::to_string(fault->link) + "." + fault->key +
+                         (value != nullptr ? *value : link).location(),
+                     fault->remedy);
+  }
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    drives[k]->limits =
+        robot::withJoint(drives[k]->limits, robot.joints[k], *robot.model.find(robot.joints[k].joint), starts[k]);
+  scene.warnings.insert(scene.warnings.end(), robot.model.warnings.begin(), robot.model.warnings.end());
+  for (const std::string& joint : robot::idleJoints(robot.model, robot.joints))
+    scene.warnings.push_back(robot.model.file + ": joint '" + joint +
+                             "': moves no instrument; it stays at rest unless robot.joints lists it");
+}
+
 /** Origin of a scene's text. */
 enum class Origin
 {
@@ -86,6 +133,8 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   visitScene(reader, scene);
   reader.finish();
   scene.warnings = report.warnings;
+  if (origin == Origin::kUser)
+    resolveRobot(scene, root);
   SceneWriter writer;
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();

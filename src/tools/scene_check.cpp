@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "common/error.h"
 #include "common/hash.h"
 #include "common/progress.h"
 #include "results/session_run.h"
@@ -27,6 +28,7 @@ struct Options
   bool nodes = false;
   bool hash = false;
   bool keys = false;
+  bool urdf = false;
 };
 
 void addOptions(tools::CommandLine& line, Options& options)
@@ -40,6 +42,7 @@ void addOptions(tools::CommandLine& line, Options& options)
       "hand force by the distance of the nodes");
   line.flag("--nodes", options.nodes, "prints the ROS nodes that the scene requires instead, one per line");
   line.flag("--hash", options.hash, "prints the scene's hash instead");
+  line.flag("--urdf", options.urdf, "prints the URDF of the scene's robot instead");
   line.flag("--keys", options.keys, "prints all numeric keys with unit, usual and accepted values as a Markdown table");
   line.require([&options] { return options.keys || !options.scene.empty() ? "" : "SCENE.yaml is required"; });
 }
@@ -71,7 +74,11 @@ int check(const Options& options)
   tools::printWarnings("scene_check", scene.warnings);
   if (options.vessel)
     checkVessel(scene);
-  if (options.hash)
+  if (options.urdf && !scene.robot)
+    throw InputError(scene.file, "robot", "missing; add the robot's URDF and joints (docs/YOUR_ROBOT.md)");
+  if (options.urdf)
+    std::cout << scene.robot->model.urdf;
+  else if (options.hash)
     std::cout << Hash64::toHex(scene.hash()) << "\n";
   else if (options.nodes)
     for (const std::string& node : scene::requiredNodes(scene))

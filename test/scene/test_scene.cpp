@@ -354,7 +354,8 @@ TEST(Scene, HasAllKeysInItsDocumentation)
                  "vessel.lesions=[{branch: tube, length: 0.01, grade: 0.5}]", "loads.point_loads=[{torque: 1}]"})
           .resolved_yaml;
   const std::string mesh = loadScene(kScenes + "mesh.yaml", {"vessel.mesh=" + someMesh()}).resolved_yaml;
-  std::vector<std::string> keys = keysOf(tube + mesh);
+  const std::string robot = loadScene(kScenes + "robot.yaml").resolved_yaml;
+  std::vector<std::string> keys = keysOf(tube + mesh + robot);
   for (const char* input :
        {"head", "left", "anatomy", "centreline_end", "young_modulus", "shear_modulus", "poisson_ratio", "tip", "shape",
         "angle", "straight", "from_start", "direction", "insertion", "speed", "travel"})

@@ -13,7 +13,7 @@ import xmlrpc.client
 folder, repository = sys.argv[1:]
 OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
 ONLY_IN_RECORDINGS = {"session/end"}
-FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy)"
+FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot)"
 
 
 def text(name):
@@ -53,7 +53,7 @@ def in_code():
     assert {"/measured_js", "/servo_jp", "/operating_state"} < crtk, crtk
     of_devices = {"/measured_js", "/operating_state", "/state_reason"}
     topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "/[a-z_]+", value)}
-    return topics | {"instruments/*" + name for name in crtk} | {"haptic/*" + name for name in of_devices}
+    return topics | {prefix + name for prefix in ("instruments/*", "robot") for name in crtk} | {"haptic/*" + name for name in of_devices}
 
 
 echoed = {}  # output of `rostopic echo` per message type
@@ -108,9 +108,10 @@ def running(scene, arguments, extra):
         launch.wait(timeout=90)
 
 
-# A scene with every kind of topic except those of the haptic device, and a scene with the device.
+# A scene with every kind of topic except those of the haptic device and the robot, and a scene with each of the two.
 graph = running("test/data/procedure_with_balloon.yaml", ["haptic_device:=false"], {"fluoroscopy/image_raw", "wire/marker"})
 graph |= running("test/data/hand_in_tube.yaml", ["device:=%s/none" % folder], {"haptic/*/operating_state"})
+graph |= running("test/data/robot_in_tube.yaml", ["haptic_device:=false", "robot:=true"], {"robot/operating_state"})
 graph -= OTHERS
 documents, code = documented() - {"diagnostics"}, in_code()
 

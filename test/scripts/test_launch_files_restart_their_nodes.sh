@@ -1,11 +1,11 @@
 #!/bin/bash
-# Every node of the launch files is required or respawned, except the window of the demo and the player of a replay.
+# Every node of the launch files is required or respawned, except the windows of demo and robot, and the player of a replay.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 /usr/bin/python3 - "$repository"/launch/*.launch <<'PYTHON'
 import os, sys
 import xml.etree.ElementTree as tree
-EXCLUDED = {("demo.launch", "rviz"), ("replay.launch", "player")}
+EXCLUDED = {("demo.launch", "rviz"), ("robot.launch", "rviz"), ("replay.launch", "player")}
 found, failed = set(), False
 for path in sys.argv[1:]:
     for node in tree.parse(path).getroot().iter("node"):
@@ -16,7 +16,7 @@ for path in sys.argv[1:]:
             print("%s: node %s: required=%s respawn=%s" % (*key, required, respawn))
             failed = True
 names = {name for launch, name in found if launch == "sim.launch"}
-wanted = {"vessel_server", "contact", "rod_dynamics", "fluoroscopy", "haptic_device", "session", "visualization"}
+wanted = {"vessel_server", "contact", "rod_dynamics", "fluoroscopy", "haptic_device", "robot", "session", "visualization"}
 if names != wanted:
     print("sim.launch starts %s instead of %s" % (sorted(names), sorted(wanted)))
     failed = True

@@ -60,8 +60,12 @@ constexpr auto kCArmCommand = "fluoroscopy/c_arm";
 
 constexpr auto kDiagnostics = "/diagnostics";
 
-// CRTK names below "instruments/<name>/" and "haptic/<channel>/".
+constexpr auto kRobotDescription = "robot_description";  ///< parameter with the text of the robot's URDF
+constexpr auto kRobotJointStates = "robot/joint_states";
+
+// CRTK names below "instruments/<name>/", "haptic/<channel>/" and "robot/".
 constexpr auto kInstruments = "instruments/";
+constexpr auto kRobot = "robot";
 constexpr auto kHaptic = "haptic/";
 constexpr auto kServoJp = "/servo_jp";
 constexpr auto kServoJr = "/servo_jr";

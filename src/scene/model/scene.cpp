@@ -40,6 +40,17 @@ double DriveScene::pressureAt(double t) const
   return source == DriveSource::kNone ? 0.0 : pressure.at(t);
 }
 
+Eigen::Isometry3d RobotScene::pose() const
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
 double Scene::longest() const
 {
   double length = 0.0;
@@ -67,6 +78,8 @@ std::vector<std::string> requiredNodes(const Scene& scene)
     nodes.emplace_back("haptic_device");
   if (scene.fluoroscopy)
     nodes.emplace_back("fluoroscopy");
+  if (scene.robot)
+    nodes.emplace_back("robot");
   nodes.emplace_back("session");
   return nodes;
 }

@@ -12,6 +12,8 @@
 #include "contact/wall/wall_law.h"
 #include "drive/drive_limits.h"
 #include "instrument/instrument.h"
+#include "robot/joint_link.h"
+#include "robot/robot_model.h"
 #include "rod/stepping/scheme_traits.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene_procedure.h"
@@ -153,6 +155,27 @@ struct DrivenInstrument
   }
 };
 
+/** Frame in which a robot stands. */
+enum class RobotFrame
+{
+  kIntroducer,  ///< x into the vessel, at the entry
+  kPatient,
+};
+
+/** Robot whose joints move instruments. */
+struct RobotScene
+{
+  std::string urdf;         ///< path of the URDF
+  robot::RobotModel model;  ///< its content; empty in a scene of a recording
+  RobotFrame frame = RobotFrame::kIntroducer;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< origin of the robot's root link in the frame [m]
+  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();       ///< its rotation about the fixed axes x, y and z, as URDF [rad]
+  std::vector<robot::JointLink> joints;
+
+  /** Transform of the root link to the frame. */
+  Eigen::Isometry3d pose() const;
+};
+
 /** Prescribed motion of a held distal end. */
 struct DistalScene
 {
@@ -269,6 +292,7 @@ struct Scene
   SolverScene solver;
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
+  std::optional<RobotScene> robot;
   RecordScene record;
   std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
   std::string resolved_yaml;          ///< canonical text of the scene, with overrides and included files merged

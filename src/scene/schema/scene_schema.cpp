@@ -374,6 +374,8 @@ void visitScene(SceneFields& fields, Scene& scene)
     fields.map("fluoroscopy", [&scene](SceneFields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
   }
   fields.boolean("haptic_device", scene.haptic_device);
+  if (fields.reading() ? fields.has("robot") : scene.robot.has_value())
+    fields.map("robot", [&scene](SceneFields& robot) { visitRobot(robot, scene); });
   fields.map("record", [&scene](SceneFields& record) { visitRecord(record, scene.record); });
   if (fields.reading())
     checkScene(fields, scene);

@@ -33,6 +33,8 @@ void visitInstruments(SceneFields& fields, Scene& scene);
 std::string drivePath(const Scene& scene, std::size_t k);
 /** Rejects invalid combinations of concentric instruments. */
 void checkStack(const SceneFields& fields, const Scene& scene);
+/** Schema of `robot`. Checks what does not depend on the URDF; the joints are checked when it has been read. */
+void visitRobot(SceneFields& fields, Scene& scene);
 /** Schema of a drive.
  *  @param initial_insertion valid range of the initial insertion [m]
  *  @param balloon true if the instrument has a balloon that the drive can inflate */

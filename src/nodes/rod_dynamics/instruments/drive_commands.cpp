@@ -4,48 +4,11 @@
 
 #include "common/archive.h"
 #include "common/error.h"
+#include "nodes/conversions/command_topics.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
 {
-namespace
-{
-
-constexpr int kQueue = 10;
-
-/** Topics of the kinds of commands. */
-struct CommandTopic
-{
-  const char* name;
-  drive::CommandKind kind;
-};
-constexpr CommandTopic kTopics[] = {
-    {names::kServoJp, drive::CommandKind::kServoPosition}, {names::kServoJr, drive::CommandKind::kServoRelative},
-    {names::kServoJv, drive::CommandKind::kServoVelocity}, {names::kServoJf, drive::CommandKind::kServoForce},
-    {names::kMoveJp, drive::CommandKind::kMovePosition},   {names::kMoveJr, drive::CommandKind::kMoveRelative}};
-
-/** Values that a kind of command uses. */
-const std::vector<double>& valuesOf(const sensor_msgs::JointState& message, drive::CommandKind kind)
-{
-  if (kind == drive::CommandKind::kServoVelocity)
-    return message.velocity;
-  return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
-}
-
-/** Subscribes without Nagle's delay. */
-template <typename Message, typename Callback>
-ros::Subscriber subscribeTo(ros::NodeHandle& node, const std::string& topic, ros::CallbackQueueInterface& queue,
-                            const Callback& callback)
-{
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(topic, kQueue, callback);
-  options.callback_queue = &queue;
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  return node.subscribe(options);
-}
-
-}  // namespace
-
 DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, const std::string& file)
   : scene_(scene), subscribers_(scene.instruments.size())
 {
@@ -61,13 +24,13 @@ void DriveCommands::subscribe(ros::NodeHandle& node, std::size_t instrument)
 {
   // Callbacks run in the thread that reads the socket; only the simulation's thread has a higher priority.
   const std::string name = names::kInstruments + scene_.instruments[instrument].instrument.name;
-  for (const CommandTopic& topic : kTopics)
-    subscribers_[instrument].push_back(subscribeTo<sensor_msgs::JointState>(
-        node, name + topic.name, queue_,
+  for (const CommandTopic& topic : kCommandTopics)
+    subscribers_[instrument].push_back(subscribeToCommands<sensor_msgs::JointState>(
+        node, name + topic.name, &queue_,
         [this, instrument, kind = topic.kind](const auto& event) { receive(instrument, kind, event); }));
-  subscribers_[instrument].push_back(subscribeTo<crtk_msgs::StringStamped>(node, name + names::kStateCommand, queue_,
-                                                                           [this, instrument](const auto& event)
-                                                                           { receiveState(instrument, event); }));
+  subscribers_[instrument].push_back(subscribeToCommands<crtk_msgs::StringStamped>(
+      node, name + names::kStateCommand, &queue_,
+      [this, instrument](const auto& event) { receiveState(instrument, event); }));
 }
 
 void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "drive/joint_command.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+
+/** Topic of a kind of command, below the name of an instrument or of the robot. */
+struct CommandTopic
+{
+  const char* name;
+  drive::CommandKind kind;
+};
+
+/** Topics of all kinds of commands. */
+constexpr CommandTopic kCommandTopics[] = {
+    {names::kServoJp, drive::CommandKind::kServoPosition}, {names::kServoJr, drive::CommandKind::kServoRelative},
+    {names::kServoJv, drive::CommandKind::kServoVelocity}, {names::kServoJf, drive::CommandKind::kServoForce},
+    {names::kMoveJp, drive::CommandKind::kMovePosition},   {names::kMoveJr, drive::CommandKind::kMoveRelative}};
+
+/** Values that a kind of command uses. */
+inline const std::vector<double>& valuesOf(const sensor_msgs::JointState& message, drive::CommandKind kind)
+{
+  if (kind == drive::CommandKind::kServoVelocity)
+    return message.velocity;
+  return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
+}
+
+/** The same, to fill. */
+inline std::vector<double>& valuesOf(sensor_msgs::JointState& message, drive::CommandKind kind)
+{
+  if (kind == drive::CommandKind::kServoVelocity)
+    return message.velocity;
+  return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
+}
+
+/** Subscribes to commands, without Nagle's delay.
+ *  @param queue of the callback; null: that of the node handle
+ *  @param callback called with a message event, which has the name of the sender */
+template <typename Message, typename Callback>
+ros::Subscriber subscribeToCommands(ros::NodeHandle& node, const std::string& topic, ros::CallbackQueueInterface* queue,
+                                    const Callback& callback)
+{
+  constexpr int kQueue = 10;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(topic, kQueue, callback);
+  options.callback_queue = queue;
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+}  // namespace endovascular_sim::nodes

@@ -1,0 +1,291 @@
+#include "nodes/robot/robot_node.h"
+
+#include <algorithm>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+
+#include "common/error.h"
+#include "nodes/conversions/command_topics.h"
+#include "nodes/conversions/robot_conversions.h"
+#include "nodes/rod_dynamics/instruments/command_diagnostics.h"
+#include "nodes/runtime/ros_names.h"
+
+namespace endovascular_sim::nodes
+{
+namespace
+{
+
+constexpr double kDiagnosticsPeriod = 1.0;       // s
+constexpr double kJointStatesPeriod = 1.0 / 60;  // s, of the drawn robot
+constexpr int kQueue = 100;                      // steps
+
+const std::string kName = names::kRobot;
+
+/** Refuses a URDF whose frames would move those of the simulation. */
+void checkFrames(const robot::RobotModel& model)
+{
+  for (const std::string& link : model.links)
+    for (const char* frame : {names::kPatientFrame, names::kIntroducerFrame, names::kTipFrame, names::kXRaySourceFrame})
+      if (link == frame)
+        throw InputError(model.file, "link '" + link + "'",
+                         "is the name of a frame of the simulation; rename the link");
+}
+
+}  // namespace
+
+RobotNode::RobotNode(const ros::NodeHandle& node, const scene::Scene& scene)
+  : node_(node), control_(robotControl(scene))
+{
+  checkFrames(control_.model());
+  node_.setParam(names::kRobotDescription, control_.model().urdf);
+  frames_.sendTransform(toTransform(*scene.robot));
+  advertise();
+  connectInstruments();
+  connectClients();
+  sensor_msgs::JointState start;
+  for (std::size_t k = 0; k < control_.links().size(); ++k)
+    start.position.push_back(control_.position(
+        k,
+        control_.instruments()[control_.instrumentOf(k)].start[static_cast<std::size_t>(control_.links()[k].motion)]));
+  publishAllJoints(start);
+  publishState();
+  updater_.setHardwareID(control_.model().name);
+  updater_.add("Robot", this, &RobotNode::diagnose);
+  diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                                               [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
+}
+
+void RobotNode::advertise()
+{
+  const ros::SubscriberStatusCallback update = [this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); };
+  const auto joints = [&](JointStream& stream, const char* topic)
+  {
+    stream.topic = topic;
+    stream.publisher = node_.advertise<sensor_msgs::JointState>(kName + topic, kQueue, update, update);
+    stream.newest.resize(control_.instruments().size());
+  };
+  joints(measured_, names::kMeasuredJs);
+  joints(setpoint_, names::kSetpointJs);
+  joints(goal_, names::kGoalJs);
+  joint_states_ =
+      node_.advertise<sensor_msgs::JointState>(names::kRobotJointStates, 1, update, update, ros::VoidConstPtr(), true);
+  tip_ = node_.advertise<geometry_msgs::PoseStamped>(kName + names::kMeasuredCp, kQueue, update, update);
+  wall_force_ = node_.advertise<geometry_msgs::WrenchStamped>(kName + names::kMeasuredCf, kQueue, update, update);
+  state_ = node_.advertise<crtk_msgs::OperatingState>(kName + names::kOperatingState, 10, true);
+  reason_ = node_.advertise<crtk_msgs::StringStamped>(kName + names::kStateReason, 10, true);
+}
+
+void RobotNode::connectInstruments()
+{
+  for (std::size_t k = 0; k < control_.instruments().size(); ++k)
+  {
+    Instrument instrument;
+    instrument.name = names::kInstruments + control_.instruments()[k].name;
+    for (const CommandTopic& topic : kCommandTopics)
+      instrument.commands[topic.kind] = node_.advertise<sensor_msgs::JointState>(instrument.name + topic.name, 10);
+    instrument.state_command = node_.advertise<crtk_msgs::StringStamped>(instrument.name + names::kStateCommand, 10);
+    instruments_.push_back(instrument);
+  }
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  for (std::size_t k = 0; k < instruments_.size(); ++k)
+  {
+    const std::string& name = instruments_[k].name;
+    subscribers_.push_back(node_.subscribe<crtk_msgs::StringStamped>(
+        name + names::kStateReason, 10,
+        [this, k](const crtk_msgs::StringStampedConstPtr& reason) { instruments_[k].reason = reason->string; },
+        ros::VoidConstPtr(), no_delay));
+    subscribers_.push_back(node_.subscribe<crtk_msgs::OperatingState>(
+        name + names::kOperatingState, 10,
+        [this, k](const crtk_msgs::OperatingStateConstPtr& state) { receiveState(k, *state); }, ros::VoidConstPtr(),
+        no_delay));
+  }
+  updateSubscriptions();
+}
+
+void RobotNode::connectClients()
+{
+  for (const CommandTopic& topic : kCommandTopics)
+    subscribers_.insert(subscribers_.begin(),
+                        subscribeToCommands<sensor_msgs::JointState>(node_, kName + topic.name, nullptr,
+                                                                     [this, kind = topic.kind](const auto& event)
+                                                                     { receive(kind, event); }));
+  clients_ = std::size(kCommandTopics);
+  subscribers_.push_back(subscribeToCommands<crtk_msgs::StringStamped>(
+      node_, kName + names::kStateCommand, nullptr, [this](const auto& event) { receiveState(event); }));
+}
+
+void RobotNode::subscribe(JointStream& stream, bool wanted)
+{
+  if (wanted == !stream.subscribers.empty())
+    return;
+  stream.subscribers.clear();
+  for (std::size_t k = 0; wanted && k < instruments_.size(); ++k)
+    stream.subscribers.push_back(node_.subscribe<sensor_msgs::JointState>(
+        instruments_[k].name + stream.topic, kQueue,
+        [this, &stream, k](const sensor_msgs::JointStateConstPtr& joints) { receiveJoints(stream, k, *joints); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+}
+
+/** Passes a topic of the first instrument on, while it has a subscriber. */
+template <typename Message>
+void RobotNode::relay(const char* topic, const ros::Publisher& publisher, ros::Subscriber& subscriber)
+{
+  const bool wanted = publisher.getNumSubscribers() > 0;
+  if (wanted == static_cast<bool>(subscriber))
+    return;
+  subscriber.shutdown();
+  if (!wanted)
+    return;
+  const std::string& name = instruments_[control_.instrumentOf(0)].name;
+  subscriber = node_.subscribe<Message>(
+      name + topic, kQueue,
+      [publisher](const boost::shared_ptr<Message const>& message) { publisher.publish(message); }, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
+}
+
+void RobotNode::updateSubscriptions()
+{
+  subscribe(setpoint_, true);  // the control follows it
+  subscribe(measured_, measured_.publisher.getNumSubscribers() + joint_states_.getNumSubscribers() > 0);
+  subscribe(goal_, goal_.publisher.getNumSubscribers() > 0);
+  relay<geometry_msgs::PoseStamped>(names::kMeasuredCp, tip_, tip_subscriber_);
+  relay<geometry_msgs::WrenchStamped>(names::kMeasuredCf, wall_force_, wall_force_subscriber_);
+}
+
+/** True if all instruments of a command read it. */
+bool RobotNode::isHeard(const robot::RobotAnswer& answer) const
+{
+  return std::all_of(answer.commands.begin(), answer.commands.end(),
+                     [this](const robot::InstrumentCommand& command)
+                     {
+                       const Instrument& instrument = instruments_[command.instrument];
+                       return instrument.commands.at(command.joints.kind).getNumSubscribers() > 0;
+                     });
+}
+
+void RobotNode::receive(drive::CommandKind kind, const ros::MessageEvent<sensor_msgs::JointState const>& event)
+{
+  const sensor_msgs::JointState& message = *event.getConstMessage();
+  const robot::RobotAnswer answer =
+      control_.command(event.getPublisherName(), kind, message.name, valuesOf(message, kind), time_);
+  if (answer.verdict != drive::CommandVerdict::kAccepted)
+    ROS_WARN_THROTTLE(5.0, "rejected a %s", answer.reason.c_str());
+  else if (!isHeard(answer))
+    ROS_WARN_THROTTLE(5.0, "rod_dynamics does not read the commands; wait for robot/operating_state ENABLED");
+  for (const robot::InstrumentCommand& command : answer.commands)
+    give(command);
+  if (kind == drive::CommandKind::kMovePosition || kind == drive::CommandKind::kMoveRelative)
+    publishState();  // a client waits for the beginning and the end of its move
+}
+
+void RobotNode::give(const robot::InstrumentCommand& command)
+{
+  sensor_msgs::JointState message = toMessage(command.joints);
+  message.header.stamp = ros::Time::now();
+  instruments_[command.instrument].commands.at(command.joints.kind).publish(message);
+}
+
+void RobotNode::receiveState(const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+{
+  const std::string& word = event.getConstMessage()->string;
+  const std::string refusal = control_.stateCommand(event.getPublisherName(), word, time_);
+  if (!refusal.empty())
+  {
+    ROS_WARN_THROTTLE(5.0, "rejected a %s", refusal.c_str());
+    publishState();
+    return;
+  }
+  crtk_msgs::StringStamped message;
+  message.header.stamp = ros::Time::now();
+  message.string = word;
+  for (const Instrument& instrument : instruments_)
+    instrument.state_command.publish(message);
+}
+
+void RobotNode::receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state)
+{
+  drive::OperatingState taken;
+  taken.state = state.state;
+  taken.is_homed = state.is_homed;
+  taken.is_busy = state.is_busy;
+  taken.reason = instruments_[instrument].reason;
+  control_.setState(instrument, taken);
+  publishState();
+}
+
+/** Publishes the state of the robot; the reason precedes it. */
+void RobotNode::publishState()
+{
+  const drive::OperatingState state = control_.state();
+  const ros::Time now = ros::Time::now();
+  if (state.reason != published_reason_)
+  {
+    crtk_msgs::StringStamped reason;
+    reason.header.stamp = now;
+    reason.string = state.reason;
+    reason_.publish(reason);
+    published_reason_ = state.reason;
+  }
+  crtk_msgs::OperatingState message;
+  message.header.stamp = now;
+  message.state = state.state;
+  message.is_homed = state.is_homed;
+  message.is_busy = state.is_busy;
+  state_.publish(message);
+}
+
+void RobotNode::follow(std::size_t instrument, const sensor_msgs::JointState& setpoint)
+{
+  time_ = setpoint.header.stamp.toSec();
+  if (const auto command = control_.follow(instrument, motionsOf(setpoint, setpoint.position), time_))
+    give(*command);
+}
+
+/** Publishes the joints of a step when those of all instruments have arrived. */
+void RobotNode::receiveJoints(JointStream& stream, std::size_t instrument, const sensor_msgs::JointState& joints)
+{
+  if (&stream == &setpoint_)
+    follow(instrument, joints);
+  stream.newest[instrument] = joints;
+  for (const sensor_msgs::JointState& other : stream.newest)
+    if (other.header.stamp != joints.header.stamp)
+      return;
+  sensor_msgs::JointState message;
+  toMessage(control_, stream.newest, message);
+  if (stream.publisher.getNumSubscribers() > 0)
+    stream.publisher.publish(message);
+  if (&stream == &measured_)
+    publishAllJoints(message);
+}
+
+void RobotNode::publishAllJoints(const sensor_msgs::JointState& linked)
+{
+  const ros::Duration since = linked.header.stamp - joint_states_at_;
+  if (since >= ros::Duration(0.0) && since < ros::Duration(kJointStatesPeriod) && !joint_states_at_.isZero())
+    return;
+  joint_states_at_ = linked.header.stamp;
+  sensor_msgs::JointState all;
+  toAllJoints(control_, linked, all);
+  joint_states_.publish(all);
+}
+
+void RobotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  using diagnostic_msgs::DiagnosticStatus;
+  const drive::OperatingState state = control_.state();
+  status.summary(state.state == "ENABLED" ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 state.state + (state.reason.empty() ? "" : ": " + state.reason));
+  CommandReport report;
+  report.instrument = node_.resolveName(kName);
+  report.has_publisher = std::any_of(subscribers_.begin(), subscribers_.begin() + static_cast<std::ptrdiff_t>(clients_),
+                                     [](const ros::Subscriber& commands) { return commands.getNumPublishers() > 0; });
+  report.driver = control_.driver();
+  report.last_refusal = control_.lastRefusal();
+  report.accepted = control_.accepted();
+  report.rejected = control_.rejected();
+  report.silence = control_.silence(time_);
+  diagnoseCommands({report}, {}, status);
+}
+
+}  // namespace endovascular_sim::nodes

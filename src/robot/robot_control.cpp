@@ -1,0 +1,425 @@
+#include "robot/robot_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "robot/backlash.h"
+
+namespace endovascular_sim::robot
+{
+namespace
+{
+
+using drive::CommandKind;
+using drive::CommandVerdict;
+
+constexpr auto kEnabled = "ENABLED";
+constexpr double kRounding = 1e-12;  ///< share of a limit by which sums of relative commands may exceed it
+
+bool isByRate(CommandKind kind)
+{
+  return kind == CommandKind::kServoVelocity || kind == CommandKind::kServoForce;
+}
+
+bool isRelative(CommandKind kind)
+{
+  return kind == CommandKind::kServoRelative || kind == CommandKind::kMoveRelative;
+}
+
+bool isAbsolute(CommandKind kind)
+{
+  return kind == CommandKind::kServoPosition || kind == CommandKind::kMovePosition;
+}
+
+std::size_t indexOf(Motion motion)
+{
+  return static_cast<std::size_t>(motion);
+}
+
+std::string text(double value)
+{
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
+/** Severity of a state; the robot has the worst one. */
+int severity(const std::string& state)
+{
+  return state == kEnabled ? 0 : state == "PAUSED" ? 1 : state == "DISABLED" ? 2 : 3;
+}
+
+}  // namespace
+
+RobotControl::RobotControl(RobotModel model, std::vector<JointLink> links, std::vector<RobotInstrument> instruments)
+  : model_(std::move(model)),
+    links_(std::move(links)),
+    instruments_(std::move(instruments)),
+    channels_(instruments_.size()),
+    states_(instruments_.size())
+{
+  for (std::size_t k = 0; k < instruments_.size(); ++k)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double start = instruments_[k].start[axis];
+      channels_[k].axes[axis] = {std::nullopt, start, start, start, 0.0, false};
+    }
+    states_[k].state = "DISABLED";  // until the instrument publishes
+    states_[k].reason = "no state of '" + instruments_[k].name + "' yet";
+    time_out_ = std::max(time_out_, instruments_[k].time_out);
+  }
+  for (std::size_t link = 0; link < links_.size(); ++link)
+  {
+    const auto found =
+        std::find_if(instruments_.begin(), instruments_.end(),
+                     [&](const RobotInstrument& instrument) { return instrument.name == links_[link].instrument; });
+    instrument_of_.push_back(static_cast<std::size_t>(found - instruments_.begin()));
+    channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)].link = link;
+  }
+}
+
+/** Values by links. Joints of the URDF that no link moves are ignored, so that a client may send all joints. */
+std::optional<RobotControl::Values> RobotControl::assign(const std::vector<std::string>& names,
+                                                         const std::vector<double>& values, std::string& reason) const
+{
+  Values assigned(links_.size());
+  if (names.empty())
+  {
+    if (values.empty() || values.size() > links_.size())
+    {
+      reason = std::to_string(values.size()) + " values without names for " + std::to_string(links_.size()) + " joints";
+      return std::nullopt;
+    }
+    std::copy(values.begin(), values.end(), assigned.begin());
+    return assigned;
+  }
+  bool any = false;
+  for (std::size_t n = 0; n < std::min(names.size(), values.size()); ++n)
+  {
+    const auto link =
+        std::find_if(links_.begin(), links_.end(), [&](const JointLink& other) { return other.joint == names[n]; });
+    if (link == links_.end())
+    {
+      if (model_.find(names[n]) != nullptr)
+        continue;
+      reason = "the robot has no joint '" + names[n] + "'; it has " + model_.movableNames();
+      return std::nullopt;
+    }
+    std::optional<double>& value = assigned[static_cast<std::size_t>(link - links_.begin())];
+    if (value)
+    {
+      reason = "joint '" + names[n] + "' is repeated";
+      return std::nullopt;
+    }
+    value = values[n];
+    any = true;
+  }
+  if (!any)
+  {
+    reason = "no value of a joint that moves an instrument";
+    return std::nullopt;
+  }
+  return assigned;
+}
+
+bool RobotControl::isDrivenByAnother(const std::string& client, double time) const
+{
+  const double silence = time - driver_time_;  // negative after a reset of the simulated time
+  return !driver_.empty() && driver_ != client && (state().is_busy || (silence >= 0.0 && silence < time_out_));
+}
+
+bool RobotControl::isReady(std::size_t instrument, CommandKind kind, std::string& reason) const
+{
+  const drive::OperatingState& state = states_[instrument];
+  if (state.state == kEnabled && (state.is_homed || !isAbsolute(kind)))
+    return true;
+  reason = "'" + instruments_[instrument].name + "' is " + (state.state == kEnabled ? "not homed" : state.state);
+  return false;
+}
+
+CommandVerdict RobotControl::examineLimits(std::size_t link, CommandKind kind, double& value, std::string& reason,
+                                           bool& clamped) const
+{
+  const Joint& joint = *model_.find(links_[link].joint);
+  const Axis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
+  std::optional<drive::Interval> permitted = joint.range;
+  double origin = 0.0;  // of a relative command
+  if (isByRate(kind))
+  {
+    const std::optional<double>& most = kind == CommandKind::kServoVelocity ? joint.speed : joint.effort;
+    permitted = most ? std::optional<drive::Interval>({-*most, *most}) : std::nullopt;
+  }
+  else if (isRelative(kind))
+    origin = links_[link].toPosition(
+        kind == CommandKind::kServoRelative ? axis.driving : drivingAfterPlay(axis.driving, axis.setpoint, play(axis)));
+  if (!permitted)
+    return CommandVerdict::kAccepted;
+  const double slack = kRounding * std::max(std::abs(permitted->low), std::abs(permitted->high));
+  const double wanted = origin + value;
+  if (wanted >= permitted->low - slack && wanted <= permitted->high + slack)
+    return CommandVerdict::kAccepted;
+  if (instruments_[instrument_of_[link]].beyond == drive::BeyondLimit::kClamp)
+  {
+    clamped = true;
+    value = permitted->nearest(wanted) - origin;
+    return CommandVerdict::kAccepted;
+  }
+  reason = "joint '" + joint.name + "': " + text(wanted) + " is beyond the limits " + text(permitted->low) + " to " +
+           text(permitted->high) + " of the URDF";
+  return CommandVerdict::kOutOfRange;
+}
+
+CommandVerdict RobotControl::examine(const std::string& client, CommandKind kind, Values& values, double time,
+                                     std::string& reason, bool& clamped) const
+{
+  if (isDrivenByAnother(client, time))
+  {
+    reason = driver_ + " drives the robot";
+    return CommandVerdict::kForeign;
+  }
+  for (std::size_t link = 0; link < links_.size(); ++link)
+  {
+    if (!values[link])
+      continue;
+    if (!isReady(instrument_of_[link], kind, reason))
+      return CommandVerdict::kNotEnabled;
+    if (!std::isfinite(*values[link]))
+    {
+      reason = "joint '" + links_[link].joint + "': not finite";
+      return CommandVerdict::kNotFinite;
+    }
+    if (isByRate(kind) && links_[link].motion == Motion::kPressure && *values[link] != 0.0)
+    {
+      reason = "joint '" + links_[link].joint + "': a pressure changes by positions only";
+      return CommandVerdict::kMalformed;
+    }
+    const CommandVerdict verdict = examineLimits(link, kind, *values[link], reason, clamped);
+    if (verdict != CommandVerdict::kAccepted)
+      return verdict;
+  }
+  return CommandVerdict::kAccepted;
+}
+
+/** Value for the instrument of one joint's value. */
+double RobotControl::convert(Axis& axis, CommandKind kind, double value) const
+{
+  const JointLink& link = links_[*axis.link];
+  if (isByRate(kind))
+  {
+    const double rate = kind == CommandKind::kServoVelocity ? link.ratio * value : value / link.ratio;
+    axis.rate = rate;
+    axis.engaged = isEngaged(axis.driven, axis.driving, link.backlash, rate);
+    if (kind == CommandKind::kServoForce && rate != 0.0)
+      axis.driving = axis.driven + std::copysign(0.5 * link.backlash, rate);
+    return rate;
+  }
+  axis.rate = 0.0;
+  const double origin = kind == CommandKind::kMoveRelative ? axis.setpoint : axis.driven;
+  if (kind == CommandKind::kMoveRelative)
+    axis.driving = drivingAfterPlay(axis.driving, axis.setpoint, link.backlash);
+  axis.driving = isRelative(kind) ? axis.driving + link.ratio * value : link.toMotion(value);
+  axis.driven = drivenAfterPlay(origin, axis.driving, link.backlash);
+  return isRelative(kind) ? axis.driven - origin : axis.driven;
+}
+
+/** Command to one instrument.
+ *  @param channel of the instrument, with the sides of its plays after the command
+ *  @return none if the values concern no joint of the instrument, or if a force lacks that of the insertion */
+std::optional<InstrumentCommand> RobotControl::convert(std::size_t instrument, CommandKind kind, const Values& values,
+                                                       Channel& channel) const
+{
+  std::array<std::optional<double>, 3> motions;
+  bool any = false;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    Axis& axis = channel.axes[k];
+    axis.rate = 0.0;
+    if (!axis.link || !values[*axis.link])
+      continue;
+    motions[k] = convert(axis, kind, *values[*axis.link]);
+    any = true;
+  }
+  if (!any || (kind == CommandKind::kServoForce && !motions[0]))
+    return std::nullopt;
+  channel.kind = kind;
+  const auto held = [kind](const Axis& axis)
+  {
+    return kind == CommandKind::kServoPosition ? axis.driven : kind == CommandKind::kMovePosition ? axis.setpoint : 0.0;
+  };
+  if (motions[2] && !motions[1])  // an instrument takes a pressure after a rotation only
+    motions[1] = held(channel.axes[1]);
+  drive::JointCommand command{kind, motions[0].value_or(held(channel.axes[0])), motions[1], motions[2]};
+  if (isByRate(kind))
+    command.pressure.reset();
+  return InstrumentCommand{instrument, command};
+}
+
+RobotAnswer RobotControl::reject(const std::string& client, CommandKind kind, CommandVerdict verdict,
+                                 const std::string& reason)
+{
+  rejected_.add(verdict);
+  last_refusal_ = std::string(drive::nameOf(kind)) + " of " + client + ": " + reason;
+  return {verdict, last_refusal_, {}};
+}
+
+RobotAnswer RobotControl::command(const std::string& client, CommandKind kind, const std::vector<std::string>& names,
+                                  const std::vector<double>& values, double time)
+{
+  std::string reason;
+  std::optional<Values> assigned = assign(names, values, reason);
+  if (!assigned)
+    return reject(client, kind, CommandVerdict::kMalformed, reason);
+  bool clamped = false;
+  const CommandVerdict verdict = examine(client, kind, *assigned, time, reason, clamped);
+  if (verdict != CommandVerdict::kAccepted)
+    return reject(client, kind, verdict, reason);
+  std::vector<Channel> channels = channels_;
+  RobotAnswer answer;
+  for (std::size_t k = 0; k < channels.size(); ++k)
+  {
+    const bool concerned = std::any_of(channels[k].axes.begin(), channels[k].axes.end(),
+                                       [&](const Axis& axis) { return axis.link && (*assigned)[*axis.link]; });
+    if (!concerned)
+      continue;
+    const std::optional<InstrumentCommand> converted = convert(k, kind, *assigned, channels[k]);
+    if (!converted)
+      return reject(client, kind, CommandVerdict::kMalformed,
+                    "a torque of '" + instruments_[k].name + "' needs the force of its insertion too");
+    channels[k].commanded_at = time;
+    answer.commands.push_back(*converted);
+  }
+  channels_ = std::move(channels);
+  // Joints move through their play before the instrument does.
+  for (InstrumentCommand& command : answer.commands)
+    if (kind == CommandKind::kServoVelocity)
+      command = *rates(command.instrument);
+  const bool is_move = kind == CommandKind::kMovePosition || kind == CommandKind::kMoveRelative;
+  for (const InstrumentCommand& command : answer.commands)  // until the instrument publishes its state
+    states_[command.instrument].is_busy = states_[command.instrument].is_busy || is_move;
+  rejected_.clamped += clamped;
+  ++accepted_;
+  driver_ = client;
+  driver_time_ = time;
+  return answer;
+}
+
+std::string RobotControl::stateCommand(const std::string& client, const std::string& word, double time)
+{
+  const bool is_free = word == "enable" || word == "disable" || word == "pause";
+  std::string reason;
+  if (!drive::isStateCommand(word))
+  {
+    rejected_.add(CommandVerdict::kMalformed);
+    reason = "unknown word; known are enable, disable, pause, resume, home, unhome";
+  }
+  else if (!is_free && isDrivenByAnother(client, time))
+  {
+    rejected_.add(CommandVerdict::kForeign);
+    reason = driver_ + " drives the robot";
+  }
+  else if (word == "disable")
+    driver_.clear();
+  if (!reason.empty())
+    last_refusal_ = "state_command of " + client + ": " + reason;
+  return reason.empty() ? "" : last_refusal_;
+}
+
+/** Velocities of an instrument whose joints use up their play first: zero for joints within it. */
+std::optional<InstrumentCommand> RobotControl::rates(std::size_t instrument) const
+{
+  const Channel& channel = channels_[instrument];
+  const auto rate = [](const Axis& axis) { return axis.engaged ? axis.rate : 0.0; };
+  const Axis& rotation = channel.axes[1];
+  return InstrumentCommand{instrument,
+                           {CommandKind::kServoVelocity, rate(channel.axes[0]),
+                            rotation.link ? std::optional<double>(rate(rotation)) : std::nullopt, std::nullopt}};
+}
+
+std::optional<InstrumentCommand> RobotControl::follow(std::size_t instrument, const Motions& setpoint, double time)
+{
+  Channel& channel = channels_[instrument];
+  const double dt = std::clamp(time - channel.followed_at, 0.0, instruments_[instrument].time_out);
+  const double silence = time - channel.commanded_at;
+  const bool is_over = silence < 0.0 || silence >= instruments_[instrument].time_out;
+  const bool by_rate = isByRate(channel.kind);
+  channel.followed_at = time;
+  bool has_engaged = false;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    Axis& axis = channel.axes[k];
+    axis.setpoint = setpoint[k];
+    if (!by_rate && !is_over)
+      continue;  // the command may not have arrived yet
+    axis.driven = setpoint[k];
+    const double width = play(axis);
+    if (by_rate && !is_over && axis.rate != 0.0)
+    {
+      const bool moves = axis.engaged || channel.kind == CommandKind::kServoForce;
+      axis.driving = moves ? axis.driven + std::copysign(0.5 * width, axis.rate) : axis.driving + axis.rate * dt;
+      axis.engaged = moves || isEngaged(axis.driven, axis.driving, width, axis.rate);
+      has_engaged = has_engaged || axis.engaged != moves;
+    }
+    axis.driving = drivingAfterPlay(axis.driving, axis.driven, width);
+  }
+  return has_engaged && channel.kind == CommandKind::kServoVelocity ? rates(instrument) : std::nullopt;
+}
+
+drive::OperatingState RobotControl::state() const
+{
+  drive::OperatingState worst;
+  worst.state = kEnabled;
+  for (std::size_t k = 0; k < states_.size(); ++k)
+  {
+    const drive::OperatingState& state = states_[k];
+    worst.is_homed = worst.is_homed && state.is_homed;
+    worst.is_busy = worst.is_busy || state.is_busy;
+    if (severity(state.state) <= severity(worst.state))
+      continue;
+    worst.state = state.state;
+    worst.reason = instruments_[k].name + ": " + state.reason;
+  }
+  return worst;
+}
+
+double RobotControl::silence(double time) const
+{
+  return accepted_ > 0 ? time - driver_time_ : HUGE_VAL;
+}
+
+double RobotControl::position(std::size_t link, double motion) const
+{
+  const Axis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
+  return links_[link].toPosition(drivingAfterPlay(axis.driving, motion, links_[link].backlash));
+}
+
+std::vector<double> RobotControl::allJoints(const std::vector<double>& linked, bool positions) const
+{
+  std::vector<double> all;
+  for (const Joint& joint : model_.joints)
+  {
+    if (!joint.isMovable())
+      continue;
+    const auto link =
+        std::find_if(links_.begin(), links_.end(), [&](const JointLink& other) { return other.joint == joint.name; });
+    if (link != links_.end())
+      all.push_back(linked[static_cast<std::size_t>(link - links_.begin())]);
+    else
+      all.push_back(positions && joint.range ? joint.range->nearest(0.0) : 0.0);
+  }
+  followMimics(model_, all, positions);
+  return all;
+}
+
+std::vector<std::string> RobotControl::allNames() const
+{
+  std::vector<std::string> names;
+  for (const Joint& joint : model_.joints)
+    if (joint.isMovable())
+      names.push_back(joint.name);
+  return names;
+}
+
+}  // namespace endovascular_sim::robot
