@@ -379,7 +379,7 @@ drive::OperatingState RobotControl::state() const
     if (severity(state.state) <= severity(worst.state))
       continue;
     worst.state = state.state;
-    worst.reason = instruments_[k].name + ": " + state.reason;
+    worst.reason = instruments_[k].name + (state.reason.empty() ? " is " + state.state : ": " + state.reason);
   }
   return worst;
 }

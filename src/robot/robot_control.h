@@ -78,6 +78,9 @@ public:
   /** Takes over the operating state of an instrument. */
   void setState(std::size_t instrument, const drive::OperatingState& state) { states_[instrument] = state; }
 
+  /** Replaces the reason of an instrument's state. */
+  void setReason(std::size_t instrument, const std::string& reason) { states_[instrument].reason = reason; }
+
   /** State of the robot: the worst of its instruments, homed if all are, busy if one is. */
   drive::OperatingState state() const;
 

@@ -93,7 +93,7 @@ void RobotNode::connectInstruments()
     const std::string& name = instruments_[k].name;
     subscribers_.push_back(node_.subscribe<crtk_msgs::StringStamped>(
         name + names::kStateReason, 10,
-        [this, k](const crtk_msgs::StringStampedConstPtr& reason) { instruments_[k].reason = reason->string; },
+        [this, k](const crtk_msgs::StringStampedConstPtr& reason) { receiveReason(k, reason->string); },
         ros::VoidConstPtr(), no_delay));
     subscribers_.push_back(node_.subscribe<crtk_msgs::OperatingState>(
         name + names::kOperatingState, 10,
@@ -205,30 +205,44 @@ void RobotNode::receiveState(const ros::MessageEvent<crtk_msgs::StringStamped co
 
 void RobotNode::receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state)
 {
-  drive::OperatingState taken;
+  drive::OperatingState& taken = instruments_[instrument].state;
   taken.state = state.state;
   taken.is_homed = state.is_homed;
   taken.is_busy = state.is_busy;
-  taken.reason = instruments_[instrument].reason;
   control_.setState(instrument, taken);
   publishState();
+}
+
+/** Takes over a reason, which may arrive before or after its state. */
+void RobotNode::receiveReason(std::size_t instrument, const std::string& reason)
+{
+  drive::OperatingState& state = instruments_[instrument].state;
+  state.reason = reason;
+  if (state.state.empty())
+    return;
+  control_.setReason(instrument, reason);
+  publishReason();
+}
+
+void RobotNode::publishReason()
+{
+  const std::string reason = control_.state().reason;
+  if (reason == published_reason_)
+    return;
+  crtk_msgs::StringStamped message;
+  message.header.stamp = ros::Time::now();
+  message.string = reason;
+  reason_.publish(message);
+  published_reason_ = reason;
 }
 
 /** Publishes the state of the robot; the reason precedes it. */
 void RobotNode::publishState()
 {
+  publishReason();
   const drive::OperatingState state = control_.state();
-  const ros::Time now = ros::Time::now();
-  if (state.reason != published_reason_)
-  {
-    crtk_msgs::StringStamped reason;
-    reason.header.stamp = now;
-    reason.string = state.reason;
-    reason_.publish(reason);
-    published_reason_ = state.reason;
-  }
   crtk_msgs::OperatingState message;
-  message.header.stamp = now;
+  message.header.stamp = ros::Time::now();
   message.state = state.state;
   message.is_homed = state.is_homed;
   message.is_busy = state.is_busy;

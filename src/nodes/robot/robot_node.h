@@ -48,7 +48,7 @@ private:
     std::string name;
     std::map<drive::CommandKind, ros::Publisher> commands;
     ros::Publisher state_command;
-    std::string reason;  ///< newest state_reason
+    drive::OperatingState state;  ///< from the newest operating_state and state_reason; without a name before the first
   };
 
   void advertise();
@@ -63,10 +63,12 @@ private:
   void receiveState(const ros::MessageEvent<crtk_msgs::StringStamped const>& event);
   void receiveJoints(JointStream& stream, std::size_t instrument, const sensor_msgs::JointState& joints);
   void receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state);
+  void receiveReason(std::size_t instrument, const std::string& reason);
   void follow(std::size_t instrument, const sensor_msgs::JointState& setpoint);
   void give(const robot::InstrumentCommand& command);
   bool isHeard(const robot::RobotAnswer& answer) const;
   void publishAllJoints(const sensor_msgs::JointState& linked);
+  void publishReason();
   void publishState();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
