@@ -9,7 +9,12 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-const scene::Scene kScene = scene::loadScene(TEST_DATA_DIR "/robot_in_tube.yaml");
+/** Scene of the tests, loaded at its first use. */
+const scene::Scene& robotScene()
+{
+  static const scene::Scene scene = scene::loadScene(TEST_DATA_DIR "/robot_in_tube.yaml");
+  return scene;
+}
 
 /** Joints of an instrument with velocities and efforts. */
 sensor_msgs::JointState jointsAt(double insertion, double rotation)
@@ -25,7 +30,7 @@ sensor_msgs::JointState jointsAt(double insertion, double rotation)
 
 TEST(RobotConversions, JointsOfInstrumentsBecomeThoseOfTheRobot)
 {
-  const robot::RobotControl control = robotControl(kScene);
+  const robot::RobotControl control = robotControl(robotScene());
   ASSERT_EQ(control.instruments().size(), 2U);
   ASSERT_EQ(control.instruments()[0].name, "catheter") << "in the order of the joints";
   sensor_msgs::JointState joints;
@@ -48,7 +53,7 @@ TEST(RobotConversions, JointsOfInstrumentsBecomeThoseOfTheRobot)
 
 TEST(RobotConversions, AGoalHasNeitherVelocityNorEffort)
 {
-  const robot::RobotControl control = robotControl(kScene);
+  const robot::RobotControl control = robotControl(robotScene());
   sensor_msgs::JointState goal = jointsAt(0.05, 0.3);
   goal.velocity.clear();
   goal.effort.clear();
@@ -70,7 +75,7 @@ TEST(RobotConversions, CommandsHaveTheFieldsOfTheirKind)
 
 TEST(RobotConversions, ThePoseIsThatOfTheScene)
 {
-  scene::RobotScene robot = *kScene.robot;
+  scene::RobotScene robot = *robotScene().robot;
   robot.position = {0.1, 0.2, 0.3};
   robot.rpy = {0.0, 0.0, M_PI_2};
   const geometry_msgs::TransformStamped transform = toTransform(robot);
