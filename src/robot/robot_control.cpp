@@ -65,7 +65,7 @@ RobotControl::RobotControl(RobotModel model, std::vector<JointLink> links, std::
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const double start = instruments_[k].start[axis];
-      channels_[k].axes[axis] = {std::nullopt, start, start, start, 0.0, false};
+      channels_[k].axes[axis] = {std::nullopt, start, start, start, start, 0.0, false};
     }
     states_[k].state = "DISABLED";  // until the instrument publishes
     states_[k].reason = "no state of '" + instruments_[k].name + "' yet";
@@ -221,6 +221,7 @@ double RobotControl::convert(Axis& axis, CommandKind kind, double value) const
   if (kind == CommandKind::kMoveRelative)
     axis.driving = drivingAfterPlay(axis.driving, axis.setpoint, link.backlash);
   axis.driving = isRelative(kind) ? axis.driving + link.ratio * value : link.toMotion(value);
+  axis.wanted = axis.driving;
   axis.driven = drivenAfterPlay(origin, axis.driving, link.backlash);
   return isRelative(kind) ? axis.driven - origin : axis.driven;
 }
@@ -362,7 +363,9 @@ std::optional<InstrumentCommand> RobotControl::follow(std::size_t instrument, co
       axis.engaged = moves || isEngaged(axis.driven, axis.driving, width, axis.rate);
       has_engaged = has_engaged || axis.engaged != moves;
     }
-    axis.driving = drivingAfterPlay(axis.driving, axis.driven, width);
+    if (by_rate)
+      axis.wanted = axis.driving;
+    axis.driving = drivingAfterPlay(axis.wanted, axis.driven, width);  // a move may outlast the time-out
   }
   return has_engaged && channel.kind == CommandKind::kServoVelocity ? rates(instrument) : std::nullopt;
 }

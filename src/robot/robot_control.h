@@ -113,6 +113,7 @@ private:
   struct Axis
   {
     std::optional<std::size_t> link;
+    double wanted = 0.0;    ///< motion of the joint that was commanded last
     double driving = 0.0;   ///< motion of the joint
     double driven = 0.0;    ///< motion of the instrument, as last commanded
     double setpoint = 0.0;  ///< motion of the instrument at the last step

@@ -239,6 +239,16 @@ TEST(RobotControl, TheJointFollowsAnInstrumentThatAnotherClientMoves)
   EXPECT_NEAR(send(control, CommandKind::kMoveRelative, {0.04}, 1.0).commands.at(0).joints.insertion, 0.04, 1e-15);
 }
 
+TEST(RobotControl, AMoveThatOutlastsTheTimeOutEndsAtItsGoal)
+{
+  RobotControl control = makeControl();
+  const RobotAnswer answer = control.command("client", CommandKind::kMovePosition, {"roller"}, {0.2 / kRatio}, 0.0);
+  const double goal = answer.commands.at(0).joints.insertion;
+  for (int k = 1; k <= 1000; ++k)
+    control.follow(1, {0.1 + 1e-3 * k * (goal - 0.1), 0.4, 0.0}, 1e-3 * k);
+  EXPECT_NEAR(control.position(2, goal), 0.2 / kRatio, 1e-12);
+}
+
 TEST(RobotControl, ASlippedInstrumentLeavesTheJointAtTheNearestPositionOfItsPlay)
 {
   RobotControl control = makeControl();

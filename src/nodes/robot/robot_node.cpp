@@ -44,6 +44,7 @@ RobotNode::RobotNode(const ros::NodeHandle& node, const scene::Scene& scene)
   connectInstruments();
   connectClients();
   sensor_msgs::JointState start;
+  start.header.stamp = ros::Time::now();
   for (std::size_t k = 0; k < control_.links().size(); ++k)
     start.position.push_back(control_.position(
         k,
