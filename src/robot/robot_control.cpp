@@ -96,8 +96,13 @@ std::optional<RobotControl::Values> RobotControl::assign(const std::vector<std::
     std::copy(values.begin(), values.end(), assigned.begin());
     return assigned;
   }
+  if (names.size() != values.size())
+  {
+    reason = std::to_string(names.size()) + " names, but " + std::to_string(values.size()) + " values";
+    return std::nullopt;
+  }
   bool any = false;
-  for (std::size_t n = 0; n < std::min(names.size(), values.size()); ++n)
+  for (std::size_t n = 0; n < names.size(); ++n)
   {
     const auto link =
         std::find_if(links_.begin(), links_.end(), [&](const JointLink& other) { return other.joint == names[n]; });

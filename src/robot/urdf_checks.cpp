@@ -271,4 +271,17 @@ std::vector<std::string> xmlWarnings(const TiXmlElement& root, const std::string
   return warnings;
 }
 
+std::vector<std::string> rangeWarnings(const RobotModel& model)
+{
+  constexpr double kTurn = 2.0 * M_PI;
+  constexpr double kMostTurns = 10.0;
+  std::vector<std::string> warnings;
+  for (const Joint& joint : model.joints)
+    if (joint.kind == JointKind::kRevolute && joint.range && joint.range->high - joint.range->low > kMostTurns * kTurn)
+      warnings.push_back(model.file + ": " + nameOf(joint) + ": its limits permit " +
+                         text((joint.range->high - joint.range->low) / kTurn) +
+                         " turns: are they in degrees? URDF uses rad");
+  return warnings;
+}
+
 }  // namespace endovascular_sim::robot

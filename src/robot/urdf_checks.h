@@ -24,6 +24,9 @@ void checkJoints(const RobotModel& model);
 /** Warnings of parts that have no effect here: transmissions, and mesh files that do not exist. */
 std::vector<std::string> xmlWarnings(const TiXmlElement& root, const std::string& file);
 
+/** Warnings of joints whose range of many turns suggests limits in degrees. */
+std::vector<std::string> rangeWarnings(const RobotModel& model);
+
 /** Name of a joint in messages: "joint 'x' (line 7)". */
 std::string nameOf(const Joint& joint);
 

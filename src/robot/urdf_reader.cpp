@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 #include <mutex>
+#include <utility>
 
 #include "common/error.h"
 #include "common/input_file.h"
@@ -118,6 +119,8 @@ RobotModel parseUrdf(const std::string& text, const std::string& file)
   }
   checkJoints(model);
   model.warnings = xmlWarnings(root, file);
+  for (std::string& warning : rangeWarnings(model))
+    model.warnings.push_back(std::move(warning));
   return model;
 }
 

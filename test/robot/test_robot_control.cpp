@@ -112,6 +112,7 @@ TEST(RobotControl, MalformedCommandsAreRejectedWithTheReason)
   };
   EXPECT_NE(reasonOf({}, {}).find("0 values"), std::string::npos);
   EXPECT_NE(reasonOf({}, {0.0, 0.0, 5.0, 0.0}).find("4 values without names for 3 joints"), std::string::npos);
+  EXPECT_NE(reasonOf({"carriage", "chuck"}, {0.1}).find("2 names, but 1 values"), std::string::npos);
   EXPECT_NE(reasonOf({"cariage"}, {0.1}).find("has no joint 'cariage'; it has carriage, chuck"), std::string::npos);
   EXPECT_NE(reasonOf({"chuck", "chuck"}, {0.1, 0.2}).find("'chuck' is repeated"), std::string::npos);
   EXPECT_NE(reasonOf({"arm"}, {0.3}).find("no value of a joint that moves an instrument"), std::string::npos);

@@ -216,5 +216,18 @@ TEST(RobotModel, ChainsOfMimicsAreFollowed)
   EXPECT_NEAR(velocities[0], -0.6, 1e-15);
 }
 
+TEST(UrdfReader, WarnsOfARangeInDegrees)
+{
+  const auto warningsOf = [](const std::string& upper)
+  {
+    const std::string limit = "<limit lower=\"-3\" upper=\"" + upper + "\" velocity=\"1\" effort=\"1\"/>";
+    return parseUrdf(urdfWith(slide(kAxis + limit, "arm", "carriage", "revolute")), "r.urdf").warnings;
+  };
+  EXPECT_TRUE(warningsOf("50").empty()) << "a screw of 8 turns";
+  ASSERT_EQ(warningsOf("180").size(), 1U);
+  EXPECT_NE(warningsOf("180")[0].find("r.urdf: joint 'arm'"), std::string::npos);
+  EXPECT_NE(warningsOf("180")[0].find("in degrees? URDF uses rad"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::robot

@@ -52,7 +52,7 @@ void writeWire(std::ostream& out, const HardCase& hard, double radius)
 
 void writeDrive(std::ostream& out, const HardCase& hard)
 {
-  const double time = kTravel / std::max(hard.speed, 1e-9);
+  const double time = kTravel / std::max(hard.speed, 1e-4);
   out << "drive:\n  source: script\n  initial_insertion: 0.012\n  force_limit: 20\n";
   if (hard.reverses)
     out << "  insertion: {points: [[0, 0], [" << 0.5 * time << ", " << 0.5 * kTravel << "], [" << 0.7 * time << ", "

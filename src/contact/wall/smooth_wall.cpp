@@ -94,19 +94,27 @@ SmoothWall::SmoothWall(const SmoothWall& other, const Wall& wall)
 }
 
 /** Adds creases until every corner that is none has a bounded distance to its quadric. A crease takes the pseudo-normal
- *  as direction, which changes the bounds of its neighbours; the set only grows. */
+ *  as direction, which changes the bounds of its triangles and of no other ones; the set only grows. */
 void SmoothWall::markCreases()
 {
-  for (bool changed = true; changed;)
+  deviations_.assign(wall_.triangles.size(), 0.0);
+  std::vector<char> known(crease_.size(), 0);  // creases that the quadrics contain
+  for (bool first = true; first || known != crease_; first = false)
   {
+    std::vector<char> is_new(crease_.size(), 0);
     for (std::size_t v = 0; v < crease_.size(); ++v)
-      if (crease_[v] != 0)
+      if (crease_[v] != known[v])
+      {
         quadrics_[v] = {wall_.vertex_normals[v], Eigen::Matrix3d::Zero()};
-    deviations_.assign(wall_.triangles.size(), 0.0);
-    const auto creases = std::count(crease_.begin(), crease_.end(), 1);
+        is_new[v] = 1;
+      }
+    known = crease_;
     for (std::size_t t = 0; t < deviations_.size(); ++t)
-      deviations_[t] = boundOf(static_cast<int>(t));
-    changed = std::count(crease_.begin(), crease_.end(), 1) != creases;
+    {
+      const Eigen::Vector3i& corners = wall_.triangles[t];
+      if (first || is_new[corners[0]] != 0 || is_new[corners[1]] != 0 || is_new[corners[2]] != 0)
+        deviations_[t] = boundOf(static_cast<int>(t));
+    }
   }
   deviation_ = *std::max_element(deviations_.begin(), deviations_.end());
 }

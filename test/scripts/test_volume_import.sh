@@ -1,0 +1,22 @@
+#!/bin/bash
+# volume_import reads images of all formats, written without ITK, and refuses wrong ones. No program but volume_import loads
+# ITK, and none loads FFTW, whose licence is the GPL.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+/usr/bin/python3 "$repository/test/image/check_volume_import.py" "$programs/volume_import" "$folder"
+
+for program in "$programs"/*; do
+  libraries=$(ldd "$program" 2> /dev/null) || continue  # a script
+  if grep -q fftw <<< "$libraries"; then
+    echo "$program loads FFTW"
+    exit 1
+  fi
+  if grep -q libITK <<< "$libraries" && [ "$(basename "$program")" != volume_import ]; then
+    echo "$program loads ITK"
+    exit 1
+  fi
+done
