@@ -118,7 +118,7 @@ TEST(RobotControl, MalformedCommandsAreRejectedWithTheReason)
   EXPECT_NE(reasonOf({"arm"}, {0.3}).find("no value of a joint that moves an instrument"), std::string::npos);
   EXPECT_NE(reasonOf({}, {nan}).find("joint 'carriage': not finite"), std::string::npos);
   EXPECT_NE(reasonOf({}, {0.1, -HUGE_VAL}).find("joint 'chuck': not finite"), std::string::npos);
-  EXPECT_EQ(control.rejected().malformed, 5U);
+  EXPECT_EQ(control.rejected().malformed, 6U);
   EXPECT_EQ(control.rejected().not_finite, 2U);
   EXPECT_EQ(control.accepted(), 0U);
   EXPECT_EQ(control.driver(), "");
