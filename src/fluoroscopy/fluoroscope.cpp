@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "fluoroscopy/detector.h"
+#include "fluoroscopy/image/detector.h"
 
 namespace endovascular_sim::fluoroscopy
 {

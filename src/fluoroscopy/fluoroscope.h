@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "fluoroscopy/vessel_projection.h"
-#include "fluoroscopy/wire_projection.h"
-#include "fluoroscopy/x_ray_geometry.h"
+#include "fluoroscopy/projection/vessel_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
 
 namespace endovascular_sim::fluoroscopy
 {

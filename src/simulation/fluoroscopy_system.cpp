@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "fluoroscopy/x_ray_treatment.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "intervention/stent_placement.h"
 
 namespace endovascular_sim::simulation
@@ -34,7 +34,7 @@ fluoroscopy::CArmPose poseOf(const scene::FluoroscopyScene& scene)
   return pose;
 }
 
-fluoroscopy::XRayScene surroundingsOf(const scene::FluoroscopyScene& scene, const fluoroscopy::AttenuationTable& table)
+fluoroscopy::XRayScene surroundingsOf(const scene::FluoroscopyScene& scene, const fluoroscopy::MaterialLibrary& table)
 {
   fluoroscopy::XRayScene result;
   result.tissue_attenuation = table.linear("soft_tissue", scene.energy);
@@ -53,7 +53,7 @@ double displaced(const scene::Scene& scene, const fluoroscopy::XRayScene& xray)
 
 }  // namespace
 
-FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::AttenuationTable& table)
+FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& table)
   : fluoroscope_(poseOf(xRayOf(scene)), surroundingsOf(xRayOf(scene), table))
 {
   const double energy = xRayOf(scene).energy;

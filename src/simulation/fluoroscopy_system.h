@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
@@ -17,7 +17,7 @@ class FluoroscopySystem
 public:
   /** @param scene must outlive this
    *  @throws InputError for a scene without fluoroscopy, or with a material that the table does not know */
-  FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::AttenuationTable& table);
+  FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& table);
 
   fluoroscopy::Fluoroscope& fluoroscope() { return fluoroscope_; }
   const std::vector<fluoroscopy::XRayInstrument>& instruments() const { return instruments_; }

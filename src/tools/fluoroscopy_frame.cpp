@@ -10,9 +10,9 @@
 #include "common/input_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
@@ -69,7 +69,7 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--mesh", options.mesh, "FILE",
               "closed triangle mesh of the vessel (OBJ, STL, PLY), oriented inwards or outwards")
       ->required();
-  line.option("--table", options.table, "FILE", "attenuation table (config/xray/attenuation.yaml)")->required();
+  line.option("--table", options.table, "FILE", "attenuation table (config/xray/materials.yaml)")->required();
   line.option("--out", options.out, "FILE.png", "image to write")->required();
   line.quantity("--unit", options.unit, "U", quantities::kMeshUnit,
                 "length of a unit of the mesh and the wire [0.001 m]");
@@ -135,7 +135,7 @@ std::vector<Eigen::Vector3d> readNodes(const std::string& file, const Eigen::Mat
   return nodes;
 }
 
-fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::AttenuationTable& table,
+fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::MaterialLibrary& table,
                                const Eigen::Matrix3d& patient_from_mesh)
 {
   fluoroscopy::XRayWire wire;
@@ -192,7 +192,7 @@ fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleM
 
 int run(const Options& options)
 {
-  const auto table = fluoroscopy::AttenuationTable::load(options.table);
+  const auto table = fluoroscopy::MaterialLibrary::load(options.table);
   tools::printWarnings("fluoroscopy_frame", table.warnings());
   const Eigen::Matrix3d patient_from_mesh = patientFromMesh(options);
   const fluoroscopy::XRayWire wire = makeWire(options, table, patient_from_mesh);

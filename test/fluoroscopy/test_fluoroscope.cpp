@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "fluoroscopy/detector.h"
+#include "fluoroscopy/image/detector.h"
 #include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy

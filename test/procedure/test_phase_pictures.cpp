@@ -78,7 +78,7 @@ TEST(PhasePictures, ShowTheInsertedInstruments)
 {
   World world(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n"));
   simulation::FluoroscopySystem system(
-      world.scene, fluoroscopy::AttenuationTable::load(std::string(PROJECT_DIR) + "/config/xray/attenuation.yaml"));
+      world.scene, fluoroscopy::MaterialLibrary::load(std::string(PROJECT_DIR) + "/config/xray/materials.yaml"));
   system.fluoroscope().setVessel(world.vessel.mesh);
   const std::vector<std::uint16_t> empty = system.fluoroscope().render({}).raw;
   const std::vector<fluoroscopy::XRayWire> wires = system.wires(world.simulation);

@@ -10,9 +10,9 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 #include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes

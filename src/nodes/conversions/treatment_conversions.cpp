@@ -1,7 +1,7 @@
 #include "nodes/conversions/treatment_conversions.h"
 
 #include "common/error.h"
-#include "fluoroscopy/x_ray_treatment.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "intervention/stent_placement.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/runtime/ros_names.h"

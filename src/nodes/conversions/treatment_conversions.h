@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "endovascular_sim/TreatmentVisual.h"
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
 #include "intervention/vessel_dilatation.h"
 #include "simulation/simulation.h"
 

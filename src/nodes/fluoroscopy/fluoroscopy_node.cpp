@@ -19,10 +19,10 @@ namespace
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
 
 /** Attenuation table of the private parameter `attenuation_table`; by default that of the package. */
-fluoroscopy::AttenuationTable attenuationTable(const ros::NodeHandle& parameters)
+fluoroscopy::MaterialLibrary attenuationTable(const ros::NodeHandle& parameters)
 {
-  const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/attenuation.yaml";
-  auto table = fluoroscopy::AttenuationTable::load(parameters.param<std::string>("attenuation_table", own));
+  const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/materials.yaml";
+  auto table = fluoroscopy::MaterialLibrary::load(parameters.param<std::string>("attenuation_table", own));
   for (const std::string& warning : table.warnings())
     ROS_WARN("%s", warning.c_str());
   return table;

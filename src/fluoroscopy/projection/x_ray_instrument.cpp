@@ -1,4 +1,4 @@
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 
 #include <algorithm>
 #include <utility>
@@ -39,7 +39,7 @@ void trimDistal(std::vector<Eigen::Vector3d>& nodes, double length)
     nodes.clear();
 }
 
-XRayInstrument::XRayInstrument(const instrument::Instrument& instrument, const AttenuationTable& table, double energy,
+XRayInstrument::XRayInstrument(const instrument::Instrument& instrument, const MaterialLibrary& table, double energy,
                                double displaced)
   : instrument_(&instrument)
 {

@@ -1,4 +1,4 @@
-#include "fluoroscopy/detector.h"
+#include "fluoroscopy/image/detector.h"
 
 #include <algorithm>
 #include <cmath>

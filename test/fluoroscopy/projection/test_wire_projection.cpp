@@ -1,4 +1,4 @@
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "common/error.h"
-#include "fluoroscopy/vessel_projection.h"
+#include "fluoroscopy/projection/vessel_projection.h"
 #include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy

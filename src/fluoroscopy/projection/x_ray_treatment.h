@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
 
 namespace endovascular_sim::fluoroscopy
 {

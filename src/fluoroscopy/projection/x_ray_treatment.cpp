@@ -1,4 +1,4 @@
-#include "fluoroscopy/x_ray_treatment.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 
 #include <cmath>
 #include <utility>

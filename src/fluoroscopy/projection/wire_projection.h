@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fluoroscopy/x_ray_geometry.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
 
 namespace endovascular_sim::fluoroscopy
 {

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "fluoroscopy/attenuation.h"
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/beam/material_library.h"
+#include "fluoroscopy/projection/wire_projection.h"
 #include "instrument/instrument.h"
 
 namespace endovascular_sim::fluoroscopy
@@ -19,7 +19,7 @@ public:
    *  @param energy photon energy [keV]
    *  @param displaced linear attenuation coefficient of the displaced medium [1/m]
    *  @throws InputError for a material that is missing in the table, or sections without materials */
-  XRayInstrument(const instrument::Instrument& instrument, const AttenuationTable& table, double energy,
+  XRayInstrument(const instrument::Instrument& instrument, const MaterialLibrary& table, double energy,
                  double displaced);
 
   /** Appends the X-ray wires of the instrument.

@@ -1,4 +1,4 @@
-#include "fluoroscopy/x_ray_geometry.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

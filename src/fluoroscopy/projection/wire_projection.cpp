@@ -1,4 +1,4 @@
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,7 @@
 #include <utility>
 
 #include "common/error.h"
-
-// Function multiversioning: an additional AVX2 version is selected at run time. Results are bitwise equal, because no
-// multiply-add is fused. Sanitizers have one version: their runtime is not ready when the loader selects one.
-#if defined(__x86_64__) && !defined(ENDOVASCULAR_SANITIZED)
-#define EVS_WIDE_VECTORS [[gnu::target_clones("avx2", "default")]]
-#else
-#define EVS_WIDE_VECTORS
-#endif
+#include "common/wide_vectors.h"
 
 namespace endovascular_sim::fluoroscopy
 {

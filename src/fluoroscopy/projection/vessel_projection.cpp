@@ -1,4 +1,4 @@
-#include "fluoroscopy/vessel_projection.h"
+#include "fluoroscopy/projection/vessel_projection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fluoroscopy/x_ray_geometry.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
 #include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::fluoroscopy

@@ -1,4 +1,4 @@
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 
 #include <cmath>
 
@@ -12,9 +12,9 @@ namespace
 constexpr double kEnergy = 60.0;     // [keV]
 constexpr double kDisplaced = 20.0;  // [1/m]
 
-AttenuationTable table()
+MaterialLibrary table()
 {
-  return AttenuationTable::load(PROJECT_DIR "/config/xray/attenuation.yaml");
+  return MaterialLibrary::load(PROJECT_DIR "/config/xray/materials.yaml");
 }
 
 /** Straight centreline of 40 edges of 1 mm along z. */
