@@ -35,11 +35,11 @@ class SignalTable
 {
 public:
   static constexpr int kTissueNodes = 81;
-  static constexpr int kBoneNodes = 49;
-  static constexpr int kIodineNodes = 57;
+  static constexpr int kBoneNodes = 57;
+  static constexpr int kIodineNodes = 97;
   static constexpr double kTissueMax = 640.0;  ///< [kg/m²]
   static constexpr double kBoneMax = 160.0;    ///< [kg/m²]
-  static constexpr double kIodineMax = 24.0;   ///< [kg/m²]
+  static constexpr double kIodineMax = 12.0;   ///< [kg/m²]
 
   /** @throws InputError for a library without soft_tissue, cortical_bone, iodine or steel */
   SignalTable(const Beam& beam, const MaterialLibrary& library);

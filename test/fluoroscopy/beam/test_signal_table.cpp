@@ -23,7 +23,7 @@ TEST(SignalTable, EqualsDirectIntegrationWithinTheTable)
                                        BeamSettings{125.0, 2.5e-3, 0.1e-3, {}}, BeamSettings{80.0, 2.5e-3, 0.0, 60.0}})
   {
     const SignalTable table(Beam(settings), library());
-    for (int k = 0; k < 5000; ++k)
+    for (int k = 0; k < 3000; ++k)
     {
       const double bone = uniform(random), iodine = uniform(random);
       const ArealDensities densities{500.0 * uniform(random), 100.0 * bone * bone, 12.0 * iodine * iodine};
