@@ -2,41 +2,56 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "fluoroscopy/beam/material_library.h"
-#include "fluoroscopy/projection/wire_projection.h"
+#include "fluoroscopy/beam/device_response.h"
+#include "fluoroscopy/projection/wire.h"
 #include "instrument/instrument.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 
-/** X-ray model of an instrument: shaft sections, lumen and marker bands. */
+/** X-ray model of an instrument: shaft sections, lumen and marker bands, by the distance from the tip. */
 class XRayInstrument
 {
 public:
-  /** @param instrument must outlive this object
-   *  @param energy photon energy [keV]
-   *  @param displaced linear attenuation coefficient of the displaced medium [1/m]
-   *  @throws InputError for a material that is missing in the table, or sections without materials */
-  XRayInstrument(const instrument::Instrument& instrument, const MaterialLibrary& table, double energy,
-                 double displaced);
+  /** @throws InputError for a material that is missing in the library, or sections without materials */
+  XRayInstrument(const instrument::Instrument& instrument, const DeviceResponse& response);
 
-  /** Appends the X-ray wires of the instrument.
-   *  @param nodes common centreline, from proximal to distal [m]
-   *  @param behind arc length from the instrument's tip to the last node [m] */
-  void append(const std::vector<Eigen::Vector3d>& nodes, double behind, std::vector<XRayWire>& wires) const;
+  /** Outer radius of the shaft [m].
+   *  @param from_tip distance from the tip [m] */
+  double radius(double from_tip) const { return section(from_tip).radius; }
+
+  /** Radius of the lumen; 0 for a solid instrument [m]. */
+  double innerRadius() const { return inner_radius_; }
+
+  /** Distances from the tip at which the cross section changes [m]. */
+  const std::vector<double>& changes() const { return changes_; }
+
+  /** Appends the layers of the cross section.
+   *  @param from_tip distance from the tip [m]
+   *  @param around density of the fluid around the instrument
+   *  @param lumen density of the fluid in its lumen */
+  void appendLayers(double from_tip, const DeviceDensity& around, const DeviceDensity& lumen,
+                    WireProfile& profile) const;
 
 private:
-  XRayWire shaft(std::vector<Eigen::Vector3d> nodes) const;
-  XRayWire markerBand(const XRayWire& shaft, std::size_t marker) const;
+  struct Section
+  {
+    double end;  ///< distance of its proximal end from the tip [m]
+    double radius;
+    DeviceDensity density;
+  };
+  struct Marker
+  {
+    double begin, end;  ///< distances from the tip [m]
+    DeviceDensity density;
+  };
 
-  const instrument::Instrument* instrument_;
-  std::vector<double> section_attenuation_;  ///< coefficient minus that of the displaced medium [1/m]
-  std::vector<double> marker_attenuation_;   ///< coefficient minus that of the shaft [1/m]
+  const Section& section(double from_tip) const;
+
+  std::vector<Section> sections_;  ///< from distal to proximal; the last one has no end
+  std::vector<Marker> markers_;
+  std::vector<double> changes_;
+  double inner_radius_;
 };
-
-/** Trims a polyline by @p length [m] at its distal end; a shorter polyline becomes empty. */
-void trimDistal(std::vector<Eigen::Vector3d>& nodes, double length);
 
 }  // namespace endovascular_sim::fluoroscopy

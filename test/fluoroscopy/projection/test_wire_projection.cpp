@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <vector>
 
 #include "common/error.h"
 #include "fluoroscopy/projection/vessel_projection.h"
@@ -19,21 +20,35 @@ namespace
 
 constexpr double kRadius = 0.18e-3;
 
-XRayWire straightWire(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int edges, double radius, double attenuation)
+/** Optical depth proportional to the density, as of a monoenergetic beam. */
+DeviceCoefficients unity(std::uint32_t /*pixel*/)
+{
+  return {1.0F, 0.0F, 0.0F, 0.0F};
+}
+
+/** Chain of solid cylinders of one attenuation coefficient [1/m]. */
+XRayWire chain(const std::vector<Eigen::Vector3d>& nodes, double radius, double attenuation)
 {
   XRayWire wire;
-  for (int i = 0; i <= edges; ++i)
-    wire.nodes.emplace_back(a + (b - a) * i / edges);
-  wire.radius.assign(wire.nodes.size(), radius);
-  wire.attenuation.assign(static_cast<std::size_t>(edges), attenuation);
+  wire.nodes.push_back(nodes.front());
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    appendEdge(wire, nodes[i], {{radius, {attenuation, 0.0}}});
   return wire;
+}
+
+XRayWire straightWire(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int edges, double radius, double attenuation)
+{
+  std::vector<Eigen::Vector3d> nodes;
+  for (int i = 0; i <= edges; ++i)
+    nodes.emplace_back(a + (b - a) * i / edges);
+  return chain(nodes, radius, attenuation);
 }
 
 double totalLoss(const XRayGeometry& geometry, const XRayWire& wire)
 {
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, {wire}, shadow);
+  projection.project(geometry, {wire}, unity, shadow);
   double sum = 0.0;
   for (const double transmission : shadow.transmission)
     sum += 1.0 - transmission;
@@ -85,7 +100,7 @@ TEST(WireProjection, EqualsTheProjectionOfAFineMeshOfTheSameCylinder)
   const auto exact = vesselPathLength(geometry, cylinder(a, b, 1.5e-3, 720));
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, {straightWire(a, b, 7, 1.5e-3, 1.0)}, shadow);
+  projection.project(geometry, {straightWire(a, b, 7, 1.5e-3, 1.0)}, unity, shadow);
   std::size_t compared = 0;
   for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
   {
@@ -102,12 +117,10 @@ TEST(WireProjection, CoversTheJointsOfABentWireExactlyOnce)
   const XRayGeometry geometry{CArmPose{}};
   const auto arc = [](int edges)
   {
-    XRayWire wire;
+    std::vector<Eigen::Vector3d> nodes;
     for (int i = 0; i <= edges; ++i)
-      wire.nodes.emplace_back(0.02 * std::cos(M_PI * i / edges), 0.0, 0.02 * std::sin(M_PI * i / edges));
-    wire.radius.assign(wire.nodes.size(), kRadius);
-    wire.attenuation.assign(static_cast<std::size_t>(edges), 1.0);
-    return wire;
+      nodes.emplace_back(0.02 * std::cos(M_PI * i / edges), 0.0, 0.02 * std::sin(M_PI * i / edges));
+    return chain(nodes, kRadius, 1.0);
   };
   const double exact = exactLoss(geometry, M_PI * 0.02, kRadius, 1.0);
   EXPECT_NEAR(totalLoss(geometry, arc(200)), exact, 0.005 * exact);
@@ -122,14 +135,13 @@ XRayWire randomWire(std::mt19937& random, double radius, double step, double ben
   XRayWire wire;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
-  for (int i = 0; i < 20; ++i)
+  wire.nodes.push_back(place);
+  for (int i = 1; i < 20; ++i)
   {
-    wire.nodes.push_back(place);
-    wire.radius.push_back(radius * uniform(random));
     place += step * uniform(random) * direction;
     direction = (direction + bend * Eigen::Vector3d(normal(random), normal(random), normal(random))).normalized();
+    appendEdge(wire, place, {{radius * uniform(random), {700.0, 0.0}}});
   }
-  wire.attenuation.assign(wire.nodes.size() - 1, 700.0);
   return wire;
 }
 
@@ -140,7 +152,7 @@ std::optional<Eigen::Vector3d> randomPoint(const XRayWire& wire, std::size_t edg
   { return Eigen::Vector3d((wire.nodes[j + 1] - wire.nodes[j]).normalized()); };
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::normal_distribution<double> normal;
-  const double radius = 0.5 * (wire.radius[edge] + wire.radius[edge + 1]);
+  const double radius = wire.profiles[wire.edge_profile[edge]].front().radius;
   const double length = (wire.nodes[edge + 1] - wire.nodes[edge]).norm();
   const Eigen::Vector3d any(normal(random), normal(random), normal(random));
   const Eigen::Vector3d across = (any - any.dot(axis(edge)) * axis(edge)).normalized();
@@ -159,36 +171,36 @@ TEST(WireProjection, MergesTheEdgesOfAStraightUniformWire)
   const Eigen::Vector3d a(-0.01, 0.002, 0.003), b(0.012, -0.001, 0.007);
   WireProjection projection;
   WireShadow one, many;
-  projection.project(geometry, {straightWire(a, b, 1, 1.5e-3, 400.0)}, one);
-  projection.project(geometry, {straightWire(a, b, 40, 1.5e-3, 400.0)}, many);
+  projection.project(geometry, {straightWire(a, b, 1, 1.5e-3, 400.0)}, unity, one);
+  projection.project(geometry, {straightWire(a, b, 40, 1.5e-3, 400.0)}, unity, many);
   EXPECT_EQ(one.pixels, many.pixels);
   EXPECT_EQ(one.transmission, many.transmission);
 }
 
-TEST(WireProjection, DoesNotMergeAcrossBendsOrChangesOfRadiusAndMaterial)
+TEST(WireProjection, DoesNotMergeAcrossBendsOrChangesOfTheProfile)
 {
   const XRayGeometry geometry{CArmPose{}};
   const Eigen::Vector3d a(-0.01, 0.0, 0.0), b(0.01, 0.0, 0.0), aside(0.0, 0.0, 5e-6);
   const XRayWire straight = straightWire(a, b, 4, 0.2e-3, 1.0);
   const double whole = totalLoss(geometry, straight);
-  XRayWire back = straight;  // weak attenuation: losses add up linearly
+  std::vector<Eigen::Vector3d> there_and_back = straight.nodes;  // weak attenuation: losses add up linearly
   for (std::size_t k = 4; k-- > 0;)
-    back.nodes.push_back(straight.nodes[k]);
-  back.radius.resize(back.nodes.size(), 0.2e-3);
-  back.attenuation.resize(back.nodes.size() - 1, 1.0);
-  EXPECT_NEAR(totalLoss(geometry, back), 2.0 * whole, 2e-3 * whole);
+    there_and_back.push_back(straight.nodes[k]);
+  EXPECT_NEAR(totalLoss(geometry, chain(there_and_back, 0.2e-3, 1.0)), 2.0 * whole, 2e-3 * whole);
   XRayWire thicker = straight;
-  thicker.radius[2] = 0.4e-3;  // two of four edges with 1.5 times the radius have 2.25 times the volume
+  thicker.profiles.push_back({{0.3e-3, {1.0, 0.0}}});
+  thicker.edge_profile = {0, 1, 1, 0};  // two of four edges with 2.25 times the volume
   EXPECT_NEAR(totalLoss(geometry, thicker), (0.5 + 0.5 * 2.25) * whole, 5e-3 * whole);
   XRayWire mixed = straight;
-  mixed.attenuation[1] = 2.0;
+  mixed.profiles.push_back({{0.2e-3, {2.0, 0.0}}});
+  mixed.edge_profile = {0, 1, 0, 0};
   EXPECT_NEAR(totalLoss(geometry, mixed), 1.25 * whole, 2e-3 * whole);
   XRayWire bent = straight;
   bent.nodes[2] += aside;
   WireProjection projection;
   WireShadow seen, seen_straight;
-  projection.project(geometry, {bent}, seen);
-  projection.project(geometry, {straight}, seen_straight);
+  projection.project(geometry, {bent}, unity, seen);
+  projection.project(geometry, {straight}, unity, seen_straight);
   EXPECT_NE(seen.transmission, seen_straight.transmission);
 }
 
@@ -207,7 +219,7 @@ TEST(WireProjection, AffectsEveryPixelThatContainsAPointOfTheWire)
     const XRayWire wire = randomWire(random, trial % 3 == 0 ? 0.2e-3 : 3e-3, trial % 4 < 2 ? 1e-3 : 4e-3, 0.3);
     WireProjection projection;
     WireShadow shadow;
-    projection.project(geometry, {wire}, shadow);
+    projection.project(geometry, {wire}, unity, shadow);
     const std::set<std::uint32_t> touched(shadow.pixels.begin(), shadow.pixels.end());
     for (int k = 0; k < 4000; ++k)
     {
@@ -236,7 +248,7 @@ TEST(WireProjection, IntegratesAWireParallelToTheRay)
   const Eigen::Vector3d forward = geometry.axes().col(2);
   WireProjection projection;
   WireShadow shadow;
-  projection.project(geometry, {straightWire(-0.01 * forward, 0.01 * forward, 5, 5e-3, 1.0)}, shadow);
+  projection.project(geometry, {straightWire(-0.01 * forward, 0.01 * forward, 5, 5e-3, 1.0)}, unity, shadow);
   bool found = false;
   for (std::size_t k = 0; k < shadow.pixels.size(); ++k)
     if (shadow.pixels[k] == 32 * 65 + 32)
@@ -252,12 +264,9 @@ TEST(WireProjection, MultipliesTheTransmissionsOfCrossingWires)
   const XRayGeometry geometry{CArmPose{}};
   WireProjection projection;
   WireShadow shadow;
-  XRayWire wire = straightWire({-0.01, 0.0, 0.0}, {0.01, 0.0, 0.0}, 1, 2e-3, 100.0);
-  wire.nodes.emplace_back(0.01, 0.01, 0.0);
-  wire.nodes.emplace_back(-0.01, 0.01, 0.0);
-  wire.radius.assign(4, 2e-3);
-  wire.attenuation.assign(3, 100.0);
-  projection.project(geometry, {wire}, shadow);
+  const XRayWire wire =
+      chain({{-0.01, 0.0, 0.0}, {0.01, 0.0, 0.0}, {0.01, 0.01, 0.0}, {-0.01, 0.01, 0.0}}, 2e-3, 100.0);
+  projection.project(geometry, {wire}, unity, shadow);
   double darkest = 1.0;
   for (const double transmission : shadow.transmission)
     darkest = std::min(darkest, transmission);
@@ -270,9 +279,9 @@ TEST(WireProjection, IsBitwiseIndependentOfEarlierFrames)
   const XRayWire wire = straightWire({-0.01, 0.001, 0.0}, {0.02, 0.0, 0.03}, 11, kRadius, 700.0);
   WireProjection fresh, used;
   WireShadow expected, shadow;
-  fresh.project(geometry, {wire}, expected);
-  used.project(geometry, {straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0)}, shadow);
-  used.project(geometry, {wire}, shadow);
+  fresh.project(geometry, {wire}, unity, expected);
+  used.project(geometry, {straightWire({0.0, 0.0, 0.0}, {0.01, 0.0, 0.03}, 4, kRadius, 100.0)}, unity, shadow);
+  used.project(geometry, {wire}, unity, shadow);
   EXPECT_EQ(shadow.pixels, expected.pixels);
   EXPECT_EQ(shadow.transmission, expected.transmission);
 }
@@ -290,7 +299,7 @@ TEST(WireProjection, RejectsArraysOfInconsistentSize)
 {
   const XRayGeometry geometry{CArmPose{}};
   XRayWire wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, 700.0);
-  wire.attenuation.pop_back();
+  wire.edge_profile.pop_back();
   EXPECT_THROW(totalLoss(geometry, wire), InputError);
   wire = straightWire({0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}, 3, kRadius, std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(totalLoss(geometry, wire), InputError);
