@@ -26,7 +26,7 @@ TEST(SignalTable, EqualsDirectIntegrationWithinTheTable)
     for (int k = 0; k < 3000; ++k)
     {
       const double bone = uniform(random), iodine = uniform(random);
-      const ArealDensities densities{500.0 * uniform(random), 100.0 * bone * bone, 12.0 * iodine * iodine};
+      const ArealDensities densities{500.0 * uniform(random), 60.0 * bone * bone, 8.0 * iodine * iodine};
       const Response fast = table.at(densities), exact = table.integrate(densities);
       ASSERT_NEAR(std::exp(fast.log_signal - exact.log_signal), 1.0, 0.002)
           << settings.tube_voltage << " kV " << densities.tissue << " " << densities.bone << " " << densities.iodine;

@@ -130,40 +130,41 @@ TEST(DetectorImage, HasTheVarianceOfTheAbsorbedQuanta)
 
 TEST(DetectorImage, HasWhiteNoiseBeforeTheScintillator)
 {
-  // Noise power along the diagonal and the axes, over the squared transfer function of the kernel.
+  // Noise power over the squared transfer function of the kernel, up to 0.8 of the Nyquist frequency.
   Field field;
-  constexpr int kSize = 128, kPairs = 48, kBins = 8;
+  constexpr int kSize = 128, kPairs = 48, kLast = 51, kBins = 4;
   std::vector<double> ratio(kBins, 0.0);
   std::vector<int> count(kBins, 0);
   for (int pair = 0; pair < kPairs; ++pair)
   {
     const std::vector<double> noise = difference(field, 150e-9, static_cast<std::uint64_t>(pair));
-    for (int v = 0; v < 52; v += 3)
-      for (int u = v == 0 ? 4 : 0; u < 52; u += 5)
+    for (int u = 1; u <= kLast; u += 2)
+    {
+      std::vector<std::complex<double>> lines(kSize);
+      for (int row = 0; row < kSize; ++row)
+        for (int column = 0; column < kSize; ++column)
+          lines[static_cast<std::size_t>(row)] +=
+              noise[static_cast<std::size_t>(row * kSize + column)] * std::polar(1.0, -2.0 * M_PI * u * column / kSize);
+      for (int v = -kLast; v <= kLast; v += 2)
       {
         std::complex<double> sum = 0.0;
         for (int row = 0; row < kSize; ++row)
-        {
-          std::complex<double> line = 0.0;
-          const std::complex<double> step = std::polar(1.0, -2.0 * M_PI * u / kSize);
-          std::complex<double> phase = 1.0;
-          for (int column = 0; column < kSize; ++column, phase *= step)
-            line += noise[static_cast<std::size_t>(row * kSize + column)] * phase;
-          sum += line * std::polar(1.0, -2.0 * M_PI * v * row / kSize);
-        }
+          sum += lines[static_cast<std::size_t>(row)] * std::polar(1.0, -2.0 * M_PI * v * row / kSize);
         const double transfer = field.image().blur().transfer(static_cast<double>(u) / kSize) *
                                 field.image().blur().transfer(static_cast<double>(v) / kSize);
-        const double power = std::norm(sum) / (kSize * kSize) - 36.0 - 1.0 / 12.0;  // without read-out noise
-        const auto bin = static_cast<std::size_t>(kBins * std::max(u, v) / 52);
-        ratio[bin] += power / (transfer * transfer);
+        const double read_out = DetectorImage::kReadOutNoise * DetectorImage::kReadOutNoise + 1.0 / 12.0;
+        const auto bin = static_cast<std::size_t>(kBins * std::max(u, std::abs(v)) / (kLast + 1));
+        ratio[bin] += (std::norm(sum) / (kSize * kSize) - read_out) / (transfer * transfer);
         ++count[bin];
       }
+    }
   }
   double mean = 0.0;
   for (std::size_t k = 0; k < kBins; ++k)
     mean += ratio[k] / count[k] / kBins;
   for (std::size_t k = 0; k < kBins; ++k)
-    EXPECT_NEAR(ratio[k] / count[k] / mean, 1.0, 0.05) << "up to " << (k + 1.0) / kBins * 52.0 / 64.0 << " Nyquist";
+    EXPECT_NEAR(ratio[k] / count[k] / mean, 1.0, 0.05)
+        << "up to " << 0.8 * static_cast<double>(k + 1) / kBins << " of the Nyquist frequency";
 }
 
 TEST(DetectorImage, HasIndependentNoiseInEveryFrame)

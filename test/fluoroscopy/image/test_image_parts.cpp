@@ -68,9 +68,14 @@ TEST(ScintillatorBlur, HasTheTransferFunctionOfTheScintillator)
   {
     const ScintillatorBlur blur(pitch);
     EXPECT_NEAR(blur.transfer(0.0), 1.0, 1e-6);
-    const double f = 0.5e3;  // [1/m]
-    const double aperture = std::sin(M_PI * f * pitch) / (M_PI * f * pitch);
-    EXPECT_NEAR(blur.transfer(f * pitch), aperture * aperture / (1.0 + 0.45e-6 * f * f), 0.06) << pitch;
+    const double f = 0.5e3 * pitch;  // [1/pixel]
+    double expected = 0.0;           // aperture of pixel and photon, with aliases
+    for (int m = -40; m <= 40; ++m)
+    {
+      const double g = f + m, aperture = std::sin(M_PI * g) / (M_PI * g);
+      expected += aperture * aperture / (1.0 + 0.45e-6 * g * g / (pitch * pitch));
+    }
+    EXPECT_NEAR(blur.transfer(f), expected, 0.01) << pitch;
     EXPECT_GT(blur.transfer(0.2), blur.transfer(0.5));
   }
 }

@@ -28,7 +28,7 @@ geometry::TriangleMesh knot()
     const double t = 2.0 * M_PI * i / kRings;
     const Eigen::Vector3d along = (centre(t + 1e-4) - centre(t - 1e-4)).normalized();
     const Eigen::Vector3d side = along.cross(Eigen::Vector3d(0.1, 1.0, 0.2)).normalized(), up = along.cross(side);
-    const double radius = 4e-3 * (1.0 + 0.4 * std::sin(7.0 * t));
+    const double radius = 1e-2 * (1.0 + 0.4 * std::sin(7.0 * t));
     for (int j = 0; j < kColumns; ++j)
     {
       const double phi = 2.0 * M_PI * j / kColumns;
