@@ -27,7 +27,7 @@ public:
     const float level = std::sqrt(u * u + v * v);
     const float gradient = std::max(std::sqrt(u * u / (a * a) + v * v / (b * b)), 1e-4F);
     const float wall = level * (level - 1.0F) / gradient;
-    const float mediastinum = mediastinum_.at(p.y()) - x;
+    const float mediastinum = mediastinum_.at(p.y()) + widening_.at(z) - x;
     return std::max({wall, mediastinum, 0.8F * (dome(x, p.y()) - z)});
   }
 
@@ -57,7 +57,8 @@ private:
   Profile front_{
       {{40, -70}, {130, -84}, {200, -87}, {242, -84}, {280, -74}, {318, -58}, {345, -42}, {372, -20}, {400, 15}}};
   Profile back_{{{40, 55}, {80, 62}, {130, 74}, {222, 80}, {300, 70}, {345, 58}, {372, 46}, {400, 24}}};
-  Profile mediastinum_{{{-110, 5}, {-75, 7}, {-55, 12}, {-20, 24}, {20, 24}, {45, 20}, {60, 21}, {100, 24}}};
+  Profile mediastinum_{{{-110, 4}, {-75, 6}, {-55, 11}, {-20, 22}, {15, 22}, {38, 17}, {55, 14}, {75, 16}, {100, 22}}};
+  Profile widening_{{{50, -2}, {130, 0}, {190, 3}, {235, 8}, {270, 6}, {310, 7}, {350, 2}, {400, -5}}};
 };
 
 /** Branching vessels from the hilum. */
@@ -75,7 +76,7 @@ public:
     const Point direction(side_ * (0.9F * std::cos(angle) + 0.35F), 0.5F * random_.normal(), std::sin(angle));
     const Point hilum(side_ * 30.0F + 3.0F * random_.normal(), 16.0F + 5.0F * random_.normal(),
                       238.0F + 8.0F * random_.normal());
-    grow(hilum, direction.normalized(), random_.uniform(2.8F, 4.8F), 0);
+    grow(hilum, direction.normalized(), random_.uniform(3.4F, 5.8F), 0);
   }
 
 private:

@@ -48,6 +48,42 @@ void addSacrum(BodyPlan& plan)
   plan.push_back(part);
 }
 
+/** Points of a Catmull–Rom spline, four per interval. */
+std::vector<Point> refined(const std::array<Point, 5>& nodes)
+{
+  std::vector<Point> points;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    for (int k = 0; k < 4; ++k)
+    {
+      const Point &a = nodes[i == 0 ? 0 : i - 1], &b = nodes[i], &c = nodes[i + 1];
+      const Point& d = nodes[i + 2 < nodes.size() ? i + 2 : i + 1];
+      const float t = 0.25F * static_cast<float>(k);
+      points.emplace_back(b +
+                          0.5F * t * (c - a + t * (2.0F * a - 5.0F * b + 4.0F * c - d + t * (3.0F * (b - c) + d - a))));
+    }
+  points.push_back(nodes.back());
+  return points;
+}
+
+/** Plates between two lines of equally many points. */
+void addStrip(BodyPart& part, const std::vector<Point>& a, const std::vector<Point>& b, float half_thickness)
+{
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+  {
+    part.solids.push_back(plate(a[i], a[i + 1], b[i], half_thickness));
+    part.solids.push_back(plate(b[i], b[i + 1], a[i + 1], half_thickness));
+  }
+}
+
+/** Thickened edge along a line of points. */
+void addRim(BodyPart& part, const std::vector<Point>& points, float radius)
+{
+  std::vector<std::pair<Point, float>> chain;
+  for (const Point& p : points)
+    chain.emplace_back(p, radius);
+  addChain(part.solids, chain);
+}
+
 /** Wing of the ilium: a curved plate between the crest and the line from the sacroiliac joint to the anterior spine. */
 void addIliacWing(BodyPart& part, float side)
 {
@@ -60,24 +96,11 @@ void addIliacWing(BodyPart& part, float side)
   std::array<Point, 5> middle;
   for (std::size_t i = 0; i < 5; ++i)
     middle[i] = 0.5F * (crest[i] + base[i]) + mirrored(side, i < 2 ? 0.0F : 7.0F, i < 2 ? 0.0F : 7.0F, 0.0F);
-  const auto strip = [&](const std::array<Point, 5>& a, const std::array<Point, 5>& b, float half_thickness)
-  {
-    for (std::size_t i = 0; i + 1 < 5; ++i)
-    {
-      part.solids.push_back(plate(a[i], a[i + 1], b[i], half_thickness));
-      part.solids.push_back(plate(b[i], b[i + 1], a[i + 1], half_thickness));
-    }
-  };
-  strip(crest, middle, 2.6F);
-  strip(middle, base, 3.6F);
-  std::vector<std::pair<Point, float>> rim, brim;
-  for (std::size_t i = 0; i < 5; ++i)
-  {
-    rim.emplace_back(crest[i], 5.2F);
-    brim.emplace_back(base[i], 5.0F);
-  }
-  addChain(part.solids, rim);
-  addChain(part.solids, brim);
+  const std::vector<Point> top = refined(crest), centre = refined(middle), bottom = refined(base);
+  addStrip(part, top, centre, 2.6F);
+  addStrip(part, centre, bottom, 3.6F);
+  addRim(part, top, 5.2F);
+  addRim(part, bottom, 5.0F);
   part.solids.push_back(capsule(crest[4], base[4], 5.0F, 6.0F));
 }
 

@@ -113,7 +113,10 @@ private:
     else if (material.kind == Material::Kind::kDenser)
       tissue_[at] = std::max(tissue_[at], mixed);
     else
+    {
       bone_[at] = std::max(bone_[at], share * boneDensity(material, distance_[at], p));
+      tissue_[at] = std::max(tissue_[at], tissue_[at] + share * (kMuscle - tissue_[at]));  // marrow, also within lung
+    }
   }
 
   float boneDensity(const Material& material, float distance, const Point& p) const
