@@ -54,7 +54,7 @@ for program in "$installed"/lib/endovascular_sim/*; do
   uses=no
   if ldd "$program" | grep -q libroscpp; then uses=yes; fi
   case "$name" in
-    contact|fluoroscopy|haptic_device|rod_dynamics|session|vessel_server|visualization|replay|device_simulator|push_to_force) wanted=yes ;;
+    contact|fluoroscopy|haptic_device|robot|rod_dynamics|session|vessel_server|visualization|replay|device_simulator|push_to_force) wanted=yes ;;
     *) wanted=no ;;
   esac
   [ $uses = $wanted ] || { echo "$name links ROS: $uses, expected: $wanted"; exit 1; }
