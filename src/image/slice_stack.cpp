@@ -16,7 +16,7 @@ namespace
 constexpr double kDirection = 1e-3;  // rad between orientations of one series
 constexpr double kSpacing = 1e-3;    // relative difference of the spacings of one series
 constexpr double kSamePlace = 0.02;  // share of the distance of slices
-constexpr double kRegular = 0.05;    // share of the distance of slices by which it may vary
+constexpr double kRegular = 0.05;    // largest relative deviation of the distance between slices
 constexpr double kTilt = 0.5e-3;     // rad between the normal and the direction from slice to slice
 
 std::string text(const char* format, double value)
