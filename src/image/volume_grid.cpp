@@ -16,12 +16,6 @@ constexpr double kFarthest = 10.0;      // m from the origin of the patient fram
 constexpr int kMostVoxels = 8192;       // along one axis
 constexpr double kOrthogonal = 1e-3;    // error of the scalar products of the axes
 
-std::string text(double value)
-{
-  std::string number = std::to_string(value);
-  return number;
-}
-
 }  // namespace
 
 std::size_t VolumeGrid::voxels() const
@@ -32,17 +26,6 @@ std::size_t VolumeGrid::voxels() const
 Eigen::Vector3d VolumeGrid::position(const Eigen::Vector3d& index) const
 {
   return origin + axes * index.cwiseProduct(spacing);
-}
-
-Eigen::Vector3d VolumeGrid::index(const Eigen::Vector3d& position) const
-{
-  return (axes.transpose() * (position - origin)).cwiseQuotient(spacing);
-}
-
-bool VolumeGrid::contains(const Eigen::Vector3d& position) const
-{
-  const Eigen::Vector3d at = index(position);
-  return (at.array() >= 0.0).all() && (at.array() <= (size.array() - 1).cast<double>()).all();
 }
 
 Eigen::AlignedBox3d VolumeGrid::bounds() const
@@ -64,10 +47,12 @@ void requireValid(const VolumeGrid& grid, const std::string& file)
       throw InputError(file, axis,
                        "has " + std::to_string(grid.size[k]) + " voxels; a volume has 2 to 8192 along each axis");
     if (!(grid.spacing[k] >= kLeastSpacing && grid.spacing[k] <= kMostSpacing))
-      throw InputError(file, axis, "its spacing is " + text(1e3 * grid.spacing[k]) + " mm; must be 0.001 to 50 mm");
+      throw InputError(file, axis,
+                       "its spacing is " + std::to_string(1e3 * grid.spacing[k]) + " mm; must be 0.001 to 50 mm");
     if (!(std::abs(grid.origin[k]) <= kFarthest))
-      throw InputError(file, "origin",
-                       "lies " + text(grid.origin[k]) + " m from that of the patient frame; must be within 10 m");
+      throw InputError(
+          file, "origin",
+          "lies " + std::to_string(grid.origin[k]) + " m from that of the patient frame; must be within 10 m");
   }
   const Eigen::Matrix3d error = grid.axes.transpose() * grid.axes - Eigen::Matrix3d::Identity();
   if (!(error.cwiseAbs().maxCoeff() <= kOrthogonal))

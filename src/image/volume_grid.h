@@ -31,12 +31,6 @@ struct VolumeGrid
   /** Position of an index, which may lie between voxels [m]. */
   Eigen::Vector3d position(const Eigen::Vector3d& index) const;
 
-  /** Index of a position, the inverse of position(). */
-  Eigen::Vector3d index(const Eigen::Vector3d& position) const;
-
-  /** True if the position lies within the centres of the outer voxels. */
-  bool contains(const Eigen::Vector3d& position) const;
-
   /** Corners of the axis-aligned box of all centres [m]. */
   Eigen::AlignedBox3d bounds() const;
 };

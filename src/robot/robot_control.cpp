@@ -16,7 +16,7 @@ using drive::CommandKind;
 using drive::CommandVerdict;
 
 constexpr auto kEnabled = "ENABLED";
-constexpr double kRounding = 1e-12;  ///< share of a limit by which sums of relative commands may exceed it
+constexpr double kRounding = 1e-12;  ///< rounding error of a sum of relative commands, relative to the limit
 
 bool isByRate(CommandKind kind)
 {

@@ -31,6 +31,7 @@
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
 #include "test/nodes/graph_testing.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -79,11 +80,11 @@ public:
     listen<Joints>("goal_js", [this](const auto& joints) { goal_ = joints; });
     listen<geometry_msgs::PoseStamped>("measured_cp", [this](const auto& pose) { tip_ = pose; });
     listen<geometry_msgs::WrenchStamped>("measured_cf", [this](const auto& wrench) { wall_force_ = wrench; });
-    subscribe<SessionSample>(nodes::names::kSessionSample, [](const auto&) {});
-    subscribe<diagnostic_msgs::DiagnosticArray>(nodes::names::kDiagnostics,
-                                                [this](const auto& array) { receive(array); });
-    subscribe<DriveApplied>(nodes::names::kDriveApplied, [this](const auto& step) { steps_[step.step] = step; });
-    spinner_.start();
+    observer_.subscribe<SessionSample>(nodes::names::kSessionSample, [](const auto&) {});
+    observer_.subscribe<diagnostic_msgs::DiagnosticArray>(nodes::names::kDiagnostics, [this](const auto& array)
+                                                          { takeDiagnostics(array, "rod_dynamics", diagnostics_); });
+    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied,
+                                      [this](const auto& step) { steps_[step.step] = step; });
   }
 
   /** Publishes a command. */
@@ -127,23 +128,23 @@ public:
 
   double time() const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     return steps_.empty() ? 0.0 : 1e-3 * static_cast<double>(steps_.rbegin()->first + 1);
   }
-  crtk_msgs::OperatingState state() const { return guarded(state_); }
-  std::string reason() const { return guarded(reason_); }
-  std::map<std::uint64_t, DriveApplied> steps() const { return guarded(steps_); }
-  std::map<std::uint64_t, Joints> measurements() const { return guarded(measured_); }
-  Joints setpoint() const { return guarded(setpoint_); }
-  Joints goal() const { return guarded(goal_); }
-  geometry_msgs::PoseStamped tip() const { return guarded(tip_); }
-  geometry_msgs::WrenchStamped wallForce() const { return guarded(wall_force_); }
-  std::uint64_t busyStates() const { return guarded(busy_states_); }
-  std::string diagnostics() const { return guarded(diagnostics_); }
+  crtk_msgs::OperatingState state() const { return observer_.copy(state_); }
+  std::string reason() const { return observer_.copy(reason_); }
+  std::map<std::uint64_t, DriveApplied> steps() const { return observer_.copy(steps_); }
+  std::map<std::uint64_t, Joints> measurements() const { return observer_.copy(measured_); }
+  Joints setpoint() const { return observer_.copy(setpoint_); }
+  Joints goal() const { return observer_.copy(goal_); }
+  geometry_msgs::PoseStamped tip() const { return observer_.copy(tip_); }
+  geometry_msgs::WrenchStamped wallForce() const { return observer_.copy(wall_force_); }
+  std::uint64_t busyStates() const { return observer_.copy(busy_states_); }
+  std::string diagnostics() const { return observer_.copy(diagnostics_); }
 
   Joints measured() const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     return measured_.empty() ? Joints() : measured_.rbegin()->second;
   }
   double insertion() const
@@ -156,30 +157,10 @@ private:
   static constexpr auto kWire = "instruments/wire/";
   static constexpr double kReset = 0.03;  ///< insertion after reset() [m]
 
-  template <typename Value>
-  Value guarded(const Value& value) const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return value;
-  }
-
-  template <typename Message>
-  void subscribe(const std::string& topic, std::function<void(const Message&)> take)
-  {
-    const boost::function<void(const boost::shared_ptr<Message const>&)> callback =
-        [this, take](const boost::shared_ptr<Message const>& message)
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      take(*message);
-    };
-    subscribers_.push_back(
-        node_.subscribe<Message>(topic, 20000, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
-  }
-
   template <typename Message>
   void listen(const std::string& topic, std::function<void(const Message&)> take)
   {
-    subscribe<Message>(kWire + topic, std::move(take));
+    observer_.subscribe<Message>(kWire + topic, std::move(take));
   }
 
   void receive(const crtk_msgs::OperatingState& state)
@@ -188,19 +169,7 @@ private:
     busy_states_ += state.is_busy;
   }
 
-  void receive(const diagnostic_msgs::DiagnosticArray& array)
-  {
-    for (const diagnostic_msgs::DiagnosticStatus& status : array.status)
-      if (status.name.find("rod_dynamics") != std::string::npos)
-      {
-        diagnostics_ = status.message;
-        for (const diagnostic_msgs::KeyValue& value : status.values)
-          diagnostics_ += "\n" + value.key + ": " + value.value;
-      }
-  }
-
   ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   std::map<std::string, ros::Publisher> inputs_;
   ros::Publisher command_;
   crtk_msgs::OperatingState state_;
@@ -211,8 +180,7 @@ private:
   Joints setpoint_, goal_;
   geometry_msgs::PoseStamped tip_;
   geometry_msgs::WrenchStamped wall_force_;
-  std::vector<ros::Subscriber> subscribers_;
-  ros::AsyncSpinner spinner_{1};
+  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
 };
 
 /** Process that publishes to a topic of the wire at 50 Hz, as another client. */

@@ -20,6 +20,7 @@
 
 #include "endovascular_sim/DriveApplied.h"
 #include "test/nodes/graph_testing.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -63,26 +64,28 @@ public:
     for (const char* topic :
          {"robot/measured_js", "robot/setpoint_js", "robot/goal_js", "robot/joint_states",
           "instruments/wire/measured_js", "instruments/catheter/measured_js", "instruments/wire/setpoint_js"})
-      subscribe<Joints>(topic,
-                        [this, topic](const Joints& joints) { joints_[topic][joints.header.stamp.toNSec()] = joints; });
-    subscribe<crtk_msgs::OperatingState>("robot/operating_state",
-                                         [this](const auto& state)
-                                         {
-                                           state_ = state;
-                                           busy_states_ += state.is_busy;
-                                         });
-    subscribe<crtk_msgs::StringStamped>("robot/state_reason", [this](const auto& reason) { reason_ = reason.string; });
-    subscribe<geometry_msgs::PoseStamped>("robot/measured_cp", [this](const auto& pose) { tip_ = pose; });
-    subscribe<geometry_msgs::WrenchStamped>("robot/measured_cf", [this](const auto& force) { wall_force_ = force; });
-    subscribe<tf2_msgs::TFMessage>("/tf_static",
-                                   [this](const auto& message)
-                                   {
-                                     for (const auto& transform : message.transforms)
-                                       parents_[transform.child_frame_id] = transform.header.frame_id;
-                                   });
-    subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](const auto& array) { receive(array); });
-    subscribe<DriveApplied>("drive/applied", [this](const auto& step) { step_ = step.step; });
-    spinner_.start();
+      observer_.subscribe<Joints>(
+          topic, [this, topic](const Joints& joints) { joints_[topic][joints.header.stamp.toNSec()] = joints; });
+    observer_.subscribe<crtk_msgs::OperatingState>("robot/operating_state",
+                                                   [this](const auto& state)
+                                                   {
+                                                     state_ = state;
+                                                     busy_states_ += state.is_busy;
+                                                   });
+    observer_.subscribe<crtk_msgs::StringStamped>("robot/state_reason",
+                                                  [this](const auto& reason) { reason_ = reason.string; });
+    observer_.subscribe<geometry_msgs::PoseStamped>("robot/measured_cp", [this](const auto& pose) { tip_ = pose; });
+    observer_.subscribe<geometry_msgs::WrenchStamped>("robot/measured_cf",
+                                                      [this](const auto& force) { wall_force_ = force; });
+    observer_.subscribe<tf2_msgs::TFMessage>("/tf_static",
+                                             [this](const auto& message)
+                                             {
+                                               for (const auto& transform : message.transforms)
+                                                 parents_[transform.child_frame_id] = transform.header.frame_id;
+                                             });
+    observer_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", [this](const auto& array) { takeDiagnostics(array, "robot", diagnostics_); });
+    observer_.subscribe<DriveApplied>("drive/applied", [this](const auto& step) { step_ = step.step; });
   }
 
   void send(const std::string& input, const Joints& joints) { inputs_.at(input).publish(joints); }
@@ -110,22 +113,22 @@ public:
   /** Sends a move and waits for its end. */
   bool move(const Joints& joints)
   {
-    const std::uint64_t busy = guarded(busy_states_);
+    const std::uint64_t busy = observer_.copy(busy_states_);
     send("move_jp", joints);
-    return waitUntil(10.0, [&] { return guarded(busy_states_) > busy; }) &&
+    return waitUntil(10.0, [&] { return observer_.copy(busy_states_) > busy; }) &&
            waitUntil(60.0, [this] { return !state().is_busy; }) && run(0.05);
   }
 
-  double time() const { return 1e-3 * static_cast<double>(guarded(step_)); }
-  crtk_msgs::OperatingState state() const { return guarded(state_); }
-  std::string reason() const { return guarded(reason_); }
-  std::string diagnostics() const { return guarded(diagnostics_); }
-  geometry_msgs::PoseStamped tip() const { return guarded(tip_); }
-  geometry_msgs::WrenchStamped wallForce() const { return guarded(wall_force_); }
-  std::map<std::string, std::string> parents() const { return guarded(parents_); }
+  double time() const { return 1e-3 * static_cast<double>(observer_.copy(step_)); }
+  crtk_msgs::OperatingState state() const { return observer_.copy(state_); }
+  std::string reason() const { return observer_.copy(reason_); }
+  std::string diagnostics() const { return observer_.copy(diagnostics_); }
+  geometry_msgs::PoseStamped tip() const { return observer_.copy(tip_); }
+  geometry_msgs::WrenchStamped wallForce() const { return observer_.copy(wall_force_); }
+  std::map<std::string, std::string> parents() const { return observer_.copy(parents_); }
   std::map<std::uint64_t, Joints> all(const std::string& topic) const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     return joints_.count(topic) > 0 ? joints_.at(topic) : std::map<std::uint64_t, Joints>();
   }
   Joints newest(const std::string& topic) const
@@ -141,39 +144,7 @@ public:
   }
 
 private:
-  template <typename Value>
-  Value guarded(const Value& value) const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return value;
-  }
-
-  template <typename Message>
-  void subscribe(const std::string& topic, std::function<void(const Message&)> take)
-  {
-    const boost::function<void(const boost::shared_ptr<Message const>&)> callback =
-        [this, take](const boost::shared_ptr<Message const>& message)
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      take(*message);
-    };
-    subscribers_.push_back(
-        node_.subscribe<Message>(topic, 20000, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
-  }
-
-  void receive(const diagnostic_msgs::DiagnosticArray& array)
-  {
-    for (const diagnostic_msgs::DiagnosticStatus& status : array.status)
-      if (status.name.find("robot") != std::string::npos)
-      {
-        diagnostics_ = status.message;
-        for (const diagnostic_msgs::KeyValue& value : status.values)
-          diagnostics_ += "\n" + value.key + ": " + value.value;
-      }
-  }
-
   ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   std::map<std::string, ros::Publisher> inputs_;
   ros::Publisher command_;
   std::map<std::string, std::map<std::uint64_t, Joints>> joints_;  ///< by topic and stamp [ns]
@@ -184,8 +155,7 @@ private:
   std::string reason_, diagnostics_;
   geometry_msgs::PoseStamped tip_;
   geometry_msgs::WrenchStamped wall_force_;
-  std::vector<ros::Subscriber> subscribers_;
-  ros::AsyncSpinner spinner_{1};
+  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
 };
 
 class Robot : public testing::Test

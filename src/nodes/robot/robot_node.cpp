@@ -6,9 +6,9 @@
 #include <geometry_msgs/WrenchStamped.h>
 
 #include "common/error.h"
+#include "nodes/conversions/command_diagnostics.h"
 #include "nodes/conversions/command_topics.h"
 #include "nodes/conversions/robot_conversions.h"
-#include "nodes/rod_dynamics/instruments/command_diagnostics.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -300,7 +300,7 @@ void RobotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   report.accepted = control_.accepted();
   report.rejected = control_.rejected();
   report.silence = control_.silence(time_);
-  diagnoseCommands({report}, {}, status);
+  diagnoseCommands(report, status);
 }
 
 }  // namespace endovascular_sim::nodes

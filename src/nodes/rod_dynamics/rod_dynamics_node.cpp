@@ -10,7 +10,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "endovascular_sim/SimulationRun.h"
-#include "nodes/rod_dynamics/instruments/command_diagnostics.h"
 #include "nodes/rod_dynamics/instruments/unread_topics.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/parameters.h"
@@ -105,10 +104,11 @@ bool RodDynamicsNode::run()
         [this](diagnostic_updater::DiagnosticStatusWrapper& status)
         {
           statistics_.diagnose(grant_, status);
-          diagnoseCommands(simulation_.drives().reports(),
-                           unreadTopics(simulation_.scene(), node_.resolveName(names::kInstruments) + "/",
-                                        publishedTopics(), ros::this_node::getName()),
-                           status);
+          for (const CommandReport& report : simulation_.drives().reports())
+            diagnoseCommands(report, status);
+          diagnoseUnread(unreadTopics(simulation_.scene(), node_.resolveName(names::kInstruments) + "/",
+                                      publishedTopics(), ros::this_node::getName()),
+                         status);
         });
     observer_ = std::make_unique<StepObserver>(simulation_.scene(), simulation_.vessel().centreline);
     simulation_.setState("ENABLED", "");

@@ -12,6 +12,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "endovascular_sim/InstrumentCommand.h"
+#include "nodes/conversions/command_diagnostics.h"
 #include "nodes/runtime/direct_callback_queue.h"
 #include "scene/model/scene.h"
 #include "simulation/driven_hands.h"
@@ -19,18 +20,6 @@
 
 namespace endovascular_sim::nodes
 {
-
-/** Commands to one instrument, for reports. */
-struct CommandReport
-{
-  std::string instrument;  ///< resolved name of the instrument's topics, without the last part
-  bool has_publisher = false;
-  std::string driver;        ///< client that drives; empty without one
-  std::string last_refusal;  ///< empty without one
-  std::uint64_t accepted = 0;
-  drive::RejectedCommands rejected;
-  double silence = 0.0;  ///< simulated time since the last accepted command [s]
-};
 
 /** Commands to the instruments of a scene from the CRTK topics (simulation::DrivenHands). A client is known by the name
  *  of its node. */

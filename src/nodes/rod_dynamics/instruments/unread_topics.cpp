@@ -85,4 +85,13 @@ std::vector<std::pair<std::string, std::vector<std::string>>> publishedTopics()
   return topics;
 }
 
+void diagnoseUnread(const std::vector<UnreadTopic>& unread, diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  for (const UnreadTopic& topic : unread)
+  {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "nobody reads " + topic.topic + ": " + topic.remedy);
+    status.add(topic.topic + ": not read", topic.remedy);
+  }
+}
+
 }  // namespace endovascular_sim::nodes

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes
@@ -26,5 +28,8 @@ std::vector<UnreadTopic> unreadTopics(const scene::Scene& scene, const std::stri
 
 /** All topics with the names of their publishers, as the master lists them; empty if the master does not answer. */
 std::vector<std::pair<std::string, std::vector<std::string>>> publishedTopics();
+
+/** Adds a warning for each topic to the diagnostics. */
+void diagnoseUnread(const std::vector<UnreadTopic>& unread, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 }  // namespace endovascular_sim::nodes

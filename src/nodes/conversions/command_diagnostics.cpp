@@ -1,16 +1,13 @@
-#include "nodes/rod_dynamics/instruments/command_diagnostics.h"
+#include "nodes/conversions/command_diagnostics.h"
 
 #include <string>
 
 namespace endovascular_sim::nodes
 {
-namespace
-{
 
-using diagnostic_msgs::DiagnosticStatus;
-
-void diagnose(const CommandReport& report, diagnostic_updater::DiagnosticStatusWrapper& status)
+void diagnoseCommands(const CommandReport& report, diagnostic_updater::DiagnosticStatusWrapper& status)
 {
+  using diagnostic_msgs::DiagnosticStatus;
   const std::uint64_t rejected = report.rejected.total();
   const std::string& name = report.instrument;
   if (!report.has_publisher)
@@ -30,20 +27,6 @@ void diagnose(const CommandReport& report, diagnostic_updater::DiagnosticStatusW
   status.add(name + ": clamped commands", report.rejected.clamped);
   status.add(name + ": last rejection", report.last_refusal);
   status.add(name + ": time since the last command [s]", report.silence);
-}
-
-}  // namespace
-
-void diagnoseCommands(const std::vector<CommandReport>& reports, const std::vector<UnreadTopic>& unread,
-                      diagnostic_updater::DiagnosticStatusWrapper& status)
-{
-  for (const CommandReport& report : reports)
-    diagnose(report, status);
-  for (const UnreadTopic& topic : unread)
-  {
-    status.mergeSummary(DiagnosticStatus::WARN, "nobody reads " + topic.topic + ": " + topic.remedy);
-    status.add(topic.topic + ": not read", topic.remedy);
-  }
 }
 
 }  // namespace endovascular_sim::nodes
