@@ -117,10 +117,13 @@ constexpr Quantity kTissue{"tissue thicknesses", "m", D::kLength, 5e-3, 0.8, 0.0
 constexpr Quantity kImagingAngle{"angles of a C-arm", "rad", D::kAngle, 0.0, 1.001 * M_PI, 0.0, 3.2};
 constexpr Quantity kImagingDegrees{"angles of a C-arm", "degrees", D::kOther, 0.0, 180.0, 0.0, 180.0};
 constexpr Quantity kPhotonEnergy{"photon energies", "keV", D::kEnergy, 30.0, 100.0, 1.0, 1000.0};
-constexpr Quantity kTableEnergy{"photon energies", "keV", D::kEnergy, 1.0, 1000.0, 0.1, 20e3};
+constexpr Quantity kRatio{"image settings", "1", D::kOther, 0.0, 8.0, 0.0, 100.0};
+constexpr Quantity kTubeVoltage{"tube voltages", "kV", D::kOther, 50.0, 125.0, 1.0, 1000.0};
+constexpr Quantity kFilter{"thicknesses of beam filters", "m", D::kLength, 5e-5, 0.01, 0.0, 0.1};
+constexpr Quantity kDetectorDose{"detector doses per frame", "Gy", D::kOther, 5e-9, 2e-6, 1e-10, 1e-3};
+constexpr Quantity kDoseRate{"air kerma rates", "Gy/s", D::kOther, 1e-5, 5e-3, 1e-8, 1.0};
 constexpr Quantity kIodine{"iodine concentrations", "mgI/ml", D::kConcentration, 1.0, 500.0, 0.0, 5000.0};
 constexpr Quantity kMaterialDensity{"densities of materials", "g/cm³", D::kGramDensity, 0.1, 25.0, 1e-3, 100.0};
-constexpr Quantity kMassAttenuation{"mass attenuation coefficients", "cm²/g", D::kOther, 0.05, 200.0, 1e-4, 1e4};
 
 // Pure numbers.
 constexpr Quantity kFraction{"fractions", "1", D::kFraction, 0.0, 1.0, 0.0, 1.0};

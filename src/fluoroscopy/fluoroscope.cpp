@@ -1,29 +1,87 @@
 #include "fluoroscopy/fluoroscope.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/error.h"
-#include "fluoroscopy/detector.h"
+#include "common/fast_math.h"
+#include "common/wide_vectors.h"
+#include "fluoroscopy/projection/vessel_projection.h"
 
 namespace endovascular_sim::fluoroscopy
 {
-
-Fluoroscope::Fluoroscope(const CArmPose& pose, const XRayScene& scene) : geometry_(pose), scene_(scene)
+namespace
 {
-  for (const double value : {scene.tissue_attenuation, scene.vessel_attenuation, scene.tissue_thickness})
+
+constexpr double kMeasuringField =
+    0.5;  // diameter of the measuring field of the exposure control, relative to the detector
+
+/** Signal that prevents infinite logarithms behind very thick layers. */
+constexpr float kSmallestLogSignal = -60.0F;
+
+void checkScene(const XRayScene& scene)
+{
+  for (const double value : {scene.iodine, scene.tissue_thickness})
     if (!std::isfinite(value) || value < 0.0)
-      throw InputError("X-ray scene", "attenuation, thickness", "must be non-negative");
+      throw InputError("X-ray scene", "iodine, tissue_thickness", "must be non-negative");
+}
+
+EVS_WIDE_VECTORS void exponentials(float* values, std::size_t count)
+{
+  for (std::size_t k = 0; k < count; ++k)
+    values[k] = fastExp(values[k]);
+}
+
+/** Density of tissue that attenuates like blood, in the beam behind 20 cm of tissue [kg/m³]. */
+double bloodAsTissue(const Beam& beam, const MaterialLibrary& library)
+{
+  const EnergyTable tissue = massAttenuationTable(library.composition("soft_tissue"));
+  const EnergyTable blood = massAttenuationTable(library.composition("blood"));
+  const Spectrum weight = filtered(beam.signal(), tissue, 200.0);
+  double sum_tissue = 0.0, sum_blood = 0.0;
+  for (std::size_t e = kLowestEnergy; e < kEnergies; ++e)
+  {
+    sum_tissue += weight[e] * tissue[e];
+    sum_blood += weight[e] * blood[e];
+  }
+  return library.density("blood") * sum_blood / sum_tissue;
+}
+
+}  // namespace
+
+Fluoroscope::Fluoroscope(const CArmPose& pose, const XRayScene& scene, const MaterialLibrary& library)
+  : geometry_(pose),
+    scene_((checkScene(scene), scene)),
+    tissue_density_(library.density("soft_tissue")),
+    blood_density_(bloodAsTissue(Beam(scene.beam), library)),
+    table_(Beam(scene.beam), library),
+    response_(Beam(scene.beam), library),
+    exposure_(Beam(scene.beam), scene.exposure),
+    detector_(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water()),
+    display_(scene.display),
+    patient_(std::make_shared<SlabPatient>(scene.tissue_thickness, tissue_density_)),
+    background_mean_(pose.pixels)
+{
+  tissue_ = response_.solid("soft_tissue");
 }
 
 void Fluoroscope::setPose(const CArmPose& pose)
 {
-  if (pose == geometry_.pose())
+  const CArmPose before = geometry_.pose();
+  if (pose == before)
     return;
   const XRayGeometry geometry(pose);
   requireVesselInFrontOfSource(geometry, vessel_);
   geometry_ = geometry;
   background_valid_ = false;
+  display_.reset();
+  if (pose.pixels != before.pixels || pose.detector_width != before.detector_width ||
+      pose.source_to_detector != before.source_to_detector)
+  {
+    detector_ = DetectorImage(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water());
+    background_mean_ = CoarseImage(pose.pixels);
+  }
 }
 
 void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
@@ -33,38 +91,99 @@ void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
   background_valid_ = false;
 }
 
+void Fluoroscope::setPatient(std::shared_ptr<const Patient> patient)
+{
+  patient_ = std::move(patient);
+  background_valid_ = false;
+}
+
+LocalFluids Fluoroscope::vesselFluids() const
+{
+  const DeviceDensity blood = response_.blood(scene_.iodine);
+  return {blood, blood};
+}
+
+LocalFluids Fluoroscope::tissueFluids() const
+{
+  return {tissue_, tissue_};
+}
+
+/** Logarithm of the mean signal in the central circle. */
+double Fluoroscope::measuredSignal() const
+{
+  const int n = geometry_.pixels();
+  const double centre = geometry_.centre(), radius = 0.5 * kMeasuringField * n;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < n; ++column)
+      if (std::hypot(row - centre, column - centre) <= radius)
+      {
+        sum += static_cast<double>(background_[static_cast<std::size_t>(row) * static_cast<std::size_t>(n) +
+                                               static_cast<std::size_t>(column)]);
+        ++count;
+      }
+  return std::log(sum / static_cast<double>(count));
+}
+
 void Fluoroscope::renderBackground()
 {
-  background_ = vesselPathLength(geometry_, vessel_);
-  const int n = geometry_.pixels();
-  background_frame_.pixels = n;
-  background_frame_.raw.resize(background_.size());
-  background_frame_.image.resize(background_.size());
-  const double vessel = scene_.vessel_attenuation - scene_.tissue_attenuation;
-  const double slab = scene_.tissue_attenuation * scene_.tissue_thickness;
-  std::size_t k = 0;
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column, ++k)
+  PatientImage patient;
+  patient_->project(geometry_, patient);
+  const std::vector<double> length = vesselPathLength(geometry_, vessel_);
+  background_.resize(length.size());
+  weight_.resize(length.size());
+  steel_slope_.resize(length.size());
+  for (std::size_t k = 0; k < length.size(); ++k)
+  {
+    ArealDensities densities{static_cast<double>(patient.tissue[k]), static_cast<double>(patient.bone[k]), 0.0};
+    if (length[k] > 0.0)
     {
-      background_[k] = std::exp(-slab * (geometry_.ray(column, row).norm() - 1.0) - vessel * background_[k]);
-      background_frame_.raw[k] = Detector::signal(background_[k]);
-      background_frame_.image[k] = Detector::grey(background_[k], 1.0);
+      densities.tissue = std::max(densities.tissue - tissue_density_ * length[k], 0.0) + blood_density_ * length[k];
+      densities.iodine = scene_.iodine * length[k];
     }
+    const Response response = table_.at(densities);
+    background_[k] = std::max(response.log_signal, kSmallestLogSignal);
+    weight_[k] = response.variance_weight;
+    steel_slope_[k] = response.steel_slope;
+  }
+  exponentials(background_.data(), background_.size());
+  background_mean_.average(background_);
+  measured_ = measuredSignal();
   background_valid_ = true;
 }
 
-const Frame& Fluoroscope::render(const std::vector<XRayWire>& wires)
+void Fluoroscope::restart()
+{
+  frames_ = 0;
+  exposure_.reset();
+  display_.reset();
+}
+
+const Frame& Fluoroscope::render(const std::vector<XRayWire>& wires, bool display)
 {
   if (!background_valid_)
     renderBackground();
-  wire_projection_.project(geometry_, wires, shadow_);
-  frame_ = background_frame_;
+  wire_projection_.project(
+      geometry_, wires, [this](std::uint32_t pixel) { return response_.coefficients(steel_slope_[pixel]); }, shadow_);
+  signal_ = background_;
+  CoarseImage mean = background_mean_;
   for (std::size_t i = 0; i < shadow_.pixels.size(); ++i)
   {
     const std::size_t k = shadow_.pixels[i];
-    frame_.raw[k] = Detector::signal(background_[k] * shadow_.transmission[i]);
-    frame_.image[k] = Detector::grey(background_[k], shadow_.transmission[i]);
+    signal_[k] *= static_cast<float>(shadow_.transmission[i]);
+    mean.addPixel(k, signal_[k] - background_[k]);
   }
+  const CArmPose& pose = geometry_.pose();
+  frame_.pixels = pose.pixels;
+  frame_.tube_charge = exposure_.next(measured_, pose.source_to_detector, pose.source_to_patient);
+  frame_.reference_kerma = exposure_.referenceKerma(frame_.tube_charge, pose.source_to_patient);
+  frame_.dose_limited = exposure_.limited();
+  detector_.form({frame_.tube_charge, scene_.seed, frames_}, signal_, mean, weight_, frame_.raw);
+  if (display)
+    display_.draw(pose.pixels, pose.detector_width, DetectorImage::kCountsPerGray * scene_.exposure.detector_dose,
+                  detector_.counts(), frame_.raw, frame_.image);
+  ++frames_;
   return frame_;
 }
 

@@ -1,21 +1,32 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "fluoroscopy/vessel_projection.h"
-#include "fluoroscopy/wire_projection.h"
-#include "fluoroscopy/x_ray_geometry.h"
+#include "fluoroscopy/beam/device_response.h"
+#include "fluoroscopy/beam/signal_table.h"
+#include "fluoroscopy/image/detector_image.h"
+#include "fluoroscopy/image/display.h"
+#include "fluoroscopy/image/exposure_control.h"
+#include "fluoroscopy/projection/coaxial_stack.h"
+#include "fluoroscopy/projection/patient.h"
+#include "fluoroscopy/projection/wire_projection.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
+#include "geometry/triangle_mesh.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 
-/** Attenuation of the patient: a tissue slab that contains the vessel. */
+/** Technique and patient of an X-ray system. */
 struct XRayScene
 {
-  double tissue_attenuation = 0.0;  ///< linear attenuation coefficient of tissue [1/m]
-  double vessel_attenuation = 0.0;  ///< linear attenuation coefficient of the blood with contrast medium [1/m]
-  double tissue_thickness = 0.0;    ///< thickness of the slab, which is normal to the central ray at every angle [m]
+  BeamSettings beam;
+  ExposureSettings exposure;
+  DisplaySettings display;
+  double tissue_thickness = 0.2;  ///< thickness of the slab of soft tissue, if no other patient is set [m]
+  double iodine = 150.0;          ///< concentration of iodine in the vessel [mgI/ml]
+  std::uint64_t seed = 0;         ///< of the noise
 };
 
 /** Square image in row-major order from the top left. */
@@ -24,19 +35,22 @@ struct Frame
   int pixels = 0;                   ///< pixels per side
   std::vector<std::uint16_t> raw;   ///< detector signal, linear in intensity
   std::vector<std::uint8_t> image;  ///< for display
+  double tube_charge = 0.0;         ///< [mAs]
+  double reference_kerma = 0.0;     ///< air kerma of the frame at the reference point [Gy]
+  bool dose_limited = false;        ///< true: the air kerma rate limits the dose at the detector
 };
 
-/** Fluoroscopic image synthesis by the Beer–Lambert law along each pixel's ray through slab, vessel and wire,
+/** X-ray system: frames of a patient with a vessel and instruments.
  *
- *      I/I₀ = exp(−μ_tissue·(L_slab − D) − (μ_vessel − μ_tissue)·L_vessel) · ⟨exp(−Σ Δμ·L_wire)⟩,
- *
- *  with path lengths L, the slab's thickness D and the mean ⟨·⟩ over the pixel. Intensities are relative to the slab on
- *  the central ray (see Detector). The first factor, the background, is cached while pose and vessel are unchanged. */
+ *  The areal densities of tissue, bone and iodine along each pixel's ray give the primary signal by SignalTable.
+ * Instruments multiply it by their transmission (WireProjection). Exposure control, scatter, noise and blur follow
+ * (ExposureControl, DetectorImage), and the display image (Display). The signal without instruments is cached while
+ * pose, vessel and patient are unchanged. */
 class Fluoroscope
 {
 public:
-  /** @throws InputError for an invalid pose or scene */
-  Fluoroscope(const CArmPose& pose, const XRayScene& scene);
+  /** @throws InputError for an invalid pose or scene, or a material that the library does not contain */
+  Fluoroscope(const CArmPose& pose, const XRayScene& scene, const MaterialLibrary& library);
 
   /** Moves the C-arm.
    *  @throws InputError for an invalid pose; the current pose is retained */
@@ -46,23 +60,58 @@ public:
    *  @throws InputError if the mesh extends to the source; the current vessel is retained */
   void setVessel(geometry::TriangleMesh mesh);
 
+  /** Replaces the patient. */
+  void setPatient(std::shared_ptr<const Patient> patient);
+
   const XRayGeometry& geometry() const { return geometry_; }
   const XRayScene& scene() const { return scene_; }
 
-  /** Renders the background and @p wires. The frame is valid until the next call.
+  /** Equivalent densities of materials in this beam. */
+  const DeviceResponse& materials() const { return response_; }
+
+  /** Fluids around instruments: the blood of the vessel with its iodine. */
+  LocalFluids vesselFluids() const;
+
+  /** Fluids around instruments without vessel: tissue. */
+  LocalFluids tissueFluids() const;
+
+  /** Renders one frame of a sequence. The frame is valid until the next call.
+   *  @param display false: the display image is not drawn
    *  @throws InputError for a wire with arrays of inconsistent size */
-  const Frame& render(const std::vector<XRayWire>& wires);
+  const Frame& render(const std::vector<XRayWire>& wires, bool display = true);
+
+  /** Number of frames rendered. It selects the noise of the next frame. */
+  std::uint64_t frames() const { return frames_; }
+
+  /** Starts a new sequence: frame number 0, exposure and display without history. */
+  void restart();
 
 private:
   void renderBackground();
+  double measuredSignal() const;
 
   XRayGeometry geometry_;
   XRayScene scene_;
+  double tissue_density_, blood_density_;  ///< [kg/m³]; blood as the tissue of equal attenuation
+  DeviceDensity tissue_;
+  SignalTable table_;
+  DeviceResponse response_;
+  ExposureControl exposure_;
+  DetectorImage detector_;
+  Display display_;
+  std::shared_ptr<const Patient> patient_;
   geometry::TriangleMesh vessel_;
+
   bool background_valid_ = false;
-  std::vector<double> background_;  ///< relative intensity without the wire [1]
-  Frame background_frame_;
+  std::vector<float> background_;   ///< primary signal without instruments
+  std::vector<float> weight_;       ///< variance weight [keV]
+  std::vector<float> steel_slope_;  ///< effective coefficient of thin steel [m²/kg]
+  CoarseImage background_mean_;
+  double measured_ = 0.0;  ///< logarithm of the mean signal in the measuring field
+
+  std::uint64_t frames_ = 0;
   Frame frame_;
+  std::vector<float> signal_;
   WireProjection wire_projection_;
   WireShadow shadow_;
 };

@@ -5,14 +5,14 @@
 #include <system_error>
 
 #include "common/error.h"
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
 #include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::procedure
 {
 
 PhasePictures::PhasePictures(const scene::Scene& scene, const std::string& folder)
-  : fluoroscopy_(scene, fluoroscopy::AttenuationTable::load(scene::configFolder() + "/xray/attenuation.yaml")),
+  : fluoroscopy_(scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml")),
     folder_(folder + "/fluoroscopy")
 {
   std::error_code error;

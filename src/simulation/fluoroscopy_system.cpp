@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "common/error.h"
-#include "fluoroscopy/x_ray_treatment.h"
+#include "fluoroscopy/projection/coaxial_stack.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "intervention/stent_placement.h"
 
 namespace endovascular_sim::simulation
@@ -34,34 +35,34 @@ fluoroscopy::CArmPose poseOf(const scene::FluoroscopyScene& scene)
   return pose;
 }
 
-fluoroscopy::XRayScene surroundingsOf(const scene::FluoroscopyScene& scene, const fluoroscopy::AttenuationTable& table)
+fluoroscopy::XRayScene techniqueOf(const scene::FluoroscopyScene& scene, std::uint64_t seed)
 {
   fluoroscopy::XRayScene result;
-  result.tissue_attenuation = table.linear("soft_tissue", scene.energy);
-  result.vessel_attenuation = table.contrast(scene.iodine, scene.energy);
+  result.beam = {scene.tube_voltage, scene.aluminium, scene.copper, scene.energy};
+  result.exposure.detector_dose = scene.detector_dose;
+  result.exposure.rate = scene.rate;
+  result.exposure.max_air_kerma_rate = scene.max_air_kerma_rate;
+  result.display = {scene.edge_enhancement, scene.zoom, scene.inverted, scene.recursive_filter};
   result.tissue_thickness = scene.tissue_thickness;
+  result.iodine = scene.iodine;
+  result.seed = seed;
   return result;
-}
-
-/** Attenuation of the instruments' surroundings: contrast medium in a vessel, else tissue, else air [1/m]. */
-double displaced(const scene::Scene& scene, const fluoroscopy::XRayScene& xray)
-{
-  if (scene.vessel)
-    return xray.vessel_attenuation;
-  return xray.tissue_thickness > 0.0 ? xray.tissue_attenuation : 0.0;
 }
 
 }  // namespace
 
-FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::AttenuationTable& table)
-  : fluoroscope_(poseOf(xRayOf(scene)), surroundingsOf(xRayOf(scene), table))
+FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& library)
+  : fluoroscope_(poseOf(xRayOf(scene)), techniqueOf(xRayOf(scene), scene.seed), library)
 {
-  const double energy = xRayOf(scene).energy;
-  const double less = displaced(scene, fluoroscope_.scene());
+  const fluoroscopy::DeviceResponse& materials = fluoroscope_.materials();
+  if (scene.vessel)
+    fluids_ = fluoroscope_.vesselFluids();
+  else if (xRayOf(scene).tissue_thickness > 0.0)
+    fluids_ = fluoroscope_.tissueFluids();
   for (const scene::DrivenInstrument& driven : scene.instruments)
-    instruments_.emplace_back(driven.instrument, table, energy, less);
-  filling_ = table.contrast(kBalloonIodine, energy) - less;
-  metal_ = table.linear("steel", energy) - less;
+    instruments_.emplace_back(driven.instrument, materials);
+  filling_ = materials.blood(kBalloonIodine) - fluids_.around;
+  metal_ = materials.solid("steel") - fluids_.around;
 }
 
 std::vector<fluoroscopy::XRayWire> FluoroscopySystem::wires(const Simulation& simulation) const
@@ -71,10 +72,13 @@ std::vector<fluoroscopy::XRayWire> FluoroscopySystem::wires(const Simulation& si
   double furthest = simulation.hand(0).insertion;
   for (int k = 1; k < simulation.instruments(); ++k)
     furthest = std::max(furthest, simulation.hand(k).insertion);
+  std::vector<double> behind;
+  for (int k = 0; k < simulation.instruments(); ++k)
+    behind.push_back(furthest - simulation.hand(k).insertion);
   std::vector<fluoroscopy::XRayWire> wires;
+  wires.push_back(fluoroscopy::coaxialStack(nodes, instruments_, behind, {fluids_}));
   for (int k = 0; k < simulation.instruments(); ++k)
   {
-    instruments_[k].append(nodes, furthest - simulation.hand(k).insertion, wires);
     const intervention::Treatment* treatment = simulation.treatment(k);
     if (treatment == nullptr)
       continue;

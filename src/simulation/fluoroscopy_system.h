@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
@@ -16,16 +16,17 @@ class FluoroscopySystem
 {
 public:
   /** @param scene must outlive this
-   *  @throws InputError for a scene without fluoroscopy, or with a material that the table does not know */
-  FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::AttenuationTable& table);
+   *  @throws InputError for a scene without fluoroscopy, or with a material that the library does not contain */
+  FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& library);
 
   fluoroscopy::Fluoroscope& fluoroscope() { return fluoroscope_; }
   const std::vector<fluoroscopy::XRayInstrument>& instruments() const { return instruments_; }
-  double filling() const
-  {
-    return filling_;
-  }                                        ///< attenuation of a balloon's filling less that of its surroundings [1/m]
-  double metal() const { return metal_; }  ///< attenuation of a stent's struts less that of its surroundings [1/m]
+  /** Fluids around the instruments: contrast medium in a vessel, else tissue, else air. */
+  const fluoroscopy::LocalFluids& fluids() const { return fluids_; }
+  /** Density of a balloon's filling minus that of its surroundings. */
+  const fluoroscopy::DeviceDensity& filling() const { return filling_; }
+  /** Density of a stent's struts minus that of their surroundings. */
+  const fluoroscopy::DeviceDensity& metal() const { return metal_; }
 
   /** X-ray wires of all instruments, balloons and stents of a simulation. */
   std::vector<fluoroscopy::XRayWire> wires(const Simulation& simulation) const;
@@ -33,8 +34,8 @@ public:
 private:
   fluoroscopy::Fluoroscope fluoroscope_;
   std::vector<fluoroscopy::XRayInstrument> instruments_;
-  double filling_ = 0.0;
-  double metal_ = 0.0;
+  fluoroscopy::LocalFluids fluids_;
+  fluoroscopy::DeviceDensity filling_, metal_;
 };
 
 }  // namespace endovascular_sim::simulation

@@ -10,9 +10,10 @@
 #include "common/input_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
+#include "fluoroscopy/projection/coaxial_stack.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
@@ -25,7 +26,7 @@ using namespace endovascular_sim;  // NOLINT: a program's main file
 struct Options
 {
   std::string mesh;
-  std::string table;
+  std::string materials;
   std::string out;
   std::string wire;
   std::string left = "x";
@@ -40,9 +41,12 @@ struct Options
   double source_to_patient = 0.75;
   double detector_width = 0.3;
   int pixels = 512;
-  double energy = 60.0;   ///< photon energy [keV]
-  double iodine = 150.0;  ///< iodine concentration in the vessel [mg/ml]
-  double tissue = 0.2;    ///< thickness of soft tissue [m]
+  double tube_voltage = 80.0;    ///< [kV]
+  double copper = 0.2e-3;        ///< filtration with copper [m]
+  double detector_dose = 30e-9;  ///< air kerma at the detector [Gy]
+  unsigned long long seed = 0;   ///< of the noise
+  double iodine = 150.0;         ///< iodine concentration in the vessel [mg/ml]
+  double tissue = 0.2;           ///< thickness of soft tissue [m]
   bool raw = false;
 };
 
@@ -69,7 +73,7 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--mesh", options.mesh, "FILE",
               "closed triangle mesh of the vessel (OBJ, STL, PLY), oriented inwards or outwards")
       ->required();
-  line.option("--table", options.table, "FILE", "attenuation table (config/xray/attenuation.yaml)")->required();
+  line.option("--materials", options.materials, "FILE", "materials (config/xray/materials.yaml)")->required();
   line.option("--out", options.out, "FILE.png", "image to write")->required();
   line.quantity("--unit", options.unit, "U", quantities::kMeshUnit,
                 "length of a unit of the mesh and the wire [0.001 m]");
@@ -96,7 +100,12 @@ void addOptions(tools::CommandLine& line, Options& options)
                 "distance from source to isocentre [0.75]");
   line.quantity("--detector", options.detector_width, "M", quantities::kDetectorWidth, "width of the detector [0.3]");
   line.option("--pixels", options.pixels, "N", "pixels along a side [512]");
-  line.quantity("--energy", options.energy, "KEV", quantities::kPhotonEnergy, "photon energy [60]");
+  line.quantity("--kv", options.tube_voltage, "KV", quantities::kTubeVoltage, "tube voltage [80]");
+  line.quantity("--copper", options.copper, "M", quantities::kFilter,
+                "filtration with copper, besides 2.5 mm of aluminium [0.0002]");
+  line.quantity("--dose", options.detector_dose, "GY", quantities::kDetectorDose,
+                "air kerma at the detector [3e-8]; cine 1.5e-7");
+  line.option("--seed", options.seed, "N", "seed of the noise [0]");
   line.quantity("--iodine", options.iodine, "MG", quantities::kIodine,
                 "iodine concentration in the vessel [150 mg/ml]");
   line.quantity("--tissue", options.tissue, "M", quantities::kTissue, "thickness of soft tissue [0.2]");
@@ -135,28 +144,31 @@ std::vector<Eigen::Vector3d> readNodes(const std::string& file, const Eigen::Mat
   return nodes;
 }
 
-fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::AttenuationTable& table,
-                               const Eigen::Matrix3d& patient_from_mesh)
+/** Centreline of the wire in the patient frame; empty without a wire. */
+std::vector<Eigen::Vector3d> readWire(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
-  fluoroscopy::XRayWire wire;
   if (options.wire.empty())
-    return wire;
-  wire.nodes = readNodes(options.wire, patient_from_mesh, options.unit);
-  wire.radius.assign(wire.nodes.size(), options.radius);
-  if (wire.nodes.size() < 2)
+    return {};
+  std::vector<Eigen::Vector3d> nodes = readNodes(options.wire, patient_from_mesh, options.unit);
+  if (nodes.size() < 2)
     throw InputError(options.wire, "", "requires at least two nodes");
-  const double energy = options.energy;
-  const double displaced = table.contrast(options.iodine, energy);
-  double to_tip = 0.0;
-  wire.attenuation.resize(wire.nodes.size() - 1);
-  for (std::size_t j = wire.nodes.size() - 1; j-- > 0;)
-  {
-    const double length = (wire.nodes[j + 1] - wire.nodes[j]).norm();
-    const char* material = to_tip + 0.5 * length < options.tip_length ? "platinum" : "nitinol";
-    wire.attenuation[j] = table.linear(material, energy) - displaced;
-    to_tip += length;
-  }
-  return wire;
+  return nodes;
+}
+
+/** Wire of nitinol with a tip of platinum, in the contrast medium. */
+fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Fluoroscope& fluoroscope,
+                               const std::vector<Eigen::Vector3d>& nodes)
+{
+  instrument::Instrument instrument;
+  instrument.name = "wire";
+  instrument.wire.sections.resize(2);
+  instrument.wire.sections[0].length = 10.0;
+  instrument.wire.sections[1].length = options.tip_length;
+  for (rod::Section& section : instrument.wire.sections)
+    section.radius = options.radius;
+  instrument.materials = {instrument::Material::kNitinol, instrument::Material::kPlatinum};
+  return fluoroscopy::coaxialStack(nodes, {fluoroscopy::XRayInstrument(instrument, fluoroscope.materials())}, {0.0},
+                                   {fluoroscope.vesselFluids()});
 }
 
 geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
@@ -171,7 +183,7 @@ geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d&
 }
 
 fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleMesh& mesh,
-                               const fluoroscopy::XRayWire& wire)
+                               const std::vector<Eigen::Vector3d>& wire)
 {
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   fluoroscopy::CArmPose pose;
@@ -184,7 +196,7 @@ fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleM
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     box.extend(vertex);
-  pose.isocentre = wire.nodes.empty() ? box.center() : wire.nodes.back();
+  pose.isocentre = wire.empty() ? box.center() : wire.back();
   if (!options.isocentre.empty())
     pose.isocentre = options.unit * *pointOf(options.isocentre);
   return pose;
@@ -192,19 +204,21 @@ fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleM
 
 int run(const Options& options)
 {
-  const auto table = fluoroscopy::AttenuationTable::load(options.table);
-  tools::printWarnings("fluoroscopy_frame", table.warnings());
+  const auto library = fluoroscopy::MaterialLibrary::load(options.materials);
+  tools::printWarnings("fluoroscopy_frame", library.warnings());
   const Eigen::Matrix3d patient_from_mesh = patientFromMesh(options);
-  const fluoroscopy::XRayWire wire = makeWire(options, table, patient_from_mesh);
+  const std::vector<Eigen::Vector3d> nodes = readWire(options, patient_from_mesh);
   const geometry::TriangleMesh mesh = readVessel(options, patient_from_mesh);
-  const double energy = options.energy;
   fluoroscopy::XRayScene scene;
-  scene.tissue_attenuation = table.linear("soft_tissue", energy);
-  scene.vessel_attenuation = table.contrast(options.iodine, energy);
+  scene.beam.tube_voltage = options.tube_voltage;
+  scene.beam.copper = options.copper;
+  scene.exposure.detector_dose = options.detector_dose;
   scene.tissue_thickness = options.tissue;
-  fluoroscopy::Fluoroscope fluoroscope(makePose(options, mesh, wire), scene);
+  scene.iodine = options.iodine;
+  scene.seed = options.seed;
+  fluoroscopy::Fluoroscope fluoroscope(makePose(options, mesh, nodes), scene, library);
   fluoroscope.setVessel(mesh);
-  const fluoroscopy::Frame& frame = fluoroscope.render({wire});
+  const fluoroscopy::Frame& frame = fluoroscope.render({makeWire(options, fluoroscope, nodes)});
   if (options.raw)
     fluoroscopy::writePng(options.out, frame.pixels, frame.pixels, frame.raw);
   else

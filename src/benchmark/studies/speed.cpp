@@ -8,6 +8,7 @@
 #include "benchmark/reference/static_cases.h"
 #include "benchmark/studies/shared_wall.h"
 #include "fluoroscopy/fluoroscope.h"
+#include "scene/yaml/file_search.h"
 #include "visualization/tube_mesh.h"
 
 #if defined(__x86_64__)
@@ -94,15 +95,14 @@ RenderingTime renderingTime(BenchRun& run)
   time.surface = microsecondsOf([&] { visualization::tubeMesh(state.position, radius, 8); }, 5);
   fluoroscopy::CArmPose pose;
   pose.isocentre = state.position[state.position.size() / 2];
-  fluoroscopy::XRayScene scene;
-  scene.tissue_attenuation = 20.6;
-  scene.vessel_attenuation = 60.0;
-  scene.tissue_thickness = 0.2;
-  fluoroscopy::Fluoroscope fluoroscope(pose, scene);
+  fluoroscopy::Fluoroscope fluoroscope(
+      pose, fluoroscopy::XRayScene(),
+      fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml"));
+  const fluoroscopy::DeviceDensity nitinol = fluoroscope.materials().solid("nitinol");
   fluoroscopy::XRayWire wire;
-  wire.nodes = state.position;
-  wire.radius = radius;
-  wire.attenuation.assign(radius.size() - 1, 800.0);
+  wire.nodes.push_back(state.position.front());
+  for (std::size_t j = 0; j + 1 < state.position.size(); ++j)
+    fluoroscopy::appendEdge(wire, state.position[j + 1], {{0.5 * (radius[j] + radius[j + 1]), nitinol}});
   fluoroscope.render({wire});
   time.frame = microsecondsOf([&] { fluoroscope.render({wire}); }, 3);
   return time;

@@ -134,7 +134,8 @@ geometry::TriangleMesh toMesh(const VesselMesh& message)
 }
 
 std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
-                                               const std::vector<fluoroscopy::XRayInstrument>& instruments)
+                                               const std::vector<fluoroscopy::XRayInstrument>& instruments,
+                                               const fluoroscopy::LocalFluids& fluids)
 {
   if (state.insertion.size() != instruments.size())
     throw InputError(names::kRodStateVisual, "insertion", "must have one value for each instrument of the scene");
@@ -143,10 +144,10 @@ std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
   for (const geometry_msgs::Point& node : state.nodes)
     nodes.push_back(toEigen(node));
   const double furthest = *std::max_element(state.insertion.begin(), state.insertion.end());
-  std::vector<fluoroscopy::XRayWire> wires;
-  for (std::size_t k = 0; k < instruments.size(); ++k)
-    instruments[k].append(nodes, furthest - state.insertion[k], wires);
-  return wires;
+  std::vector<double> behind;
+  for (const double insertion : state.insertion)
+    behind.push_back(furthest - insertion);
+  return {fluoroscopy::coaxialStack(nodes, instruments, behind, {fluids})};
 }
 
 }  // namespace endovascular_sim::nodes

@@ -10,9 +10,9 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "fluoroscopy/attenuation.h"
+#include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/x_ray_instrument.h"
+#include "fluoroscopy/projection/x_ray_instrument.h"
 #include "scene/model/scene.h"
 
 namespace endovascular_sim::nodes
@@ -44,9 +44,10 @@ CArm toMessage(const fluoroscopy::CArmPose& pose);
  *  @throws InputError when a vertex index is invalid or a coordinate is not finite */
 geometry::TriangleMesh toMesh(const VesselMesh& message);
 
-/** X-ray wires of all instruments. The nodes of the message end at the tip of the instrument that reaches farthest.
+/** X-ray model of all instruments. The nodes of the message end at the tip of the instrument that reaches farthest.
  *  @throws InputError when the message has not one insertion per instrument */
 std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
-                                               const std::vector<fluoroscopy::XRayInstrument>& instruments);
+                                               const std::vector<fluoroscopy::XRayInstrument>& instruments,
+                                               const fluoroscopy::LocalFluids& fluids);
 
 }  // namespace endovascular_sim::nodes

@@ -1,7 +1,7 @@
 #include "nodes/conversions/treatment_conversions.h"
 
 #include "common/error.h"
-#include "fluoroscopy/x_ray_treatment.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "intervention/stent_placement.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/runtime/ros_names.h"
@@ -65,13 +65,15 @@ intervention::RoundBody fromMessage(const TreatmentBody& body)
   return result;
 }
 
-std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message, double filling, double metal)
+std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message,
+                                               const fluoroscopy::DeviceDensity& filling,
+                                               const fluoroscopy::DeviceDensity& metal)
 {
   std::vector<fluoroscopy::XRayWire> wires;
   for (const TreatmentBody& body : message.balloons)
   {
-    intervention::RoundBody balloon = fromMessage(body);
-    wires.push_back(fluoroscopy::balloonWire(std::move(balloon.axis), std::move(balloon.radii), filling));
+    const intervention::RoundBody balloon = fromMessage(body);
+    wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, filling));
   }
   for (const TreatmentBody& body : message.stents)
     for (fluoroscopy::XRayWire& strut :

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "endovascular_sim/TreatmentVisual.h"
-#include "fluoroscopy/wire_projection.h"
+#include "fluoroscopy/projection/wire_projection.h"
 #include "intervention/vessel_dilatation.h"
 #include "simulation/simulation.h"
 
@@ -19,6 +19,8 @@ intervention::RoundBody fromMessage(const TreatmentBody& body);
 /** X-ray wires of balloons and stents.
  *  @param filling, metal linear attenuation minus that of the displaced material [1/m]
  *  @throws InputError as fromMessage() */
-std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message, double filling, double metal);
+std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message,
+                                               const fluoroscopy::DeviceDensity& filling,
+                                               const fluoroscopy::DeviceDensity& metal);
 
 }  // namespace endovascular_sim::nodes

@@ -18,14 +18,14 @@ namespace
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
 
-/** Attenuation table of the private parameter `attenuation_table`; by default that of the package. */
-fluoroscopy::AttenuationTable attenuationTable(const ros::NodeHandle& parameters)
+/** Material library of the private parameter `materials`; by default that of the package. */
+fluoroscopy::MaterialLibrary materialLibrary(const ros::NodeHandle& parameters)
 {
-  const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/attenuation.yaml";
-  auto table = fluoroscopy::AttenuationTable::load(parameters.param<std::string>("attenuation_table", own));
-  for (const std::string& warning : table.warnings())
+  const std::string own = ros::package::getPath("endovascular_sim") + "/config/xray/materials.yaml";
+  auto library = fluoroscopy::MaterialLibrary::load(parameters.param<std::string>("materials", own));
+  for (const std::string& warning : library.warnings())
     ROS_WARN("%s", warning.c_str());
-  return table;
+  return library;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void FluoroscopyNode::processInput(const Work& work)
 FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& parameters, const scene::Scene& scene,
                                  SchedulingGrant grant)
   : scene_(scene),
-    system_(scene_, attenuationTable(parameters)),
+    system_(scene_, materialLibrary(parameters)),
     settings_(*scene_.fluoroscopy),
     fluoroscope_(system_.fluoroscope()),
     isocentre_known_(settings_.isocentre.has_value()),
@@ -90,7 +90,7 @@ void FluoroscopyNode::receiveMesh(const VesselMesh& message)
 
 void FluoroscopyNode::receiveRod(const RodStateVisual& message)
 {
-  processInput([&] { wires_ = toXRayWires(message, system_.instruments()); });
+  processInput([&] { wires_ = toXRayWires(message, system_.instruments(), system_.fluids()); });
   if (!message.nodes.empty())
     tip_ = toEigen(message.nodes.back());
   if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
@@ -159,9 +159,11 @@ void FluoroscopyNode::publishFrame()
   header.frame_id = names::kXRaySourceFrame;
   std::vector<fluoroscopy::XRayWire> wires = wires_;
   wires.insert(wires.end(), treatment_.begin(), treatment_.end());
-  const fluoroscopy::Frame& frame = fluoroscope_.render(wires);
+  const fluoroscopy::Frame& frame = fluoroscope_.render(wires, image_.getNumSubscribers() > 0);
   render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   ++frames_;
+  air_kerma_rate_ = frame.reference_kerma * settings_.rate;
+  dose_limited_ = frame.dose_limited;
   camera_info_.publish(toCameraInfo(header, fluoroscope_.geometry()));
   if (raw_.getNumSubscribers() > 0)
     raw_.publish(toImage(header, frame.pixels, frame.raw));
@@ -193,6 +195,8 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("frames rendered", frames_);
   status.add("frames per second", static_cast<double>(render_times_.size()) / kDiagnosticsPeriod);
   status.add("median render time [ms]", 1e3 * median);
+  status.add("air kerma rate at the reference point [mGy/min]", 60e3 * air_kerma_rate_);
+  status.add("dose limited", dose_limited_);
   status.add("scheduling", grant_.describe());
   status.add("last error", last_error_);
   render_times_.clear();

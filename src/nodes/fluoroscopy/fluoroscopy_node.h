@@ -24,7 +24,7 @@ class FluoroscopyNode
 public:
   /** @param parameters handle of the private parameters
    *  @param scene scene with fluoroscopy
-   *  @throws InputError when the attenuation table is invalid */
+   *  @throws InputError when the material library is invalid */
   FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& parameters, const scene::Scene& scene,
                   SchedulingGrant grant);
 
@@ -58,6 +58,8 @@ private:
 
   SchedulingGrant grant_;
   std::size_t frames_ = 0;
+  double air_kerma_rate_ = 0.0;  ///< of the last frame at the reference point [Gy/s]
+  bool dose_limited_ = false;
   std::vector<double> render_times_;    ///< render times since the last diagnostics [s]
   std::string new_error_, last_error_;  ///< error since the last diagnostics, last error of all
 

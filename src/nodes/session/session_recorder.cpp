@@ -20,7 +20,7 @@
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
 #include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/runtime/ros_names.h"
 

@@ -255,10 +255,20 @@ struct FluoroscopyScene
   double detector_width = 0.30;     ///< width of the detector [m]
   /** Isocentre in the patient frame [m]; if empty, the centre of the vessel's bounding box. */
   std::optional<Eigen::Vector3d> isocentre;
-  double energy = 60.0;            ///< effective photon energy [keV]
-  double iodine = 150.0;           ///< iodine concentration in the vessel [mgI/ml]
-  double tissue_thickness = 0.20;  ///< thickness of the soft tissue [m]
-  bool follow_tip = true;          ///< true: the isocentre follows the tip of the wire
+  double tube_voltage = 80.0;  ///< tube voltage [kV]
+  double aluminium = 2.5e-3;   ///< total filtration with aluminium [m]
+  double copper = 0.2e-3;      ///< additional filtration with copper [m]
+  /** Photon energy of a monoenergetic beam [keV]; if empty, the tube with its voltage and filtration. */
+  std::optional<double> energy;
+  double detector_dose = 30e-9;              ///< air kerma per frame at the detector [Gy]
+  double max_air_kerma_rate = 88e-3 / 60.0;  ///< limit at the reference point [Gy/s]
+  double edge_enhancement = 0.3;             ///< weight of the edges in the display image
+  double zoom = 1.0;                         ///< magnification of the display image
+  bool inverted = false;                     ///< true: contrast medium is bright in the display image
+  double recursive_filter = 0.0;             ///< weight of the preceding frame in the display image
+  double iodine = 150.0;                     ///< iodine concentration in the vessel [mgI/ml]
+  double tissue_thickness = 0.20;            ///< thickness of the soft tissue [m]
+  bool follow_tip = true;                    ///< true: the isocentre follows the tip of the wire
 };
 
 /** Recording of results. */

@@ -333,8 +333,21 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
       fluoroscopy.isocentre = Eigen::Vector3d::Zero();
     fields.vector3("isocentre", *fluoroscopy.isocentre, quantities::kPosition);
   }
-  // The limits are those of the attenuation tables.
-  fields.number("energy", fluoroscopy.energy, quantities::kPhotonEnergy, Range::between(30.0, 100.0));
+  fields.number("tube_voltage", fluoroscopy.tube_voltage, quantities::kTubeVoltage, Range::between(50.0, 125.0));
+  fields.number("aluminium", fluoroscopy.aluminium, quantities::kFilter, Range::between(0.0, 0.02));
+  fields.number("copper", fluoroscopy.copper, quantities::kFilter, Range::between(0.0, 2e-3));
+  if (fields.reading() ? fields.has("energy") : fluoroscopy.energy.has_value())
+  {
+    if (!fluoroscopy.energy)
+      fluoroscopy.energy = 60.0;
+    fields.number("energy", *fluoroscopy.energy, quantities::kPhotonEnergy, Range::between(30.0, 100.0));
+  }
+  fields.number("detector_dose", fluoroscopy.detector_dose, quantities::kDetectorDose, Range::positive());
+  fields.number("max_air_kerma_rate", fluoroscopy.max_air_kerma_rate, quantities::kDoseRate, Range::positive());
+  fields.number("edge_enhancement", fluoroscopy.edge_enhancement, quantities::kRatio, Range::between(0.0, 4.0));
+  fields.number("zoom", fluoroscopy.zoom, quantities::kRatio, Range::between(1.0, 8.0));
+  fields.boolean("inverted", fluoroscopy.inverted);
+  fields.number("recursive_filter", fluoroscopy.recursive_filter, quantities::kRatio, Range::between(0.0, 0.95));
   fields.number("iodine", fluoroscopy.iodine, quantities::kIodine, Range::between(0.0, 500.0));
   fields.number("tissue_thickness", fluoroscopy.tissue_thickness, quantities::kTissue, Range::nonNegative());
   fields.boolean("follow_tip", fluoroscopy.follow_tip);

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fluoroscopy/image/coarse_image.h"
+
+namespace endovascular_sim::fluoroscopy
+{
+
+/** Settings of the display image. */
+struct DisplaySettings
+{
+  double edge_enhancement = 0.3;  ///< weight of the difference to the mean of 3 × 3 pixels, 0 to 4
+  double zoom = 1.0;              ///< magnification of the central part, 1 to 8
+  bool inverted = false;          ///< true: bones and contrast medium are bright
+  double recursive_filter = 0.0;  ///< weight of the preceding frame, 0 to 0.95
+};
+
+/** Display image of angiography: logarithm, local range compression, edge enhancement, window.
+ *
+ *  With l = ln(count / count at the wanted dose) and its local mean b over 20 mm,
+ *
+ *      d = (l − b) + s·tanh(c b / s),  c = 0.32, s = 0.75,   grey = 255·(d + 1.35)/(0.85 + 1.35).
+ *
+ *  Detail keeps its contrast in dark and bright surroundings. The window does not depend on the frame. The recursive
+ * filter acts on d, so that it affects the display only. */
+class Display
+{
+public:
+  /** @throws InputError for settings out of range */
+  explicit Display(const DisplaySettings& settings);
+
+  /** Draws a frame.
+   *  @param width width of the detector [m]
+   *  @param reference count at the wanted dose
+   *  @param counts mean count per bin */
+  void draw(int pixels, double width, double reference, const CoarseImage& counts,
+            const std::vector<std::uint16_t>& raw, std::vector<std::uint8_t>& image);
+
+  /** Forgets the preceding frame. */
+  void reset() { has_previous_ = false; }
+
+private:
+  void compress(int pixels, const CoarseImage& base, float log_reference, const std::vector<std::uint16_t>& raw);
+  void filter();
+  void magnify(int pixels);
+
+  DisplaySettings settings_;
+  bool has_previous_ = false;
+  std::vector<float> detail_, previous_, work_;
+};
+
+}  // namespace endovascular_sim::fluoroscopy

@@ -1,0 +1,136 @@
+#include "fluoroscopy/patient/body/body_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "common/error.h"
+#include "common/hash.h"
+#include "fluoroscopy/patient/body/anatomy_parts.h"
+#include "fluoroscopy/patient/body/body_placement.h"
+#include "fluoroscopy/patient/volume/lumen_mask.h"
+#include "fluoroscopy/patient/volume/volume_file.h"
+
+namespace endovascular_sim::fluoroscopy
+{
+namespace
+{
+
+const Eigen::Vector3f kLow(-196.0F, -126.0F, -262.0F);  // corners of the volume in the body's frame [mm]
+const Eigen::Vector3f kHigh(196.0F, 140.0F, 450.0F);
+
+void check(const BodySettings& settings)
+{
+  if (!(settings.spacing >= 0.5e-3 && settings.spacing <= 10e-3))
+    throw InputError("patient.body", "spacing", "must lie between 0.0005 and 0.01 [m]");
+}
+
+VolumeGrid gridFor(const body::BodyFrame& frame, double spacing)
+{
+  VolumeGrid grid;
+  grid.spacing.setConstant(spacing);
+  grid.origin = frame.toPatient(kLow);
+  const Eigen::Vector3d size = (frame.toPatient(kHigh) - grid.origin) / spacing;
+  grid.size = size.array().ceil().cast<int>() + 1;
+  return grid;
+}
+
+/** All parts; where they overlap, later soft tissue replaces earlier one. */
+body::BodyPlan planFor(const body::SpineCurve& spine, std::uint64_t seed)
+{
+  body::BodyPlan plan;
+  body::addTorso(plan);
+  body::addAbdomen(plan, spine, seed);
+  body::addLungs(plan, seed);
+  body::addHeart(plan);
+  body::addVertebrae(plan, spine);
+  body::addRibCage(plan, spine);
+  body::addShoulderGirdle(plan);
+  body::addPelvis(plan);
+  body::addFemurs(plan);
+  return plan;
+}
+
+/** Fills the lumen with blood, surrounds it with one voxel of wall, and removes bone within two voxels. */
+void placeVessel(DensityVolume& volume, const geometry::TriangleMesh& mesh)
+{
+  const VolumeGrid& grid = volume.grid();
+  const VoxelMask lumen = lumenMask(grid, mesh);
+  const VoxelMask wall = dilated(grid, lumen, 1), surroundings = dilated(grid, lumen, 2);
+  const std::uint16_t blood = DensityVolume::encode({kBloodDensity, 0.0});
+  for (std::size_t i = 0; i < surroundings.size(); ++i)
+  {
+    std::uint16_t& voxel = volume.voxels()[i];
+    if (lumen[i] != 0 || wall[i] != 0 || (surroundings[i] != 0 && (voxel >> 8) != 0))
+      voxel = blood;
+  }
+}
+
+std::uint64_t keyOf(const vessel::Vessel& vessel, const body::BodyFrame& frame, const BodySettings& settings)
+{
+  Hash64 key;
+  key.add(static_cast<std::uint64_t>(kBodyVersion));
+  key.add(vessel.mesh.hash());
+  key.add(frame.origin.x());
+  key.add(frame.origin.y());
+  key.add(frame.origin.z());
+  key.add(frame.scale);
+  key.add(settings.spacing);
+  key.add(settings.seed);
+  return key.value();
+}
+
+}  // namespace
+
+BodyModel makeBody(const vessel::Vessel& vessel, const BodySettings& settings)
+{
+  check(settings);
+  const body::BodyPlacement placement = body::placeBody(vessel);
+  std::vector<body::Point> wall;
+  for (const Eigen::Vector3d& vertex : vessel.mesh.vertices)
+    wall.push_back(placement.frame.fromPatient(vertex));
+  const body::SpineCurve spine(wall);
+  auto volume = std::make_shared<DensityVolume>(gridFor(placement.frame, settings.spacing), "patient.body");
+  voxelise(planFor(spine, settings.seed), placement.frame, settings.seed, *volume);
+  placeVessel(*volume, vessel.mesh);
+  BodyModel model{std::move(volume), {placement.note}};
+  if (spine.displacement() > 0.0F)
+  {
+    char note[120];
+    std::snprintf(note, sizeof note, "spine moved back by up to %.0f mm for the vessel",
+                  static_cast<double>(spine.displacement()) * placement.frame.scale);
+    model.notes.emplace_back(note);
+  }
+  return model;
+}
+
+BodyModel loadBody(const vessel::Vessel& vessel, const BodySettings& settings, const std::string& cache_folder)
+{
+  check(settings);
+  if (cache_folder.empty())
+    return makeBody(vessel, settings);
+  const body::BodyPlacement placement = body::placeBody(vessel);
+  const std::uint64_t key = keyOf(vessel, placement.frame, settings);
+  const std::string entry = cache_folder + "/body_" + Hash64::toHex(key) + ".evsvol";
+  std::optional<DensityVolume> cached = readCachedVolume(entry, key);
+  if (cached)
+    return {std::make_shared<const DensityVolume>(std::move(*cached)), {placement.note, "body loaded from " + entry}};
+  BodyModel model = makeBody(vessel, settings);
+  try
+  {
+    std::error_code ignored;
+    std::filesystem::create_directories(cache_folder, ignored);
+    writeVolume(entry, *model.volume, key);
+  }
+  catch (const InputError& error)
+  {
+    model.notes.push_back(std::string("the body is not cached and will be made again by the next run: ") +
+                          error.what());
+  }
+  return model;
+}
+
+}  // namespace endovascular_sim::fluoroscopy

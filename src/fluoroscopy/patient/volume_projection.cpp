@@ -1,0 +1,303 @@
+#include "fluoroscopy/patient/volume_projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "common/error.h"
+
+namespace endovascular_sim::fluoroscopy
+{
+namespace
+{
+
+constexpr double kMaxInclination = 0.5;  // smallest share of the sampling axis in a ray's direction (cosine)
+constexpr double kInside = 1e-6;         // margin of positions against rounding [voxel]
+
+/** Part of a ray in the coordinates of the lattice [voxel]. */
+struct Ray
+{
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  ///< per unit of depth
+  double begin = 0.0;         ///< depth at the entry into the volume
+  double end = 0.0;
+  double length = 0.0;  ///< length per unit of depth [m]
+};
+
+/** Sums of steps times 65536. */
+struct Sum
+{
+  std::uint64_t tissue = 0;
+  std::uint64_t bone = 0;
+};
+
+/** Strides of a lattice whose first axis is the sampling axis. */
+struct Layout
+{
+  std::array<int, 3> axis{};
+  std::array<std::ptrdiff_t, 3> stride{};
+};
+
+Layout layoutFor(int main_axis, const std::array<std::ptrdiff_t, 3>& stride)
+{
+  Layout layout;
+  for (int i = 0; i < 3; ++i)
+  {
+    layout.axis[static_cast<std::size_t>(i)] = (main_axis + i) % 3;
+    layout.stride[static_cast<std::size_t>(i)] = stride[static_cast<std::size_t>((main_axis + i) % 3)];
+  }
+  return layout;
+}
+
+/** Limits the ray to a box.
+ *  @return false if nothing remains */
+bool clip(Ray& ray, const Eigen::AlignedBox3d& box)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double from = box.min()[axis] - ray.origin[axis], to = box.max()[axis] - ray.origin[axis];
+    const double d = ray.direction[axis];
+    if (d == 0.0)
+    {
+      if (from > 0.0 || to < 0.0)
+        return false;
+      continue;
+    }
+    ray.begin = std::max(ray.begin, std::min(from / d, to / d));
+    ray.end = std::min(ray.end, std::max(from / d, to / d));
+  }
+  return ray.begin < ray.end;
+}
+
+std::int64_t fixedPoint(double value)
+{
+  return std::llround(value * 4294967296.0);
+}
+
+/** Both components of a voxel in the halves of a word. */
+std::uint64_t split(std::uint16_t voxel)
+{
+  return (voxel & 0xffU) | static_cast<std::uint64_t>(voxel >> 8) << 32;
+}
+
+/** Bilinear interpolation in a lattice plane, in steps times 65536.
+ *  @param u, v position in the plane [2⁻³² voxel] */
+std::uint64_t sample(const std::uint16_t* plane, std::ptrdiff_t stride_u, std::ptrdiff_t stride_v, std::int64_t u,
+                     std::int64_t v)
+{
+  const std::uint16_t* corner = plane + (u >> 32) * stride_u + (v >> 32) * stride_v;
+  const auto fu = static_cast<std::uint64_t>(u >> 24 & 0xff), fv = static_cast<std::uint64_t>(v >> 24 & 0xff);
+  const std::uint64_t near = split(corner[0]) * (256 - fu) + split(corner[stride_u]) * fu;
+  const std::uint64_t far = split(corner[stride_v]) * (256 - fu) + split(corner[stride_u + stride_v]) * fu;
+  return near * (256 - fv) + far * fv;
+}
+
+/** Sum over the lattice planes [first, last] that a ray meets; u and v are its position in the first one. */
+Sum sumOfPlanes(const std::uint16_t* voxels, const Layout& layout, std::int64_t first, std::int64_t last,
+                std::int64_t u, std::int64_t v, std::int64_t du, std::int64_t dv)
+{
+  Sum sum;
+  const std::uint16_t* plane = voxels + first * layout.stride[0];
+  while (first <= last)
+  {
+    // 2⁸ samples of at most 255·2¹⁶ fit into 32 bits.
+    const std::int64_t end = std::min(first + 255, last);
+    std::uint64_t both = 0;
+    for (; first <= end; ++first, plane += layout.stride[0], u += du, v += dv)
+      both += sample(plane, layout.stride[1], layout.stride[2], u, v);
+    sum.tissue += both & 0xffffffffU;
+    sum.bone += both >> 32;
+  }
+  return sum;
+}
+
+/** Integrals of tissue and bone steps along the main axis, times 65536 [voxel]. */
+std::pair<double, double> integrate(const std::uint16_t* voxels, const Eigen::Vector3i& size, const Layout& layout,
+                                    const Ray& ray)
+{
+  const int main = layout.axis[0];
+  const double slope = ray.direction[main];
+  double from = ray.origin[main] + ray.begin * slope, to = ray.origin[main] + ray.end * slope;
+  if (from > to)
+    std::swap(from, to);
+  auto first = static_cast<std::int64_t>(std::ceil(from)), last = static_cast<std::int64_t>(std::floor(to));
+  const bool between = first > last;  // two planes enclose the part
+  if (between)
+    first = last = static_cast<std::int64_t>(std::floor(0.5 * (from + to) + 0.5));
+  const auto at = [&](double plane, std::size_t axis)
+  {
+    const int a = layout.axis[axis];
+    const double position = ray.origin[a] + (plane - ray.origin[main]) / slope * ray.direction[a];
+    return fixedPoint(std::clamp(position, 0.0, size[a] - 1 - kInside));
+  };
+  const auto value = [&](std::int64_t plane)
+  {
+    return sample(voxels + plane * layout.stride[0], layout.stride[1], layout.stride[2],
+                  at(static_cast<double>(plane), 1), at(static_cast<double>(plane), 2));
+  };
+  const std::uint64_t head = value(first), tail = value(last);
+  const auto weighted = [](double weight, std::uint64_t both)
+  {
+    return std::pair<double, double>(weight * static_cast<double>(both & 0xffffffffU),
+                                     weight * static_cast<double>(both >> 32));
+  };
+  if (between)
+    return weighted(to - from, head);
+  const auto a = weighted(static_cast<double>(first) - from - 0.5, head);
+  const auto b = weighted(to - static_cast<double>(last) - 0.5, tail);
+  const std::int64_t u = at(static_cast<double>(first), 1), v = at(static_cast<double>(first), 2);
+  const std::int64_t planes = std::max<std::int64_t>(last - first, 1);
+  const std::int64_t du = (at(static_cast<double>(last), 1) - u) / planes,
+                     dv = (at(static_cast<double>(last), 2) - v) / planes;
+  const Sum sum = sumOfPlanes(voxels, layout, first, last, u, v, du, dv);
+  return {static_cast<double>(sum.tissue) + a.first + b.first, static_cast<double>(sum.bone) + a.second + b.second};
+}
+
+int largestAxis(const Eigen::Vector3d& direction)
+{
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return static_cast<int>(axis);
+}
+
+/** Strides of a storage in which the axis nearest to the patient's z runs fastest. */
+std::array<std::ptrdiff_t, 3> stridesFor(const VolumeGrid& grid)
+{
+  const int fastest = largestAxis(grid.axes.row(2).transpose());
+  const int second = (fastest + 1) % 3, third = (fastest + 2) % 3;
+  std::array<std::ptrdiff_t, 3> stride{};
+  stride[static_cast<std::size_t>(fastest)] = 1;
+  stride[static_cast<std::size_t>(second)] = grid.size[fastest];
+  stride[static_cast<std::size_t>(third)] = static_cast<std::ptrdiff_t>(grid.size[fastest]) * grid.size[second];
+  return stride;
+}
+
+/** Box of all voxels but those of air, widened by one voxel [voxel]. */
+Eigen::AlignedBox3d occupiedBox(const DensityVolume& volume)
+{
+  const Eigen::Vector3i size = volume.grid().size;
+  Eigen::AlignedBox3d box;
+  const std::uint16_t* voxel = volume.voxels().data();
+  for (int z = 0; z < size.z(); ++z)
+    for (int y = 0; y < size.y(); ++y, voxel += size.x())
+    {
+      const auto filled = [](std::uint16_t value) { return value != 0; };
+      const std::uint16_t* first = std::find_if(voxel, voxel + size.x(), filled);
+      if (first == voxel + size.x())
+        continue;
+      const std::uint16_t* last = voxel + size.x() - 1;
+      while (*last == 0)
+        --last;
+      box.extend(Eigen::Vector3d(static_cast<double>(first - voxel), y, z));
+      box.extend(Eigen::Vector3d(static_cast<double>(last - voxel), y, z));
+    }
+  if (box.isEmpty())
+    return box;
+  const Eigen::Vector3d last = (size.array() - 1).matrix().cast<double>();
+  return {(box.min().array() - 1.0).max(0.0).matrix(), (box.max().array() + 1.0).matrix().cwiseMin(last)};
+}
+
+}  // namespace
+
+VolumeProjection::VolumeProjection(const DensityVolume& volume)
+  : grid_(volume.grid()),
+    stride_(stridesFor(volume.grid())),
+    voxels_(volume.voxels().size()),
+    occupied_(occupiedBox(volume))
+{
+  const std::uint16_t* voxel = volume.voxels().data();
+  for (int z = 0; z < grid_.size.z(); ++z)
+    for (int y = 0; y < grid_.size.y(); ++y)
+    {
+      std::uint16_t* target = voxels_.data() + y * stride_[1] + z * stride_[2];
+      for (int x = 0; x < grid_.size.x(); ++x)
+        target[x * stride_[0]] = *voxel++;
+    }
+}
+
+ArealDensityImage emptyImage(int samples)
+{
+  if (samples < 1 || samples > 4096)
+    throw InputError("projection of the patient", "samples", "must lie between 1 and 4096");
+  const std::size_t size = static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples);
+  return {samples, std::vector<float>(size, 0.0F), std::vector<float>(size, 0.0F)};
+}
+
+ArealDensityImage VolumeProjection::project(const XRayGeometry& geometry, int samples) const
+{
+  ArealDensityImage image = emptyImage(samples);
+  projectRows(geometry, 0, samples, image);
+  return image;
+}
+
+void VolumeProjection::projectRows(const XRayGeometry& geometry, int begin, int end, ArealDensityImage& image) const
+{
+  if (occupied_.isEmpty())
+    return;
+  const VolumeGrid& grid = grid_;
+  const Eigen::Matrix3d from_optical = (grid.axes.transpose() * geometry.axes());
+  const Eigen::Vector3d origin = grid.coordinates(geometry.source());
+  const int central = largestAxis(from_optical.col(2).cwiseQuotient(grid.spacing));
+  const double pixels_per_sample = static_cast<double>(geometry.pixels()) / image.samples;
+  for (int column = 0; column < image.samples; ++column)
+    for (int row = begin; row < end; ++row)
+    {
+      const Eigen::Vector3d optical =
+          geometry.ray((column + 0.5) * pixels_per_sample - 0.5, (row + 0.5) * pixels_per_sample - 0.5);
+      Ray ray{origin, (from_optical * optical).cwiseQuotient(grid.spacing), 0.0, geometry.pose().source_to_detector,
+              optical.norm()};
+      const auto at =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(column);
+      image.tissue[at] = image.bone[at] = 0.0F;
+      if (!clip(ray, occupied_))
+        continue;
+      const bool inclined = std::abs(ray.direction[central]) < kMaxInclination * ray.direction.norm();
+      const Layout layout = layoutFor(inclined ? largestAxis(ray.direction) : central, stride_);
+      const auto [tissue, bone] = integrate(voxels_.data(), grid.size, layout, ray);
+      const double scale = ray.length / std::abs(ray.direction[layout.axis[0]]) / 65536.0;
+      image.tissue[at] = static_cast<float>(DensityVolume::kTissueStep * scale * tissue);
+      image.bone[at] = static_cast<float>(DensityVolume::kBoneStep * scale * bone);
+    }
+}
+
+ArealDensityImage resampled(const ArealDensityImage& image, int pixels)
+{
+  if (pixels == image.samples)
+    return image;
+  ArealDensityImage result = emptyImage(pixels);
+  const int n = image.samples;
+  const auto size = static_cast<std::size_t>(pixels);
+  std::vector<int> lower(size), upper(size);
+  std::vector<float> fraction(size);
+  for (int i = 0; i < pixels; ++i)
+  {
+    const double position = std::clamp((i + 0.5) * n / pixels - 0.5, 0.0, static_cast<double>(n - 1));
+    const auto at = static_cast<std::size_t>(i);
+    lower[at] = static_cast<int>(position);
+    upper[at] = std::min(lower[at] + 1, n - 1);
+    fraction[at] = static_cast<float>(position - lower[at]);
+  }
+  std::vector<float> blended(static_cast<std::size_t>(n));
+  const auto resample = [&](const std::vector<float>& from, std::vector<float>& to)
+  {
+    for (std::size_t row = 0; row < size; ++row)
+    {
+      const float* above = from.data() + static_cast<std::ptrdiff_t>(lower[row]) * n;
+      const float* below = from.data() + static_cast<std::ptrdiff_t>(upper[row]) * n;
+      for (std::size_t i = 0; i < blended.size(); ++i)
+        blended[i] = above[i] + fraction[row] * (below[i] - above[i]);
+      float* target = to.data() + row * size;
+      for (std::size_t column = 0; column < size; ++column)
+      {
+        const float left = blended[static_cast<std::size_t>(lower[column])];
+        target[column] = left + fraction[column] * (blended[static_cast<std::size_t>(upper[column])] - left);
+      }
+    }
+  };
+  resample(image.tissue, result.tissue);
+  resample(image.bone, result.bone);
+  return result;
+}
+
+}  // namespace endovascular_sim::fluoroscopy
