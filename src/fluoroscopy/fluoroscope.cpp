@@ -53,14 +53,13 @@ double bloodAsTissue(const Beam& beam, const MaterialLibrary& library)
 Fluoroscope::Fluoroscope(const CArmPose& pose, const XRayScene& scene, const MaterialLibrary& library)
   : geometry_(pose),
     scene_((checkScene(scene), scene)),
-    tissue_density_(library.density("soft_tissue")),
     blood_density_(bloodAsTissue(Beam(scene.beam), library)),
     table_(Beam(scene.beam), library),
     response_(Beam(scene.beam), library),
     exposure_(Beam(scene.beam), scene.exposure),
     detector_(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water()),
     display_(scene.display),
-    patient_(std::make_shared<SlabPatient>(scene.tissue_thickness, tissue_density_)),
+    patient_(std::make_unique<SlabPatient>(scene.tissue_thickness, library.density("soft_tissue"))),
     background_mean_(pose.pixels)
 {
   tissue_ = response_.solid("soft_tissue");
@@ -74,6 +73,7 @@ void Fluoroscope::setPose(const CArmPose& pose)
   const XRayGeometry geometry(pose);
   requireVesselInFrontOfSource(geometry, vessel_);
   geometry_ = geometry;
+  vessel_length_.clear();
   background_valid_ = false;
   display_.reset();
   if (pose.pixels != before.pixels || pose.detector_width != before.detector_width ||
@@ -88,10 +88,11 @@ void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
 {
   requireVesselInFrontOfSource(geometry_, mesh);
   vessel_ = std::move(mesh);
+  vessel_length_.clear();
   background_valid_ = false;
 }
 
-void Fluoroscope::setPatient(std::shared_ptr<const Patient> patient)
+void Fluoroscope::setPatient(std::unique_ptr<Patient> patient)
 {
   patient_ = std::move(patient);
   background_valid_ = false;
@@ -126,21 +127,26 @@ double Fluoroscope::measuredSignal() const
   return std::log(sum / static_cast<double>(count));
 }
 
-void Fluoroscope::renderBackground()
+void Fluoroscope::updateBackground()
 {
-  PatientImage patient;
-  patient_->project(geometry_, patient);
-  const std::vector<double> length = vesselPathLength(geometry_, vessel_);
-  background_.resize(length.size());
-  weight_.resize(length.size());
-  steel_slope_.resize(length.size());
-  for (std::size_t k = 0; k < length.size(); ++k)
+  const ArealDensityImage& patient = patient_->frame(geometry_);
+  if (background_valid_ && patient_->revision() == patient_revision_)
+    return;
+  patient_revision_ = patient_->revision();
+  if (vessel_length_.empty())
+    vessel_length_ = vesselPathLength(geometry_, vessel_);
+  const double lumen_density = patient_->lumenDensity();
+  background_.resize(vessel_length_.size());
+  weight_.resize(vessel_length_.size());
+  steel_slope_.resize(vessel_length_.size());
+  for (std::size_t k = 0; k < vessel_length_.size(); ++k)
   {
+    const double length = vessel_length_[k];
     ArealDensities densities{static_cast<double>(patient.tissue[k]), static_cast<double>(patient.bone[k]), 0.0};
-    if (length[k] > 0.0)
+    if (length > 0.0)
     {
-      densities.tissue = std::max(densities.tissue - tissue_density_ * length[k], 0.0) + blood_density_ * length[k];
-      densities.iodine = scene_.iodine * length[k];
+      densities.tissue = std::max(densities.tissue - lumen_density * length, 0.0) + blood_density_ * length;
+      densities.iodine = scene_.iodine * length;
     }
     const Response response = table_.at(densities);
     background_[k] = std::max(response.log_signal, kSmallestLogSignal);
@@ -162,8 +168,7 @@ void Fluoroscope::restart()
 
 const Frame& Fluoroscope::render(const std::vector<XRayWire>& wires, bool display)
 {
-  if (!background_valid_)
-    renderBackground();
+  updateBackground();
   wire_projection_.project(
       geometry_, wires, [this](std::uint32_t pixel) { return response_.coefficients(steel_slope_[pixel]); }, shadow_);
   signal_ = background_;

@@ -45,7 +45,7 @@ struct Frame
  *  The areal densities of tissue, bone and iodine along each pixel's ray give the primary signal by SignalTable.
  * Instruments multiply it by their transmission (WireProjection). Exposure control, scatter, noise and blur follow
  * (ExposureControl, DetectorImage), and the display image (Display). The signal without instruments is cached while
- * pose, vessel and patient are unchanged. */
+ * pose, vessel and the patient's image are unchanged. */
 class Fluoroscope
 {
 public:
@@ -60,8 +60,8 @@ public:
    *  @throws InputError if the mesh extends to the source; the current vessel is retained */
   void setVessel(geometry::TriangleMesh mesh);
 
-  /** Replaces the patient. */
-  void setPatient(std::shared_ptr<const Patient> patient);
+  /** Replaces the patient, at first a SlabPatient of the scene's thickness. */
+  void setPatient(std::unique_ptr<Patient> patient);
 
   const XRayGeometry& geometry() const { return geometry_; }
   const XRayScene& scene() const { return scene_; }
@@ -87,21 +87,23 @@ public:
   void restart();
 
 private:
-  void renderBackground();
+  void updateBackground();
   double measuredSignal() const;
 
   XRayGeometry geometry_;
   XRayScene scene_;
-  double tissue_density_, blood_density_;  ///< [kg/m³]; blood as the tissue of equal attenuation
+  double blood_density_;  ///< density of the tissue that attenuates as blood [kg/m³]
   DeviceDensity tissue_;
   SignalTable table_;
   DeviceResponse response_;
   ExposureControl exposure_;
   DetectorImage detector_;
   Display display_;
-  std::shared_ptr<const Patient> patient_;
+  std::unique_ptr<Patient> patient_;
   geometry::TriangleMesh vessel_;
 
+  std::vector<double> vessel_length_;  ///< length of each pixel's ray in the vessel [m]; empty: to be computed
+  int patient_revision_ = 0;           ///< of the patient's image in background_
   bool background_valid_ = false;
   std::vector<float> background_;   ///< primary signal without instruments
   std::vector<float> weight_;       ///< variance weight [keV]

@@ -31,6 +31,12 @@ struct VolumeGrid
   /** Position of an index, which may lie between voxels [m]. */
   Eigen::Vector3d position(const Eigen::Vector3d& index) const;
 
+  /** Index of a position [m], which may lie between voxels; inverse of position(). */
+  Eigen::Vector3d index(const Eigen::Vector3d& position) const
+  {
+    return (axes.transpose() * (position - origin)).cwiseQuotient(spacing);
+  }
+
   /** Corners of the axis-aligned box of all centres [m]. */
   Eigen::AlignedBox3d bounds() const;
 };

@@ -5,15 +5,12 @@
 #include <system_error>
 
 #include "common/error.h"
-#include "fluoroscopy/image/png_writer.h"
-#include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::procedure
 {
 
-PhasePictures::PhasePictures(const scene::Scene& scene, const std::string& folder)
-  : fluoroscopy_(scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml")),
-    folder_(folder + "/fluoroscopy")
+PhasePictures::PhasePictures(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder)
+  : image_(scene, vessel), folder_(folder + "/fluoroscopy")
 {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -35,14 +32,9 @@ void PhasePictures::update(const simulation::Simulation& simulation, const Opera
 
 void PhasePictures::writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
 {
-  fluoroscopy::CArmPose pose = fluoroscopy_.fluoroscope().geometry().pose();
-  pose.isocentre = simulation.state().position.back();
-  fluoroscopy_.fluoroscope().setPose(pose);
-  fluoroscopy_.fluoroscope().setVessel(wall);
-  const fluoroscopy::Frame& frame = fluoroscopy_.fluoroscope().render(fluoroscopy_.wires(simulation));
   char name[32];
   std::snprintf(name, sizeof name, "/phase_%02d.png", ++images_);
-  fluoroscopy::writePng(folder_ + name, frame.pixels, frame.pixels, frame.image);
+  image_.write(simulation, wall, folder_ + name);
 }
 
 }  // namespace endovascular_sim::procedure

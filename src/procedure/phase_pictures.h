@@ -4,8 +4,9 @@
 
 #include "geometry/triangle_mesh.h"
 #include "procedure/operator.h"
-#include "simulation/fluoroscopy_system.h"
 #include "simulation/simulation.h"
+#include "simulation/still_image.h"
+#include "vessel/model/vessel.h"
 
 namespace endovascular_sim::procedure
 {
@@ -15,9 +16,10 @@ class PhasePictures
 {
 public:
   /** @param scene scene with fluoroscopy; must outlive this object
+   *  @param vessel vessel of the scene at rest, about which its patient is placed
    *  @param folder folder of the results
    *  @throws InputError if the scene has no fluoroscopy or the folder cannot be created */
-  PhasePictures(const scene::Scene& scene, const std::string& folder);
+  PhasePictures(const scene::Scene& scene, const vessel::Vessel& vessel, const std::string& folder);
 
   /** Writes an image if a phase has ended; to be called after each step and once at the end.
    *  @param wall present wall of the vessel */
@@ -27,7 +29,7 @@ public:
 private:
   void writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall);
 
-  simulation::FluoroscopySystem fluoroscopy_;
+  simulation::StillImage image_;
   std::string folder_;
   std::string phase_;
   int images_ = 0;

@@ -49,7 +49,9 @@ const std::vector<std::string> kScenes = {
         "robot: {urdf: r.urdf, joints: [{joint: j, instrument: w, motion: insertion}]}\n",
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, head: [0, 0, 1], left: [1, 0, 0]}\n"
     "entry: {centreline_end: a}\ninstrument: " +
-        kWire + "\ndrive: {source: topic}\n",
+        kWire +
+        "\ndrive: {source: topic}\nfluoroscopy: {patient: {ct: c.vol, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],"
+        " translation: [0, 0, 0]}}\n",
     // a bench scene with loads and a driven distal end
     "introducer: false\nproximal_end: clamped\ninstrument: " + kWire +
         "\ndistal_end: {hold: clamped, twist: held, tilt: {axis: [0, 0, 1]}}\nloads: {point_loads: [{force: [0, 0, "

@@ -31,7 +31,14 @@ void expandProcedure(SceneNode& procedure, const std::string& file)
     procedure = readSceneTree(findSceneFile(procedure, "procedure", file));
 }
 
-/** Expands references to instrument and procedure files, and removes `vessel: none` and `fluoroscopy: none`. */
+/** Treats `part: none` as a missing key. */
+void removeIfNone(SceneNode* part)
+{
+  if (part != nullptr && part->kind == SceneNode::Kind::kScalar && part->text == "none")
+    part->kind = SceneNode::Kind::kNull;
+}
+
+/** Expands references to instrument and procedure files, and removes optional parts that are `none`. */
 void normalise(SceneNode& root, const std::string& file)
 {
   if (SceneNode* instrument = fieldOf(root, "instrument"))
@@ -42,18 +49,21 @@ void normalise(SceneNode& root, const std::string& file)
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
   if (SceneNode* procedure = fieldOf(root, "procedure"))
     expandProcedure(*procedure, file);
-  for (const char* key : {"vessel", "fluoroscopy"})
-  {
-    SceneNode* part = fieldOf(root, key);
-    if (part != nullptr && part->kind == SceneNode::Kind::kScalar && part->text == "none")
-      part->kind = SceneNode::Kind::kNull;
-  }
+  removeIfNone(fieldOf(root, "vessel"));
+  SceneNode* fluoroscopy = fieldOf(root, "fluoroscopy");
+  removeIfNone(fluoroscopy);
+  if (fluoroscopy != nullptr)
+    removeIfNone(fieldOf(*fluoroscopy, "patient"));
 }
 
-/** Resolves the paths of the vessel's files. The resolved text retains the paths as written, so that the hash of the
- *  scene does not depend on the machine. */
-void resolveVesselPaths(Scene& scene, const SceneNode& root)
+/** Resolves the paths of the vessel's files and of the CT. The resolved text retains the paths as written, so that the
+ *  hash of the scene does not depend on the machine. */
+void resolvePaths(Scene& scene, const SceneNode& root)
 {
+  const SceneNode* x_ray = root.find("fluoroscopy");
+  const SceneNode* patient = x_ray == nullptr ? nullptr : x_ray->find("patient");
+  if (const SceneNode* ct = patient == nullptr ? nullptr : patient->find("ct"))
+    scene.fluoroscopy->patient->ct = findSceneFile(*ct, "fluoroscopy.patient.ct", scene.file);
   const SceneNode* vessel = root.find("vessel");
   if (vessel == nullptr)
     return;
@@ -139,7 +149,7 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();
   if (origin == Origin::kUser)
-    resolveVesselPaths(scene, root);
+    resolvePaths(scene, root);
   return scene;
 }
 

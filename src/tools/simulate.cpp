@@ -31,6 +31,7 @@
 #include "simulation/driven_hands.h"
 #include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
+#include "simulation/still_image.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -53,6 +54,7 @@ struct Options
   std::vector<std::string> record;
   bool audit = false;
   bool pictures = false;
+  bool x_ray = false;
   bool no_plots = false;
   bool quiet = false;
 
@@ -83,6 +85,7 @@ void addOptions(tools::CommandLine& line, Options& options)
       "stage of the solver, and the closing error");
   line.flag("--pictures", options.pictures,
             "writes fluoroscopy/phase_01.png and so on: the C-arm's image at the end of each phase of a procedure");
+  line.flag("--x-ray", options.x_ray, "writes x_ray.png: the C-arm's image of the last step");
   CLI::Option* save = line.option("--save-state", options.save_state, "FILE", "saves the state at the time of --at");
   CLI::Option* at =
       line.quantity("--at", options.save_at, "T", quantities::kDuration, "simulated time of the saved state [s]")
@@ -217,18 +220,22 @@ struct Surroundings
   std::unique_ptr<results::WallForceMap> wall_forces;
   std::unique_ptr<results::SessionRun> session;        ///< null without a vessel
   std::unique_ptr<procedure::PhasePictures> pictures;  ///< null without --pictures
+  std::unique_ptr<simulation::StillImage> x_ray;       ///< null without --x-ray
   scene::EntryPose entry;
   vessel::CentrelineTree centreline;
   std::vector<Eigen::Vector3d> wall_points;
   std::uint64_t mesh_hash = 0;
 };
 
-Surroundings build(const scene::Scene& scene, const ProgressReport& progress)
+Surroundings build(const scene::Scene& scene, const Options& options)
 {
+  const ProgressReport progress = options.quiet ? ProgressReport() : progressOnErrorStream();
   Surroundings made;
   if (!scene.vessel)
   {
     made.entry = scene::resolveEntry(scene.entry, scene.file);
+    if (options.x_ray)
+      made.x_ray = std::make_unique<simulation::StillImage>(scene, vessel::Vessel());
     return made;
   }
   const vessel::Vessel vessel =
@@ -245,6 +252,10 @@ Surroundings build(const scene::Scene& scene, const ProgressReport& progress)
   made.wall = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
   made.moving_wall = simulation::makeLocalDeformableWall(scene, vessel, *made.wall);
   made.session = std::make_unique<results::SessionRun>(scene, vessel, made.entry.position);
+  if (options.pictures)
+    made.pictures = std::make_unique<procedure::PhasePictures>(scene, vessel, options.out);
+  if (options.x_ray)
+    made.x_ray = std::make_unique<simulation::StillImage>(scene, vessel);
   return made;
 }
 
@@ -297,12 +308,18 @@ std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const 
   return last;
 }
 
+/** Present wall of the vessel; empty without a vessel. */
+geometry::TriangleMesh presentWall(const Surroundings& surroundings)
+{
+  if (surroundings.moving_wall)
+    return surroundings.moving_wall->opening().mesh();
+  return surroundings.session ? surroundings.session->vessel().mesh : geometry::TriangleMesh();
+}
+
 void takePicture(const Surroundings& surroundings, const simulation::Simulation& simulation)
 {
   if (surroundings.pictures)
-    surroundings.pictures->update(
-        simulation, *surroundings.session->scriptedOperator(),
-        surroundings.moving_wall ? surroundings.moving_wall->opening().mesh() : surroundings.session->vessel().mesh);
+    surroundings.pictures->update(simulation, *surroundings.session->scriptedOperator(), presentWall(surroundings));
 }
 
 /** Commands of the hands for step @p k: of the operator, else of the scene's drives. */
@@ -444,13 +461,9 @@ int simulate(const Options& options)
   const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   tools::printWarnings("simulate", scene.warnings);
   createFolder(options.out);
-  Surroundings surroundings = build(scene, options.quiet ? ProgressReport() : progressOnErrorStream());
-  if (options.pictures)
-  {
-    if (!surroundings.session || !surroundings.session->scriptedOperator())
-      throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
-    surroundings.pictures = std::make_unique<procedure::PhasePictures>(scene, options.out);
-  }
+  if (options.pictures && !scene.procedure)
+    throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
+  Surroundings surroundings = build(scene, options);
   simulation::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
                                     surroundings.moving_wall.get());
   if (!options.from_state.empty())
@@ -460,6 +473,12 @@ int simulate(const Options& options)
   const std::uint64_t steps = lastStep(scene, options, simulation);
   results::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
   run(scene, options, simulation, surroundings, result, steps);
+  if (surroundings.x_ray)
+  {
+    for (const std::string& note : surroundings.x_ray->notes())
+      std::cerr << "patient: " << note << "\n";
+    surroundings.x_ray->write(simulation, presentWall(surroundings), options.out + "/x_ray.png");
+  }
   if (surroundings.session)
     finishSession(simulation, surroundings);
   if (simulation::hasBalloon(scene))

@@ -206,5 +206,58 @@ TEST(Fluoroscope, RetainsPoseAndVesselAfterARejection)
   EXPECT_THROW(Fluoroscope(CArmPose{}, negative, library()), InputError);
 }
 
+/** Patient whose image changes in every frame until it is final. */
+class RefinedSlab : public Patient
+{
+public:
+  explicit RefinedSlab(double density) : image_(emptyImage(512)), density_(density) {}
+
+  const ArealDensityImage& frame(const XRayGeometry& /*geometry*/) override
+  {
+    if (revision_ < 3)
+      image_.tissue.assign(image_.tissue.size(), static_cast<float>(100.0 + 20.0 * ++revision_));
+    return image_;
+  }
+  int revision() const override { return revision_; }
+  double lumenDensity() const override { return density_; }
+
+private:
+  ArealDensityImage image_;
+  double density_;
+  int revision_ = 0;
+};
+
+TEST(Fluoroscope, EveryRefinementOfThePatientAppearsInTheImage)
+{
+  Fluoroscope fluoroscope(CArmPose{}, scene(), library());
+  fluoroscope.setPatient(std::make_unique<RefinedSlab>(1050.0));
+  std::vector<double> charge;
+  for (int k = 0; k < 60; ++k)
+    charge.push_back(fluoroscope.render({}, false).tube_charge);
+  Fluoroscope thick(CArmPose{}, scene(), library());
+  thick.setPatient(std::make_unique<RefinedSlab>(1050.0));
+  EXPECT_GT(charge.back(), 1.3 * charge.front());  // 160 instead of 120 kg/m²
+  EXPECT_NEAR(charge.back() / charge[58], 1.0, 1e-3);
+}
+
+TEST(Fluoroscope, BloodReplacesThatOfThePatientAlongTheVessel)
+{
+  XRayScene plain = scene();
+  plain.iodine = 0.0;
+  std::vector<double> means;
+  for (const bool vessel : {false, true})
+  {
+    Fluoroscope fluoroscope(CArmPose{}, plain, library());
+    fluoroscope.setPatient(std::make_unique<RefinedSlab>(1062.0));
+    if (vessel)
+      fluoroscope.setVessel(sphere(Eigen::Vector3d::Zero(), 0.03, 32, 32));
+    Frame frame;
+    for (int k = 0; k < 4; ++k)
+      frame = fluoroscope.render({}, false);
+    means.push_back(meanCount(frame, nearestPixel(fluoroscope.geometry(), {0.0, 0.0, 0.0})));
+  }
+  EXPECT_NEAR(means[1] / means[0], 1.0, 0.02);  // 60 mm of blood, which differs by less than 10 kg/m³
+}
+
 }  // namespace
 }  // namespace endovascular_sim::fluoroscopy

@@ -59,7 +59,7 @@ TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
 {
   World world(twoPhases("fluoroscopy: {pixels: 64}\n"));
   const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
-  PhasePictures pictures(world.scene, folder);
+  PhasePictures pictures(world.scene, world.vessel, folder);
   for (int k = 0; k < 3000 && !world.session.isFinished(); ++k)
   {
     world.simulation.stepAll(world.session.commands(world.simulation));
@@ -98,7 +98,7 @@ TEST(PhasePictures, ShowTheInsertedInstruments)
 TEST(PhasePictures, RequireASceneWithFluoroscopy)
 {
   const scene::Scene scene = twoPhases("");
-  EXPECT_THROW(PhasePictures(scene, testing::TempDir()), InputError);
+  EXPECT_THROW(PhasePictures(scene, vessel::Vessel(), testing::TempDir()), InputError);
 }
 
 }  // namespace

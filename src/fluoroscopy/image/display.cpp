@@ -18,6 +18,7 @@ constexpr double kCompression = 0.32;  // slope of the local mean
 constexpr double kSaturation = 0.75;   // largest contribution of the local mean
 constexpr double kLocal = 0.02;        // standard deviation of the local mean [m]
 constexpr float kSmallestCount = 0.5F;
+constexpr double kLargestCount = 65535.0;  // saturation of the detector
 
 void requireRange(const char* key, double value, double low, double high)
 {
@@ -127,7 +128,7 @@ void Display::draw(int pixels, double width, double reference, const CoarseImage
   const double log_reference = std::log(reference);
   CoarseImage base = counts;
   for (float& value : base.values())
-    value = static_cast<float>(std::log(std::max(static_cast<double>(value), 0.5)) - log_reference);
+    value = static_cast<float>(std::log(std::clamp(static_cast<double>(value), 0.5, kLargestCount)) - log_reference);
   base.blur(kLocal / width * pixels, true);
   for (float& value : base.values())
     value =

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "fluoroscopy/patient/volume/lumen_mask.h"
 #include "fluoroscopy/patient/volume_projection.h"
+#include "fluoroscopy/projection/patient.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -18,20 +20,20 @@ struct ProgressiveResolution
  *
  *  The work is counted in rays and reads no clock. The image of a frame depends only on the number of frames since the
  *  last movement, and the image at rest only on geometry and volume. */
-class ProgressiveProjection
+class ProgressiveProjection : public Patient
 {
 public:
   explicit ProgressiveProjection(const DensityVolume& volume, const ProgressiveResolution& resolution = {});
 
-  /** Areal densities for the frame at this geometry, with geometry.pixels() samples per side. Valid until the next
-   * call. */
-  const ArealDensityImage& frame(const XRayGeometry& geometry);
+  const ArealDensityImage& frame(const XRayGeometry& geometry) override;
 
   /** True if the last frame has the final resolution. */
   bool isFinal() const { return next_row_ >= refined_.samples; }
 
-  /** Number of changes of the image; equal numbers mean equal images, so that what follows from them can be kept. */
-  int revision() const { return revision_; }
+  int revision() const override { return revision_; }
+
+  /** The lumen contains blood (replaceByBlood()). */
+  double lumenDensity() const override { return kBloodDensity; }
 
 private:
   void restart(const XRayGeometry& geometry);

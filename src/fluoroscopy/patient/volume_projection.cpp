@@ -162,7 +162,7 @@ int largestAxis(const Eigen::Vector3d& direction)
 }
 
 /** Strides of a storage in which the axis nearest to the patient's z runs fastest. */
-std::array<std::ptrdiff_t, 3> stridesFor(const VolumeGrid& grid)
+std::array<std::ptrdiff_t, 3> stridesFor(const image::VolumeGrid& grid)
 {
   const int fastest = largestAxis(grid.axes.row(2).transpose());
   const int second = (fastest + 1) % 3, third = (fastest + 2) % 3;
@@ -216,14 +216,6 @@ VolumeProjection::VolumeProjection(const DensityVolume& volume)
     }
 }
 
-ArealDensityImage emptyImage(int samples)
-{
-  if (samples < 1 || samples > 4096)
-    throw InputError("projection of the patient", "samples", "must lie between 1 and 4096");
-  const std::size_t size = static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples);
-  return {samples, std::vector<float>(size, 0.0F), std::vector<float>(size, 0.0F)};
-}
-
 ArealDensityImage VolumeProjection::project(const XRayGeometry& geometry, int samples) const
 {
   ArealDensityImage image = emptyImage(samples);
@@ -235,9 +227,9 @@ void VolumeProjection::projectRows(const XRayGeometry& geometry, int begin, int 
 {
   if (occupied_.isEmpty())
     return;
-  const VolumeGrid& grid = grid_;
+  const image::VolumeGrid& grid = grid_;
   const Eigen::Matrix3d from_optical = (grid.axes.transpose() * geometry.axes());
-  const Eigen::Vector3d origin = grid.coordinates(geometry.source());
+  const Eigen::Vector3d origin = grid.index(geometry.source());
   const int central = largestAxis(from_optical.col(2).cwiseQuotient(grid.spacing));
   const double pixels_per_sample = static_cast<double>(geometry.pixels()) / image.samples;
   for (int column = 0; column < image.samples; ++column)
@@ -259,45 +251,6 @@ void VolumeProjection::projectRows(const XRayGeometry& geometry, int begin, int 
       image.tissue[at] = static_cast<float>(DensityVolume::kTissueStep * scale * tissue);
       image.bone[at] = static_cast<float>(DensityVolume::kBoneStep * scale * bone);
     }
-}
-
-ArealDensityImage resampled(const ArealDensityImage& image, int pixels)
-{
-  if (pixels == image.samples)
-    return image;
-  ArealDensityImage result = emptyImage(pixels);
-  const int n = image.samples;
-  const auto size = static_cast<std::size_t>(pixels);
-  std::vector<int> lower(size), upper(size);
-  std::vector<float> fraction(size);
-  for (int i = 0; i < pixels; ++i)
-  {
-    const double position = std::clamp((i + 0.5) * n / pixels - 0.5, 0.0, static_cast<double>(n - 1));
-    const auto at = static_cast<std::size_t>(i);
-    lower[at] = static_cast<int>(position);
-    upper[at] = std::min(lower[at] + 1, n - 1);
-    fraction[at] = static_cast<float>(position - lower[at]);
-  }
-  std::vector<float> blended(static_cast<std::size_t>(n));
-  const auto resample = [&](const std::vector<float>& from, std::vector<float>& to)
-  {
-    for (std::size_t row = 0; row < size; ++row)
-    {
-      const float* above = from.data() + static_cast<std::ptrdiff_t>(lower[row]) * n;
-      const float* below = from.data() + static_cast<std::ptrdiff_t>(upper[row]) * n;
-      for (std::size_t i = 0; i < blended.size(); ++i)
-        blended[i] = above[i] + fraction[row] * (below[i] - above[i]);
-      float* target = to.data() + row * size;
-      for (std::size_t column = 0; column < size; ++column)
-      {
-        const float left = blended[static_cast<std::size_t>(lower[column])];
-        target[column] = left + fraction[column] * (blended[static_cast<std::size_t>(upper[column])] - left);
-      }
-    }
-  };
-  resample(image.tissue, result.tissue);
-  resample(image.bone, result.bone);
-  return result;
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -6,18 +6,11 @@
 #include <vector>
 
 #include "fluoroscopy/patient/volume/density_volume.h"
+#include "fluoroscopy/projection/areal_density_image.h"
 #include "fluoroscopy/projection/x_ray_geometry.h"
 
 namespace endovascular_sim::fluoroscopy
 {
-
-/** Areal densities along the rays of a square image [kg/m²], in row-major order from the top left. */
-struct ArealDensityImage
-{
-  int samples = 0;  ///< rays per side
-  std::vector<float> tissue;
-  std::vector<float> bone;
-};
 
 /** Projection of a density volume: integrals of tissue and bone along rays from the source to the detector plane.
  *
@@ -38,7 +31,7 @@ public:
   /** @param volume copied; it takes 2 bytes per voxel here too, and the caller need not keep it */
   explicit VolumeProjection(const DensityVolume& volume);
 
-  const VolumeGrid& grid() const { return grid_; }
+  const image::VolumeGrid& grid() const { return grid_; }
 
   /** Projection with @p samples × @p samples rays at the centres of equal squares of the detector.
    *  @throws InputError for samples outside of 1 to 4096 */
@@ -48,17 +41,10 @@ public:
   void projectRows(const XRayGeometry& geometry, int begin, int end, ArealDensityImage& image) const;
 
 private:
-  VolumeGrid grid_;
+  image::VolumeGrid grid_;
   std::array<std::ptrdiff_t, 3> stride_;  ///< of the axes of the grid in voxels_
   std::vector<std::uint16_t> voxels_;
   Eigen::AlignedBox3d occupied_;  ///< box of all centres but those of air, and of their neighbours [voxel]
 };
-
-/** Image without densities. */
-ArealDensityImage emptyImage(int samples);
-
-/** Bilinear interpolation to @p pixels × @p pixels; constant beyond the outermost samples. Equal sizes return the
- * image. */
-ArealDensityImage resampled(const ArealDensityImage& image, int pixels);
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -1,18 +1,22 @@
 #include "fluoroscopy/projection/patient.h"
 
+#include <cstddef>
+
 namespace endovascular_sim::fluoroscopy
 {
 
-void SlabPatient::project(const XRayGeometry& geometry, PatientImage& image) const
+const ArealDensityImage& SlabPatient::frame(const XRayGeometry& geometry)
 {
-  const int n = geometry.pixels();
-  const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-  image.tissue.resize(size);
-  image.bone.assign(size, 0.0F);
+  if (revision_ > 0 && geometry.pose() == pose_)
+    return image_;
+  pose_ = geometry.pose();
+  image_ = emptyImage(geometry.pixels());
   std::size_t k = 0;
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column, ++k)
-      image.tissue[k] = static_cast<float>(areal_density_ * geometry.ray(column, row).norm());
+  for (int row = 0; row < geometry.pixels(); ++row)
+    for (int column = 0; column < geometry.pixels(); ++column, ++k)
+      image_.tissue[k] = static_cast<float>(thickness_ * density_ * geometry.ray(column, row).norm());
+  ++revision_;
+  return image_;
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -1,27 +1,26 @@
 #pragma once
 
-#include <vector>
-
+#include "fluoroscopy/projection/areal_density_image.h"
 #include "fluoroscopy/projection/x_ray_geometry.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 
-/** Areal densities of a patient along each pixel's central ray [kg/m²], in row-major order from the top left. */
-struct PatientImage
-{
-  std::vector<float> tissue;
-  std::vector<float> bone;
-};
-
-/** Body around the vessel. */
+/** Body around the vessel in a sequence of frames. */
 class Patient
 {
 public:
   virtual ~Patient() = default;
 
-  /** Projects the body; @p image is resized. */
-  virtual void project(const XRayGeometry& geometry, PatientImage& image) const = 0;
+  /** Areal densities along each pixel's central ray for the next frame at this geometry, with geometry.pixels() samples
+   * per side. Valid until the next call. */
+  virtual const ArealDensityImage& frame(const XRayGeometry& geometry) = 0;
+
+  /** Number of changes of the image; equal numbers mean equal images, so that what follows from them can be kept. */
+  virtual int revision() const = 0;
+
+  /** Density of soft tissue that the body contains in the lumen of the vessel [kg/m³]. Blood replaces it. */
+  virtual double lumenDensity() const = 0;
 };
 
 /** Slab of soft tissue normal to the central ray at every angle, as a water phantom. */
@@ -30,12 +29,18 @@ class SlabPatient : public Patient
 public:
   /** @param thickness [m]
    *  @param density density of the tissue [kg/m³] */
-  SlabPatient(double thickness, double density) : areal_density_(thickness * density) {}
+  SlabPatient(double thickness, double density) : thickness_(thickness), density_(density) {}
 
-  void project(const XRayGeometry& geometry, PatientImage& image) const override;
+  const ArealDensityImage& frame(const XRayGeometry& geometry) override;
+  int revision() const override { return revision_; }
+  double lumenDensity() const override { return density_; }
 
 private:
-  double areal_density_;  ///< [kg/m²]
+  double thickness_;  ///< [m]
+  double density_;    ///< [kg/m³]
+  CArmPose pose_;
+  int revision_ = 0;  ///< 0: no image yet
+  ArealDensityImage image_;
 };
 
 }  // namespace endovascular_sim::fluoroscopy

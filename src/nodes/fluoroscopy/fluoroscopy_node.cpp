@@ -9,7 +9,9 @@
 #include "common/error.h"
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
+#include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
+#include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::nodes
 {
@@ -50,6 +52,7 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
     system_(scene_, materialLibrary(parameters)),
     settings_(*scene_.fluoroscopy),
     fluoroscope_(system_.fluoroscope()),
+    needs_patient_(settings_.patient.has_value()),
     isocentre_known_(settings_.isocentre.has_value()),
     grant_(std::move(grant)),
     raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
@@ -58,6 +61,9 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
 {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &FluoroscopyNode::receiveMesh, this, no_delay);
+  if (needs_patient_)
+    centreline_subscriber_ =
+        node.subscribe(names::kVesselCentreline, 1, &FluoroscopyNode::receiveCentreline, this, no_delay);
   rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &FluoroscopyNode::receiveRod, this, no_delay);
   treatment_subscriber_ =
       node.subscribe(names::kTreatmentVisual, 1, &FluoroscopyNode::receiveTreatment, this, no_delay);
@@ -65,6 +71,8 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
   updater_.setHardwareID("simulated C-arm");
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
   broadcastPose();
+  if (!scene_.vessel)
+    loadPatient();
   frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / settings_.rate), &FluoroscopyNode::onFrame, this);
   diagnostics_timer_ =
       node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod), &FluoroscopyNode::onDiagnostics, this);
@@ -83,9 +91,45 @@ void FluoroscopyNode::receiveMesh(const VesselMesh& message)
             box.extend(vertex);
           moveIsocentre(box.center());
         }
+        if (needs_patient_)
+          vessel_.mesh = mesh;
         fluoroscope_.setVessel(std::move(mesh));
         has_mesh_ = true;
+        loadPatient();
       });
+}
+
+void FluoroscopyNode::receiveCentreline(const VesselCentreline& message)
+{
+  processInput(
+      [&]
+      {
+        vessel_.centreline = fromMessage(message);
+        loadPatient();
+      });
+}
+
+/** Loads the patient of the scene when mesh and centreline of its vessel are known. No frame is drawn before. */
+void FluoroscopyNode::loadPatient()
+{
+  const bool has_vessel = !vessel_.mesh.triangles.empty() && !vessel_.centreline.branches.empty();
+  if (!needs_patient_ || (scene_.vessel && !has_vessel))
+    return;
+  const vessel::Vessel vessel = std::exchange(vessel_, {});
+  try
+  {
+    ROS_INFO("loading the patient; the first run with this vessel makes its body, which takes some seconds");
+    simulation::XRayPatient loaded = simulation::loadPatient(scene_, vessel);
+    for (const std::string& note : loaded.notes)
+      ROS_INFO("patient: %s", note.c_str());
+    fluoroscope_.setPatient(std::move(loaded.patient));
+    needs_patient_ = false;
+  }
+  catch (const InputError& error)
+  {
+    patient_error_ = error.what();
+    ROS_ERROR("no X-ray image without the patient: %s", error.what());
+  }
 }
 
 void FluoroscopyNode::receiveRod(const RodStateVisual& message)
@@ -140,7 +184,7 @@ bool FluoroscopyNode::hasSubscribers() const
 
 void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
 {
-  if (!hasSubscribers() || (scene_.vessel && !has_mesh_))
+  if (!hasSubscribers() || needs_patient_ || (scene_.vessel && !has_mesh_))
     return;
   processInput(
       [&]
@@ -188,6 +232,10 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   }
   if (scene_.vessel && !has_mesh_)
     status.summary(DiagnosticStatus::WARN, "waiting for the vessel");
+  else if (!patient_error_.empty())
+    status.summary(DiagnosticStatus::ERROR, patient_error_);
+  else if (needs_patient_)
+    status.summary(DiagnosticStatus::WARN, "waiting for the vessel's centreline, by which the patient is placed");
   else if (!new_error_.empty())
     status.summary(DiagnosticStatus::WARN, new_error_);
   else

@@ -11,6 +11,7 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
+#include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/runtime/real_time.h"
 #include "simulation/fluoroscopy_system.h"
@@ -30,6 +31,8 @@ public:
 
 private:
   void receiveMesh(const VesselMesh& message);
+  void receiveCentreline(const VesselCentreline& message);
+  void loadPatient();
   void receiveRod(const RodStateVisual& message);
   void receiveTreatment(const TreatmentVisual& message);
   void receiveCommand(const CArm& message);
@@ -54,6 +57,9 @@ private:
   std::vector<fluoroscopy::XRayWire> treatment_;  ///< balloons and stents
   std::optional<Eigen::Vector3d> tip_;            ///< tip of the instrument that reaches farthest [m]
   bool has_mesh_ = false;
+  vessel::Vessel vessel_;       ///< vessel at rest, about which the patient is placed; empty afterwards
+  bool needs_patient_ = false;  ///< true: the scene has a patient that is not yet loaded
+  std::string patient_error_;   ///< reason why it cannot be loaded
   bool isocentre_known_;
 
   SchedulingGrant grant_;
@@ -67,7 +73,7 @@ private:
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   diagnostic_updater::Updater updater_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber mesh_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_;
+  ros::Subscriber mesh_subscriber_, centreline_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_;
   ros::SteadyTimer frame_timer_, diagnostics_timer_;
 };
 

@@ -243,6 +243,15 @@ struct SolverScene
   const rod::SchemeTraits& traits() const { return rod::schemeTraits(scheme); }
 };
 
+/** Body around the vessel in the X-ray image: procedural, or a CT. */
+struct PatientScene
+{
+  bool body = false;  ///< true: procedural thorax, abdomen and pelvis
+  std::string ct;     ///< otherwise: path of a CT volume written by volume_import
+  /** Registration of the CT: transform from its frame to the patient frame. If empty, that of the vessel's mesh. */
+  std::optional<Eigen::Isometry3d> patient_from_ct;
+};
+
 /** C-arm and X-ray imaging. */
 struct FluoroscopyScene
 {
@@ -267,7 +276,8 @@ struct FluoroscopyScene
   bool inverted = false;                     ///< true: contrast medium is bright in the display image
   double recursive_filter = 0.0;             ///< weight of the preceding frame in the display image
   double iodine = 150.0;                     ///< iodine concentration in the vessel [mgI/ml]
-  double tissue_thickness = 0.20;            ///< thickness of the soft tissue [m]
+  double tissue_thickness = 0.20;            ///< thickness of the slab of soft tissue, without patient [m]
+  std::optional<PatientScene> patient;       ///< if empty: the slab
   bool follow_tip = true;                    ///< true: the isocentre follows the tip of the wire
 };
 

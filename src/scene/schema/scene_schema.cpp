@@ -165,6 +165,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
   if (scene.instruments.size() > 1)
     checkStack(fields, scene);
   checkProcedure(fields, scene);
+  checkPatient(fields, scene);
   checkEnds(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
@@ -313,44 +314,6 @@ void visitSolver(SceneFields& fields, SolverScene& solver)
   fields.number("contact_margin", solver.stepper.contact_margin, quantities::kMargin, Range::positive());
   fields.number("max_travel_per_substep", solver.max_travel_per_substep, quantities::kTravel, Range::positive());
   fields.number("guide_length", solver.guide_length, quantities::kGuideLength, Range::nonNegative());
-}
-
-void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
-{
-  const Range turn = Range::between(-M_PI, M_PI);
-  fields.number("rate", fluoroscopy.rate, quantities::kFrameRate, {0.0, 60.0, true, false});
-  fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
-  fields.number("primary_angle", fluoroscopy.primary_angle, quantities::kImagingAngle, turn);
-  fields.number("secondary_angle", fluoroscopy.secondary_angle, quantities::kImagingAngle, turn);
-  fields.number("source_to_detector", fluoroscopy.source_to_detector, quantities::kSourceToDetector, Range::positive());
-  fields.number("source_to_patient", fluoroscopy.source_to_patient, quantities::kSourceToPatient, Range::positive());
-  if (fields.reading() && fluoroscopy.source_to_patient >= fluoroscopy.source_to_detector)
-    fields.reject("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
-  fields.number("detector_width", fluoroscopy.detector_width, quantities::kDetectorWidth, Range::positive());
-  if (fields.reading() ? fields.has("isocentre") : fluoroscopy.isocentre.has_value())
-  {
-    if (!fluoroscopy.isocentre)
-      fluoroscopy.isocentre = Eigen::Vector3d::Zero();
-    fields.vector3("isocentre", *fluoroscopy.isocentre, quantities::kPosition);
-  }
-  fields.number("tube_voltage", fluoroscopy.tube_voltage, quantities::kTubeVoltage, Range::between(50.0, 125.0));
-  fields.number("aluminium", fluoroscopy.aluminium, quantities::kFilter, Range::between(0.0, 0.02));
-  fields.number("copper", fluoroscopy.copper, quantities::kFilter, Range::between(0.0, 2e-3));
-  if (fields.reading() ? fields.has("energy") : fluoroscopy.energy.has_value())
-  {
-    if (!fluoroscopy.energy)
-      fluoroscopy.energy = 60.0;
-    fields.number("energy", *fluoroscopy.energy, quantities::kPhotonEnergy, Range::between(30.0, 100.0));
-  }
-  fields.number("detector_dose", fluoroscopy.detector_dose, quantities::kDetectorDose, Range::positive());
-  fields.number("max_air_kerma_rate", fluoroscopy.max_air_kerma_rate, quantities::kDoseRate, Range::positive());
-  fields.number("edge_enhancement", fluoroscopy.edge_enhancement, quantities::kRatio, Range::between(0.0, 4.0));
-  fields.number("zoom", fluoroscopy.zoom, quantities::kRatio, Range::between(1.0, 8.0));
-  fields.boolean("inverted", fluoroscopy.inverted);
-  fields.number("recursive_filter", fluoroscopy.recursive_filter, quantities::kRatio, Range::between(0.0, 0.95));
-  fields.number("iodine", fluoroscopy.iodine, quantities::kIodine, Range::between(0.0, 500.0));
-  fields.number("tissue_thickness", fluoroscopy.tissue_thickness, quantities::kTissue, Range::nonNegative());
-  fields.boolean("follow_tip", fluoroscopy.follow_tip);
 }
 
 void visitScene(SceneFields& fields, Scene& scene)

@@ -46,6 +46,10 @@ void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+/** Rejects a body without a vessel. */
+void checkPatient(const SceneFields& fields, const Scene& scene);
+/** Keys `rotation`, or `head` and `left`: rotation from the frame of a file to the patient frame. */
+void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform);
 void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
 
 /** Rejects a procedure that is inconsistent with the scene. */

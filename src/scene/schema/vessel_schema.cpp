@@ -31,32 +31,6 @@ Eigen::Matrix3d rotationFromBody(SceneFields& fields)
   return rotation;
 }
 
-void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
-{
-  if (fields.has("head") || fields.has("left"))
-  {
-    if (fields.has("rotation"))
-      fields.reject("rotation", "conflicts with head and left; keep one of the two");
-    transform.linear() = rotationFromBody(fields);
-    return;
-  }
-  std::vector<std::vector<double>> rows(3);
-  for (int i = 0; i < 3; ++i)
-    rows[static_cast<std::size_t>(i)] = {transform(i, 0), transform(i, 1), transform(i, 2)};
-  fields.rows("rotation", rows,
-              {quantities::kRotationMatrix, quantities::kRotationMatrix, quantities::kRotationMatrix});
-  if (!fields.reading())
-    return;
-  if (rows.size() != 3)
-    fields.reject("rotation", "expected three rows of three numbers, e.g. [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      transform(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  const Eigen::Matrix3d& r = transform.linear();
-  if (!(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
-    fields.reject("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
-}
-
 void visitTube(SceneFields& fields, VesselScene::Tube& tube)
 {
   fields.number("radius", tube.radius, quantities::kVesselRadius, Range::positive(), Need::kRequired);
@@ -168,6 +142,32 @@ void readDirection(SceneFields& fields, EntryScene& entry)
 }
 
 }  // namespace
+
+void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
+{
+  if (fields.has("head") || fields.has("left"))
+  {
+    if (fields.has("rotation"))
+      fields.reject("rotation", "conflicts with head and left; keep one of the two");
+    transform.linear() = rotationFromBody(fields);
+    return;
+  }
+  std::vector<std::vector<double>> rows(3);
+  for (int i = 0; i < 3; ++i)
+    rows[static_cast<std::size_t>(i)] = {transform(i, 0), transform(i, 1), transform(i, 2)};
+  fields.rows("rotation", rows,
+              {quantities::kRotationMatrix, quantities::kRotationMatrix, quantities::kRotationMatrix});
+  if (!fields.reading())
+    return;
+  if (rows.size() != 3)
+    fields.reject("rotation", "expected three rows of three numbers, e.g. [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      transform(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  const Eigen::Matrix3d& r = transform.linear();
+  if (!(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
+    fields.reject("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
+}
 
 void visitVessel(SceneFields& fields, VesselScene& vessel)
 {

@@ -15,7 +15,7 @@ namespace
 
 const Density kTissueAndBone{1050.0, 800.0};
 
-DensityVolume shape(const VolumeGrid& grid, const std::function<double(const Eigen::Vector3d&)>& distance)
+DensityVolume shape(const image::VolumeGrid& grid, const std::function<double(const Eigen::Vector3d&)>& distance)
 {
   DensityVolume volume(grid);
   fillShape(volume, kTissueAndBone, distance);
@@ -105,7 +105,7 @@ TEST(VolumeProjection, ProjectsACylinderWithinOnePercentAwayFromItsRim)
 TEST(VolumeProjection, ProjectsASlabWithinOnePercent)
 {
   const double thickness = 0.0613;  // no multiple of the spacing
-  VolumeGrid grid = cubicGrid(160, 1.0e-3);
+  image::VolumeGrid grid = cubicGrid(160, 1.0e-3);
   const VolumeProjection projection(
       shape(grid, [&](const Eigen::Vector3d& p) { return std::abs(p.y()) - 0.5 * thickness; }));
   for (CArmPose pose : poses(0.08))
@@ -137,7 +137,7 @@ Density fineIntegral(const DensityVolume& volume, const XRayGeometry& geometry, 
 TEST(VolumeProjection, EqualsFineIntegrationOfARandomVolumeInARotatedLattice)
 {
   // White noise is the worst case: a patient is smooth on the scale of a voxel.
-  VolumeGrid grid;
+  image::VolumeGrid grid;
   grid.size = {40, 31, 23};
   grid.spacing = {1.0e-3, 1.3e-3, 1.9e-3};
   grid.axes = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
@@ -170,7 +170,7 @@ TEST(VolumeProjection, EqualsFineIntegrationOfARandomVolumeInARotatedLattice)
 TEST(VolumeProjection, HasNoStepsWhereRaysEnterThroughTheSideOfAFilledVolume)
 {
   // A patient fills the volume to its cut ends. Rays through such an end have a chord that is linear in the row.
-  VolumeGrid grid = cubicGrid(80, 1.25e-3);
+  image::VolumeGrid grid = cubicGrid(80, 1.25e-3);
   const VolumeProjection projection(shape(grid, [](const Eigen::Vector3d&) { return -1.0; }));
   CArmPose pose;
   pose.secondary_angle = 0.5;

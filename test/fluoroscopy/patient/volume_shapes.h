@@ -9,9 +9,9 @@ namespace endovascular_sim::fluoroscopy
 {
 
 /** Cubic lattice centred at a point. */
-inline VolumeGrid cubicGrid(int side, double spacing, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero())
+inline image::VolumeGrid cubicGrid(int side, double spacing, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero())
 {
-  VolumeGrid grid;
+  image::VolumeGrid grid;
   grid.size.setConstant(side);
   grid.spacing.setConstant(spacing);
   grid.origin = centre - 0.5 * (side - 1) * grid.spacing;
@@ -23,7 +23,7 @@ inline VolumeGrid cubicGrid(int side, double spacing, const Eigen::Vector3d& cen
 inline void fillShape(DensityVolume& volume, const Density& density,
                       const std::function<double(const Eigen::Vector3d&)>& distance)
 {
-  const VolumeGrid grid = volume.grid();
+  const image::VolumeGrid grid = volume.grid();
   for (int z = 0; z < grid.size.z(); ++z)
     for (int y = 0; y < grid.size.y(); ++y)
       for (int x = 0; x < grid.size.x(); ++x)

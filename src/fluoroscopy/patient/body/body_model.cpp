@@ -28,9 +28,9 @@ void check(const BodySettings& settings)
     throw InputError("patient.body", "spacing", "must lie between 0.0005 and 0.01 [m]");
 }
 
-VolumeGrid gridFor(const body::BodyFrame& frame, double spacing)
+image::VolumeGrid gridFor(const body::BodyFrame& frame, double spacing)
 {
-  VolumeGrid grid;
+  image::VolumeGrid grid;
   grid.spacing.setConstant(spacing);
   grid.origin = frame.toPatient(kLow);
   const Eigen::Vector3d size = (frame.toPatient(kHigh) - grid.origin) / spacing;
@@ -57,7 +57,7 @@ body::BodyPlan planFor(const body::SpineCurve& spine, std::uint64_t seed)
 /** Fills the lumen with blood, surrounds it with one voxel of wall, and removes bone within two voxels. */
 void placeVessel(DensityVolume& volume, const geometry::TriangleMesh& mesh)
 {
-  const VolumeGrid& grid = volume.grid();
+  const image::VolumeGrid& grid = volume.grid();
   const VoxelMask lumen = lumenMask(grid, mesh);
   const VoxelMask wall = dilated(grid, lumen, 1), surroundings = dilated(grid, lumen, 2);
   const std::uint16_t blood = DensityVolume::encode({kBloodDensity, 0.0});
@@ -85,7 +85,7 @@ std::uint64_t keyOf(const vessel::Vessel& vessel, const body::BodyFrame& frame, 
 
 }  // namespace
 
-BodyModel makeBody(const vessel::Vessel& vessel, const BodySettings& settings)
+PatientVolume makeBody(const vessel::Vessel& vessel, const BodySettings& settings)
 {
   check(settings);
   const body::BodyPlacement placement = body::placeBody(vessel);
@@ -96,18 +96,18 @@ BodyModel makeBody(const vessel::Vessel& vessel, const BodySettings& settings)
   auto volume = std::make_shared<DensityVolume>(gridFor(placement.frame, settings.spacing), "patient.body");
   voxelise(planFor(spine, settings.seed), placement.frame, settings.seed, *volume);
   placeVessel(*volume, vessel.mesh);
-  BodyModel model{std::move(volume), {placement.note}};
+  PatientVolume body{std::move(volume), {placement.note}};
   if (spine.displacement() > 0.0F)
   {
     char note[120];
     std::snprintf(note, sizeof note, "spine moved back by up to %.0f mm for the vessel",
                   static_cast<double>(spine.displacement()) * placement.frame.scale);
-    model.notes.emplace_back(note);
+    body.notes.emplace_back(note);
   }
-  return model;
+  return body;
 }
 
-BodyModel loadBody(const vessel::Vessel& vessel, const BodySettings& settings, const std::string& cache_folder)
+PatientVolume loadBody(const vessel::Vessel& vessel, const BodySettings& settings, const std::string& cache_folder)
 {
   check(settings);
   if (cache_folder.empty())
@@ -118,19 +118,18 @@ BodyModel loadBody(const vessel::Vessel& vessel, const BodySettings& settings, c
   std::optional<DensityVolume> cached = readCachedVolume(entry, key);
   if (cached)
     return {std::make_shared<const DensityVolume>(std::move(*cached)), {placement.note, "body loaded from " + entry}};
-  BodyModel model = makeBody(vessel, settings);
+  PatientVolume body = makeBody(vessel, settings);
   try
   {
     std::error_code ignored;
     std::filesystem::create_directories(cache_folder, ignored);
-    writeVolume(entry, *model.volume, key);
+    writeVolume(entry, *body.volume, key);
   }
   catch (const InputError& error)
   {
-    model.notes.push_back(std::string("the body is not cached and will be made again by the next run: ") +
-                          error.what());
+    body.notes.push_back(std::string("the body is not cached and will be made again by the next run: ") + error.what());
   }
-  return model;
+  return body;
 }
 
 }  // namespace endovascular_sim::fluoroscopy

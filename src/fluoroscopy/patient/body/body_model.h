@@ -1,18 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "fluoroscopy/patient/volume/density_volume.h"
+#include "fluoroscopy/patient/volume/patient_volume.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 
 /** Version of the body; part of the cache key. Incremented by every change of its voxels. */
-constexpr int kBodyVersion = 1;
+constexpr int kBodyVersion = 2;
 
 /** Settings of a procedural body. */
 struct BodySettings
@@ -21,20 +19,14 @@ struct BodySettings
   std::uint64_t seed = 1;    ///< of texture, vessels of the lungs and gas of the bowel
 };
 
-/** Procedural thorax, abdomen and pelvis around a vessel. */
-struct BodyModel
-{
-  std::shared_ptr<const DensityVolume> volume;
-  std::vector<std::string> notes;  ///< placement, displaced spine, cache: for the log
-};
-
-/** Makes the body. The lumen is blood; no voxel within two voxels of it contains bone. Equal inputs give equal bytes.
+/** Makes a procedural thorax, abdomen and pelvis around a vessel. The lumen is blood; no voxel within two voxels of it
+ * contains bone. Equal inputs give equal bytes.
  *  @throws InputError for a spacing outside of 0.5 to 10 mm */
-BodyModel makeBody(const vessel::Vessel& vessel, const BodySettings& settings = {});
+PatientVolume makeBody(const vessel::Vessel& vessel, const BodySettings& settings = {});
 
 /** Body from the cache, or made and cached.
  *  @param cache_folder as of vessel::loadAnatomy(); empty disables the cache. Damaged entries are rebuilt. A read-only
  * folder is no error. */
-BodyModel loadBody(const vessel::Vessel& vessel, const BodySettings& settings, const std::string& cache_folder);
+PatientVolume loadBody(const vessel::Vessel& vessel, const BodySettings& settings, const std::string& cache_folder);
 
 }  // namespace endovascular_sim::fluoroscopy

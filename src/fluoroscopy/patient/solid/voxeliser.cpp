@@ -10,8 +10,9 @@ namespace endovascular_sim::fluoroscopy::body
 namespace
 {
 
-constexpr int kSlab = 8;      // layers per slab
-constexpr float kFar = 1e6F;  // distance outside of all boxes [mm]
+constexpr int kSlab = 8;        // layers per slab
+constexpr float kEdge = 1.75F;  // width of an edge in voxels; narrower edges alias into stripes where rays graze them
+constexpr float kFar = 1e6F;    // distance outside of all boxes [mm]
 
 /** Voxels [begin, end) along each axis. */
 struct Range
@@ -57,7 +58,7 @@ public:
   /** Stores the slab; bone displaces soft tissue. */
   void store(DensityVolume& volume, int first)
   {
-    const std::size_t begin = volume.grid().index(0, 0, first);
+    const std::size_t begin = volume.grid().offset(0, 0, first);
     forEach(
         {Eigen::Vector3i::Zero(), size_},
         [&](std::size_t at, const Point& p)
@@ -103,7 +104,7 @@ private:
 
   void apply(const Material& material, std::size_t at, const Point& p)
   {
-    const float width = step_.x() + material.edge;
+    const float width = kEdge * step_.x() + material.edge;
     const float share = std::clamp(0.5F - distance_[at] / width, 0.0F, 1.0F);
     if (share == 0.0F)
       return;

@@ -13,7 +13,7 @@ namespace
 constexpr double kMinSpacing = 5e-5;  // [m]
 constexpr double kMaxSpacing = 5e-2;  // [m]
 
-void check(const VolumeGrid& grid, const std::string& source)
+void check(const image::VolumeGrid& grid, const std::string& source)
 {
   std::uint64_t voxels = 1;
   for (int axis = 0; axis < 3; ++axis)
@@ -41,19 +41,7 @@ int level(double density, double step)
 
 }  // namespace
 
-std::size_t VolumeGrid::voxels() const
-{
-  return static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) * static_cast<std::size_t>(size.z());
-}
-
-std::size_t VolumeGrid::index(int x, int y, int z) const
-{
-  return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y()) + static_cast<std::size_t>(y)) *
-             static_cast<std::size_t>(size.x()) +
-         static_cast<std::size_t>(x);
-}
-
-DensityVolume::DensityVolume(const VolumeGrid& grid, const std::string& source) : grid_(grid)
+DensityVolume::DensityVolume(const image::VolumeGrid& grid, const std::string& source) : grid_(grid)
 {
   check(grid, source);
   voxels_.assign(grid.voxels(), 0);
@@ -71,17 +59,17 @@ Density DensityVolume::decode(std::uint16_t voxel)
 
 Density DensityVolume::at(int x, int y, int z) const
 {
-  return decode(voxels_[grid_.index(x, y, z)]);
+  return decode(voxels_[grid_.offset(x, y, z)]);
 }
 
 void DensityVolume::set(int x, int y, int z, const Density& density)
 {
-  voxels_[grid_.index(x, y, z)] = encode(density);
+  voxels_[grid_.offset(x, y, z)] = encode(density);
 }
 
 Density DensityVolume::interpolate(const Eigen::Vector3d& point) const
 {
-  const Eigen::Vector3d c = grid_.coordinates(point);
+  const Eigen::Vector3d c = grid_.index(point);
   Eigen::Vector3i cell;
   Eigen::Vector3d fraction;
   for (int axis = 0; axis < 3; ++axis)

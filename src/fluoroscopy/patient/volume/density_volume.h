@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+
+#include "image/volume_grid.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -16,30 +17,6 @@ struct Density
 {
   double tissue = 0.0;
   double bone = 0.0;
-};
-
-/** Lattice of voxel centres in the patient frame (x left, y posterior, z superior). */
-struct VolumeGrid
-{
-  Eigen::Vector3i size = Eigen::Vector3i::Zero();      ///< voxels along each axis of the lattice
-  Eigen::Vector3d spacing = Eigen::Vector3d::Zero();   ///< distance of adjacent centres along each axis [m]
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< centre of the first voxel [m]
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< unit axes of the lattice as columns; right- or left-handed
-
-  /** Number of voxels. */
-  std::size_t voxels() const;
-
-  /** Index of a voxel in storage order, x fastest. */
-  std::size_t index(int x, int y, int z) const;
-
-  /** Position of a point of the lattice, given in voxels [m]. */
-  Eigen::Vector3d position(const Eigen::Vector3d& voxel) const { return origin + axes * spacing.cwiseProduct(voxel); }
-
-  /** Coordinates of a point [m] in voxels; inverse of position(). */
-  Eigen::Vector3d coordinates(const Eigen::Vector3d& point) const
-  {
-    return (axes.transpose() * (point - origin)).cwiseQuotient(spacing);
-  }
 };
 
 /** Densities of soft tissue and bone on a lattice, with trilinear interpolation between voxel centres and air beyond
@@ -59,9 +36,9 @@ public:
    *  @throws InputError for a grid with fewer than 2 or too many voxels, a spacing outside of 0.05 to 50 mm, or axes
    * that are not orthonormal
    *  @param source name of the volume in errors */
-  explicit DensityVolume(const VolumeGrid& grid, const std::string& source = "density volume");
+  explicit DensityVolume(const image::VolumeGrid& grid, const std::string& source = "density volume");
 
-  const VolumeGrid& grid() const { return grid_; }
+  const image::VolumeGrid& grid() const { return grid_; }
 
   /** Memory of the voxels [bytes]. */
   std::size_t memory() const { return 2 * voxels_.size(); }
@@ -82,7 +59,7 @@ public:
   static Density decode(std::uint16_t voxel);
 
 private:
-  VolumeGrid grid_;
+  image::VolumeGrid grid_;
   std::vector<std::uint16_t> voxels_;
 };
 

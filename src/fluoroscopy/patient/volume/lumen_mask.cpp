@@ -28,9 +28,9 @@ struct Crossing
   int sign = 0;          // +1: the line enters the mesh
 };
 
-Corner cornerOf(const VolumeGrid& grid, const Eigen::Vector3d& vertex)
+Corner cornerOf(const image::VolumeGrid& grid, const Eigen::Vector3d& vertex)
 {
-  const Eigen::Vector3d c = grid.coordinates(vertex);
+  const Eigen::Vector3d c = grid.index(vertex);
   const auto fixed = [](double value)
   { return std::llround(std::clamp(value * kSubvoxels, -kMaxCoordinate, kMaxCoordinate)); };
   return {fixed(c.y()), fixed(c.z()), c.x()};
@@ -58,7 +58,7 @@ int lastLine(std::int64_t value, int lines)
   return value < 0 ? -1 : static_cast<int>(std::min<std::int64_t>(value >> kSubvoxelBits, lines - 1));
 }
 
-void addTriangle(Corner a, Corner b, Corner c, const VolumeGrid& grid, std::vector<Crossing>& crossings)
+void addTriangle(Corner a, Corner b, Corner c, const image::VolumeGrid& grid, std::vector<Crossing>& crossings)
 {
   const std::int64_t area = edgeFunction(a, b, c.y, c.z);
   if (area == 0)
@@ -125,7 +125,7 @@ void dilateAlong(VoxelMask& mask, std::size_t stride, int size, const std::vecto
 
 }  // namespace
 
-VoxelMask lumenMask(const VolumeGrid& grid, const geometry::TriangleMesh& mesh)
+VoxelMask lumenMask(const image::VolumeGrid& grid, const geometry::TriangleMesh& mesh)
 {
   std::vector<Corner> corners;
   corners.reserve(mesh.vertices.size());
@@ -154,7 +154,7 @@ VoxelMask lumenMask(const VolumeGrid& grid, const geometry::TriangleMesh& mesh)
   return mask;
 }
 
-VoxelMask dilated(const VolumeGrid& grid, const VoxelMask& mask, int voxels)
+VoxelMask dilated(const image::VolumeGrid& grid, const VoxelMask& mask, int voxels)
 {
   VoxelMask wide = mask;
   const std::array<std::size_t, 3> stride{

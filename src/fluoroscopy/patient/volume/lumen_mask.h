@@ -18,10 +18,10 @@ using VoxelMask = std::vector<std::uint8_t>;
  * number is positive. Crossings are decided in integers with a fill rule, as in vesselPathLength(), so that a line
  * through an edge or a vertex crosses exactly one of the adjacent faces. The cost is linear in the triangles and in the
  * marked voxels. */
-VoxelMask lumenMask(const VolumeGrid& grid, const geometry::TriangleMesh& mesh);
+VoxelMask lumenMask(const image::VolumeGrid& grid, const geometry::TriangleMesh& mesh);
 
 /** Mask widened by @p voxels in each direction of the lattice (a cube). */
-VoxelMask dilated(const VolumeGrid& grid, const VoxelMask& mask, int voxels);
+VoxelMask dilated(const image::VolumeGrid& grid, const VoxelMask& mask, int voxels);
 
 /** Replaces contrast medium by blood: every voxel of the mask widened by @p rim voxels becomes blood (1060 kg/m³, no
  * bone), and in the rim only those denser than blood. The rim takes the voxels that the wall divides. Calcifications

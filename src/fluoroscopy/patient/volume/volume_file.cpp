@@ -36,9 +36,9 @@ struct Header
 
 static_assert(sizeof(Header) == 192);
 
-VolumeGrid gridOf(const Header& header)
+image::VolumeGrid gridOf(const Header& header)
 {
-  VolumeGrid grid;
+  image::VolumeGrid grid;
   for (int i = 0; i < 3; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
@@ -65,7 +65,7 @@ Header headerOf(const DensityVolume& volume, std::uint64_t key)
 {
   Header header;
   header.key = key;
-  const VolumeGrid& grid = volume.grid();
+  const image::VolumeGrid& grid = volume.grid();
   for (int i = 0; i < 3; ++i)
   {
     const auto at = static_cast<std::size_t>(i);

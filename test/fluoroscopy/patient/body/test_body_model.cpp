@@ -40,9 +40,9 @@ const vessel::Vessel& anatomy()
   return vessel;
 }
 
-const BodyModel& anatomyBody()
+const PatientVolume& anatomyBody()
 {
-  static const BodyModel model = makeBody(anatomy(), {2.5e-3, 1});
+  static const PatientVolume model = makeBody(anatomy(), {2.5e-3, 1});
   return model;
 }
 
@@ -96,7 +96,7 @@ TEST(BodyModel, IsFittedToTheExtentOfAVesselWithoutLandmarksAndSaysSo)
 {
   vessel::Vessel tube;
   tube.mesh = cylinder({0.3, 0.2, 0.1}, {0.31, 0.2, 0.25}, 0.01, 24);
-  const BodyModel model = makeBody(tube, {5e-3, 1});
+  const PatientVolume model = makeBody(tube, {5e-3, 1});
   EXPECT_NE(model.notes.at(0).find("no branches named"), std::string::npos);
   EXPECT_EQ(boneAtWall(*model.volume, tube.mesh), 0.0);
   EXPECT_NEAR(model.volume->interpolate({0.305, 0.2, 0.175}).tissue, 1060.0, 1e-9);
@@ -116,7 +116,7 @@ TEST(BodyModel, NoLumenOfARealMeshLiesInsideBone)
   if (real.mesh.signedVolume() < 0.0)
     for (Eigen::Vector3i& t : real.mesh.triangles)
       std::swap(t[1], t[2]);
-  const BodyModel model = makeBody(real, {2.5e-3, 1});
+  const PatientVolume model = makeBody(real, {2.5e-3, 1});
   EXPECT_EQ(boneAtWall(*model.volume, real.mesh), 0.0);
   EXPECT_NE(model.notes.at(0).find("groins to neck"), std::string::npos);
 }
@@ -124,7 +124,7 @@ TEST(BodyModel, NoLumenOfARealMeshLiesInsideBone)
 TEST(BodyModel, EqualInputsGiveEqualBytesAndTheSeedChangesThem)
 {
   vessel::Vessel none;
-  const BodyModel a = makeBody(none, {5e-3, 3}), b = makeBody(none, {5e-3, 3}), c = makeBody(none, {5e-3, 4});
+  const PatientVolume a = makeBody(none, {5e-3, 3}), b = makeBody(none, {5e-3, 3}), c = makeBody(none, {5e-3, 4});
   EXPECT_EQ(a.volume->voxels(), b.volume->voxels());
   EXPECT_NE(a.volume->voxels(), c.volume->voxels());
 }
@@ -133,8 +133,8 @@ TEST(BodyModel, IsTakenFromTheCacheWhichADamagedEntryDoesNotStop)
 {
   const std::string folder = (std::filesystem::temp_directory_path() / ("body_" + std::to_string(getpid()))).string();
   vessel::Vessel none;
-  const BodyModel made = loadBody(none, {8e-3, 1}, folder);
-  const BodyModel cached = loadBody(none, {8e-3, 1}, folder);
+  const PatientVolume made = loadBody(none, {8e-3, 1}, folder);
+  const PatientVolume cached = loadBody(none, {8e-3, 1}, folder);
   EXPECT_EQ(made.volume->voxels(), cached.volume->voxels());
   EXPECT_NE(cached.notes.back().find("loaded from"), std::string::npos);
   for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -14,7 +14,7 @@ namespace
 
 TEST(DensityVolume, InterpolatesALinearFieldExactlyInARotatedLattice)
 {
-  VolumeGrid grid;
+  image::VolumeGrid grid;
   grid.size = {11, 9, 7};
   grid.spacing = {1e-3, 2e-3, 3e-3};
   grid.origin = {0.1, -0.2, 0.3};
@@ -28,7 +28,7 @@ TEST(DensityVolume, InterpolatesALinearFieldExactlyInARotatedLattice)
   const Density density = volume.interpolate(grid.position(c));
   EXPECT_NEAR(density.tissue, 5.0 * (3 * c.x() + 2 * c.y() + c.z()), 1e-9);
   EXPECT_NEAR(density.bone, 8.0 * (10 + c.x() - c.y() + c.z()), 1e-9);
-  EXPECT_LT((grid.coordinates(grid.position(c)) - c).norm(), 1e-9);
+  EXPECT_LT((grid.index(grid.position(c)) - c).norm(), 1e-9);
   EXPECT_EQ(volume.interpolate(grid.position({-0.1, 1.0, 1.0})).tissue, 0.0);
   EXPECT_EQ(volume.memory(), 2U * 11 * 9 * 7);
 }
@@ -44,7 +44,7 @@ TEST(DensityVolume, StoresTheNearestStepAndLimitsDensitiesToItsRange)
 
 TEST(DensityVolume, RefusesGridsThatAreNoLattice)
 {
-  VolumeGrid grid = cubicGrid(4, 1e-3);
+  image::VolumeGrid grid = cubicGrid(4, 1e-3);
   grid.size.x() = 1;
   EXPECT_THROW(DensityVolume{grid}, InputError);
   grid = cubicGrid(2048, 1e-3);

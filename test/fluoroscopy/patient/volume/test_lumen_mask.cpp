@@ -13,7 +13,7 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-void expectWindingNumbers(const VolumeGrid& grid, const geometry::TriangleMesh& mesh)
+void expectWindingNumbers(const image::VolumeGrid& grid, const geometry::TriangleMesh& mesh)
 {
   const VoxelMask mask = lumenMask(grid, mesh);
   int inside = 0;
@@ -22,7 +22,7 @@ void expectWindingNumbers(const VolumeGrid& grid, const geometry::TriangleMesh& 
       for (int x = 0; x < grid.size.x(); ++x)
       {
         const bool expected = geometry::windingNumber(mesh, grid.position(Eigen::Vector3d(x, y, z))) > 0.5;
-        ASSERT_EQ(mask[grid.index(x, y, z)] != 0, expected) << x << " " << y << " " << z;
+        ASSERT_EQ(mask[grid.offset(x, y, z)] != 0, expected) << x << " " << y << " " << z;
         inside += expected ? 1 : 0;
       }
   EXPECT_GT(inside, 100);
@@ -35,7 +35,7 @@ TEST(LumenMask, EqualsTheWindingNumberAtEveryVoxel)
 
 TEST(LumenMask, EqualsTheWindingNumberInARotatedAndMirroredLattice)
 {
-  VolumeGrid grid = cubicGrid(24, 2e-3);
+  image::VolumeGrid grid = cubicGrid(24, 2e-3);
   grid.axes = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 1.0, 0.3).normalized()).toRotationMatrix();
   grid.origin = grid.axes * grid.origin;
   expectWindingNumbers(grid, cylinder({-0.013, 0.001, -0.011}, {0.012, 0.003, 0.014}, 0.006, 23));
@@ -48,7 +48,7 @@ TEST(LumenMask, LinesThroughEdgesAndVerticesAreCountedOnce)
 {
   // An octahedron whose vertices and edges lie on lines of voxels.
   const geometry::TriangleMesh mesh = sphere(Eigen::Vector3d::Zero(), 8.0, 2, 4);
-  VolumeGrid grid = cubicGrid(25, 1.0);
+  image::VolumeGrid grid = cubicGrid(25, 1.0);
   grid.spacing.setConstant(1.0);
   const VoxelMask mask = lumenMask(grid, mesh);
   for (int z = 0; z < 25; ++z)
@@ -58,19 +58,19 @@ TEST(LumenMask, LinesThroughEdgesAndVerticesAreCountedOnce)
         const int norm = std::abs(x - 12) + std::abs(y - 12) + std::abs(z - 12);
         if (norm != 8)
         {
-          EXPECT_EQ(mask[grid.index(x, y, z)] != 0, norm < 8) << x << " " << y << " " << z;
+          EXPECT_EQ(mask[grid.offset(x, y, z)] != 0, norm < 8) << x << " " << y << " " << z;
         }
       }
 }
 
 TEST(LumenMask, IsWidenedByWholeVoxels)
 {
-  const VolumeGrid grid = cubicGrid(9, 1e-3);
+  const image::VolumeGrid grid = cubicGrid(9, 1e-3);
   VoxelMask mask(grid.voxels(), 0);
-  mask[grid.index(4, 4, 4)] = mask[grid.index(0, 8, 4)] = 1;
+  mask[grid.offset(4, 4, 4)] = mask[grid.offset(0, 8, 4)] = 1;
   const VoxelMask wide = dilated(grid, mask, 1);
   EXPECT_EQ(std::accumulate(wide.begin(), wide.end(), 0), 27 + 12);
-  EXPECT_EQ(wide[grid.index(3, 5, 4)], 1);
+  EXPECT_EQ(wide[grid.offset(3, 5, 4)], 1);
   EXPECT_EQ(dilated(grid, mask, 0), mask);
 }
 

@@ -19,7 +19,7 @@ class VolumeFile : public testing::Test
 protected:
   VolumeFile()
   {
-    VolumeGrid grid = cubicGrid(6, 1e-3, {0.1, 0.2, 0.3});
+    image::VolumeGrid grid = cubicGrid(6, 1e-3, {0.1, 0.2, 0.3});
     grid.size = {6, 5, 4};
     volume_ = std::make_unique<DensityVolume>(grid);
     for (std::size_t i = 0; i < volume_->voxels().size(); ++i)

@@ -1,0 +1,36 @@
+#include "simulation/x_ray_patient.h"
+
+#include <utility>
+
+#include "fluoroscopy/patient/body/body_model.h"
+#include "fluoroscopy/patient/volume/ct_volume.h"
+#include "image/volume_file.h"
+#include "vessel/anatomy/anatomy_mesh.h"
+
+namespace endovascular_sim::simulation
+{
+namespace
+{
+
+fluoroscopy::PatientVolume volumeOf(const scene::PatientScene& patient, const scene::Scene& scene,
+                                    const vessel::Vessel& vessel)
+{
+  if (patient.body)
+    return fluoroscopy::loadBody(vessel, {}, vessel::anatomyCacheFolder());
+  const Eigen::Isometry3d of_mesh = scene.vessel ? scene.vessel->transform : Eigen::Isometry3d::Identity();
+  return fluoroscopy::ctVolume(image::readVolume(patient.ct), patient.patient_from_ct.value_or(of_mesh), vessel.mesh,
+                               patient.ct);
+}
+
+}  // namespace
+
+XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
+                        const fluoroscopy::ProgressiveResolution& resolution)
+{
+  if (!scene.fluoroscopy || !scene.fluoroscopy->patient)
+    return {};
+  fluoroscopy::PatientVolume volume = volumeOf(*scene.fluoroscopy->patient, scene, vessel);
+  return {std::make_unique<fluoroscopy::ProgressiveProjection>(*volume.volume, resolution), std::move(volume.notes)};
+}
+
+}  // namespace endovascular_sim::simulation

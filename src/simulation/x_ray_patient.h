@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fluoroscopy/patient/progressive_projection.h"
+#include "scene/model/scene.h"
+#include "vessel/model/vessel.h"
+
+namespace endovascular_sim::simulation
+{
+
+/** Resolution of single images: complete in the first frame. */
+constexpr fluoroscopy::ProgressiveResolution kStillResolution{512, 512, 1 << 20};
+
+/** Patient of a scene, and notes for the log. */
+struct XRayPatient
+{
+  std::unique_ptr<fluoroscopy::Patient> patient;  ///< null: the scene has no patient
+  std::vector<std::string> notes;
+};
+
+/** Loads the patient of a scene: its procedural body, made once and cached, or its CT.
+ *  @param vessel vessel at rest, in the patient frame
+ *  @throws InputError if the CT is missing or damaged, or lies beside the vessel */
+XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
+                        const fluoroscopy::ProgressiveResolution& resolution = {});
+
+}  // namespace endovascular_sim::simulation
