@@ -11,6 +11,7 @@
 #include "benchmark/studies/speed.h"
 #include "benchmark/studies/stability.h"
 #include "benchmark/studies/work_precision.h"
+#include "benchmark/x_ray/x_ray_study.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -32,6 +33,8 @@ const std::vector<Study>& studies()
       {"facets", "Facets around the lumen", "torque of a J tip over the facets, facetted and smooth wall",
        facetsTables(), facetsStudy},
       {"sleeve", "Rod through a sleeve", "force at the hand against the exact elastica", sleeveTables(), sleeveStudy},
+      {"x_ray", "X-ray frames", "processor time over pixels and triangles, at rest and after a movement", xRayTables(),
+       xRayStudy},
       {"sampling", "Adaptive sampling", "adaptive against uniform sampling", samplingTables(), samplingSections},
       {"stability", "Stability", "hard cases: good, rejected or bad", stabilityTables(), stabilityStudy}};
   return list;
