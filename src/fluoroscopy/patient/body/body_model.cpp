@@ -19,7 +19,7 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-const Eigen::Vector3f kLow(-196.0F, -126.0F, -262.0F);  // corners of the volume in the body's frame [mm]
+const Eigen::Vector3f kLow(-196.0F, -126.0F, -345.0F);  // corners of the volume in the body's frame [mm]
 const Eigen::Vector3f kHigh(196.0F, 140.0F, 450.0F);
 
 void check(const BodySettings& settings)

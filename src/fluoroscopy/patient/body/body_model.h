@@ -10,7 +10,7 @@ namespace endovascular_sim::fluoroscopy
 {
 
 /** Version of the body; part of the cache key. Incremented by every change of its voxels. */
-constexpr int kBodyVersion = 2;
+constexpr int kBodyVersion = 3;
 
 /** Settings of a procedural body. */
 struct BodySettings

@@ -17,7 +17,7 @@ void addFemurs(BodyPlan& plan)
     upper.solids.push_back(capsule(at(138, 10, -206), at(136, 10, -226), 16.0F, 17.0F));
     upper.solids.push_back(ellipsoid(at(119, 24, -234), Point(9, 9, 11)));
     plan.push_back(upper);
-    plan.push_back({bone(1650.0F, 5.0F, 30.0F), {capsule(at(136, 10, -226), at(129, 8, -310), 17.0F, 14.0F)}, {}});
+    plan.push_back({bone(1650.0F, 5.0F, 30.0F), {capsule(at(136, 10, -226), at(122, 6, -400), 17.0F, 14.0F)}, {}});
   }
 }
 

@@ -13,7 +13,7 @@ namespace
 class TorsoOutline : public Solid
 {
 public:
-  explicit TorsoOutline(float inset) : Solid(Box(Point(-195, -130, -300), Point(195, 140, 470))), inset_(inset) {}
+  explicit TorsoOutline(float inset) : Solid(Box(Point(-195, -130, -390), Point(195, 140, 470))), inset_(inset) {}
 
   float distance(const Point& p) const override
   {
