@@ -15,7 +15,7 @@ namespace
 constexpr float kBlack = -1.35F;       // d of grey value 0
 constexpr float kWhite = 0.85F;        // d of grey value 255
 constexpr double kCompression = 0.32;  // slope of the local mean
-constexpr double kSaturation = 0.75;   // largest contribution of the local mean
+constexpr double kSaturation = 0.55;   // largest contribution of the local mean
 constexpr double kLocal = 0.02;        // standard deviation of the local mean [m]
 constexpr float kSmallestCount = 0.5F;
 constexpr double kLargestCount = 65535.0;  // saturation of the detector

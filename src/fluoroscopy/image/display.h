@@ -21,7 +21,7 @@ struct DisplaySettings
  *
  *  With l = ln(count / count at the wanted dose) and its local mean b over 20 mm,
  *
- *      d = (l − b) + s·tanh(c b / s),  c = 0.32, s = 0.75,   grey = 255·(d + 1.35)/(0.85 + 1.35).
+ *      d = (l − b) + s·tanh(c b / s),  c = 0.32, s = 0.55,   grey = 255·(d + 1.35)/(0.85 + 1.35).
  *
  *  Detail keeps its contrast in dark and bright surroundings. The window does not depend on the frame. The recursive
  * filter acts on d, so that it affects the display only. */
