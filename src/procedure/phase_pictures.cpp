@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "common/error.h"
+#include "fluoroscopy/gantry/view.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "scene/yaml/file_search.h"
 
@@ -26,16 +27,24 @@ void PhasePictures::update(const simulation::Simulation& simulation, const Opera
 {
   if (finished_ || scripted_operator.records().empty())
     return;
-  const std::string& phase = scripted_operator.records().back().phase;
+  const StepRecord& step = scripted_operator.records().back();
   finished_ = scripted_operator.progress() != Progress::kRunning;
-  if (finished_ || (!phase_.empty() && phase != phase_))
+  if (finished_)
+    view_ = step.view;
+  if (finished_ || (!phase_.empty() && step.phase != phase_))
     writeImage(simulation, wall);
-  phase_ = phase;
+  phase_ = step.phase;
+  view_ = step.view;
 }
 
 void PhasePictures::writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
 {
   fluoroscopy::CArmPose pose = fluoroscopy_.fluoroscope().geometry().pose();
+  if (const std::optional<fluoroscopy::View> view = fluoroscopy::parseView(view_))
+  {
+    pose.primary_angle = view->primary_angle;
+    pose.secondary_angle = view->secondary_angle;
+  }
   pose.isocentre = simulation.state().position.back();
   fluoroscopy_.fluoroscope().setPose(pose);
   fluoroscopy_.fluoroscope().setVessel(wall);

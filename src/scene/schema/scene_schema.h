@@ -46,7 +46,15 @@ void visitEnds(SceneFields& fields, Scene& scene);
 void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
 void visitSolver(SceneFields& fields, SolverScene& solver);
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+/** Keys of the initial angles: `view`, or `primary_angle` and `secondary_angle`. */
+void visitAngulation(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+/** Keys `field` and `gantry`. Rejects an initial pose beyond the limits. */
+void visitGantry(SceneFields& fields, FluoroscopyScene& fluoroscopy);
 void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
+
+/** Rejects a view beyond the limits of the scene's gantry.
+ *  @param key path of the view */
+void checkView(const SceneFields& fields, const std::string& key, const std::string& view, const Scene& scene);
 
 /** Rejects a procedure that is inconsistent with the scene. */
 void checkProcedure(const SceneFields& fields, const Scene& scene);
