@@ -116,6 +116,9 @@ constexpr Quantity kDetectorWidth{"widths of a detector", "m", D::kLength, 0.05,
 constexpr Quantity kTissue{"tissue thicknesses", "m", D::kLength, 5e-3, 0.8, 0.0, 5.0};
 constexpr Quantity kImagingAngle{"angles of a C-arm", "rad", D::kAngle, 0.0, 1.001 * M_PI, 0.0, 3.2};
 constexpr Quantity kImagingDegrees{"angles of a C-arm", "degrees", D::kOther, 0.0, 180.0, 0.0, 180.0};
+constexpr Quantity kGantryAngularSpeed{"angular speeds of a C-arm", "rad/s", D::kAngularSpeed, 0.01, 3.0, 1e-4, 20.0};
+constexpr Quantity kClearance{"clearances of a detector", "m", D::kLength, 0.01, 0.6, 0.0, 5.0};
+constexpr Quantity kStroke{"strokes of a table", "m", D::kLength, 0.01, 3.0, 0.0, 20.0};
 constexpr Quantity kPhotonEnergy{"photon energies", "keV", D::kEnergy, 30.0, 100.0, 1.0, 1000.0};
 constexpr Quantity kRatio{"image settings", "1", D::kOther, 0.0, 8.0, 0.0, 100.0};
 constexpr Quantity kTubeVoltage{"tube voltages", "kV", D::kOther, 50.0, 125.0, 1.0, 1000.0};

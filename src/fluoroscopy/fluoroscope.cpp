@@ -57,7 +57,8 @@ Fluoroscope::Fluoroscope(const CArmPose& pose, const XRayScene& scene, const Mat
     table_(Beam(scene.beam), library),
     response_(Beam(scene.beam), library),
     exposure_(Beam(scene.beam), scene.exposure),
-    detector_(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water()),
+    collimator_(pose.pixels, pose.detector_width, pose.field_width, pose.field_height),
+    detector_(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water(), collimator_.side()),
     display_(scene.display),
     patient_(std::make_unique<SlabPatient>(scene.tissue_thickness, library.density("soft_tissue"))),
     background_mean_(pose.pixels)
@@ -77,9 +78,12 @@ void Fluoroscope::setPose(const CArmPose& pose)
   background_valid_ = false;
   display_.reset();
   if (pose.pixels != before.pixels || pose.detector_width != before.detector_width ||
-      pose.source_to_detector != before.source_to_detector)
+      pose.source_to_detector != before.source_to_detector || pose.field_width != before.field_width ||
+      pose.field_height != before.field_height)
   {
-    detector_ = DetectorImage(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water());
+    collimator_ = Collimator(pose.pixels, pose.detector_width, pose.field_width, pose.field_height);
+    detector_ =
+        DetectorImage(pose.pixels, pose.detector_width, pose.source_to_detector, exposure_.water(), collimator_.side());
     background_mean_ = CoarseImage(pose.pixels);
   }
 }
@@ -109,7 +113,7 @@ LocalFluids Fluoroscope::tissueFluids() const
   return {tissue_, tissue_};
 }
 
-/** Logarithm of the mean signal in the central circle. */
+/** Logarithm of the mean signal in the central circle, as far as it lies in the field of the collimator. */
 double Fluoroscope::measuredSignal() const
 {
   const int n = geometry_.pixels();
@@ -118,7 +122,7 @@ double Fluoroscope::measuredSignal() const
   std::size_t count = 0;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column)
-      if (std::hypot(row - centre, column - centre) <= radius)
+      if (std::hypot(row - centre, column - centre) <= radius && collimator_.share(row, column) > 0.99F)
       {
         sum += static_cast<double>(background_[static_cast<std::size_t>(row) * static_cast<std::size_t>(n) +
                                                static_cast<std::size_t>(column)]);
@@ -154,6 +158,7 @@ void Fluoroscope::updateBackground()
     steel_slope_[k] = response.steel_slope;
   }
   exponentials(background_.data(), background_.size());
+  collimator_.apply(background_);
   background_mean_.average(background_);
   measured_ = measuredSignal();
   background_valid_ = true;
@@ -187,7 +192,7 @@ const Frame& Fluoroscope::render(const std::vector<XRayWire>& wires, bool displa
   detector_.form({frame_.tube_charge, scene_.seed, frames_}, signal_, mean, weight_, frame_.raw);
   if (display)
     display_.draw(pose.pixels, pose.detector_width, DetectorImage::kCountsPerGray * scene_.exposure.detector_dose,
-                  detector_.counts(), frame_.raw, frame_.image);
+                  detector_.counts(), collimator_, frame_.raw, frame_.image);
   ++frames_;
   return frame_;
 }

@@ -6,6 +6,7 @@
 
 #include "fluoroscopy/beam/device_response.h"
 #include "fluoroscopy/beam/signal_table.h"
+#include "fluoroscopy/image/collimator.h"
 #include "fluoroscopy/image/detector_image.h"
 #include "fluoroscopy/image/display.h"
 #include "fluoroscopy/image/exposure_control.h"
@@ -97,6 +98,7 @@ private:
   SignalTable table_;
   DeviceResponse response_;
   ExposureControl exposure_;
+  Collimator collimator_;
   DetectorImage detector_;
   Display display_;
   std::unique_ptr<Patient> patient_;

@@ -140,6 +140,14 @@ std::string Operator::nameOf(const StepScene& step) const
   return formatted("wait %.1f s", step.duration);
 }
 
+/** View of a step or, without its own, of the last step before it that has one. */
+std::string Operator::viewOf(std::size_t step) const
+{
+  while (step > 0 && steps_[step].view.empty())
+    --step;
+  return steps_[step].view;
+}
+
 const std::vector<simulation::HandCommand>& Operator::next(const simulation::Simulation& simulation)
 {
   if (observesBefore(simulation.steps()))
@@ -201,6 +209,7 @@ void Operator::begin(const Observation& observation)
   record.step = current_;
   record.name = nameOf(step());
   record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
+  record.view = viewOf(current_);
   record.begin = record.end = observation.time;
   records_.push_back(record);
   prepareStep();

@@ -27,6 +27,7 @@ struct StepRecord
 {
   std::string name;        ///< description, e.g. "advance wire until its tip is in aortic_arch"
   std::string phase;       ///< phase of the procedure
+  std::string view;        ///< view of the C-arm; empty: that of the scene
   double begin = 0.0;      ///< start time [s]
   double end = 0.0;        ///< end time; the latest observation while the step runs [s]
   int retries = 0;         ///< number of retries
@@ -116,6 +117,7 @@ private:
   double insertionSpeed(const InstrumentView& view, double speed) const;
   const scene::StepScene& step() const { return steps_[current_]; }
   std::string nameOf(const scene::StepScene& step) const;
+  std::string viewOf(std::size_t step) const;
 
   scene::Scene scene_;
   scene::HandScene hand_;

@@ -23,15 +23,19 @@ void PhasePictures::update(const simulation::Simulation& simulation, const Opera
 {
   if (finished_ || scripted_operator.records().empty())
     return;
-  const std::string& phase = scripted_operator.records().back().phase;
+  const StepRecord& step = scripted_operator.records().back();
   finished_ = scripted_operator.progress() != Progress::kRunning;
-  if (finished_ || (!phase_.empty() && phase != phase_))
+  if (finished_)
+    view_ = step.view;
+  if (finished_ || (!phase_.empty() && step.phase != phase_))
     writeImage(simulation, wall);
-  phase_ = phase;
+  phase_ = step.phase;
+  view_ = step.view;
 }
 
 void PhasePictures::writeImage(const simulation::Simulation& simulation, const geometry::TriangleMesh& wall)
 {
+  image_.setView(view_);
   char name[32];
   std::snprintf(name, sizeof name, "/phase_%02d.png", ++images_);
   image_.write(simulation, wall, folder_ + name);

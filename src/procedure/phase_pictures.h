@@ -11,7 +11,8 @@
 namespace endovascular_sim::procedure
 {
 
-/** Fluoroscopy images of a procedure, one at the end of each phase: `fluoroscopy/phase_01.png` and so on. */
+/** Fluoroscopy images of a procedure, one at the end of each phase in the phase's view: `fluoroscopy/phase_01.png` and
+ *  so on. */
 class PhasePictures
 {
 public:
@@ -31,7 +32,7 @@ private:
 
   simulation::StillImage image_;
   std::string folder_;
-  std::string phase_;
+  std::string phase_, view_;  ///< of the latest step
   int images_ = 0;
   bool finished_ = false;
 };

@@ -22,19 +22,6 @@ const scene::FluoroscopyScene& xRayOf(const scene::Scene& scene)
   return *scene.fluoroscopy;
 }
 
-fluoroscopy::CArmPose poseOf(const scene::FluoroscopyScene& scene)
-{
-  fluoroscopy::CArmPose pose;
-  pose.primary_angle = scene.primary_angle;
-  pose.secondary_angle = scene.secondary_angle;
-  pose.source_to_detector = scene.source_to_detector;
-  pose.source_to_patient = scene.source_to_patient;
-  pose.isocentre = scene.isocentre.value_or(Eigen::Vector3d::Zero());
-  pose.detector_width = scene.detector_width;
-  pose.pixels = scene.pixels;
-  return pose;
-}
-
 fluoroscopy::XRayScene techniqueOf(const scene::FluoroscopyScene& scene, std::uint64_t seed)
 {
   fluoroscopy::XRayScene result;
@@ -52,7 +39,7 @@ fluoroscopy::XRayScene techniqueOf(const scene::FluoroscopyScene& scene, std::ui
 }  // namespace
 
 FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& library)
-  : fluoroscope_(poseOf(xRayOf(scene)), techniqueOf(xRayOf(scene), scene.seed), library)
+  : fluoroscope_(xRayOf(scene).pose(), techniqueOf(xRayOf(scene), scene.seed), library)
 {
   const fluoroscopy::DeviceResponse& materials = fluoroscope_.materials();
   if (scene.vessel)

@@ -1,7 +1,9 @@
 #include "simulation/still_image.h"
 
+#include <optional>
 #include <utility>
 
+#include "fluoroscopy/gantry/view.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "scene/yaml/file_search.h"
 #include "simulation/x_ray_patient.h"
@@ -17,6 +19,17 @@ StillImage::StillImage(const scene::Scene& scene, const vessel::Vessel& vessel)
   notes_ = std::move(loaded.notes);
   if (loaded.patient)
     system_.fluoroscope().setPatient(std::move(loaded.patient));
+}
+
+void StillImage::setView(const std::string& name)
+{
+  const std::optional<fluoroscopy::View> view = fluoroscopy::parseView(name);
+  if (!view)
+    return;
+  fluoroscopy::CArmPose pose = system_.fluoroscope().geometry().pose();
+  pose.primary_angle = view->primary_angle;
+  pose.secondary_angle = view->secondary_angle;
+  system_.fluoroscope().setPose(pose);
 }
 
 void StillImage::write(const Simulation& simulation, const geometry::TriangleMesh& wall, const std::string& file)

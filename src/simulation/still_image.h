@@ -24,6 +24,9 @@ public:
   /** Origin and placement of the patient, for the log. */
   const std::vector<std::string>& notes() const { return notes_; }
 
+  /** Turns the C-arm to a view (fluoroscopy::parseView()); another text leaves it as it is. */
+  void setView(const std::string& view);
+
   /** Writes the image of a simulation as PNG.
    *  @param wall present wall of the vessel; empty without a vessel
    *  @throws InputError if the file cannot be written */

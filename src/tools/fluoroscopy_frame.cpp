@@ -17,6 +17,7 @@
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
+#include "vessel/repair/mesh_check.h"
 
 namespace
 {
@@ -179,6 +180,10 @@ geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d&
   if (mesh.signedVolume() < 0.0)
     for (Eigen::Vector3i& triangle : mesh.triangles)
       std::swap(triangle[1], triangle[2]);
+  // The check of the vessel server. Path lengths through an open or inconsistently oriented mesh have no meaning.
+  const vessel::MeshReport report = vessel::checkMesh(mesh);
+  vessel::requirePlausibleSize(report, options.unit, options.mesh);
+  vessel::requireClean(report, options.mesh);
   return mesh;
 }
 

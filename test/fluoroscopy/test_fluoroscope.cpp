@@ -189,6 +189,93 @@ TEST(Fluoroscope, EqualsANewInstanceAfterMovesAndNewVessels)
   EXPECT_NE(firstFrame(used).raw, firstFrame(moved).raw);
 }
 
+/** Pose with a field of 0.1 m × 0.16 m on a detector of 0.3 m. */
+CArmPose collimated()
+{
+  CArmPose pose;
+  pose.field_width = 0.10;
+  pose.field_height = 0.16;
+  return pose;
+}
+
+/** Pixel at a distance from the detector's centre to the right and up [m]. */
+std::size_t pixelAt(const CArmPose& pose, double right, double up)
+{
+  const double pitch = pose.detector_width / pose.pixels, centre = 0.5 * (pose.pixels - 1);
+  return static_cast<std::size_t>(std::lround(centre - up / pitch) * pose.pixels + std::lround(centre + right / pitch));
+}
+
+TEST(Fluoroscope, OnlyATraceAndScatterReachTheDetectorBehindTheBladesOfTheCollimator)
+{
+  const CArmPose pose = collimated();
+  Fluoroscope fluoroscope(pose, scene(), library());
+  const Frame& frame = fluoroscope.render({});
+  const double inside = meanCount(frame, pixelAt(pose, 0.0, 0.0));
+  EXPECT_GT(inside, DetectorImage::kCountsPerGray * 300e-9);
+  EXPECT_LT(meanCount(frame, pixelAt(pose, 0.14, 0.14)), 0.005 * inside);  // far from the field, a trace
+  EXPECT_GT(meanCount(frame, pixelAt(pose, 0.14, 0.14)), 0.0005 * inside);
+  EXPECT_LT(meanCount(frame, pixelAt(pose, 0.06, 0.0)), 0.3 * inside);  // scatter reaches beyond the edge
+  EXPECT_GT(meanCount(frame, pixelAt(pose, 0.06, 0.0)), meanCount(frame, pixelAt(pose, 0.12, 0.0)));
+  EXPECT_GT(meanCount(frame, pixelAt(pose, 0.0, 0.07)), 0.7 * inside);  // the field is higher than wide
+}
+
+TEST(Fluoroscope, ShowsTheBladesBlackAndTheFieldAsBrightAsBefore)
+{
+  const CArmPose pose = collimated();
+  for (const bool inverted : {false, true})
+  {
+    XRayScene shown = scene();
+    shown.display.inverted = inverted;
+    Fluoroscope narrow(pose, shown, library()), open(CArmPose(), shown, library());
+    const Frame& frame = narrow.render({});
+    for (const auto& [right, up] : {std::pair(0.14, 0.14), {0.056, 0.0}, {-0.056, 0.02}, {0.0, 0.09}, {0.0, -0.12}})
+      EXPECT_EQ(frame.image[pixelAt(pose, right, up)], 0) << right << " " << up << " " << inverted;
+    const auto mean = [](const Frame& image, std::size_t pixel)
+    {
+      double sum = 0.0;
+      for (int row = -4; row <= 4; ++row)
+        for (int column = -4; column <= 4; ++column)
+          sum += image.image[pixel + static_cast<std::size_t>(row * image.pixels + column)] / 81.0;
+      return sum;
+    };
+    const Frame& whole = open.render({});
+    for (const auto& [right, up] : {std::pair(0.0, 0.0), {0.04, 0.0}, {0.0, -0.07}})
+      EXPECT_NEAR(mean(frame, pixelAt(pose, right, up)), mean(whole, pixelAt(pose, right, up)), 25.0)
+          << right << " " << up << " " << inverted;
+  }
+}
+
+TEST(Fluoroscope, MeasuresTheExposureInTheFieldOfTheCollimator)
+{
+  CArmPose narrow;
+  narrow.field_width = narrow.field_height = 0.04;
+  Fluoroscope collimated(narrow, scene(), library()), open(CArmPose(), scene(), library());
+  const double charge = collimated.render({}).tube_charge;
+  EXPECT_NEAR(charge, open.render({}).tube_charge, 0.02 * charge);
+}
+
+TEST(Fluoroscope, ASmallFieldScattersLess)
+{
+  CArmPose narrow;
+  narrow.field_width = narrow.field_height = 0.06;
+  Fluoroscope collimated(narrow, scene(), library()), open(CArmPose(), scene(), library());
+  const double small = meanCount(collimated.render({}), pixelAt(narrow, 0.0, 0.0));
+  const double large = meanCount(open.render({}), pixelAt(narrow, 0.0, 0.0));
+  EXPECT_LT(small, 0.9 * large);
+  EXPECT_GT(small, DetectorImage::kCountsPerGray * 300e-9 * 0.95);
+}
+
+TEST(Fluoroscope, AFieldAsWideAsTheDetectorChangesNoBit)
+{
+  CArmPose wide;
+  wide.field_width = wide.field_height = wide.detector_width;
+  Fluoroscope collimated(wide, scene(), library()), open(CArmPose(), scene(), library());
+  const Frame& frame = collimated.render({});
+  const Frame& expected = open.render({});
+  EXPECT_EQ(frame.raw, expected.raw);
+  EXPECT_EQ(frame.image, expected.image);
+}
+
 TEST(Fluoroscope, RetainsPoseAndVesselAfterARejection)
 {
   Fluoroscope fluoroscope(CArmPose{}, scene(), library());

@@ -31,6 +31,18 @@ TEST(Operator, ExecutesTheStepsInOrder)
   EXPECT_EQ(world.hand(1).insertion, 0.0) << "the catheter was not moved";
 }
 
+TEST(Operator, RecordsTheViewInForceAtEachStep)
+{
+  PlainWorld world(
+      sceneWith("    - {wait: 0.1}\n    - {wait: 0.1, view: LAO 40}\n    - {wait: 0.1}\n"
+                "    - {exchange: wire, for: catheter, until: {insertion: 0.01}, view: spider}\n"));
+  world.run(3.0);
+  std::vector<std::string> views;
+  for (const StepRecord& record : world.scripted_operator.records())
+    views.push_back(record.view);
+  EXPECT_EQ(views, (std::vector<std::string>{"", "LAO 40", "LAO 40", "spider", "spider"}));
+}
+
 TEST(Operator, WithdrawsIntoABranchAndToADepth)
 {
   const auto tip = [](double insertion, double /*rotation*/)

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +20,7 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-scene::Scene twoPhases(const std::string& fluoroscopy)
+scene::Scene twoPhases(const std::string& fluoroscopy, const std::string& second_view = "")
 {
   return scene::parseScene(
       "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.2}]}}\n"
@@ -30,7 +32,8 @@ scene::Scene twoPhases(const std::string& fluoroscopy)
           "  steps:\n"
           "    - {phase: First, advance: wire, until: {insertion: 0.07}, speed: 0.05}\n"
           "    - {phase: First, wait: 0.05}\n"
-          "    - {phase: Second, wait: 0.05}\n",
+          "    - {phase: Second, wait: 0.05" +
+          second_view + "}\n",
       "test scene");
 }
 
@@ -55,10 +58,10 @@ struct World
   }
 };
 
-TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
+/** Runs a scene and writes its pictures into a folder. */
+void takePictures(const scene::Scene& scene, const std::string& folder)
 {
-  World world(twoPhases("fluoroscopy: {pixels: 64}\n"));
-  const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
+  World world(scene);
   PhasePictures pictures(world.scene, world.vessel, folder);
   for (int k = 0; k < 3000 && !world.session.isFinished(); ++k)
   {
@@ -68,9 +71,34 @@ TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
   pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);
   ASSERT_EQ(world.session.scriptedOperator()->progress(), Progress::kDone)
       << world.session.scriptedOperator()->failure();
+}
+
+std::string contentOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
+{
+  const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder);
   EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_01.png"), 100U);
   EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_02.png"), 100U);
   EXPECT_FALSE(std::filesystem::exists(folder + "/fluoroscopy/phase_03.png"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PhasePictures, HaveTheViewOfTheirPhase)
+{
+  const std::string folder = testing::TempDir() + "phase_views_" + std::to_string(getpid());
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder + "/ap");
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n", ", view: LAO 40 CRA 30"), folder + "/views");
+  takePictures(twoPhases("fluoroscopy: {pixels: 64, view: LAO 40 CRA 30}\n"), folder + "/oblique");
+  const auto picture = [&folder](const std::string& name) { return contentOf(folder + name); };
+  EXPECT_EQ(picture("/views/fluoroscopy/phase_01.png"), picture("/ap/fluoroscopy/phase_01.png"));
+  EXPECT_NE(picture("/views/fluoroscopy/phase_02.png"), picture("/ap/fluoroscopy/phase_02.png"));
+  EXPECT_NE(picture("/oblique/fluoroscopy/phase_01.png"), picture("/ap/fluoroscopy/phase_01.png"));
   std::filesystem::remove_all(folder);
 }
 

@@ -36,6 +36,18 @@ done
 for bad in "$missing" "$work/folder" "$file"; do
   check "$bad" 'give|line|name|file' instrument_shape "$bad.yaml" --out "$work/shape.csv"
 done
+# Meshes whose path lengths have no meaning, each with its fault; a sound one gives an image.
+frame=(fluoroscopy_frame --materials "$repository/config/xray/materials.yaml" --pixels 64 --out "$work/frame.png" --mesh)
+for fault in 'box_with_hole boundary edges .*vessel_prepare' 'box_flipped_face inconsistently oriented.*vessel_prepare' \
+    'moebius boundary edges.*vessel_prepare' 'box_fin non-manifold.*vessel_prepare' 'two_boxes 2 separate components.*vessel_prepare'; do
+  mesh=$repository/test/data/meshes/${fault%% *}.obj
+  check "$mesh" "${fault#* }" "${frame[@]}" "$mesh"
+done
+[ ! -e "$work/frame.png" ] || { echo "an image of a faulty mesh was written"; failures=$((failures + 1)); }
+for mesh in box_mm.obj box_inward.obj; do
+  "$programs/${frame[0]}" "${frame[@]:1}" "$repository/test/data/meshes/$mesh" && [ -s "$work/frame.png" ] || { echo "no image of $mesh"; failures=$((failures + 1)); }
+  rm -f "$work/frame.png"
+done
 for folder in "$file" "$file/below" /proc/none; do
   check "$folder" 'choose' simulate "$scene" --out "$folder" --seconds 0.01 --no-plots --quiet
 done

@@ -39,9 +39,11 @@ EVS_WIDE_VECTORS void readOut(const float* signal, const float* normal, int coun
 
 }  // namespace
 
-DetectorImage::DetectorImage(int pixels, double width, double source_to_detector, const WaterEquivalent& water)
+DetectorImage::DetectorImage(int pixels, double width, double source_to_detector, const WaterEquivalent& water,
+                             double field)
   : pixels_(pixels),
     width_(width),
+    field_(field),
     quanta_(std::pow(width / pixels / source_to_detector, 2)),
     gain_(kCountsPerGray * water.detectorKerma(kReference) / std::exp(water.logSignal(kReference)) /
           (source_to_detector * source_to_detector)),
@@ -57,7 +59,7 @@ void DetectorImage::form(const FrameExposure& exposure, std::vector<float>& prim
 {
   const auto n = static_cast<std::size_t>(pixels_);
   scatter_ = mean;
-  scatter(scatter_, water_, width_, pixels_);
+  scatter(scatter_, water_, width_, pixels_, field_);
   const auto gain = static_cast<float>(gain_ * exposure.tube_charge);
   counts_ = mean;
   for (std::size_t k = 0; k < counts_.values().size(); ++k)

@@ -34,8 +34,9 @@ public:
 
   /** @param pixels pixels per side
    *  @param width width of the detector [m]
-   *  @param source_to_detector SID [m] */
-  DetectorImage(int pixels, double width, double source_to_detector, const WaterEquivalent& water);
+   *  @param source_to_detector SID [m]
+   *  @param field side of the irradiated square at the detector [m] */
+  DetectorImage(int pixels, double width, double source_to_detector, const WaterEquivalent& water, double field);
 
   /** Forms the image.
    *  @param primary primary signal [keV/(m²·mAs) at 1 m]; overwritten
@@ -52,6 +53,7 @@ public:
 private:
   int pixels_;
   double width_;
+  double field_;   ///< side of the irradiated square at the detector [m]
   double quanta_;  ///< signal of a pixel [keV] per signal at 1 m and tube charge
   double gain_;    ///< counts per signal at 1 m and tube charge
   WaterEquivalent water_;

@@ -19,6 +19,7 @@ constexpr double kSaturation = 0.55;   // largest contribution of the local mean
 constexpr double kLocal = 0.02;        // standard deviation of the local mean [m]
 constexpr float kSmallestCount = 0.5F;
 constexpr double kLargestCount = 65535.0;  // saturation of the detector
+constexpr float kShutter = 20.0F;          // change of d behind the blades: black in any surroundings
 
 void requireRange(const char* key, double value, double low, double high)
 {
@@ -71,14 +72,19 @@ Display::Display(const DisplaySettings& settings) : settings_(settings)
 }
 
 /** Fills detail_, an image with a margin of one pixel. */
-void Display::compress(int pixels, const CoarseImage& base, float log_reference, const std::vector<std::uint16_t>& raw)
+void Display::compress(int pixels, const CoarseImage& base, float log_reference, const Collimator& collimator,
+                       const std::vector<std::uint16_t>& raw)
 {
+  const float shutter = settings_.inverted ? kShutter : -kShutter;
   const auto n = static_cast<std::size_t>(pixels), stride = n + 2;
   detail_.resize(stride * stride);
   std::vector<float> shift(n);
   for (std::size_t row = 0; row < n; ++row)
   {
     base.row(static_cast<int>(row), shift.data());
+    if (!collimator.isOpen())
+      for (int column = 0; column < pixels; ++column)
+        shift[static_cast<std::size_t>(column)] += shutter * (1.0F - collimator.share(static_cast<int>(row), column));
     logarithm(raw.data() + row * n, shift.data(), log_reference, detail_.data() + (row + 1) * stride + 1, pixels);
   }
 }
@@ -121,7 +127,7 @@ void Display::magnify(int pixels)
   }
 }
 
-void Display::draw(int pixels, double width, double reference, const CoarseImage& counts,
+void Display::draw(int pixels, double width, double reference, const CoarseImage& counts, const Collimator& collimator,
                    const std::vector<std::uint16_t>& raw, std::vector<std::uint8_t>& image)
 {
   const auto n = static_cast<std::size_t>(pixels), stride = n + 2;
@@ -129,11 +135,15 @@ void Display::draw(int pixels, double width, double reference, const CoarseImage
   CoarseImage base = counts;
   for (float& value : base.values())
     value = static_cast<float>(std::log(std::clamp(static_cast<double>(value), 0.5, kLargestCount)) - log_reference);
-  base.blur(kLocal / width * pixels, true);
+  const double sigma = kLocal / width * pixels;
+  if (collimator.isOpen())
+    base.blur(sigma, true);
+  else
+    base = extended(base, collimator, pixels, sigma);
   for (float& value : base.values())
     value =
         static_cast<float>(kSaturation * std::tanh(kCompression / kSaturation * static_cast<double>(value))) - value;
-  compress(pixels, base, static_cast<float>(log_reference), raw);
+  compress(pixels, base, static_cast<float>(log_reference), collimator, raw);
   for (std::size_t row = 1; row <= n; ++row)  // margin: the edge pixel repeated
   {
     detail_[row * stride] = detail_[row * stride + 1];

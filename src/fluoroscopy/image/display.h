@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fluoroscopy/image/coarse_image.h"
+#include "fluoroscopy/image/collimator.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -34,15 +35,17 @@ public:
   /** Draws a frame.
    *  @param width width of the detector [m]
    *  @param reference count at the wanted dose
-   *  @param counts mean count per bin */
-  void draw(int pixels, double width, double reference, const CoarseImage& counts,
+   *  @param counts mean count per bin
+   *  @param collimator its blades are black; they do not contribute to the local mean */
+  void draw(int pixels, double width, double reference, const CoarseImage& counts, const Collimator& collimator,
             const std::vector<std::uint16_t>& raw, std::vector<std::uint8_t>& image);
 
   /** Forgets the preceding frame. */
   void reset() { has_previous_ = false; }
 
 private:
-  void compress(int pixels, const CoarseImage& base, float log_reference, const std::vector<std::uint16_t>& raw);
+  void compress(int pixels, const CoarseImage& base, float log_reference, const Collimator& collimator,
+                const std::vector<std::uint16_t>& raw);
   void filter();
   void magnify(int pixels);
 

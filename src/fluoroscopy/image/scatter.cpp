@@ -24,14 +24,14 @@ double scatterToPrimary(double thickness, double field)
          (1.0 - std::exp(-field / kField));
 }
 
-void scatter(CoarseImage& image, const WaterEquivalent& water, double field, int pixels)
+void scatter(CoarseImage& image, const WaterEquivalent& water, double width, int pixels, double field)
 {
   for (float& value : image.values())
   {
     const double thickness = water.thickness(std::log(static_cast<double>(std::max(value, kSmallest))));
     value *= static_cast<float>(scatterToPrimary(thickness, field));
   }
-  image.blur(kSpread / field * pixels, false);
+  image.blur(kSpread / width * pixels, false);
 }
 
 }  // namespace endovascular_sim::fluoroscopy

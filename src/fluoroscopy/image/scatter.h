@@ -16,8 +16,9 @@ namespace endovascular_sim::fluoroscopy
 double scatterToPrimary(double thickness, double field);
 
 /** Replaces the mean primary signal of each bin by the scattered signal: primary times SPR, spread by a Gaussian of 30
- * mm.
- *  @param field side of the detector [m] */
-void scatter(CoarseImage& image, const WaterEquivalent& water, double field, int pixels);
+ *  mm.
+ *  @param width width of the detector [m]
+ *  @param field side of the irradiated square at the detector [m] */
+void scatter(CoarseImage& image, const WaterEquivalent& water, double width, int pixels, double field);
 
 }  // namespace endovascular_sim::fluoroscopy

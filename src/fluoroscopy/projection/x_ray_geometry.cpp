@@ -11,6 +11,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMaxPixels = 4096;
+constexpr double kSmallestField = 0.02;  // [m]
 
 void require(bool condition, const char* key, const char* remedy)
 {
@@ -31,6 +32,12 @@ void check(const CArmPose& pose)
   require(std::isfinite(pose.detector_width) && pose.detector_width > 0.0 &&
               pose.detector_width <= 2.0 * pose.source_to_detector,
           "detector_width", "must be positive and at most twice distance_source_to_detector [m]");
+  const auto is_field = [&pose](double side)
+  { return side == 0.0 || (side >= kSmallestField && side <= pose.detector_width); };
+  require(is_field(pose.field_width), "field_width",
+          "must lie between 0.02 m and detector_width; 0 opens the collimator");
+  require(is_field(pose.field_height), "field_height",
+          "must lie between 0.02 m and detector_width; 0 opens the collimator");
   require(pose.pixels >= 2 && pose.pixels <= kMaxPixels, "pixels", "must lie between 2 and 4096");
   require(pose.isocentre.allFinite(), "isocentre", "must be finite [m]");
 }
@@ -41,7 +48,8 @@ bool operator==(const CArmPose& a, const CArmPose& b)
 {
   return a.primary_angle == b.primary_angle && a.secondary_angle == b.secondary_angle &&
          a.source_to_detector == b.source_to_detector && a.source_to_patient == b.source_to_patient &&
-         a.isocentre == b.isocentre && a.detector_width == b.detector_width && a.pixels == b.pixels;
+         a.isocentre == b.isocentre && a.detector_width == b.detector_width && a.pixels == b.pixels &&
+         a.field_width == b.field_width && a.field_height == b.field_height;
 }
 
 XRayGeometry::XRayGeometry(const CArmPose& pose) : pose_(pose)
@@ -68,6 +76,20 @@ Eigen::Matrix3d XRayGeometry::cameraMatrix() const
 {
   Eigen::Matrix3d k;
   k << focal_length_, 0.0, centre(), 0.0, -focal_length_, centre(), 0.0, 0.0, 1.0;
+  return k;
+}
+
+Eigen::Isometry3d XRayGeometry::patientFromSourceView() const
+{
+  Eigen::Isometry3d transform = patientFromOptical();
+  transform.linear().leftCols<2>() *= -1.0;
+  return transform;
+}
+
+Eigen::Matrix3d XRayGeometry::sourceViewMatrix() const
+{
+  Eigen::Matrix3d k = cameraMatrix();
+  k(1, 1) = focal_length_;
   return k;
 }
 

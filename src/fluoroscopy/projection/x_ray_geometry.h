@@ -16,6 +16,8 @@ struct CArmPose
   Eigen::Vector3d isocentre = Eigen::Vector3d::Zero();  ///< patient frame: x left, y posterior, z superior [m]
   double detector_width = 0.3;                          ///< width of the square detector [m]
   int pixels = 512;                                     ///< pixels per side of the image
+  double field_width = 0.0;                             ///< of the collimated field at the detector [m]; 0: open
+  double field_height = 0.0;                            ///< of the collimated field at the detector [m]; 0: open
 };
 
 bool operator==(const CArmPose& a, const CArmPose& b);
@@ -45,7 +47,11 @@ inline bool operator!=(const CArmPose& a, const CArmPose& b)
  *          ⎣ 0  0   1 ⎦
  *
  *  Therefore f_x is positive, f_y is negative, and K maps a point of the optical frame to the pixel of the displayed
- *  image without a further flip. */
+ *  image without a further flip.
+ *
+ *  The source view is the image of a camera at the source, for programs that require positive focal lengths: the
+ *  displayed image with its columns in reverse order. Its optical frame `x_ray_source_view_optical` has the axes
+ *  (−right, −up, forward): x along increasing columns, y along increasing rows. */
 class XRayGeometry
 {
 public:
@@ -72,6 +78,12 @@ public:
 
   /** Camera matrix K of the class comment. */
   Eigen::Matrix3d cameraMatrix() const;
+
+  /** Transform from the optical frame of the source view to the patient frame. */
+  Eigen::Isometry3d patientFromSourceView() const;
+
+  /** Camera matrix of the source view, with the focal lengths f_x = f_y = f > 0. */
+  Eigen::Matrix3d sourceViewMatrix() const;
 
   /** Transforms a point from the patient frame to the optical frame [m]. */
   Eigen::Vector3d toOptical(const Eigen::Vector3d& point) const { return axes_.transpose() * (point - source_); }

@@ -23,6 +23,21 @@ double DriveProfile::at(double t) const
   return a.value + (after->value - a.value) * ((t - a.time) / (after->time - a.time)) + sine;
 }
 
+fluoroscopy::CArmPose FluoroscopyScene::pose() const
+{
+  fluoroscopy::CArmPose pose;
+  pose.primary_angle = primary_angle;
+  pose.secondary_angle = secondary_angle;
+  pose.source_to_detector = source_to_detector;
+  pose.source_to_patient = source_to_patient;
+  pose.isocentre = isocentre.value_or(Eigen::Vector3d::Zero());
+  pose.detector_width = detector_width;
+  pose.pixels = pixels;
+  pose.field_width = field_width;
+  pose.field_height = field_height;
+  return pose;
+}
+
 double DriveScene::insertionAt(double t) const
 {
   if (source == DriveSource::kNone)

@@ -11,6 +11,7 @@
 
 #include "contact/wall/wall_law.h"
 #include "drive/drive_limits.h"
+#include "fluoroscopy/gantry/gantry_limits.h"
 #include "instrument/instrument.h"
 #include "robot/joint_link.h"
 #include "robot/robot_model.h"
@@ -259,9 +260,12 @@ struct FluoroscopyScene
   int pixels = 512;                 ///< width and height of the image [pixels]
   double primary_angle = 0.0;       ///< primary C-arm angle, positive LAO [rad]
   double secondary_angle = 0.0;     ///< secondary C-arm angle, positive cranial [rad]
+  std::string view;                 ///< view that gives the two angles (fluoroscopy/gantry/view.h); empty: none
   double source_to_detector = 1.2;  ///< source-to-image distance (SID) [m]
   double source_to_patient = 0.75;  ///< source-to-object distance (SOD) [m]
   double detector_width = 0.30;     ///< width of the detector [m]
+  double field_width = 0.0;         ///< width of the collimated field at the detector [m]; 0: open
+  double field_height = 0.0;        ///< height of the collimated field at the detector [m]; 0: open
   /** Isocentre in the patient frame [m]; if empty, the centre of the vessel's bounding box. */
   std::optional<Eigen::Vector3d> isocentre;
   double tube_voltage = 80.0;  ///< tube voltage [kV]
@@ -279,6 +283,10 @@ struct FluoroscopyScene
   double tissue_thickness = 0.20;            ///< thickness of the slab of soft tissue, without patient [m]
   std::optional<PatientScene> patient;       ///< if empty: the slab
   bool follow_tip = true;                    ///< true: the isocentre follows the tip of the wire
+  fluoroscopy::GantryLimits gantry;          ///< limits and speeds of the C-arm and its table
+
+  /** Initial pose of the C-arm; without an isocentre, that is the origin. */
+  fluoroscopy::CArmPose pose() const;
 };
 
 /** Recording of results. */

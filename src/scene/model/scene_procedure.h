@@ -62,6 +62,7 @@ struct SupportScene
 struct StepScene
 {
   std::string phase;  ///< name of the phase for reports; empty: phase of the previous step
+  std::string view;   ///< view of the C-arm (fluoroscopy/gantry/view.h); empty: view of the previous step
   StepAction action = StepAction::kWait;
   std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one
   std::string replacement;  ///< instrument that an exchange advances

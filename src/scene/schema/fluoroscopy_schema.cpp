@@ -43,16 +43,15 @@ void visitPatient(SceneFields& fields, PatientScene& patient)
 
 void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
 {
-  const Range turn = Range::between(-M_PI, M_PI);
   fields.number("rate", fluoroscopy.rate, quantities::kFrameRate, {0.0, 60.0, true, false});
   fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
-  fields.number("primary_angle", fluoroscopy.primary_angle, quantities::kImagingAngle, turn);
-  fields.number("secondary_angle", fluoroscopy.secondary_angle, quantities::kImagingAngle, turn);
+  visitAngulation(fields, fluoroscopy);
   fields.number("source_to_detector", fluoroscopy.source_to_detector, quantities::kSourceToDetector, Range::positive());
   fields.number("source_to_patient", fluoroscopy.source_to_patient, quantities::kSourceToPatient, Range::positive());
   if (fields.reading() && fluoroscopy.source_to_patient >= fluoroscopy.source_to_detector)
     fields.reject("source_to_patient", "the patient lies behind the detector; must be less than source_to_detector");
   fields.number("detector_width", fluoroscopy.detector_width, quantities::kDetectorWidth, Range::positive());
+  visitGantry(fields, fluoroscopy);
   if (fields.reading() ? fields.has("isocentre") : fluoroscopy.isocentre.has_value())
   {
     if (!fluoroscopy.isocentre)

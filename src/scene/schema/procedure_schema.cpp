@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fluoroscopy/gantry/view.h"
 #include "scene/schema/scene_schema.h"
 
 // Schema of the procedure of a scripted operator.
@@ -92,6 +93,10 @@ void visitStep(SceneFields& fields, StepScene& step)
 {
   if (fields.reading() || !step.phase.empty())
     fields.text("phase", step.phase);
+  if (fields.reading() || !step.view.empty())
+    fields.text("view", step.view);
+  if (fields.reading() && !step.view.empty() && !fluoroscopy::parseView(step.view))
+    fields.reject("view", fluoroscopy::unknownView(step.view));
   visitAction(fields, step);
   if (step.action == StepAction::kWait)
     return;
@@ -207,6 +212,8 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
     if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
       fields.reject(path + "for", "'" + step.replacement + remedy);
     checkSupport(fields, scene, k);
+    if (!step.view.empty())
+      checkView(fields, path + "view", step.view, scene);
   }
 }
 

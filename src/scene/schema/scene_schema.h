@@ -50,7 +50,15 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
 void checkPatient(const SceneFields& fields, const Scene& scene);
 /** Keys `rotation`, or `head` and `left`: rotation from the frame of a file to the patient frame. */
 void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform);
+/** Keys of the initial angles: `view`, or `primary_angle` and `secondary_angle`. */
+void visitAngulation(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+/** Keys `field` and `gantry`. Rejects an initial pose beyond the limits. */
+void visitGantry(SceneFields& fields, FluoroscopyScene& fluoroscopy);
 void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
+
+/** Rejects a view beyond the limits of the scene's gantry.
+ *  @param key path of the view */
+void checkView(const SceneFields& fields, const std::string& key, const std::string& view, const Scene& scene);
 
 /** Rejects a procedure that is inconsistent with the scene. */
 void checkProcedure(const SceneFields& fields, const Scene& scene);

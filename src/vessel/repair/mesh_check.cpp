@@ -239,7 +239,9 @@ void requireClean(const MeshReport& report, const std::string& source)
 {
   const std::string summary = report.summary();
   if (!summary.empty())
-    throw InputError(source, "", "the mesh is not a closed surface of one lumen: " + summary);
+    throw InputError(source, "",
+                     "the mesh is not a closed surface of one lumen: " + summary +
+                         "; repair the file, or prepare it with vessel_prepare");
 }
 
 }  // namespace endovascular_sim::vessel

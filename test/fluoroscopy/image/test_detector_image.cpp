@@ -33,7 +33,7 @@ const WaterEquivalent& water()
 class Field
 {
 public:
-  Field() : image_(kPixels, kWidth, kDistance, water()), mean_(kPixels)
+  Field() : image_(kPixels, kWidth, kDistance, water(), kWidth), mean_(kPixels)
   {
     signal_ = std::exp(water().logSignal(200.0));
     mean_.average(std::vector<float>(kPixels * kPixels, static_cast<float>(signal_)));

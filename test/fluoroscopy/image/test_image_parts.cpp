@@ -169,11 +169,11 @@ std::vector<std::uint8_t> shown(const DisplaySettings& settings, std::uint16_t a
   counts.average(full);
   Display display(settings);
   std::vector<std::uint8_t> image;
-  display.draw(kPixels, 0.2, 2000.0, counts, raw, image);
+  display.draw(kPixels, 0.2, 2000.0, counts, Collimator(kPixels, 0.2, 0.0, 0.0), raw, image);
   if (second != nullptr)
   {
     std::fill(raw.begin(), raw.end(), around);
-    display.draw(kPixels, 0.2, 2000.0, counts, raw, *second);
+    display.draw(kPixels, 0.2, 2000.0, counts, Collimator(kPixels, 0.2, 0.0, 0.0), raw, *second);
   }
   return image;
 }

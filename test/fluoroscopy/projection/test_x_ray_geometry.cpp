@@ -91,6 +91,68 @@ TEST(XRayGeometry, ProjectionEqualsCameraMatrixTimesTransform)
   EXPECT_NEAR(ray.normalized().cross((point - geometry.source()).normalized()).norm(), 0.0, 1e-12);
 }
 
+TEST(XRayGeometry, ShowsKnownPointsInSixViewsWithinAHundredthOfAPixel)
+{
+  // From another program, which turns the C-arm by two rotations and intersects rays with the plane of the detector.
+  struct Known
+  {
+    double lao, cranial;
+    Eigen::Vector3d point;
+    Eigen::Vector2d pixel;
+  };
+  const Known known[] = {
+      {0, 0, {0.06, -0.02, 0.3}, {385.8704, 255.5000}},      {0, 0, {0.01, -0.06, 0.33}, {255.5000, 181.3947}},
+      {0, 0, {-0.02, 0.01, 0.27}, {173.8768, 337.1232}},     {90, 0, {0.06, -0.02, 0.3}, {255.5000, 255.5000}},
+      {90, 0, {0.01, -0.06, 0.33}, {151.2037, 177.2778}},    {90, 0, {-0.02, 0.01, 0.27}, {337.1232, 337.1232}},
+      {40, 0, {0.06, -0.02, 0.3}, {351.1020, 255.5000}},     {40, 0, {0.01, -0.06, 0.33}, {191.1963, 180.4709}},
+      {40, 0, {-0.02, 0.01, 0.27}, {245.2573, 338.6003}},    {-30, -20, {0.06, -0.02, 0.3}, {372.2122, 278.5466}},
+      {-30, -20, {0.01, -0.06, 0.33}, {306.0821, 154.2379}}, {-30, -20, {-0.02, 0.01, 0.27}, {148.6379, 338.8040}},
+      {45, 25, {0.06, -0.02, 0.3}, {343.7579, 292.7994}},    {45, 25, {0.01, -0.06, 0.33}, {185.4774, 217.7812}},
+      {45, 25, {-0.02, 0.01, 0.27}, {255.5000, 281.4876}},   {45, -30, {0.06, -0.02, 0.3}, {343.9254, 211.2873}},
+      {45, -30, {0.01, -0.06, 0.33}, {182.7113, 152.2449}},  {45, -30, {-0.02, 0.01, 0.27}, {255.5000, 382.3855}},
+  };
+  for (const Known& expected : known)
+  {
+    CArmPose view = pose(expected.lao, expected.cranial);
+    view.isocentre = {0.01, -0.02, 0.3};
+    view.source_to_detector = 1.1;
+    view.source_to_patient = 0.72;
+    const Eigen::Vector2d pixel = XRayGeometry(view).project(expected.point);
+    EXPECT_LT((pixel - expected.pixel).norm(), 0.01) << expected.lao << " " << expected.cranial << ": " << pixel;
+  }
+}
+
+TEST(XRayGeometry, MagnifiesByTheRatioOfTheDistances)
+{
+  for (const double sid : {0.9, 1.1, 1.3})
+    for (const double sod : {0.6, 0.75})
+    {
+      CArmPose view = pose(35, -15);
+      view.source_to_detector = sid;
+      view.source_to_patient = sod;
+      const XRayGeometry geometry(view);
+      const Eigen::Vector2d shift = geometry.project(view.isocentre + 0.02 * geometry.axes().col(0)) -
+                                    geometry.project(view.isocentre - 0.02 * geometry.axes().col(0));
+      EXPECT_NEAR(shift.norm() * view.detector_width / view.pixels, 0.04 * sid / sod, 1e-12);
+    }
+}
+
+TEST(XRayGeometry, TheSourceViewIsTheImageWithItsColumnsReversed)
+{
+  const XRayGeometry geometry(pose(37, -21));
+  const Eigen::Matrix3d axes = geometry.patientFromSourceView().linear();
+  EXPECT_NEAR(axes.determinant(), 1.0, 1e-14);
+  EXPECT_GT(geometry.sourceViewMatrix()(0, 0), 0.0);
+  EXPECT_EQ(geometry.sourceViewMatrix()(1, 1), geometry.sourceViewMatrix()(0, 0));
+  for (const Eigen::Vector3d& shift : {kLeft, kPosterior, kHead})
+  {
+    const Eigen::Vector3d point = geometry.pose().isocentre + 0.04 * shift;
+    const Eigen::Vector3d image = geometry.sourceViewMatrix() * (geometry.patientFromSourceView().inverse() * point);
+    const Eigen::Vector2d pixel = geometry.project(point);
+    EXPECT_TRUE(image.hnormalized().isApprox(Eigen::Vector2d(511.0 - pixel.x(), pixel.y()), 1e-12));
+  }
+}
+
 TEST(XRayGeometry, HasAFocalLengthOfSourceToDetectorOverPixelSize)
 {
   EXPECT_DOUBLE_EQ(XRayGeometry(pose(0, 0)).focalLength(), 1.2 / (0.3 / 512));
@@ -110,6 +172,9 @@ TEST(XRayGeometry, RejectsInvalidPoses)
   rejected([](CArmPose& p) { p.source_to_detector = 0.7; });
   rejected([](CArmPose& p) { p.detector_width = -0.3; });
   rejected([](CArmPose& p) { p.pixels = 0; });
+  rejected([](CArmPose& p) { p.field_width = 0.31; });
+  rejected([](CArmPose& p) { p.field_height = -0.1; });
+  rejected([](CArmPose& p) { p.field_height = std::numeric_limits<double>::quiet_NaN(); });
   rejected([](CArmPose& p) { p.isocentre.x() = std::numeric_limits<double>::infinity(); });
 }
 

@@ -54,11 +54,23 @@ TEST(SceneProcedure, ReadsItsSteps)
   EXPECT_EQ(step.retry.times, 3);
 }
 
+TEST(SceneProcedure, ReadsTheViewOfAStepAndRefusesAnUnknownOne)
+{
+  EXPECT_EQ(sceneOf("{wait: 1, view: spider}").procedure->steps.at(0).view, "spider");
+  EXPECT_NE(refusalOf("{wait: 1, view: LAO}").find("procedure.steps.0.view (line 7): unknown view 'LAO'; known: AP"),
+            std::string::npos)
+      << refusalOf("{wait: 1, view: LAO}");
+  EXPECT_NE(refusalOf("{wait: 1, view: CRA 70}\nfluoroscopy: {}").find("is 1.222 rad (70°), beyond the gantry"),
+            std::string::npos)
+      << refusalOf("{wait: 1, view: CRA 70}\nfluoroscopy: {}");
+}
+
 TEST(SceneProcedure, IsUnchangedByItsResolvedText)
 {
-  for (const char* step : {"{advance: wire, until: {tip_in: tube}}", "{withdraw: wire, until: {by: 0.1}, phase: Out}",
-                           "{rotate: wire, until: {turned: -2}}", "{inflate: balloon, pressure: -0.5e5, for: 3}",
-                           "{wait: 1.5}", "{exchange: wire, for: balloon, until: {balloon_in: tube, beyond: 0.02}}"})
+  for (const char* step :
+       {"{advance: wire, until: {tip_in: tube}}", "{withdraw: wire, until: {by: 0.1}, phase: Out}",
+        "{rotate: wire, until: {turned: -2}}", "{inflate: balloon, pressure: -0.5e5, for: 3}",
+        "{wait: 1.5, view: LAO 40}", "{exchange: wire, for: balloon, until: {balloon_in: tube, beyond: 0.02}}"})
   {
     const Scene scene = sceneOf(step);
     EXPECT_EQ(parseScene(scene.resolved_yaml, "again.yaml").resolved_yaml, scene.resolved_yaml) << step;
