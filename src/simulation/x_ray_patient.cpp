@@ -1,5 +1,6 @@
 #include "simulation/x_ray_patient.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "fluoroscopy/patient/body/body_model.h"
@@ -23,6 +24,16 @@ fluoroscopy::PatientVolume volumeOf(const scene::PatientScene& patient, const sc
 }
 
 }  // namespace
+
+fluoroscopy::ProgressiveResolution sequenceResolution(double rate)
+{
+  constexpr double kTimeToRefine = 0.9;  // s
+  fluoroscopy::ProgressiveResolution resolution;
+  const int frames = std::max(1, static_cast<int>(kTimeToRefine * rate) - 1);
+  const int rows = (resolution.at_rest + frames - 1) / frames;
+  resolution.rays_per_frame = rows * resolution.at_rest;
+  return resolution;
+}
 
 XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
                         const fluoroscopy::ProgressiveResolution& resolution)

@@ -14,6 +14,10 @@ namespace endovascular_sim::simulation
 /** Resolution of single images: complete in the first frame. */
 constexpr fluoroscopy::ProgressiveResolution kStillResolution{512, 512, 1 << 20};
 
+/** Resolution of a sequence: 128² while C-arm or table move, 256² within 0.9 s of rest.
+ *  @param rate frame rate [Hz] */
+fluoroscopy::ProgressiveResolution sequenceResolution(double rate);
+
 /** Patient of a scene, and notes for the log. */
 struct XRayPatient
 {
@@ -25,6 +29,6 @@ struct XRayPatient
  *  @param vessel vessel at rest, in the patient frame
  *  @throws InputError if the CT is missing or damaged, or lies beside the vessel */
 XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
-                        const fluoroscopy::ProgressiveResolution& resolution = {});
+                        const fluoroscopy::ProgressiveResolution& resolution);
 
 }  // namespace endovascular_sim::simulation

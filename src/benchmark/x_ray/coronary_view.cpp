@@ -93,7 +93,8 @@ simulation::FluoroscopySystem CoronaryView::system(int pixels)
   simulation::FluoroscopySystem system(
       scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml"));
   system.fluoroscope().setVessel(vessel.mesh);
-  system.fluoroscope().setPatient(simulation::loadPatient(scene, vessel).patient);
+  system.fluoroscope().setPatient(
+      simulation::loadPatient(scene, vessel, simulation::sequenceResolution(scene.fluoroscopy->rate)).patient);
   return system;
 }
 

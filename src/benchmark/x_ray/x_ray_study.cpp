@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr double kStep = 1e-3;             // between two poses of a moving C-arm [rad]
-constexpr int kFramesOfRefinement = 8;     // after the first frame at rest
+constexpr int kFramesOfRefinement = 13;    // after the first frame at rest
 constexpr float kSteelBehindBody = 0.02F;  // effective coefficient of steel behind the body [m²/kg]
 
 /** Median of the processor times of a repeated task [ms]. */

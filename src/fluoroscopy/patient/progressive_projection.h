@@ -12,7 +12,7 @@ struct ProgressiveResolution
 {
   int moving = 128;           ///< rays per side of the first image after a movement
   int at_rest = 256;          ///< rays per side of the final image
-  int rays_per_frame = 8192;  ///< rays of the final image per call; 256² in 8 frames, about 16 ms each
+  int rays_per_frame = 8192;  ///< rays of the final image per call: 256² in 8 frames
 };
 
 /** Projection of the patient for a sequence of frames: coarse in the frame after a movement of C-arm or table, then

@@ -119,7 +119,8 @@ void FluoroscopyNode::loadPatient()
   try
   {
     ROS_INFO("loading the patient; the first run with this vessel makes its body, which takes some seconds");
-    simulation::XRayPatient loaded = simulation::loadPatient(scene_, vessel);
+    simulation::XRayPatient loaded =
+        simulation::loadPatient(scene_, vessel, simulation::sequenceResolution(settings_.rate));
     for (const std::string& note : loaded.notes)
       ROS_INFO("patient: %s", note.c_str());
     fluoroscope_.setPatient(std::move(loaded.patient));
