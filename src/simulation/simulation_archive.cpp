@@ -164,7 +164,7 @@ void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be saved; use kkt");
   Archive out;
   Header header;
-  header.scene_hash = scene_.hash();
+  header.scene_hash = scene_.motionHash();
   header.vessel_hash = vessel_hash;
   out(header);
   archive(out);
@@ -184,7 +184,7 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   Archive in(checked({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, origin));
   Header header;
   Header wanted;
-  wanted.scene_hash = scene_.hash();
+  wanted.scene_hash = scene_.motionHash();
   wanted.vessel_hash = vessel_hash;
   try
   {

@@ -156,6 +156,8 @@ TEST(SavedStates, ThatAreDamagedOrOfAnotherSceneAreRefused)
   EXPECT_NE(refusalOf(fresh, state, 5).find("another vessel"), std::string::npos);
   TreatmentBench other({"vessel.friction=0.2"});
   EXPECT_NE(refusalOf(other, state).find("another scene"), std::string::npos);
+  TreatmentBench imaged({"fluoroscopy={primary_angle: 0.5}"});
+  EXPECT_EQ(refusalOf(imaged, state), "") << "imaging has no influence on the motion";
   EXPECT_EQ(refusalOf(fresh, state), "");
   EXPECT_EQ(fresh.simulation.steps(), 20U);
 }

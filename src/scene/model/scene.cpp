@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/hash.h"
 
@@ -78,6 +79,23 @@ std::uint64_t Scene::hash() const
 {
   Hash64 hash;
   hash.add(resolved_yaml);
+  return hash.value();
+}
+
+std::uint64_t Scene::motionHash() const
+{
+  std::istringstream text(resolved_yaml);
+  std::string kept;
+  bool omitted = false;
+  for (std::string line; std::getline(text, line);)
+  {
+    if (!line.empty() && line.front() != ' ')
+      omitted = line.rfind("fluoroscopy:", 0) == 0;
+    if (!omitted)
+      kept += line + '\n';
+  }
+  Hash64 hash;
+  hash.add(kept);
   return hash.value();
 }
 

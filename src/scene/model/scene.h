@@ -330,6 +330,9 @@ struct Scene
 
   /** Hash of resolved_yaml. */
   std::uint64_t hash() const;
+
+  /** Hash of resolved_yaml without `fluoroscopy`, which has no influence on the motion. */
+  std::uint64_t motionHash() const;
 };
 
 /** Nodes that a scene requires, by executable name, in the order of their start. */
