@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -137,22 +139,66 @@ protected:
     return image.hnormalized();
   }
 
-  static int grey(const sensor_msgs::Image& image, const Eigen::Vector2d& pixel)
+  /** Mean grey value of 3 × 3 pixels. */
+  static double grey(const sensor_msgs::Image& image, const Eigen::Vector2d& pixel)
   {
-    return image.data.at(static_cast<std::size_t>(std::lround(pixel.y())) * image.step +
-                         static_cast<std::size_t>(std::lround(pixel.x())));
+    double sum = 0.0;
+    for (long row = std::lround(pixel.y()) - 1; row <= std::lround(pixel.y()) + 1; ++row)
+      for (long column = std::lround(pixel.x()) - 1; column <= std::lround(pixel.x()) + 1; ++column)
+        sum += image.data.at(static_cast<std::size_t>(row) * image.step + static_cast<std::size_t>(column));
+    return sum / 9.0;
   }
 
   /** Expects the wire 10 mm below the tip, and no wire 10 mm above or 3 mm beside it. */
   void expectWireAtItsProjection(const ros::Time& stamp)
   {
-    const sensor_msgs::CameraInfo& info = *infos.at(stamp);
-    const sensor_msgs::Image& image = *images.at(stamp);
+    expectWireAtItsProjection(*infos.at(stamp), *images.at(stamp));
+  }
+
+  void expectWireAtItsProjection(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& image)
+  {
     const Eigen::Vector3d along(0.0, 0.0, 0.01), beside(0.003, 0.0, 0.0);
-    const int wire = grey(image, pixelOf(kTip - along, info));
+    const double wire = grey(image, pixelOf(kTip - along, info));
     EXPECT_LT(wire, grey(image, pixelOf(kTip + along, info)) - 30);
     EXPECT_LT(wire, grey(image, pixelOf(kTip - along + beside, info)) - 30);
     EXPECT_LT(wire, grey(image, pixelOf(kTip - along - beside, info)) - 30);
+  }
+
+  void command(const CArm& message)
+  {
+    ASSERT_TRUE(waitFor([&] { return c_arm_.getNumSubscribers() > 0; }));
+    c_arm_.publish(message);
+  }
+
+  void commandView(const std::string& view)
+  {
+    CArm message;
+    message.view = view;
+    command(message);
+  }
+
+  bool isRefused(const std::string& part)
+  {
+    return waitFor([&] { return status_message.find(part) != std::string::npos; });
+  }
+
+  /** Direction from the source to the detector in the patient frame, from tf. */
+  Eigen::Vector3d forward()
+  {
+    const auto t = buffer_.lookupTransform(names::kPatientFrame, names::kXRaySourceFrame, ros::Time(0)).transform;
+    return Eigen::Quaterniond(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z) * Eigen::Vector3d::UnitZ();
+  }
+
+  bool looksAlong(double primary, double secondary)
+  {
+    const double a = primary * M_PI / 180.0, b = secondary * M_PI / 180.0;
+    const Eigen::Vector3d expected(std::sin(a) * std::cos(b), -std::cos(a) * std::cos(b), std::sin(b));
+    return waitFor(
+        [&]
+        {
+          return buffer_.canTransform(names::kPatientFrame, names::kXRaySourceFrame, ros::Time(0)) &&
+                 (forward() - expected).norm() < 1e-9;
+        });
   }
 
   std::map<ros::Time, sensor_msgs::ImageConstPtr> images, raws;
@@ -247,8 +293,97 @@ TEST_F(FluoroscopyGraph, FollowsCommandsOfTheCArmAndRejectsInvalidOnes)
 
   pose.source_to_patient = 2.0;
   c_arm_.publish(toMessage(pose));
-  EXPECT_TRUE(waitFor([&] { return status_message.find("distance_source_to_detector") != std::string::npos; }));
+  EXPECT_TRUE(isRefused("distance_source_to_patient: is 2 m, beyond the gantry; must lie between 0.6 and 0.9 m"));
   EXPECT_TRUE(isSourceInPlace());
+}
+
+TEST_F(FluoroscopyGraph, MovesTheCArmAtItsSpeedAlsoWithoutASubscriber)
+{
+  ASSERT_TRUE(
+      waitFor([&] { return buffer_.canTransform(names::kPatientFrame, names::kXRaySourceFrame, ros::Time(0)); }));
+  commandView("RAO 20");
+  ASSERT_TRUE(looksAlong(-20, 0));
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  commandView("LAO 30 CRA 10");
+  ASSERT_TRUE(waitFor([&] { return std::atan2(forward().x(), -forward().y()) > 0.0; }));
+  const double seconds = (ros::SteadyTime::now() - begin).toSec();
+  EXPECT_GT(seconds, 20.0 / 25.0 - 0.1);
+  EXPECT_LT(seconds, 20.0 / 25.0 + 3.0);
+  EXPECT_TRUE(looksAlong(30, 10));
+  EXPECT_GT((ros::SteadyTime::now() - begin).toSec(), 50.0 / 25.0 - 0.1);
+}
+
+TEST_F(FluoroscopyGraph, PublishesItsPoseAtALowRateAtRest)
+{
+  int poses = 0;
+  const ros::Subscriber tf =
+      node_.subscribe<tf2_msgs::TFMessage>("/tf", 100,
+                                           [&poses](const tf2_msgs::TFMessageConstPtr& message)
+                                           {
+                                             for (const auto& transform : message->transforms)
+                                               poses += transform.child_frame_id == names::kXRaySourceFrame;
+                                           });
+  ASSERT_TRUE(waitFor([&] { return poses > 0; }));
+  poses = 0;
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(3.0);
+  while (ros::SteadyTime::now() < end)
+  {
+    ros::spinOnce();
+    ros::WallDuration(0.01).sleep();
+  }
+  EXPECT_GE(poses, 2);
+  EXPECT_LE(poses, 8);
+}
+
+TEST_F(FluoroscopyGraph, RefusesCommandsBeyondItsLimitsAndRetainsItsTarget)
+{
+  commandView("LAO 30 CRA 10");
+  ASSERT_TRUE(looksAlong(30, 10));
+  commandView("sipder");
+  EXPECT_TRUE(isRefused("view: unknown view 'sipder'; known: AP, lateral, spider"));
+  commandView("CRA 60");
+  EXPECT_TRUE(isRefused("positioner_secondary_angle: is 1.047 rad (60°)"));
+  CArm message;
+  message.positioner_primary_angle = std::numeric_limits<double>::quiet_NaN();
+  command(message);
+  EXPECT_TRUE(isRefused("positioner_primary_angle"));
+  EXPECT_TRUE(looksAlong(30, 10));
+}
+
+TEST_F(FluoroscopyGraph, PublishesTheSourceViewWithPositiveFocalLengths)
+{
+  std::map<ros::Time, sensor_msgs::ImageConstPtr> views;
+  std::map<ros::Time, sensor_msgs::CameraInfoConstPtr> cameras;
+  const ros::Subscriber image = node_.subscribe<sensor_msgs::Image>(
+      names::kSourceViewImage, 10, [&views](const sensor_msgs::ImageConstPtr& m) { views[m->header.stamp] = m; });
+  const ros::Subscriber info = node_.subscribe<sensor_msgs::CameraInfo>(
+      names::kSourceViewCameraInfo, 10,
+      [&cameras](const sensor_msgs::CameraInfoConstPtr& m) { cameras[m->header.stamp] = m; });
+  commandView("LAO 30 CRA 10");
+  ASSERT_TRUE(looksAlong(30, 10));
+  subscribe();
+  std::optional<ros::Time> stamp;
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        for (const auto& [time, camera] : cameras)
+          if (views.count(time) > 0 && images.count(time) > 0)
+            stamp = time;
+        return stamp.has_value();
+      }));
+  const sensor_msgs::CameraInfo& camera = *cameras.at(*stamp);
+  EXPECT_EQ(camera.header.frame_id, names::kXRaySourceViewFrame);
+  EXPECT_GT(camera.K[0], 0.0);
+  EXPECT_DOUBLE_EQ(camera.K[4], camera.K[0]);
+  EXPECT_DOUBLE_EQ(camera.P[5], camera.K[0]);
+  ASSERT_TRUE(
+      waitFor([&] { return buffer_.canTransform(camera.header.frame_id, names::kPatientFrame, ros::Time(0)); }));
+  expectWireAtItsProjection(camera, *views.at(*stamp));
+  const sensor_msgs::Image& view = *views.at(*stamp);
+  const sensor_msgs::Image& radiograph = *images.at(*stamp);
+  for (std::size_t row = 0; row < 256; row += 51)
+    for (std::size_t column = 0; column < 256; ++column)
+      ASSERT_EQ(view.data[row * view.step + column], radiograph.data[row * view.step + 255 - column]);
 }
 
 TEST_F(FluoroscopyGraph, RejectsInconsistentMessagesAndContinues)
@@ -276,7 +411,30 @@ TEST(ImageConversions, RestoreACArmPose)
   pose.isocentre = {1.0, 2.0, 3.0};
   pose.detector_width = 0.2;
   pose.pixels = 100;
-  EXPECT_EQ(toPose(toMessage(pose), 100), pose);
+  pose.field_width = 0.1;
+  pose.field_height = 0.15;
+  fluoroscopy::CArmPose present;
+  present.pixels = 100;
+  EXPECT_EQ(toPose(toMessage(pose), present), pose);
+}
+
+TEST(ImageConversions, AViewRetainsQuantitiesThatAreZero)
+{
+  fluoroscopy::CArmPose present;
+  present.isocentre = {1.0, 2.0, 3.0};
+  present.source_to_detector = 1.1;
+  CArm message;
+  message.view = "RAO 30 CAU 20";
+  message.positioner_primary_angle = 1.0;
+  fluoroscopy::CArmPose expected = present;
+  expected.primary_angle = -30.0 / 180.0 * M_PI;
+  expected.secondary_angle = -20.0 / 180.0 * M_PI;
+  EXPECT_EQ(toPose(message, present), expected);
+  message.distance_source_to_detector = 1.0;
+  message.isocentre.z = 0.5;
+  expected.source_to_detector = 1.0;
+  expected.isocentre = {0.0, 0.0, 0.5};
+  EXPECT_EQ(toPose(message, present), expected);
 }
 
 }  // namespace

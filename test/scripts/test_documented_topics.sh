@@ -52,7 +52,7 @@ def in_code():
     crtk = {value for key, value in values.items() if value.startswith("/") and key not in ("kDiagnostics", "kClock")}
     assert {"/measured_js", "/servo_jp", "/operating_state"} < crtk, crtk
     of_devices = {"/measured_js", "/operating_state", "/state_reason"}
-    topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "/[a-z_]+", value)}
+    topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "(?:/[a-z_]+)+", value)}
     return topics | {prefix + name for prefix in ("instruments/*", "robot") for name in crtk} | {"haptic/*" + name for name in of_devices}
 
 

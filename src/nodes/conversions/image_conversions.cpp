@@ -7,6 +7,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "common/error.h"
+#include "fluoroscopy/gantry/view.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -29,6 +30,23 @@ sensor_msgs::Image image(const std_msgs::Header& header, int pixels, const std::
   return message;
 }
 
+sensor_msgs::CameraInfo cameraInfo(const std_msgs::Header& header, int pixels, const Eigen::Matrix3d& k)
+{
+  sensor_msgs::CameraInfo info;
+  info.header = header;
+  info.width = info.height = static_cast<std::uint32_t>(pixels);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  std::size_t i = 0, j = 0;  // row-major indices into K and R, and into P
+  for (int row = 0; row < 3; ++row, ++j)
+    for (int column = 0; column < 3; ++column, ++i, ++j)
+    {
+      info.K[i] = info.P[j] = k(row, column);
+      info.R[i] = row == column ? 1.0 : 0.0;
+    }
+  return info;
+}
+
 }  // namespace
 
 Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
@@ -46,22 +64,25 @@ sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std
   return image(header, pixels, signal, sensor_msgs::image_encodings::MONO16);
 }
 
+sensor_msgs::Image mirrored(const sensor_msgs::Image& image)
+{
+  sensor_msgs::Image result = image;
+  const std::size_t size = image.step / image.width;  // of a pixel
+  for (std::size_t row = 0; row < image.height; ++row)
+    for (std::size_t column = 0; column < image.width; ++column)
+      std::memcpy(result.data.data() + row * image.step + column * size,
+                  image.data.data() + row * image.step + (image.width - 1 - column) * size, size);
+  return result;
+}
+
 sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry)
 {
-  sensor_msgs::CameraInfo info;
-  info.header = header;
-  info.width = info.height = static_cast<std::uint32_t>(geometry.pixels());
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  const Eigen::Matrix3d k = geometry.cameraMatrix();
-  std::size_t i = 0, j = 0;  // row-major indices into K and R, and into P
-  for (int row = 0; row < 3; ++row, ++j)
-    for (int column = 0; column < 3; ++column, ++i, ++j)
-    {
-      info.K[i] = info.P[j] = k(row, column);
-      info.R[i] = row == column ? 1.0 : 0.0;
-    }
-  return info;
+  return cameraInfo(header, geometry.pixels(), geometry.cameraMatrix());
+}
+
+sensor_msgs::CameraInfo toSourceViewInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry)
+{
+  return cameraInfo(header, geometry.pixels(), geometry.sourceViewMatrix());
 }
 
 geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry)
@@ -81,16 +102,38 @@ geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoro
   return message;
 }
 
-fluoroscopy::CArmPose toPose(const CArm& message, int pixels)
+geometry_msgs::TransformStamped sourceViewTransform(const ros::Time& stamp)
 {
-  fluoroscopy::CArmPose pose;
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = names::kXRaySourceFrame;
+  message.child_frame_id = names::kXRaySourceViewFrame;
+  message.transform.rotation.z = 1.0;  // half a turn
+  return message;
+}
+
+fluoroscopy::CArmPose toPose(const CArm& message, const fluoroscopy::CArmPose& present)
+{
+  const bool by_view = !message.view.empty();
+  const auto given = [by_view](double value, double retained) { return by_view && value == 0.0 ? retained : value; };
+  fluoroscopy::CArmPose pose = present;
   pose.primary_angle = message.positioner_primary_angle;
   pose.secondary_angle = message.positioner_secondary_angle;
-  pose.source_to_detector = message.distance_source_to_detector;
-  pose.source_to_patient = message.distance_source_to_patient;
-  pose.isocentre = toEigen(message.isocentre);
-  pose.detector_width = message.detector_width;
-  pose.pixels = pixels;
+  pose.source_to_detector = given(message.distance_source_to_detector, present.source_to_detector);
+  pose.source_to_patient = given(message.distance_source_to_patient, present.source_to_patient);
+  pose.detector_width = given(message.detector_width, present.detector_width);
+  pose.field_width = given(message.field_width, present.field_width);
+  pose.field_height = given(message.field_height, present.field_height);
+  const Eigen::Vector3d isocentre = toEigen(message.isocentre);
+  if (!by_view || !isocentre.isZero(0.0))
+    pose.isocentre = isocentre;
+  if (!by_view)
+    return pose;
+  const std::optional<fluoroscopy::View> view = fluoroscopy::parseView(message.view);
+  if (!view)
+    throw InputError("C-arm", "view", fluoroscopy::unknownView(message.view));
+  pose.primary_angle = view->primary_angle;
+  pose.secondary_angle = view->secondary_angle;
   return pose;
 }
 
@@ -105,6 +148,8 @@ CArm toMessage(const fluoroscopy::CArmPose& pose)
   message.isocentre.y = pose.isocentre.y();
   message.isocentre.z = pose.isocentre.z();
   message.detector_width = pose.detector_width;
+  message.field_width = pose.field_width;
+  message.field_height = pose.field_height;
   return message;
 }
 

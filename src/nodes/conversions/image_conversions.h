@@ -31,11 +31,22 @@ sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std
  *  seen from the detector, the mirror image of a camera's view from the source (see XRayGeometry). */
 sensor_msgs::CameraInfo toCameraInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry);
 
+/** Camera of the source view (see XRayGeometry), in the frame `x_ray_source_view_optical`: f_x = f_y > 0. */
+sensor_msgs::CameraInfo toSourceViewInfo(const std_msgs::Header& header, const fluoroscopy::XRayGeometry& geometry);
+
+/** The image with its columns in reverse order. */
+sensor_msgs::Image mirrored(const sensor_msgs::Image& image);
+
 /** From `x_ray_source_optical` to `patient`. */
 geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry);
 
-/** C-arm pose of a command. @param pixels size of the image, which no command changes */
-fluoroscopy::CArmPose toPose(const CArm& message, int pixels);
+/** From `x_ray_source_view_optical` to `x_ray_source_optical`, for all poses. */
+geometry_msgs::TransformStamped sourceViewTransform(const ros::Time& stamp);
+
+/** C-arm pose of a command.
+ *  @param present present target, for quantities that the command retains, and for the size of the image
+ *  @throws InputError for an unknown view */
+fluoroscopy::CArmPose toPose(const CArm& message, const fluoroscopy::CArmPose& present);
 
 /** Command that moves the C-arm to a pose, without a header. */
 CArm toMessage(const fluoroscopy::CArmPose& pose);

@@ -19,6 +19,7 @@ namespace
 {
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+constexpr double kRestPeriod = 0.5;  ///< of the pose on /tf while neither the C-arm moves nor frames are drawn [s]
 
 /** Material library of the private parameter `materials`; by default that of the package. */
 fluoroscopy::MaterialLibrary materialLibrary(const ros::NodeHandle& parameters)
@@ -52,12 +53,17 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
     system_(scene_, materialLibrary(parameters)),
     settings_(*scene_.fluoroscopy),
     fluoroscope_(system_.fluoroscope()),
+    gantry_(settings_.gantry, fluoroscope_.geometry().pose()),
     needs_patient_(settings_.patient.has_value()),
     isocentre_known_(settings_.isocentre.has_value()),
+    gantry_time_(ros::SteadyTime::now()),
     grant_(std::move(grant)),
-    raw_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2)),
-    image_(node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2)),
-    camera_info_(node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2))
+    radiograph_{node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2),
+                node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2),
+                node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2)},
+    source_view_{node.advertise<sensor_msgs::Image>(names::kSourceViewRaw, 2),
+                 node.advertise<sensor_msgs::Image>(names::kSourceViewImage, 2),
+                 node.advertise<sensor_msgs::CameraInfo>(names::kSourceViewCameraInfo, 2)}
 {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &FluoroscopyNode::receiveMesh, this, no_delay);
@@ -70,7 +76,8 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
   c_arm_subscriber_ = node.subscribe(names::kCArmCommand, 1, &FluoroscopyNode::receiveCommand, this, no_delay);
   updater_.setHardwareID("simulated C-arm");
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
-  broadcastPose();
+  static_broadcaster_.sendTransform(sourceViewTransform(ros::Time::now()));
+  broadcastPose(ros::Time::now());
   if (!scene_.vessel)
     loadPatient();
   frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / settings_.rate), &FluoroscopyNode::onFrame, this);
@@ -89,7 +96,7 @@ void FluoroscopyNode::receiveMesh(const VesselMesh& message)
           Eigen::AlignedBox3d box;
           for (const Eigen::Vector3d& vertex : mesh.vertices)
             box.extend(vertex);
-          moveIsocentre(box.center());
+          placePatient(box.center());
         }
         if (needs_patient_)
           vessel_.mesh = mesh;
@@ -139,7 +146,7 @@ void FluoroscopyNode::receiveRod(const RodStateVisual& message)
   if (!message.nodes.empty())
     tip_ = toEigen(message.nodes.back());
   if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
-    processInput([&] { moveIsocentre(toEigen(message.nodes[message.nodes.size() / 2])); });
+    processInput([&] { placePatient(toEigen(message.nodes[message.nodes.size() / 2])); });
 }
 
 void FluoroscopyNode::receiveTreatment(const TreatmentVisual& message)
@@ -152,68 +159,110 @@ void FluoroscopyNode::receiveCommand(const CArm& message)
   processInput(
       [&]
       {
-        move(toPose(message, settings_.pixels));
-        isocentre_known_ = true;
+        const fluoroscopy::CArmPose target = toPose(message, gantry_.target());
+        const bool places_patient =
+            !isocentre_known_ && (message.view.empty() || !toEigen(message.isocentre).isZero(0.0));
+        fluoroscopy::Gantry commanded = gantry_;
+        if (places_patient && target.isocentre.allFinite())
+          commanded.placePatient(target.isocentre);
+        commanded.moveTo(target);
+        gantry_ = commanded;
+        isocentre_known_ = isocentre_known_ || places_patient;
       });
 }
 
-void FluoroscopyNode::moveIsocentre(const Eigen::Vector3d& isocentre)
+void FluoroscopyNode::placePatient(const Eigen::Vector3d& isocentre)
 {
-  fluoroscopy::CArmPose pose = fluoroscope_.geometry().pose();
-  pose.isocentre = isocentre;
-  move(pose);
+  gantry_.placePatient(isocentre);
+  applyPose();
   isocentre_known_ = true;
 }
 
-void FluoroscopyNode::move(const fluoroscopy::CArmPose& pose)
+void FluoroscopyNode::advanceGantry()
 {
-  if (pose == fluoroscope_.geometry().pose())
-    return;
-  fluoroscope_.setPose(pose);
-  broadcastPose();
+  // By the steady clock, so that the C-arm moves while the simulation is paused, or by ROS time where that is faster:
+  // in a fast simulation or replay.
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  const ros::Time ros_now = ros::Time::now();
+  double duration = (now - gantry_time_).toSec();
+  if (!gantry_ros_time_.isZero())
+    duration = std::max(duration, (ros_now - gantry_ros_time_).toSec());
+  gantry_time_ = now;
+  gantry_ros_time_ = ros_now;
+  if (settings_.follow_tip && tip_ && isocentre_known_)
+  {
+    const fluoroscopy::CArmPose& pose = gantry_.pose();
+    const fluoroscopy::CArmPose panned = fluoroscopy::panToTip(pose, *tip_);
+    if (panned != pose)
+      gantry_.panTo(panned.isocentre);
+  }
+  if (gantry_.advance(duration))
+    applyPose();
 }
 
-void FluoroscopyNode::broadcastPose()
+/** Gives the pose of the gantry to the fluoroscope. The gantry stops in front of a collision. */
+void FluoroscopyNode::applyPose()
 {
-  broadcaster_.sendTransform(toTransform(ros::Time::now(), fluoroscope_.geometry()));
+  try
+  {
+    fluoroscope_.setPose(gantry_.pose());
+  }
+  catch (const InputError&)
+  {
+    gantry_.stopAt(fluoroscope_.geometry().pose());
+    throw;
+  }
+}
+
+void FluoroscopyNode::broadcastPose(const ros::Time& stamp)
+{
+  broadcaster_.sendTransform(toTransform(stamp, fluoroscope_.geometry()));
+  broadcast_time_ = ros::SteadyTime::now();
 }
 
 bool FluoroscopyNode::hasSubscribers() const
 {
-  return raw_.getNumSubscribers() + image_.getNumSubscribers() + camera_info_.getNumSubscribers() > 0;
+  return radiograph_.hasSubscribers() || source_view_.hasSubscribers();
 }
 
 void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
 {
-  if (!hasSubscribers() || needs_patient_ || (scene_.vessel && !has_mesh_))
-    return;
-  processInput(
-      [&]
-      {
-        if (settings_.follow_tip && tip_)
-          move(fluoroscopy::panToTip(fluoroscope_.geometry().pose(), *tip_));
-        publishFrame();
-      });
+  const fluoroscopy::CArmPose before = fluoroscope_.geometry().pose();
+  processInput([this] { advanceGantry(); });
+  const bool draws = hasSubscribers() && !needs_patient_ && (!scene_.vessel || has_mesh_);
+  const ros::Time stamp = ros::Time::now();
+  const bool is_due = (ros::SteadyTime::now() - broadcast_time_).toSec() >= kRestPeriod;
+  if (draws || is_due || fluoroscope_.geometry().pose() != before)
+    broadcastPose(stamp);  // at frame rate too, so that an image need not wait for its pose
+  if (draws)
+    processInput([this, &stamp] { publishFrame(stamp); });
 }
 
-void FluoroscopyNode::publishFrame()
+void FluoroscopyNode::publishFrame(const ros::Time& stamp)
 {
   const auto begin = std::chrono::steady_clock::now();
-  std_msgs::Header header;
-  header.stamp = ros::Time::now();
-  header.frame_id = names::kXRaySourceFrame;
   std::vector<fluoroscopy::XRayWire> wires = wires_;
   wires.insert(wires.end(), treatment_.begin(), treatment_.end());
-  const fluoroscopy::Frame& frame = fluoroscope_.render(wires, image_.getNumSubscribers() > 0);
+  const bool display = radiograph_.image.getNumSubscribers() + source_view_.image.getNumSubscribers() > 0;
+  const fluoroscopy::Frame& frame = fluoroscope_.render(wires, display);
   render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   ++frames_;
   air_kerma_rate_ = frame.reference_kerma * settings_.rate;
   dose_limited_ = frame.dose_limited;
-  camera_info_.publish(toCameraInfo(header, fluoroscope_.geometry()));
-  if (raw_.getNumSubscribers() > 0)
-    raw_.publish(toImage(header, frame.pixels, frame.raw));
-  if (image_.getNumSubscribers() > 0)
-    image_.publish(toImage(header, frame.pixels, frame.image));
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = names::kXRaySourceFrame;
+  radiograph_.camera_info.publish(toCameraInfo(header, fluoroscope_.geometry()));
+  if (radiograph_.raw.getNumSubscribers() > 0)
+    radiograph_.raw.publish(toImage(header, frame.pixels, frame.raw));
+  if (radiograph_.image.getNumSubscribers() > 0)
+    radiograph_.image.publish(toImage(header, frame.pixels, frame.image));
+  header.frame_id = names::kXRaySourceViewFrame;
+  source_view_.camera_info.publish(toSourceViewInfo(header, fluoroscope_.geometry()));
+  if (source_view_.raw.getNumSubscribers() > 0)
+    source_view_.raw.publish(mirrored(toImage(header, frame.pixels, frame.raw)));
+  if (source_view_.image.getNumSubscribers() > 0)
+    source_view_.image.publish(mirrored(toImage(header, frame.pixels, frame.image)));
 }
 
 void FluoroscopyNode::onDiagnostics(const ros::SteadyTimerEvent& /*event*/)
@@ -246,6 +295,10 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("median render time [ms]", 1e3 * median);
   status.add("air kerma rate at the reference point [mGy/min]", 60e3 * air_kerma_rate_);
   status.add("dose limited", dose_limited_);
+  const fluoroscopy::CArmPose& pose = gantry_.pose();
+  status.add("C-arm moving", gantry_.isMoving());
+  status.add("primary angle, LAO positive [rad]", pose.primary_angle);
+  status.add("secondary angle, cranial positive [rad]", pose.secondary_angle);
   status.add("scheduling", grant_.describe());
   status.add("last error", last_error_);
   render_times_.clear();

@@ -7,19 +7,22 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "fluoroscopy/gantry/gantry.h"
 #include "nodes/runtime/real_time.h"
 #include "simulation/fluoroscopy_system.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** ROS node of fluoroscopy: renders the images of the C-arm while one of its topics has a subscriber. */
+/** ROS node of fluoroscopy: moves the C-arm and its table at frame rate, and renders the images while one of their
+ *  topics has a subscriber. */
 class FluoroscopyNode
 {
 public:
@@ -36,12 +39,13 @@ private:
   void receiveRod(const RodStateVisual& message);
   void receiveTreatment(const TreatmentVisual& message);
   void receiveCommand(const CArm& message);
-  void moveIsocentre(const Eigen::Vector3d& isocentre);
-  void move(const fluoroscopy::CArmPose& pose);
-  void broadcastPose();
+  void placePatient(const Eigen::Vector3d& isocentre);
+  void advanceGantry();
+  void applyPose();
+  void broadcastPose(const ros::Time& stamp);
   bool hasSubscribers() const;
   void onFrame(const ros::SteadyTimerEvent& event);
-  void publishFrame();
+  void publishFrame(const ros::Time& stamp);
   void onDiagnostics(const ros::SteadyTimerEvent& event);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -53,6 +57,7 @@ private:
   simulation::FluoroscopySystem system_;
   scene::FluoroscopyScene settings_;
   fluoroscopy::Fluoroscope& fluoroscope_;
+  fluoroscopy::Gantry gantry_;
   std::vector<fluoroscopy::XRayWire> wires_;
   std::vector<fluoroscopy::XRayWire> treatment_;  ///< balloons and stents
   std::optional<Eigen::Vector3d> tip_;            ///< tip of the instrument that reaches farthest [m]
@@ -61,6 +66,9 @@ private:
   bool needs_patient_ = false;  ///< true: the scene has a patient that is not yet loaded
   std::string patient_error_;   ///< reason why it cannot be loaded
   bool isocentre_known_;
+  ros::SteadyTime gantry_time_;     ///< time up to which the gantry has moved
+  ros::Time gantry_ros_time_;       ///< the same
+  ros::SteadyTime broadcast_time_;  ///< of the last pose on /tf
 
   SchedulingGrant grant_;
   std::size_t frames_ = 0;
@@ -69,8 +77,18 @@ private:
   std::vector<double> render_times_;    ///< render times since the last diagnostics [s]
   std::string new_error_, last_error_;  ///< error since the last diagnostics, last error of all
 
-  ros::Publisher raw_, image_, camera_info_;
-  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  /** Topics of one view. */
+  struct View
+  {
+    ros::Publisher raw, image, camera_info;
+    bool hasSubscribers() const
+    {
+      return raw.getNumSubscribers() + image.getNumSubscribers() + camera_info.getNumSubscribers() > 0;
+    }
+  };
+  View radiograph_, source_view_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   diagnostic_updater::Updater updater_;
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber mesh_subscriber_, centreline_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_;

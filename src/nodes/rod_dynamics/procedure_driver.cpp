@@ -1,5 +1,6 @@
 #include "nodes/rod_dynamics/procedure_driver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "nodes/runtime/ros_names.h"
@@ -14,6 +15,9 @@ ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scen
     operator_(beginning_),
     publisher_(node.advertise<ProcedureStep>(names::kProcedureStep, 100, true))
 {
+  const std::vector<scene::StepScene>& steps = scene.procedure->steps;
+  if (scene.fluoroscopy && std::any_of(steps.begin(), steps.end(), [](const auto& step) { return !step.view.empty(); }))
+    c_arm_ = node.advertise<CArm>(names::kCArmCommand, 1, true);
 }
 
 const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation,
@@ -29,6 +33,7 @@ void ProcedureDriver::reset()
   operator_ = beginning_;
   published_ = ProcedureStep();
   is_complete_ = false;
+  view_.clear();
 }
 
 void ProcedureDriver::archive(Archive& archive)
@@ -36,6 +41,7 @@ void ProcedureDriver::archive(Archive& archive)
   operator_.archive(archive);
   published_ = ProcedureStep();
   is_complete_ = false;
+  view_.clear();
 }
 
 /** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
@@ -55,6 +61,21 @@ void ProcedureDriver::publishProgress(const simulation::Simulation& simulation, 
     if (is_new)
       ROS_INFO("procedure step %zu: %s", k + 1, records[k].name.c_str());
   }
+  publishView(now);
+}
+
+/** Commands the view of the present step if it is another one than before. */
+void ProcedureDriver::publishView(ros::Time now)
+{
+  if (!c_arm_ || operator_.records().empty() || operator_.records().back().view == view_)
+    return;
+  view_ = operator_.records().back().view;
+  if (view_.empty())
+    return;
+  CArm command;
+  command.header.stamp = now;
+  command.view = view_;
+  c_arm_.publish(command);
 }
 
 void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& simulation, ros::Time now)

@@ -16,6 +16,7 @@ constexpr auto kPatientFrame = "patient";
 constexpr auto kIntroducerFrame = "introducer";
 constexpr auto kTipFrame = "wire_tip";
 constexpr auto kXRaySourceFrame = "x_ray_source_optical";
+constexpr auto kXRaySourceViewFrame = "x_ray_source_view_optical";
 
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
@@ -56,6 +57,9 @@ constexpr auto kSimulationStep = "simulation/step";
 constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";
 constexpr auto kFluoroscopyImage = "fluoroscopy/image";
 constexpr auto kFluoroscopyCameraInfo = "fluoroscopy/camera_info";
+constexpr auto kSourceViewRaw = "fluoroscopy/source_view/image_raw";
+constexpr auto kSourceViewImage = "fluoroscopy/source_view/image";
+constexpr auto kSourceViewCameraInfo = "fluoroscopy/source_view/camera_info";
 constexpr auto kCArmCommand = "fluoroscopy/c_arm";
 
 constexpr auto kDiagnostics = "/diagnostics";

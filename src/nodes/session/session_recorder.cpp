@@ -16,6 +16,7 @@
 
 #include "common/error.h"
 #include "common/version.h"
+#include "endovascular_sim/CArm.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -183,6 +184,7 @@ void SessionRecorder::subscribeToFluoroscopy()
 {
   listen<sensor_msgs::Image>(names::kFluoroscopyImage, 10, [this](const auto& event) { onImage(event); });
   record<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 10);
+  record<CArm>(names::kCArmCommand, kQueue);
 }
 
 void SessionRecorder::subscribeToGraph()
