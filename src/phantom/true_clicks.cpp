@@ -40,10 +40,12 @@ Run longestRun(const vessel::AnatomyChain& chain, std::size_t first, std::size_t
   return best;
 }
 
-/** Distance of a point from the lumen of a chain [m]; negative inside. */
-double fromLumen(const vessel::AnatomyChain& chain, const Eigen::Vector3d& p)
+/** Distance of a point from the lumen of a chain and from all bulges [m]; negative inside. */
+double fromLumen(const vessel::Anatomy& anatomy, const vessel::AnatomyChain& chain, const Eigen::Vector3d& p)
 {
   double least = 1e300;
+  for (const vessel::Bulge& bulge : anatomy.bulges)
+    least = std::min(least, (p - bulge.centre).norm() - bulge.radius);
   for (std::size_t k = 0; k < chain.points.size(); ++k)
     least = std::min(least, (p - chain.points[k]).norm() - chain.radii[k]);
   return least;
@@ -85,7 +87,8 @@ std::vector<BranchClicks> trueClicks(const vessel::Anatomy& anatomy, const std::
       const std::size_t last = b + 1 < chain.branches.size() ? chain.first_sample[b + 1] : chain.points.size();
       Run run = longestRun(chain, chain.first_sample[b], last, view);
       if (b == 0 && chain.parent >= 0)  // begins in the lumen of the parent
-        while (run.begin + 1 < run.end && fromLumen(*chainOf(chain.parent), chain.points[run.begin]) < kAfterOstium)
+        while (run.begin + 1 < run.end &&
+               fromLumen(anatomy, *chainOf(chain.parent), chain.points[run.begin]) < kAfterOstium)
           ++run.begin;
       const double length = run.end > run.begin ? chain.arc[run.end - 1] - chain.arc[run.begin] : 0.0;
       if (length < kShortest)
