@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace endovascular_sim::segmentation
+{
+
+/** Click of an operator into the lumen. */
+struct Click
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< patient frame [m]
+  std::string where;                                   ///< place in its file, e.g. "line 7"
+};
+
+/** Clicks along one branch, from one end to the other. */
+struct BranchClicks
+{
+  std::string name;
+  std::vector<Click> clicks;    ///< two or more
+  double largest_radius = 0.0;  ///< bound of the lumen's radius [m]; 0: from the lumen at the clicks
+};
+
+/** Clicks of one vessel tree. */
+struct ClickSet
+{
+  std::string file;
+  std::vector<BranchClicks> branches;
+};
+
+/** Reads clicks: YAML of this package (.yaml), or markups of 3D Slicer (.mrk.json, .fcsv).
+ *
+ *  YAML: `frame` LPS or RAS [LPS], `unit` metres per unit [0.001], `branches`: a list of `name`, `clicks` (list of
+ * points), and optionally `largest_radius`. In markups, the control points whose labels differ only in a number at the
+ * end form a branch ("LAD-1", "LAD-2"). Where a file holds one branch with a default label ("F-1"), the branch has the
+ * name of the file. The coordinate system is that of the file.
+ *  @throws InputError naming file, line or point, and remedy */
+ClickSet readClicks(const std::string& file);
+
+/** Unites the clicks of several files.
+ *  @throws InputError for no file, and two branches of one name */
+ClickSet readClicks(const std::vector<std::string>& files);
+
+}  // namespace endovascular_sim::segmentation

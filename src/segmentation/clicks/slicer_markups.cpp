@@ -1,0 +1,175 @@
+#include "segmentation/clicks/slicer_markups.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/file_name.h"
+#include "common/input_file.h"
+
+namespace endovascular_sim::segmentation
+{
+namespace
+{
+
+constexpr auto kRemedy = "save the markups in 3D Slicer as .mrk.json or .fcsv";
+constexpr double kMillimetre = 1e-3;
+
+/** Labels that 3D Slicer gives by itself. */
+const std::set<std::string> kDefaultLabels = {
+    "", "F", "C", "OC", "L", "CC", "N", "P", "Markups", "Node", "Line", "Curve", "A", "R", "MarkupsFiducial"};
+
+/** Sign of x and y that turns a coordinate system into LPS. Slicer writes names or, in early versions, numbers. */
+double signOf(const std::string& system, const std::string& file)
+{
+  if (system == "LPS" || system == "1")
+    return 1.0;
+  if (system == "RAS" || system == "0")
+    return -1.0;
+  throw InputError(file, "coordinate system", "is '" + system + "'; must be LPS or RAS");
+}
+
+/** Label without a number at its end. */
+std::string stemOf(std::string label)
+{
+  while (!label.empty() && std::isdigit(static_cast<unsigned char>(label.back())) != 0)
+    label.pop_back();
+  while (!label.empty() && (label.back() == '-' || label.back() == '_' || label.back() == ' '))
+    label.pop_back();
+  return label;
+}
+
+/** Collects labelled points into branches, in the order of their first points. */
+class Grouping
+{
+public:
+  explicit Grouping(std::string file) : file_(std::move(file)) {}
+
+  /** @param group name of the list of points; points of different lists never share a branch */
+  void add(const std::string& label, const Eigen::Vector3d& position, const std::string& where, int list)
+  {
+    const std::pair<int, std::string> key(list, stemOf(label));
+    auto found = std::find(keys_.begin(), keys_.end(), key);
+    if (found == keys_.end())
+    {
+      keys_.push_back(key);
+      branches_.emplace_back();
+      found = keys_.end() - 1;
+    }
+    branches_[static_cast<std::size_t>(found - keys_.begin())].clicks.push_back({position, where});
+  }
+
+  ClickSet take()
+  {
+    if (branches_.empty())
+      throw InputError(file_, "", std::string("holds no points; ") + kRemedy);
+    std::string name = std::filesystem::path(file_).filename().string();
+    name = name.substr(0, name.find('.'));
+    for (std::size_t k = 0; k < branches_.size(); ++k)
+    {
+      const bool is_default = kDefaultLabels.count(keys_[k].second) > 0;
+      std::string own = is_default ? name : keys_[k].second;
+      if (is_default && branches_.size() > 1)
+        own += "_" + std::to_string(k + 1);
+      branches_[k].name = fileNameOf(own);
+    }
+    ClickSet set;
+    set.file = file_;
+    set.branches = std::move(branches_);
+    return set;
+  }
+
+private:
+  std::string file_;
+  std::vector<std::pair<int, std::string>> keys_;
+  std::vector<BranchClicks> branches_;
+};
+
+}  // namespace
+
+ClickSet readMarkupsJson(const std::string& file)
+{
+  std::ifstream in = openInputFile(file, kRemedy);
+  Grouping grouping(file);
+  try
+  {
+    const nlohmann::json root = nlohmann::json::parse(in);
+    int list = 0;
+    for (const nlohmann::json& markup : root.at("markups"))
+    {
+      const std::string place = "markup " + std::to_string(++list);
+      const nlohmann::json& system = markup.at("coordinateSystem");
+      const double sign = signOf(system.is_string() ? system.get<std::string>() : system.dump(), file);
+      if (markup.value("coordinateUnits", "mm") != "mm")
+        throw InputError(file, place, "its coordinateUnits must be mm");
+      int number = 0;
+      for (const nlohmann::json& point : markup.at("controlPoints"))
+      {
+        const std::string where = place + ", point " + std::to_string(++number);
+        if (point.value("positionStatus", "defined") != "defined")
+          continue;
+        const auto p = point.at("position").get<std::vector<double>>();
+        if (p.size() != 3)
+          throw InputError(file, where, "its position must have three numbers");
+        grouping.add(point.value("label", ""), kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where,
+                     list);
+      }
+    }
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    throw InputError(file, "", std::string("is no markups file (") + error.what() + "); " + kRemedy);
+  }
+  return grouping.take();
+}
+
+ClickSet readFiducialCsv(const std::string& file)
+{
+  std::ifstream in = openInputFile(file, kRemedy);
+  Grouping grouping(file);
+  double sign = 0.0;
+  std::size_t label_column = 11;
+  int number = 0;
+  for (std::string line; std::getline(in, line);)
+  {
+    const std::string where = "line " + std::to_string(++number);
+    if (!line.empty() && line.back() == '\r')
+      line.pop_back();
+    if (line.empty())
+      continue;
+    if (line[0] == '#')
+    {
+      const std::size_t equal = line.find('=');
+      if (line.find("CoordinateSystem") != std::string::npos && equal != std::string::npos)
+      {
+        std::string system = line.substr(equal + 1);
+        system.erase(std::remove(system.begin(), system.end(), ' '), system.end());
+        sign = signOf(system, file);
+      }
+      continue;
+    }
+    std::vector<std::string> fields;
+    std::istringstream row(line);
+    for (std::string field; std::getline(row, field, ',');)
+      fields.push_back(field);
+    double p[3];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      char* end = nullptr;
+      p[k] = fields.size() > k + 1 ? std::strtod(fields[k + 1].c_str(), &end) : 0.0;
+      if (end == nullptr || *end != '\0' || fields[k + 1].empty())
+        throw InputError(file, where, std::string("has no position; ") + kRemedy);
+    }
+    if (sign == 0.0)
+      throw InputError(file, where, std::string("no line '# CoordinateSystem = LPS' before the points; ") + kRemedy);
+    grouping.add(fields.size() > label_column ? fields[label_column] : "",
+                 kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where, 0);
+  }
+  return grouping.take();
+}
+
+}  // namespace endovascular_sim::segmentation

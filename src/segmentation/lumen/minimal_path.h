@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "segmentation/lumen/scan.h"
+#include "segmentation/lumen/wide_regions.h"
+
+namespace endovascular_sim::segmentation
+{
+
+/** Brightness of the lumen between two clicks. */
+struct LumenRange
+{
+  double low = 0.0;         ///< darker end
+  double high = 0.0;        ///< brighter end
+  double background = 0.0;  ///< tissue around the lumen
+
+  /** Standard deviation of the speed's Gaussian, and of the lumen in its widest sense. */
+  double width() const { return 0.22 * (low - background); }
+
+  /** Half-way between background and lumen. */
+  double threshold() const { return low - 2.2 * width(); }
+};
+
+/** Path between two points of an image. */
+struct MinimalPath
+{
+  std::vector<Eigen::Vector3d> points;                     ///< grid frame, from the first point to the last [m]
+  double longest_gap = 0.0;                                ///< longest stretch outside of the lumen [m]
+  Eigen::Vector3d gap_location = Eigen::Vector3d::Zero();  ///< middle of that stretch [m]
+};
+
+/** Path of least travel time through the lumen, over the 26 neighbours of voxels (Dijkstra's algorithm with the
+ * straight distance as bound). Speed: exp(−½ z²), z the deviation from the range in widths, not below 0.004; in wide
+ * regions not above 0.006. The whole image is open to the path; memory is used only where it searches.
+ *  @param from, to points of the grid frame inside the image [m] */
+MinimalPath minimalPath(const Scan& scan, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const LumenRange& range, const WideRegions& wide);
+
+}  // namespace endovascular_sim::segmentation

@@ -1,0 +1,117 @@
+#include "segmentation/lumen_centreline.h"
+
+#include <algorithm>
+
+namespace endovascular_sim::segmentation
+{
+namespace
+{
+
+constexpr double kSpacing = 1.0;          ///< of the points, in radii
+constexpr double kShortest = 1e-3;        ///< least distance of two points [m]
+constexpr double kBranchesAtAnEnd = 0.6;  ///< distance of a child's begin that closes an end, in radii
+
+/** Indices of the branches, parents first. */
+std::vector<std::size_t> parentsFirst(const std::vector<LumenBranch>& branches)
+{
+  std::vector<std::size_t> order;
+  std::vector<bool> placed(branches.size(), false);
+  while (order.size() < branches.size())
+  {
+    const std::size_t before = order.size();
+    for (std::size_t b = 0; b < branches.size(); ++b)
+      if (!placed[b] && (branches[b].parent < 0 || placed[static_cast<std::size_t>(branches[b].parent)]))
+      {
+        placed[b] = true;
+        order.push_back(b);
+      }
+    if (order.size() == before)  // no tree; impossible after joinBranches()
+      break;
+  }
+  return order;
+}
+
+double inscribedRadius(const Section& section)
+{
+  return *std::min_element(section.radii.begin(), section.radii.end());
+}
+
+vessel::CentrelineBranch centrelineOf(const Scan& scan, const LumenBranch& branch)
+{
+  vessel::CentrelineBranch result;
+  result.name = branch.name;
+  const auto add = [&](const Eigen::Vector3d& p, double radius)
+  {
+    result.points.push_back(scan.toPatient(p));
+    result.radii.push_back(radius);
+  };
+  const std::vector<Section>& sections = branch.sections;
+  if (branch.parent >= 0)
+    add(branch.joint, inscribedRadius(sections.front()));
+  for (std::size_t k = 0; k < sections.size(); ++k)
+  {
+    const double radius = inscribedRadius(sections[k]);
+    const Eigen::Vector3d p = scan.toPatient(sections[k].centre);
+    const bool is_last = k + 1 == sections.size();
+    const double spacing = std::max(kShortest, kSpacing * radius);
+    if (!result.points.empty() && !is_last && (p - result.points.back()).norm() < spacing)
+      continue;
+    if (is_last && result.points.size() > 2 && (p - result.points.back()).norm() < 0.5 * spacing)
+    {
+      result.points.pop_back();
+      result.radii.pop_back();
+    }
+    add(sections[k].centre, radius);
+  }
+  const std::vector<Eigen::Vector3d> before = result.points;
+  for (std::size_t k = 1; k + 1 < before.size(); ++k)
+    result.points[k] = 0.5 * before[k] + 0.25 * (before[k - 1] + before[k + 1]);
+  return result;
+}
+
+/** True if a child begins near a point of a branch. */
+bool isJunction(const vessel::CentrelineTree& tree, int branch, const Eigen::Vector3d& end, double radius)
+{
+  return std::any_of(tree.branches.begin(), tree.branches.end(),
+                     [&](const vessel::CentrelineBranch& child) {
+                       return child.parent == branch && (child.points.front() - end).norm() < kBranchesAtAnEnd * radius;
+                     });
+}
+
+}  // namespace
+
+vessel::CentrelineTree lumenCentreline(const Scan& scan, const std::vector<LumenBranch>& branches)
+{
+  vessel::CentrelineTree tree;
+  std::vector<int> number(branches.size(), -1);
+  for (const std::size_t b : parentsFirst(branches))
+  {
+    vessel::CentrelineBranch branch = centrelineOf(scan, branches[b]);
+    branch.parent = branches[b].parent < 0 ? -1 : number[static_cast<std::size_t>(branches[b].parent)];
+    number[b] = static_cast<int>(tree.branches.size());
+    tree.branches.push_back(std::move(branch));
+  }
+  return tree;
+}
+
+std::vector<vessel::CentrelineEnd> openEnds(const vessel::CentrelineTree& tree)
+{
+  std::vector<vessel::CentrelineEnd> ends;
+  for (std::size_t b = 0; b < tree.branches.size(); ++b)
+  {
+    const vessel::CentrelineBranch& branch = tree.branches[b];
+    const std::size_t n = branch.points.size();
+    const auto add = [&](std::size_t tip, std::size_t next)
+    {
+      if (!isJunction(tree, static_cast<int>(b), branch.points[tip], branch.radii[tip]))
+        ends.push_back({static_cast<int>(b), branch.points[tip],
+                        (branch.points[next] - branch.points[tip]).normalized(), branch.radii[tip]});
+    };
+    if (branch.parent < 0)
+      add(0, 1);
+    add(n - 1, n - 2);
+  }
+  return ends;
+}
+
+}  // namespace endovascular_sim::segmentation

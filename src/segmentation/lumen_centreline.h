@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "segmentation/lumen/scan.h"
+#include "segmentation/lumen/section.h"
+#include "vessel/centreline/centreline.h"
+
+namespace endovascular_sim::segmentation
+{
+
+/** Centreline tree of joined branches in the patient frame, one branch per branch and with its name, parents before
+ * their children. Points are about one radius apart. Radii are those of circles inscribed into the contours. */
+vessel::CentrelineTree lumenCentreline(const Scan& scan, const std::vector<LumenBranch>& branches);
+
+/** Ends of the tree at which the vessel is cut: both ends of the root and the far ends of its branches, without those
+ * at which another branch begins. */
+std::vector<vessel::CentrelineEnd> openEnds(const vessel::CentrelineTree& tree);
+
+}  // namespace endovascular_sim::segmentation

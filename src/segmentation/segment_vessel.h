@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/progress.h"
+#include "geometry/triangle_mesh.h"
+#include "segmentation/clicks/click_set.h"
+#include "segmentation/lumen/lumen_fit.h"
+#include "segmentation/lumen/scan.h"
+#include "segmentation/lumen/section.h"
+
+namespace endovascular_sim::segmentation
+{
+
+/** Result of a segmentation: a lumen per branch, in the grid frame of the scan. */
+struct Segmentation
+{
+  std::vector<LumenBranch> branches;  ///< in the order of the clicks
+  std::vector<std::string> warnings;
+};
+
+/** Segments every branch by its own clicks: minimal path, then cross-sections. Branches are independent of each other
+ * here.
+ *  @param threads 0: number of processors; the result does not depend on it
+ *  @throws InputError for clicks that do not lie in a lumen, or in two vessels (click_check.h) */
+Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
+                             const ProgressReport& progress = {});
+
+/** Joins the branches to one tree. The widest branch is the root. A branch joins the nearest other one by the end that
+ * is nearer; where that is its last click, the branch is reversed. Its path is extended by a minimal path into the
+ * lumen of the parent, and its cross-sections are fitted again.
+ *  @throws InputError for a branch that is farther than 12 mm from all others */
+void joinBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
+                  Segmentation& segmentation);
+
+}  // namespace endovascular_sim::segmentation

@@ -1,0 +1,296 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "common/child_process.h"
+#include "common/error.h"
+#include "common/file_name.h"
+#include "common/parallel_for.h"
+#include "common/progress.h"
+#include "common/quantities.h"
+#include "fluoroscopy/png_writer.h"
+#include "image/volume_file.h"
+#include "segmentation/lumen_centreline.h"
+#include "segmentation/segment_vessel.h"
+#include "segmentation/segmentation_report.h"
+#include "segmentation/surface/lumen_surface.h"
+#include "segmentation/view/straightened_view.h"
+#include "tools/command_line.h"
+#include "tools/tool_output.h"
+#include "vessel/centreline/centreline_file.h"
+#include "vessel/io/mesh_reader.h"
+#include "vessel/prepare/open_ends.h"
+#include "vessel/prepare/prepare.h"
+
+namespace
+{
+
+using namespace endovascular_sim;  // NOLINT: a program's main file
+
+constexpr auto kName = "vessel_segment";
+
+struct Options
+{
+  std::string images;
+  std::vector<std::string> clicks;
+  std::string out;
+  std::string page;
+  std::string modality;
+  int series = 0;
+  double point_spread = 0.0;   // mm; 0: by modality
+  double wall = -1.0;          // mm; < 0: by modality
+  double max_distance = 2e-4;  // m
+  double cut_back = 0.75;
+  double memory = 4.0;  // GB
+  int threads = 0;
+  bool half_maximum = false;
+  bool quiet = false;
+};
+
+/** Times of the stages on the error stream. */
+class StageClock
+{
+public:
+  explicit StageClock(bool quiet) : quiet_(quiet) {}
+
+  void begin(const std::string& stage) const
+  {
+    if (!quiet_)
+      std::fprintf(stderr, "%6.1f s  %s\n",
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), stage.c_str());
+  }
+
+private:
+  bool quiet_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool isVolume(const std::string& path)
+{
+  return std::filesystem::path(path).extension() == ".vol";
+}
+
+/** Bytes that the segmentation of a volume needs: its voxels twice, the coarse grids of the paths, the surface. */
+double memoryFor(const std::string& volume)
+{
+  std::error_code code;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(volume, code));
+  return code ? 0.0 : 2.6 * bytes + 3e8;
+}
+
+/** Converts images by volume_import, which lies beside this program. */
+void import(const Options& options, const std::string& volume)
+{
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "volume_import";
+  if (!std::filesystem::exists(program))
+    throw InputError(options.images, "",
+                     "is no .vol file, and volume_import is not built; install libinsighttoolkit5-dev and build again");
+  std::vector<std::string> command = {program.string(), options.images, "--out",
+                                      volume,           "--memory",     std::to_string(options.memory)};
+  if (!options.modality.empty())
+    command.insert(command.end(), {"--modality", options.modality});
+  if (options.series > 0)
+    command.insert(command.end(), {"--series", std::to_string(options.series)});
+  if (runProgram(command) != 0)
+    throw InputError(options.images, "", "was rejected by volume_import for the reason above");
+}
+
+segmentation::Scan readScan(const Options& options, const std::string& stem, const StageClock& clock,
+                            std::vector<std::string>& warnings)
+{
+  std::string volume = options.images;
+  if (!isVolume(volume))
+  {
+    volume = stem + ".vol";
+    clock.begin("importing the images");
+    import(options, volume);
+  }
+  if (memoryFor(volume) > 1e9 * options.memory)
+    throw InputError(volume, "",
+                     "needs about " + std::to_string(memoryFor(volume) * 1e-9).substr(0, 4) +
+                         " GB; raise --memory, or export a part of the images");
+  clock.begin("reading the volume");
+  image::Volume read = image::readVolume(volume);
+  if (!options.modality.empty())
+    read.modality = options.modality == "ct" ? image::Modality::kCt : image::Modality::kOther;
+  const double coarsest = read.grid.spacing.maxCoeff();
+  if (read.modality == image::Modality::kCt && coarsest > 1.5e-3 + 1e-9)
+    warnings.push_back("slices are " + std::to_string(1e3 * coarsest).substr(0, 4) +
+                       " mm apart: vessels below 4 mm are unreliable; reconstruct slices of 1 mm or less");
+  return segmentation::Scan(std::move(read));
+}
+
+segmentation::EdgeSettings settingsOf(const Options& options, const segmentation::Scan& scan)
+{
+  segmentation::EdgeSettings settings = segmentation::edgeSettings(scan.modality(), scan.spacing());
+  if (options.point_spread > 0.0)
+    settings.point_spread = 1e-3 * options.point_spread;
+  if (options.wall >= 0.0)
+    settings.wall = 1e-3 * options.wall;
+  settings.half_maximum = options.half_maximum;
+  return settings;
+}
+
+/** Spacing of the lattice of the surface: a third of the narrowest lumen, within limits. */
+double latticeSpacing(const std::vector<segmentation::LumenBranch>& branches)
+{
+  double least = 1e30;
+  for (const segmentation::LumenBranch& branch : branches)
+    for (const segmentation::Section& section : branch.sections)
+      least = std::min(least, 0.5 * section.diameter());
+  return std::clamp(least / 3.0, 3e-4, 5e-4);
+}
+
+/** Closed surface of genus 0; the blending range grows until the surface has no handle. */
+geometry::TriangleMesh closedSurface(const std::vector<segmentation::LumenBranch>& branches, int threads,
+                                     std::vector<std::string>& warnings)
+{
+  segmentation::SurfaceSettings settings;
+  settings.spacing = latticeSpacing(branches);
+  settings.threads = threads;
+  geometry::TriangleMesh mesh;
+  for (const double blend : {1.0, 1.6, 2.5})
+  {
+    settings.blend = blend;
+    mesh = segmentation::lumenSurface(branches, settings);
+    if (segmentation::genusOf(mesh) == 0)
+      return mesh;
+  }
+  warnings.push_back("the surface has a handle (genus " + std::to_string(segmentation::genusOf(mesh)) +
+                     "): two branches touch twice; check their straightened views");
+  return mesh;
+}
+
+/** Opens the ends of the tree. The surface ends in flat lids there, so a shallow cut suffices.
+ *  @return number of open ends */
+int openEnds(const Options& options, const vessel::CentrelineTree& tree, geometry::TriangleMesh& mesh,
+             std::vector<std::string>& warnings)
+{
+  constexpr double kDeepest = 2e-3;  // m
+  int open = 0;
+  for (const vessel::CentrelineEnd& end : segmentation::openEnds(tree))
+  {
+    try
+    {
+      vessel::openEnd(mesh, tree, end, std::min(options.cut_back, kDeepest / end.radius), options.images);
+      ++open;
+    }
+    catch (const InputError&)
+    {
+      warnings.push_back("an end of " + tree.branches[static_cast<std::size_t>(end.branch)].name + " near " +
+                         vessel::formatLocation(end.position) +
+                         " stays closed: a plane across it would cut other vessels; move the click away from them");
+    }
+  }
+  return open;
+}
+
+void writeViews(const segmentation::Scan& scan, const std::vector<segmentation::LumenBranch>& branches,
+                const std::string& stem)
+{
+  for (const segmentation::LumenBranch& branch : branches)
+  {
+    const segmentation::GreyPicture view = segmentation::straightenedView(scan, branch);
+    fluoroscopy::writePng(stem + "_" + fileNameOf(branch.name) + ".png", view.width, view.height, view.pixels);
+  }
+}
+
+int segment(const Options& options)
+{
+  const StageClock clock(options.quiet);
+  const std::filesystem::path out(options.out);
+  const std::string stem = (out.parent_path() / out.stem()).string();
+  std::vector<std::string> warnings;
+  const segmentation::ClickSet clicks = segmentation::readClicks(options.clicks);
+  tools::writeFile(options.out, "");  // fails now rather than after the computation
+  const segmentation::Scan scan = readScan(options, stem, clock, warnings);
+  const segmentation::EdgeSettings settings = settingsOf(options, scan);
+  clock.begin("segmenting the branches");
+  segmentation::Segmentation result = segmentation::segmentBranches(scan, clicks, settings, options.threads);
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  segmentation::joinBranches(scan, clicks, settings, options.threads, result);
+  clock.begin("drawing the straightened views");
+  writeViews(scan, result.branches, stem);
+  clock.begin("uniting the branches");
+  geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
+  for (Eigen::Vector3d& p : surface.vertices)
+    p = scan.toPatient(p);
+  vessel::PrepareOptions prepare;
+  prepare.max_distance = options.max_distance;
+  prepare.voxel = options.max_distance;  // the surface has no features below its lattice
+  prepare.smooth = true;
+  vessel::PreparedVessel prepared = vessel::prepareVessel(surface, options.images, prepare,
+                                                          [&clock](const std::string& stage) { clock.begin(stage); });
+  clock.begin("opening the ends");
+  const vessel::CentrelineTree tree = segmentation::lumenCentreline(scan, result.branches);
+  const int open = openEnds(options, tree, prepared.mesh, warnings);
+  vessel::writeObj(prepared.mesh, options.out);
+  vessel::writeCentreline(tree, out.stem().string(), stem + "_centreline.yaml");
+  tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
+  clock.begin("done");
+  tools::printWarnings(kName, warnings);
+  const vessel::MeshReport& defects = prepared.report.before.defects;
+  std::cout << segmentation::segmentationText(scan, result.branches) << prepared.mesh.triangles.size()
+            << " triangles, genus " << defects.genus << ", open ends: " << open << ", at most "
+            << std::round(1e6 * prepared.report.result_to_input.largest) * 1e-3
+            << " mm from the contours\nlook at the straightened views " << stem << "_BRANCH.png before use\nwrote "
+            << options.out << ", " << stem << "_centreline.yaml, " << stem << "_report.json\n"
+            << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="
+            << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Options options;
+  tools::CommandLine line(kName,
+                          "Segments the vessels of a CT or MR angiogram along a few clicks: two per branch. Makes the "
+                          "mesh of a vessel for scenes, "
+                          "its centreline, a report, and a straightened view of every branch with its contour.",
+                          "Exit code: 0 the vessel was written; 1 images or clicks were rejected, the reason is on the "
+                          "error stream; 2 wrong "
+                          "arguments.");
+  line.argument(
+      "IMAGES", options.images,
+      "volume of volume_import (.vol); or a folder with a DICOM series, a NIfTI, NRRD or MetaImage file, which "
+      "volume_import converts first");
+  line.repeated("--clicks", options.clicks, "FILE",
+                "clicks into the lumen: .yaml, or markups of 3D Slicer (.mrk.json, .fcsv)");
+  line.option(
+          "--out", options.out, "OUT.obj",
+          "the vessel in metres, in the patient frame; beside it OUT_centreline.yaml, OUT_report.json, OUT_BRANCH.png, "
+          "and OUT.vol if the images are converted")
+      ->check([](const std::string& name)
+              { return std::filesystem::path(name).extension() == ".obj" ? "" : "requires a name that ends in .obj"; });
+  line.option("--modality", options.modality, "KIND",
+              "ct: values are Hounsfield units; other; default: that of the file")
+      ->check(CLI::IsMember({"ct", "other"}));
+  line.option("--series", options.series, "N", "series of a DICOM folder, from 1; default: the only one")
+      ->check(CLI::Range(1, 100000));
+  line.option("--point-spread", options.point_spread, "MM",
+              "standard deviation of the scanner's point spread [CT 0.3 mm; else 0.55 voxels]; 20 % suffice")
+      ->check(CLI::Range(0.01, 10.0));
+  line.option("--wall", options.wall, "MM", "thickness of the vessel wall [CT 0.8 mm; else 0]")
+      ->check(CLI::Range(0.0, 5.0));
+  line.quantity("--max-distance", options.max_distance, "M", quantities::kSurfaceDistance,
+                "largest distance of the mesh from the contours [0.0002]");
+  line.quantity("--cut-back", options.cut_back, "R", quantities::kScale,
+                "distance of an open end from the last contour, in radii of the lumen [0.75]");
+  line.option("--memory", options.memory, "GB", "largest need of memory [4]")->check(CLI::Range(0.1, 1000.0));
+  line.option("--threads", options.threads, "N", "number of threads; the result does not depend on it [0: processors]")
+      ->check(CLI::Range(0, 256));
+  line.flag("--half-maximum", options.half_maximum, "edges half-way between lumen and wall, for comparison");
+  line.flag("--quiet", options.quiet, "prints no stages");
+  line.require([&options]() -> std::string
+               { return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required" : ""; });
+  return line.run(argc, argv, [&options] { return segment(options); });
+}
