@@ -15,7 +15,7 @@
 #include "common/parallel_for.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "fluoroscopy/png_writer.h"
+#include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
 #include "segmentation/lumen_centreline.h"
 #include "segmentation/segment_vessel.h"
