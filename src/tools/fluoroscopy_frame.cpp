@@ -175,8 +175,6 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Fluoro
 geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
   geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit, progressOnErrorStream());
-  for (Eigen::Vector3d& vertex : mesh.vertices)
-    vertex = patient_from_mesh * vertex;
   if (mesh.signedVolume() < 0.0)
     for (Eigen::Vector3i& triangle : mesh.triangles)
       std::swap(triangle[1], triangle[2]);
@@ -184,6 +182,8 @@ geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d&
   const vessel::MeshReport report = vessel::checkMesh(mesh);
   vessel::requirePlausibleSize(report, options.unit, options.mesh);
   vessel::requireClean(report, options.mesh);
+  for (Eigen::Vector3d& vertex : mesh.vertices)
+    vertex = patient_from_mesh * vertex;
   return mesh;
 }
 
