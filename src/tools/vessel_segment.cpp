@@ -21,6 +21,7 @@
 #include "segmentation/segment_vessel.h"
 #include "segmentation/segmentation_report.h"
 #include "segmentation/surface/lumen_surface.h"
+#include "segmentation/view/ct_page.h"
 #include "segmentation/view/straightened_view.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
@@ -202,6 +203,22 @@ void writeViews(const segmentation::Scan& scan, const std::vector<segmentation::
   }
 }
 
+/** Writes the page on which clicks are made. */
+int writePage(const Options& options)
+{
+  const StageClock clock(options.quiet);
+  std::vector<std::string> warnings;
+  const std::filesystem::path page(options.page);
+  tools::writeFile(options.page, "");
+  const segmentation::Scan scan = readScan(options, (page.parent_path() / page.stem()).string(), clock, warnings);
+  clock.begin("writing the page");
+  tools::writeFile(options.page, segmentation::ctPage(scan));
+  tools::printWarnings(kName, warnings);
+  std::cout << "wrote " << options.page
+            << ": open it in a browser, save clicks.yaml there, and give it with --clicks\n";
+  return 0;
+}
+
 int segment(const Options& options)
 {
   const StageClock clock(options.quiet);
@@ -271,6 +288,8 @@ int main(int argc, char** argv)
           "and OUT.vol if the images are converted")
       ->check([](const std::string& name)
               { return std::filesystem::path(name).extension() == ".obj" ? "" : "requires a name that ends in .obj"; });
+  line.option("--page", options.page, "PAGE.html",
+              "writes a page for the browser, on which clicks are made; in place of --clicks and --out");
   line.option("--modality", options.modality, "KIND",
               "ct: values are Hounsfield units; other; default: that of the file")
       ->check(CLI::IsMember({"ct", "other"}));
@@ -290,7 +309,12 @@ int main(int argc, char** argv)
       ->check(CLI::Range(0, 256));
   line.flag("--half-maximum", options.half_maximum, "edges half-way between lumen and wall, for comparison");
   line.flag("--quiet", options.quiet, "prints no stages");
-  line.require([&options]() -> std::string
-               { return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required" : ""; });
-  return line.run(argc, argv, [&options] { return segment(options); });
+  line.require(
+      [&options]() -> std::string
+      {
+        if (options.page.empty())
+          return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required, or --page" : "";
+        return options.clicks.empty() && options.out.empty() ? "" : "--page excludes --clicks and --out";
+      });
+  return line.run(argc, argv, [&options] { return options.page.empty() ? segment(options) : writePage(options); });
 }
