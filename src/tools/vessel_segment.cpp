@@ -171,8 +171,8 @@ geometry::TriangleMesh closedSurface(const std::vector<segmentation::LumenBranch
 
 /** Opens the ends of the tree. The surface ends in flat lids there, so a shallow cut suffices.
  *  @return number of open ends */
-int openEnds(const Options& options, const vessel::CentrelineTree& tree, geometry::TriangleMesh& mesh,
-             std::vector<std::string>& warnings)
+int openEnds(const Options& options, const segmentation::Scan& scan, const vessel::CentrelineTree& tree,
+             geometry::TriangleMesh& mesh, std::vector<std::string>& warnings)
 {
   constexpr double kDeepest = 2e-3;  // m
   int open = 0;
@@ -186,7 +186,7 @@ int openEnds(const Options& options, const vessel::CentrelineTree& tree, geometr
     catch (const InputError&)
     {
       warnings.push_back("an end of " + tree.branches[static_cast<std::size_t>(end.branch)].name + " near " +
-                         vessel::formatLocation(end.position) +
+                         vessel::formatLocation(scan.toPatient(end.position)) +
                          " stays closed: a plane across it would cut other vessels; move the click away from them");
     }
   }
@@ -236,9 +236,8 @@ int segment(const Options& options)
   clock.begin("drawing the straightened views");
   writeViews(scan, result.branches, stem);
   clock.begin("uniting the branches");
-  geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
-  for (Eigen::Vector3d& p : surface.vertices)
-    p = scan.toPatient(p);
+  // All stages take place in the frame of the grid, so that they do not depend on the pose of the patient.
+  const geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
   vessel::PrepareOptions prepare;
   prepare.max_distance = options.max_distance;
   prepare.voxel = options.max_distance;  // the surface has no features below its lattice
@@ -246,10 +245,10 @@ int segment(const Options& options)
   vessel::PreparedVessel prepared = vessel::prepareVessel(surface, options.images, prepare,
                                                           [&clock](const std::string& stage) { clock.begin(stage); });
   clock.begin("opening the ends");
-  const vessel::CentrelineTree tree = segmentation::lumenCentreline(scan, result.branches);
-  const int open = openEnds(options, tree, prepared.mesh, warnings);
-  vessel::writeObj(prepared.mesh, options.out);
-  vessel::writeCentreline(tree, out.stem().string(), stem + "_centreline.yaml");
+  const vessel::CentrelineTree tree = segmentation::lumenCentreline(result.branches);
+  const int open = openEnds(options, scan, tree, prepared.mesh, warnings);
+  vessel::writeObj(segmentation::toPatient(scan, prepared.mesh), options.out);
+  vessel::writeCentreline(segmentation::toPatient(scan, tree), out.stem().string(), stem + "_centreline.yaml");
   tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
   clock.begin("done");
   tools::printWarnings(kName, warnings);
