@@ -1,6 +1,9 @@
 #include "segmentation/lumen_centreline.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <Eigen/LU>
 
 namespace endovascular_sim::segmentation
 {
@@ -36,13 +39,13 @@ double inscribedRadius(const Section& section)
   return *std::min_element(section.radii.begin(), section.radii.end());
 }
 
-vessel::CentrelineBranch centrelineOf(const Scan& scan, const LumenBranch& branch)
+vessel::CentrelineBranch centrelineOf(const LumenBranch& branch)
 {
   vessel::CentrelineBranch result;
   result.name = branch.name;
-  const auto add = [&](const Eigen::Vector3d& p, double radius)
+  const auto add = [&result](const Eigen::Vector3d& p, double radius)
   {
-    result.points.push_back(scan.toPatient(p));
+    result.points.push_back(p);
     result.radii.push_back(radius);
   };
   const std::vector<Section>& sections = branch.sections;
@@ -51,7 +54,7 @@ vessel::CentrelineBranch centrelineOf(const Scan& scan, const LumenBranch& branc
   for (std::size_t k = 0; k < sections.size(); ++k)
   {
     const double radius = inscribedRadius(sections[k]);
-    const Eigen::Vector3d p = scan.toPatient(sections[k].centre);
+    const Eigen::Vector3d& p = sections[k].centre;
     const bool is_last = k + 1 == sections.size();
     const double spacing = std::max(kShortest, kSpacing * radius);
     if (!result.points.empty() && !is_last && (p - result.points.back()).norm() < spacing)
@@ -61,7 +64,7 @@ vessel::CentrelineBranch centrelineOf(const Scan& scan, const LumenBranch& branc
       result.points.pop_back();
       result.radii.pop_back();
     }
-    add(sections[k].centre, radius);
+    add(p, radius);
   }
   const std::vector<Eigen::Vector3d> before = result.points;
   for (std::size_t k = 1; k + 1 < before.size(); ++k)
@@ -80,18 +83,36 @@ bool isJunction(const vessel::CentrelineTree& tree, int branch, const Eigen::Vec
 
 }  // namespace
 
-vessel::CentrelineTree lumenCentreline(const Scan& scan, const std::vector<LumenBranch>& branches)
+vessel::CentrelineTree lumenCentreline(const std::vector<LumenBranch>& branches)
 {
   vessel::CentrelineTree tree;
   std::vector<int> number(branches.size(), -1);
   for (const std::size_t b : parentsFirst(branches))
   {
-    vessel::CentrelineBranch branch = centrelineOf(scan, branches[b]);
+    vessel::CentrelineBranch branch = centrelineOf(branches[b]);
     branch.parent = branches[b].parent < 0 ? -1 : number[static_cast<std::size_t>(branches[b].parent)];
     number[b] = static_cast<int>(tree.branches.size());
     tree.branches.push_back(std::move(branch));
   }
   return tree;
+}
+
+vessel::CentrelineTree toPatient(const Scan& scan, vessel::CentrelineTree tree)
+{
+  for (vessel::CentrelineBranch& branch : tree.branches)
+    for (Eigen::Vector3d& p : branch.points)
+      p = scan.toPatient(p);
+  return tree;
+}
+
+geometry::TriangleMesh toPatient(const Scan& scan, geometry::TriangleMesh mesh)
+{
+  for (Eigen::Vector3d& p : mesh.vertices)
+    p = scan.toPatient(p);
+  if (scan.volume().grid.axes.determinant() < 0.0)  // mirrored: keep the normals outwards
+    for (Eigen::Vector3i& t : mesh.triangles)
+      std::swap(t[1], t[2]);
+  return mesh;
 }
 
 std::vector<vessel::CentrelineEnd> openEnds(const vessel::CentrelineTree& tree)

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/triangle_mesh.h"
 #include "segmentation/lumen/scan.h"
 #include "segmentation/lumen/section.h"
 #include "vessel/centreline/centreline.h"
@@ -9,9 +10,15 @@
 namespace endovascular_sim::segmentation
 {
 
-/** Centreline tree of joined branches in the patient frame, one branch per branch and with its name, parents before
+/** Centreline tree of joined branches in the grid frame, one branch per branch and with its name, parents before
  * their children. Points are about one radius apart. Radii are those of circles inscribed into the contours. */
-vessel::CentrelineTree lumenCentreline(const Scan& scan, const std::vector<LumenBranch>& branches);
+vessel::CentrelineTree lumenCentreline(const std::vector<LumenBranch>& branches);
+
+/** Tree of the patient frame, from one of the grid frame. */
+vessel::CentrelineTree toPatient(const Scan& scan, vessel::CentrelineTree tree);
+
+/** Mesh of the patient frame, from one of the grid frame. */
+geometry::TriangleMesh toPatient(const Scan& scan, geometry::TriangleMesh mesh);
 
 /** Ends of the tree at which the vessel is cut: both ends of the root and the far ends of its branches, without those
  * at which another branch begins. */

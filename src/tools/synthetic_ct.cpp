@@ -14,6 +14,7 @@
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy.h"
+#include "vessel/anatomy/implicit_vessel.h"
 
 namespace
 {
@@ -50,9 +51,17 @@ const std::map<std::string, View> kViews = {
     {"torso", {{-190, -140, -230}, {190, 140, 400}, 1.0}},
 };
 
-phantom::PhantomSettings settingsOf(const Options& options)
+/** Box around the vessels with a margin of 10 mm. */
+View fittingView(const vessel::Anatomy& anatomy)
 {
-  const View& view = kViews.at(options.view);
+  const Eigen::AlignedBox3d box = vessel::ImplicitVessel(anatomy, vessel::sampleChains(anatomy)).bounds();
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(10.0);
+  return {1e3 * box.min() - margin, 1e3 * box.max() + margin, 0.5};
+}
+
+phantom::PhantomSettings settingsOf(const Options& options, const vessel::Anatomy& anatomy)
+{
+  const View view = options.view == "fit" ? fittingView(anatomy) : kViews.at(options.view);
   phantom::PhantomSettings settings;
   Eigen::Vector3d spacing = Eigen::Vector3d::Constant(options.spacing > 0.0 ? options.spacing : view.spacing);
   if (options.magnetic)
@@ -100,7 +109,7 @@ int make(const Options& options)
       options.anatomy.empty() ? scene::configFolder() + "/anatomies/default.yaml" : options.anatomy;
   const vessel::Anatomy anatomy = vessel::readAnatomy(file);
   tools::printWarnings("synthetic_ct", anatomy.warnings);
-  const phantom::PhantomSettings settings = settingsOf(options);
+  const phantom::PhantomSettings settings = settingsOf(options, anatomy);
   if (!options.clicks.empty())
     writeClicks(options, anatomy, settings.grid);
   tools::writeFile(options.out, "");  // fails now rather than after the computation
@@ -131,8 +140,9 @@ int main(int argc, char** argv)
   line.option("--anatomy", options.anatomy, "FILE",
               "anatomy file [config/anatomies/default.yaml]; tissues other than fat surround only that one")
       ->check(CLI::ExistingFile);
-  line.option("--view", options.view, "VIEW", "field of view: heart (0.45 mm), abdomen (0.8 mm), torso (1 mm) [heart]")
-      ->check(CLI::IsMember({"heart", "abdomen", "torso"}));
+  line.option("--view", options.view, "VIEW",
+              "field of view: heart (0.45 mm), abdomen (0.8 mm), torso (1 mm), fit: all vessels (0.5 mm) [heart]")
+      ->check(CLI::IsMember({"heart", "abdomen", "torso", "fit"}));
   line.flag("--mr", options.magnetic,
             "MR angiogram: voxels of 0.88 x 0.88 x 1.5 mm, a signal that falls along the aorta");
   line.option("--spacing", options.spacing, "MM", "edge of a voxel [mm]; default: that of the field of view")

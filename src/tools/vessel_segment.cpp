@@ -21,6 +21,7 @@
 #include "segmentation/segment_vessel.h"
 #include "segmentation/segmentation_report.h"
 #include "segmentation/surface/lumen_surface.h"
+#include "segmentation/view/ct_page.h"
 #include "segmentation/view/straightened_view.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
@@ -170,8 +171,8 @@ geometry::TriangleMesh closedSurface(const std::vector<segmentation::LumenBranch
 
 /** Opens the ends of the tree. The surface ends in flat lids there, so a shallow cut suffices.
  *  @return number of open ends */
-int openEnds(const Options& options, const vessel::CentrelineTree& tree, geometry::TriangleMesh& mesh,
-             std::vector<std::string>& warnings)
+int openEnds(const Options& options, const segmentation::Scan& scan, const vessel::CentrelineTree& tree,
+             geometry::TriangleMesh& mesh, std::vector<std::string>& warnings)
 {
   constexpr double kDeepest = 2e-3;  // m
   int open = 0;
@@ -185,7 +186,7 @@ int openEnds(const Options& options, const vessel::CentrelineTree& tree, geometr
     catch (const InputError&)
     {
       warnings.push_back("an end of " + tree.branches[static_cast<std::size_t>(end.branch)].name + " near " +
-                         vessel::formatLocation(end.position) +
+                         vessel::formatLocation(scan.toPatient(end.position)) +
                          " stays closed: a plane across it would cut other vessels; move the click away from them");
     }
   }
@@ -200,6 +201,22 @@ void writeViews(const segmentation::Scan& scan, const std::vector<segmentation::
     const segmentation::GreyPicture view = segmentation::straightenedView(scan, branch);
     fluoroscopy::writePng(stem + "_" + fileNameOf(branch.name) + ".png", view.width, view.height, view.pixels);
   }
+}
+
+/** Writes the page on which clicks are made. */
+int writePage(const Options& options)
+{
+  const StageClock clock(options.quiet);
+  std::vector<std::string> warnings;
+  const std::filesystem::path page(options.page);
+  tools::writeFile(options.page, "");
+  const segmentation::Scan scan = readScan(options, (page.parent_path() / page.stem()).string(), clock, warnings);
+  clock.begin("writing the page");
+  tools::writeFile(options.page, segmentation::ctPage(scan));
+  tools::printWarnings(kName, warnings);
+  std::cout << "wrote " << options.page
+            << ": open it in a browser, save clicks.yaml there, and give it with --clicks\n";
+  return 0;
 }
 
 int segment(const Options& options)
@@ -219,9 +236,8 @@ int segment(const Options& options)
   clock.begin("drawing the straightened views");
   writeViews(scan, result.branches, stem);
   clock.begin("uniting the branches");
-  geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
-  for (Eigen::Vector3d& p : surface.vertices)
-    p = scan.toPatient(p);
+  // All stages take place in the frame of the grid, so that they do not depend on the pose of the patient.
+  const geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
   vessel::PrepareOptions prepare;
   prepare.max_distance = options.max_distance;
   prepare.voxel = options.max_distance;  // the surface has no features below its lattice
@@ -229,10 +245,10 @@ int segment(const Options& options)
   vessel::PreparedVessel prepared = vessel::prepareVessel(surface, options.images, prepare,
                                                           [&clock](const std::string& stage) { clock.begin(stage); });
   clock.begin("opening the ends");
-  const vessel::CentrelineTree tree = segmentation::lumenCentreline(scan, result.branches);
-  const int open = openEnds(options, tree, prepared.mesh, warnings);
-  vessel::writeObj(prepared.mesh, options.out);
-  vessel::writeCentreline(tree, out.stem().string(), stem + "_centreline.yaml");
+  const vessel::CentrelineTree tree = segmentation::lumenCentreline(result.branches);
+  const int open = openEnds(options, scan, tree, prepared.mesh, warnings);
+  vessel::writeObj(segmentation::toPatient(scan, prepared.mesh), options.out);
+  vessel::writeCentreline(segmentation::toPatient(scan, tree), out.stem().string(), stem + "_centreline.yaml");
   tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
   clock.begin("done");
   tools::printWarnings(kName, warnings);
@@ -271,6 +287,8 @@ int main(int argc, char** argv)
           "and OUT.vol if the images are converted")
       ->check([](const std::string& name)
               { return std::filesystem::path(name).extension() == ".obj" ? "" : "requires a name that ends in .obj"; });
+  line.option("--page", options.page, "PAGE.html",
+              "writes a page for the browser, on which clicks are made; in place of --clicks and --out");
   line.option("--modality", options.modality, "KIND",
               "ct: values are Hounsfield units; other; default: that of the file")
       ->check(CLI::IsMember({"ct", "other"}));
@@ -290,7 +308,12 @@ int main(int argc, char** argv)
       ->check(CLI::Range(0, 256));
   line.flag("--half-maximum", options.half_maximum, "edges half-way between lumen and wall, for comparison");
   line.flag("--quiet", options.quiet, "prints no stages");
-  line.require([&options]() -> std::string
-               { return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required" : ""; });
-  return line.run(argc, argv, [&options] { return segment(options); });
+  line.require(
+      [&options]() -> std::string
+      {
+        if (options.page.empty())
+          return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required, or --page" : "";
+        return options.clicks.empty() && options.out.empty() ? "" : "--page excludes --clicks and --out";
+      });
+  return line.run(argc, argv, [&options] { return options.page.empty() ? segment(options) : writePage(options); });
 }

@@ -151,11 +151,10 @@ TEST(Segmentation, NamesTheTissueOfAClickBesideTheLumenAndProposesTheNearestLume
 TEST(Segmentation, RefusesClicksInTwoVessels)
 {
   const Truth truth;
-  const Scan scan(heartScan(truth, {}, {0.0, -0.095, 0.125}, {0.080, 0.02, 0.225}));
-  ClickSet clicks = clicksInto(truth, {"left_anterior_descending", "left_circumflex"}, scan.volume().grid, 1);
-  // The left anterior descending artery and the left ventricle.
-  clicks.branches[0].clicks[1].position = Eigen::Vector3d(0.030, -0.032, 0.140);
-  clicks.branches.resize(1);
+  const Scan scan(lesionScan(truth));
+  ClickSet clicks = clicksInto(truth, {"left_anterior_descending"}, scan.volume().grid, 1);
+  // The left anterior descending artery and the pulmonary trunk.
+  clicks.branches[0].clicks[1].position = Eigen::Vector3d(0.019, -0.040, 0.216);
   const std::string error = errorOf(scan, clicks);
   EXPECT_NE(error.find("lie in two vessels"), std::string::npos) << error;
 }

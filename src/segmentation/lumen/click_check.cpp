@@ -240,7 +240,8 @@ private:
     for (const Click& click : branch.clicks)
     {
       LumenAtClick lumen;
-      lumen.position = scan_.toGrid(click.position);
+      constexpr double kResolution = 1e-6;  // m; the formats of images round their origin differently
+      lumen.position = (scan_.toGrid(click.position) / kResolution).array().round() * kResolution;
       lumen.value = localValue(scan_, lumen.position);
       double own = backgroundAt(lumen.position, 5e-3);
       lumen.radius = radiusAt(scan_, lumen.position, 0.5 * (lumen.value + own));

@@ -66,9 +66,13 @@ image::Volume canonical(image::Volume volume)
   return volume;
 }
 
-Scan::Scan(image::Volume volume)
-  : volume_(canonical(std::move(volume))), inverse_spacing_(volume_.grid.spacing.cwiseInverse())
+Scan::Scan(image::Volume volume) : volume_(canonical(std::move(volume)))
 {
+  // NIfTI holds single precision, DICOM decimal numbers: equal grids of all formats have equal bits from here on.
+  constexpr double kResolution = 1e-9;  // m
+  for (int axis = 0; axis < 3; ++axis)
+    volume_.grid.spacing[axis] = kResolution * std::round(volume_.grid.spacing[axis] / kResolution);
+  inverse_spacing_ = volume_.grid.spacing.cwiseInverse();
 }
 
 double Scan::at(const Eigen::Vector3d& p) const

@@ -1,0 +1,124 @@
+#include "segmentation/clicks/click_set.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+
+namespace endovascular_sim::segmentation
+{
+namespace
+{
+
+class Clicks : public ::testing::Test
+{
+protected:
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text)
+  {
+    std::filesystem::create_directories(folder_);
+    const std::string path = folder_ + "/" + name;
+    std::ofstream(path) << text;
+    return path;
+  }
+
+  std::string errorOf(const std::string& name, const std::string& text)
+  {
+    try
+    {
+      readClicks(file(name, text));
+      return "";
+    }
+    catch (const InputError& error)
+    {
+      return error.what();
+    }
+  }
+
+private:
+  std::string folder_ = ::testing::TempDir() + "/clicks_test";
+};
+
+const char* const kYaml = R"(frame: RAS
+unit: 0.001
+branches:
+  - name: LAD
+    clicks: [[1, 2, 3], [4, 5, 6]]
+    largest_radius: 4
+)";
+
+TEST_F(Clicks, OfYamlAreInMetresAndLps)
+{
+  const ClickSet set = readClicks(file("a.yaml", kYaml));
+  ASSERT_EQ(set.branches.size(), 1u);
+  EXPECT_EQ(set.branches[0].name, "LAD");
+  EXPECT_TRUE(set.branches[0].clicks[0].position.isApprox(Eigen::Vector3d(-0.001, -0.002, 0.003)));
+  EXPECT_DOUBLE_EQ(set.branches[0].largest_radius, 0.004);
+  EXPECT_EQ(set.branches[0].clicks[0].where, "line 5");
+}
+
+TEST_F(Clicks, OfMarkupsHaveTheCoordinateSystemOfTheFile)
+{
+  for (const std::string system : {"\"LPS\"", "\"RAS\"", "0", "1"})
+  {
+    const double sign = system == "\"LPS\"" || system == "1" ? 1.0 : -1.0;
+    const ClickSet set =
+        readClicks(file("c.mrk.json", R"({"markups": [{"type": "Fiducial", "coordinateSystem": )" + system +
+                                          R"(, "coordinateUnits": "mm", "controlPoints": [
+      {"label": "LAD-1", "position": [1, 2, 3], "positionStatus": "defined"},
+      {"label": "RCA-1", "position": [7, 8, 9], "positionStatus": "defined"},
+      {"label": "LAD-2", "position": [4, 5, 6], "positionStatus": "defined"},
+      {"label": "LAD-3", "position": [0, 0, 0], "positionStatus": "undefined"},
+      {"label": "RCA-2", "position": [7, 8, 10], "positionStatus": "defined"}]}]})"));
+    ASSERT_EQ(set.branches.size(), 2u);
+    EXPECT_EQ(set.branches[0].name, "LAD");
+    EXPECT_EQ(set.branches[1].name, "RCA");
+    ASSERT_EQ(set.branches[0].clicks.size(), 2u);
+    EXPECT_TRUE(set.branches[0].clicks[1].position.isApprox(1e-3 * Eigen::Vector3d(sign * 4, sign * 5, 6)));
+  }
+}
+
+TEST_F(Clicks, WithDefaultLabelsHaveTheNameOfTheFile)
+{
+  const std::string text = R"({"markups": [{"coordinateSystem": "LPS", "controlPoints": [
+      {"label": "F-1", "position": [1, 2, 3]}, {"label": "F-2", "position": [4, 5, 6]}]}]})";
+  EXPECT_EQ(readClicks(file("left_circumflex.mrk.json", text)).branches[0].name, "left_circumflex");
+}
+
+TEST_F(Clicks, OfFiducialListsAreRead)
+{
+  const ClickSet set = readClicks(file("RCA.fcsv",
+                                       "# Markups fiducial file version = 4.10\r\n# CoordinateSystem = RAS\r\n"
+                                       "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\r\n"
+                                       "vtk_1,1,2,3,0,0,0,1,1,1,0,F-1,,\r\nvtk_2,4,5,6,0,0,0,1,1,1,0,F-2,,\r\n"));
+  ASSERT_EQ(set.branches.size(), 1u);
+  EXPECT_EQ(set.branches[0].name, "RCA");
+  EXPECT_TRUE(set.branches[0].clicks[1].position.isApprox(Eigen::Vector3d(-0.004, -0.005, 0.006)));
+}
+
+TEST_F(Clicks, AreRefusedWithPlaceAndRemedy)
+{
+  EXPECT_NE(errorOf("a.txt", "").find("3D Slicer"), std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    click: []\n").find("line 3: unknown key 'click'"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, 3]]\n").find("a: has 1 click(s)"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2], [1, 2, 3]]\n")
+                .find("line 3: a click must be [x, y, z]"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "frame: ITK\nbranches: [{name: a, clicks: [[1, 2, 3], [4, 5, 6]]}]\n").find("LPS or RAS"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, .nan], [4, 5, 6]]\n").find("no position"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches: [").find("no valid YAML"), std::string::npos);
+  EXPECT_NE(errorOf("a.mrk.json", "{}").find("no markups file"), std::string::npos);
+  EXPECT_NE(errorOf("a.fcsv", "1,1,2,3\n").find("CoordinateSystem"), std::string::npos);
+  const std::string one = file("one.yaml", kYaml);
+  EXPECT_THROW(readClicks(std::vector<std::string>{one, one}), InputError);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::segmentation
