@@ -200,7 +200,8 @@ private:
     std::size_t begin = 0;
     const std::size_t before_branch = path.size() - branch.sections.size() + 1;
     for (std::size_t k = 0; k < before_branch; ++k)
-      if (tube.at(path[k]).distance < -depth)
+      if (tube.at(path[k]).distance < -depth && (path[k] - parent.front().centre).norm() > depth &&
+          (path[k] - parent.back().centre).norm() > depth)  // not at a flat end of the parent
         begin = k;
     path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(begin));
     branches_[child].sections = fitLumen(scan_, path, branch.largest_radius, settings_);

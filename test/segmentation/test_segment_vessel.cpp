@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "segmentation/surface/lumen_surface.h"
 #include "test/segmentation/accuracy.h"
 
 namespace endovascular_sim::segmentation
@@ -221,6 +222,28 @@ TEST(Segmentation, DoesNotDependOnTheOrderAndTheSignsOfTheAxes)
   }
   EXPECT_LT(flipped, 1e-6);
   EXPECT_LT(rotated, 2e-5);
+}
+
+// MR angiogram of an iliac artery in two branches, one behind the other.
+TEST(Segmentation, JoinsABranchThatContinuesAnotherOneWithoutHandles)
+{
+  const Truth truth;
+  phantom::PhantomSettings settings;
+  settings.modality = image::Modality::kOther;
+  settings.noise = 40.0;
+  settings.point_spread = 6e-4;
+  settings.grid = phantom::gridOfBox({-0.085, -0.045, -0.155}, {0.01, 0.04, 0.01}, {8.8e-4, 8.8e-4, 1.5e-3});
+  const Scan scan(phantom::makePhantom(truth.anatomy, settings));
+  const ClickSet clicks = clicksInto(truth, {"right_common_iliac", "right_external_iliac"}, scan.volume().grid, 1);
+  const EdgeSettings edges = edgeSettings(scan.modality(), scan.spacing());
+  Segmentation result = segmentBranches(scan, clicks, edges, 0);
+  joinBranches(scan, clicks, edges, 0, result);
+  SurfaceSettings surface;
+  surface.spacing = 5e-4;
+  int components = 0;
+  EXPECT_EQ(genusOf(lumenSurface(result.branches, surface, &components)), 0);
+  EXPECT_EQ(components, 1);
+  EXPECT_NEAR(result.branches[1].sections.back().diameter(), 8e-3, 3e-4);
 }
 
 }  // namespace
