@@ -12,7 +12,7 @@ namespace endovascular_sim::segmentation
 namespace
 {
 
-constexpr std::size_t kMostVoxels = 16000000;
+constexpr std::size_t kMostVoxels = 17000000;  // 23 MB in base 64
 
 /** Voxels that are averaged along each axis: the finest axis first. */
 Eigen::Vector3i reductionOf(const Scan& scan)
