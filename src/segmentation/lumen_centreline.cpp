@@ -12,7 +12,7 @@ namespace
 
 constexpr double kSpacing = 1.0;          ///< of the points, in radii
 constexpr double kShortest = 1e-3;        ///< least distance of two points [m]
-constexpr double kBranchesAtAnEnd = 0.6;  ///< distance of a child's begin that closes an end, in radii
+constexpr double kBranchesAtAnEnd = 0.6;  ///< distance of a child from an end that it closes, in radii
 
 /** Indices of the branches, parents first. */
 std::vector<std::size_t> parentsFirst(const std::vector<LumenBranch>& branches)
@@ -39,7 +39,18 @@ double inscribedRadius(const Section& section)
   return *std::min_element(section.radii.begin(), section.radii.end());
 }
 
-vessel::CentrelineBranch centrelineOf(const LumenBranch& branch)
+/** Centre of the parent that is nearest to the begin of a branch. */
+Eigen::Vector3d beginOn(const LumenBranch& parent, const LumenBranch& branch)
+{
+  const Eigen::Vector3d& begin = branch.sections.front().centre;
+  const auto nearest = std::min_element(parent.sections.begin(), parent.sections.end(),
+                                        [&begin](const Section& a, const Section& b) {
+                                          return (a.centre - begin).squaredNorm() < (b.centre - begin).squaredNorm();
+                                        });
+  return nearest->centre;
+}
+
+vessel::CentrelineBranch centrelineOf(const std::vector<LumenBranch>& branches, const LumenBranch& branch)
 {
   vessel::CentrelineBranch result;
   result.name = branch.name;
@@ -50,7 +61,7 @@ vessel::CentrelineBranch centrelineOf(const LumenBranch& branch)
   };
   const std::vector<Section>& sections = branch.sections;
   if (branch.parent >= 0)
-    add(branch.joint, inscribedRadius(sections.front()));
+    add(beginOn(branches[static_cast<std::size_t>(branch.parent)], branch), inscribedRadius(sections.front()));
   for (std::size_t k = 0; k < sections.size(); ++k)
   {
     const double radius = inscribedRadius(sections[k]);
@@ -72,13 +83,18 @@ vessel::CentrelineBranch centrelineOf(const LumenBranch& branch)
   return result;
 }
 
-/** True if a child begins near a point of a branch. */
+/** True if a child passes near a point of a branch. */
 bool isJunction(const vessel::CentrelineTree& tree, int branch, const Eigen::Vector3d& end, double radius)
 {
-  return std::any_of(tree.branches.begin(), tree.branches.end(),
-                     [&](const vessel::CentrelineBranch& child) {
-                       return child.parent == branch && (child.points.front() - end).norm() < kBranchesAtAnEnd * radius;
-                     });
+  for (const vessel::CentrelineBranch& child : tree.branches)
+    for (std::size_t k = 0; child.parent == branch && k + 1 < child.points.size(); ++k)
+    {
+      const Eigen::Vector3d step = child.points[k + 1] - child.points[k];
+      const double t = std::clamp((end - child.points[k]).dot(step) / std::max(1e-12, step.squaredNorm()), 0.0, 1.0);
+      if ((child.points[k] + t * step - end).norm() < kBranchesAtAnEnd * radius)
+        return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -89,7 +105,7 @@ vessel::CentrelineTree lumenCentreline(const std::vector<LumenBranch>& branches)
   std::vector<int> number(branches.size(), -1);
   for (const std::size_t b : parentsFirst(branches))
   {
-    vessel::CentrelineBranch branch = centrelineOf(branches[b]);
+    vessel::CentrelineBranch branch = centrelineOf(branches, branches[b]);
     branch.parent = branches[b].parent < 0 ? -1 : number[static_cast<std::size_t>(branches[b].parent)];
     number[b] = static_cast<int>(tree.branches.size());
     tree.branches.push_back(std::move(branch));

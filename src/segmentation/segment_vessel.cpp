@@ -165,7 +165,6 @@ private:
             "is " + std::to_string(static_cast<int>(1e3 * best.distance)) +
                 " mm away from all other branches; add the branch between them, or click closer to its ostium");
       branch.parent = best.parent;
-      branch.joint = branches_[static_cast<std::size_t>(best.parent)].sections[best.section].centre;
       if (best.reversed)
         reverse(branch);
       attachments_[static_cast<std::size_t>(best.child)] = best;

@@ -46,9 +46,8 @@ struct Section
 struct LumenBranch
 {
   std::string name;
-  int parent = -1;                                  ///< index of the parent branch; −1 at the root
-  Eigen::Vector3d joint = Eigen::Vector3d::Zero();  ///< nearest point of the parent's centreline [m]
-  double largest_radius = 0.0;                      ///< length of the rays [m]
+  int parent = -1;              ///< index of the parent branch; −1 at the root
+  double largest_radius = 0.0;  ///< length of the rays [m]
   std::vector<Section> sections;
 
   /** Arc length of the centreline at every section [m]. */
