@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/counter_noise.h"
 #include "common/error.h"
-#include "common/parallel_for.h"
+#include "common/numerics/counter_noise.h"
+#include "common/numerics/parallel_for.h"
 #include "phantom/gaussian_blur.h"
 #include "phantom/tissue_painter.h"
 

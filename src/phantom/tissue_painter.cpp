@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 #include "phantom/body.h"
 #include "vessel/anatomy/anatomy.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/counter_noise.h"
 #include "common/error.h"
+#include "common/numerics/counter_noise.h"
 
 namespace endovascular_sim::phantom
 {

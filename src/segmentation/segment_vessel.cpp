@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "common/error.h"
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 #include "segmentation/lumen/click_check.h"
 #include "segmentation/lumen/minimal_path.h"
 #include "segmentation/surface/tube.h"

@@ -12,7 +12,7 @@
 #include "common/child_process.h"
 #include "common/error.h"
 #include "common/file_name.h"
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "fluoroscopy/image/png_writer.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 #include "segmentation/surface/tube.h"
 
 namespace endovascular_sim::segmentation

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 #include "geometry/mesh_topology.h"
 #include "segmentation/surface/lattice_field.h"
 

@@ -1,4 +1,4 @@
-#include "common/parallel_for.h"
+#include "common/numerics/parallel_for.h"
 
 #include <stdexcept>
 #include <vector>

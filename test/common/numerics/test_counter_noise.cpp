@@ -1,4 +1,4 @@
-#include "common/counter_noise.h"
+#include "common/numerics/counter_noise.h"
 
 #include <cmath>
 #include <vector>
