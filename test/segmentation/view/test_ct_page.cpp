@@ -25,7 +25,7 @@ TEST(CtPage, HoldsAtMost25MegabytesAndNoReferences)
   const std::string page = ctPage(Scan(volume));
   EXPECT_LT(page.size(), 25000000u);
   EXPECT_EQ(page.find("http"), std::string::npos);
-  EXPECT_NE(page.find("\"size\":[160,320,320]"), std::string::npos);
+  EXPECT_NE(page.find("\"size\":[320,160,320]"), std::string::npos);
 }
 
 }  // namespace
