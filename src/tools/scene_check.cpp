@@ -12,6 +12,7 @@
 #include "scene/sampling_error.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
+#include "simulation/x_ray_patient.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -38,8 +39,8 @@ void addOptions(tools::CommandLine& line, Options& options)
                  "replaces a value, e.g. --set drive.speed=0.02 --set instrument.sections.0.radius=0.0003");
   line.flag(
       "--vessel", options.vessel,
-      "also builds the vessel and checks the mesh, the entry and the branches' names; prints the expected error of the "
-      "hand force by the distance of the nodes");
+      "also builds the vessel and loads the patient of the X-ray image; checks the mesh, the entry and the branches' "
+      "names; prints the expected error of the hand force by the distance of the nodes");
   line.flag("--nodes", options.nodes, "prints the ROS nodes that the scene requires instead, one per line");
   line.flag("--hash", options.hash, "prints the scene's hash instead");
   line.flag("--urdf", options.urdf, "prints the URDF of the scene's robot instead");
@@ -57,6 +58,9 @@ void checkVessel(const scene::Scene& scene)
   tools::printWarnings("scene_check", vessel.warnings);
   for (const std::string& note : vessel.notes)
     std::cerr << vessel.source << ": " << note << "\n";
+  if (scene.fluoroscopy)
+    for (const std::string& note : simulation::loadPatient(scene, vessel, simulation::kStillResolution).notes)
+      std::cerr << "patient: " << note << "\n";
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
   const results::SessionRun goals(scene, vessel, entry.position);
   std::cerr << "scene_check: " << scene::facetsAround(vessel.mesh).text(scene.vessel->wall) << "\n";

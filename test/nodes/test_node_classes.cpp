@@ -150,7 +150,7 @@ TEST(NodeClasses, FluoroscopyIsConstructed)
   ros::NodeHandle node;
   scene::Scene scene = sceneFromParameters(node);
   scene.fluoroscopy.emplace();
-  EXPECT_NO_THROW(FluoroscopyNode(node, ros::NodeHandle("~"), scene, SchedulingGrant()));
+  EXPECT_NO_THROW(FluoroscopyNode(node, ros::NodeHandle("~"), scene, [] { return SchedulingGrant(); }));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ int main(int argc, char** argv)
                    const scene::Scene scene = sceneFromParameters(node);
                    std::optional<FluoroscopyNode> fluoroscopy;
                    if (scene.fluoroscopy)
-                     fluoroscopy.emplace(node, ros::NodeHandle("~"), scene, request());
+                     fluoroscopy.emplace(node, ros::NodeHandle("~"), scene, request);
                    else
                      ROS_INFO("no fluoroscopy in the scene %s: nothing to do", scene.name.c_str());
                    ros::spin();

@@ -48,7 +48,7 @@ void FluoroscopyNode::processInput(const Work& work)
 }
 
 FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& parameters, const scene::Scene& scene,
-                                 SchedulingGrant grant)
+                                 SchedulingRequest request)
   : scene_(scene),
     system_(scene_, materialLibrary(parameters)),
     settings_(*scene_.fluoroscopy),
@@ -57,7 +57,7 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
     needs_patient_(settings_.patient.has_value()),
     isocentre_known_(settings_.isocentre.has_value()),
     gantry_time_(ros::SteadyTime::now()),
-    grant_(std::move(grant)),
+    request_(std::move(request)),
     radiograph_{node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2),
                 node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2),
                 node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2)},
@@ -78,7 +78,9 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
   static_broadcaster_.sendTransform(sourceViewTransform(ros::Time::now()));
   broadcastPose(ros::Time::now());
-  if (!scene_.vessel)
+  if (!needs_patient_)
+    grant_ = request_();
+  else if (!scene_.vessel)
     loadPatient();
   frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / settings_.rate), &FluoroscopyNode::onFrame, this);
   diagnostics_timer_ =
@@ -138,6 +140,7 @@ void FluoroscopyNode::loadPatient()
     patient_error_ = error.what();
     ROS_ERROR("no X-ray image without the patient: %s", error.what());
   }
+  grant_ = request_();
 }
 
 void FluoroscopyNode::receiveRod(const RodStateVisual& message)

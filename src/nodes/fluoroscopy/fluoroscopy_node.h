@@ -15,6 +15,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "fluoroscopy/gantry/gantry.h"
+#include "nodes/runtime/node_program.h"
 #include "nodes/runtime/real_time.h"
 #include "simulation/fluoroscopy_system.h"
 
@@ -28,9 +29,11 @@ class FluoroscopyNode
 public:
   /** @param parameters handle of the private parameters
    *  @param scene scene with fluoroscopy
+   *  @param request called when the patient is loaded: before, the node has ordinary scheduling, because a busy machine
+   *         leaves an idle one no time to make the body
    *  @throws InputError when the material library is invalid */
   FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& parameters, const scene::Scene& scene,
-                  SchedulingGrant grant);
+                  SchedulingRequest request);
 
 private:
   void receiveMesh(const VesselMesh& message);
@@ -70,6 +73,7 @@ private:
   ros::Time gantry_ros_time_;       ///< the same
   ros::SteadyTime broadcast_time_;  ///< of the last pose on /tf
 
+  SchedulingRequest request_;
   SchedulingGrant grant_;
   std::size_t frames_ = 0;
   double air_kerma_rate_ = 0.0;  ///< of the last frame at the reference point [Gy/s]
