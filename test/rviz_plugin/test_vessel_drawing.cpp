@@ -84,7 +84,7 @@ TEST(VesselDrawing, DrawsNoForcesOfAnotherVesselAndNoInvalidOnes)
   EXPECT_TRUE(drawing.heat().positions.empty());
 }
 
-TEST(BranchNames, StandBesideTheMiddleOfNamedBranches)
+TEST(BranchNames, StandBesideNamedBranches)
 {
   VesselCentreline message;
   message.branches.resize(3);
@@ -101,8 +101,8 @@ TEST(BranchNames, StandBesideTheMiddleOfNamedBranches)
   const std::vector<BranchName> names = branchNames(message, 0.01);
   ASSERT_EQ(names.size(), 1U);
   EXPECT_EQ(names[0].text, "left renal");
-  EXPECT_NEAR(names[0].position.z(), 0.05, 1e-12);
-  EXPECT_NEAR(names[0].position.y(), -0.012, 1e-12);
+  EXPECT_NEAR(names[0].position.z(), 0.07, 1e-12);
+  EXPECT_NEAR(names[0].position.x(), 0.012, 1e-12);
 }
 
 TEST(BranchNames, DoNotOverlap)

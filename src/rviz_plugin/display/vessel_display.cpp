@@ -21,8 +21,9 @@ namespace
 {
 
 constexpr int kLegendLeft = 10, kLegendTop = 70;  // below the legend of the wire [pixels]
-constexpr double kCutawayPeriod = 0.2;            ///< shortest time between two cutaways [s]
-constexpr double kCutawayShare = 0.1;             ///< motion of the tip that moves the cutaway, relative to its radius
+constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
+constexpr double kCutawayPeriod = 0.2;  ///< shortest time between two cutaways [s]
+constexpr double kCutawayShare = 0.1;   ///< motion of the tip that moves the cutaway, relative to its radius
 
 template <typename Message>
 QString typeOf()
@@ -280,8 +281,9 @@ void VesselDisplay::drawNames()
   {
     auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", name_height_->getFloat(),
                                                     name_colour_->getOgreColor());
-    text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
+    text->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
     text->showOnTop();
+    text->setRenderQueueGroup(kNamesQueue);  // after the near wall
     Ogre::SceneNode* node = scene_node_->createChildSceneNode(Ogre::Vector3(static_cast<float>(name.position.x()),
                                                                             static_cast<float>(name.position.y()),
                                                                             static_cast<float>(name.position.z())));

@@ -13,10 +13,11 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr double kHeatRadius = 2e-3;       ///< distance over which the colour of a touched triangle fades [m]
-constexpr double kHeatInset = 0.1e-3;      ///< distance of the coloured triangles from the wall, into the lumen [m]
-constexpr double kNameOffset = 2e-3;       ///< distance of a name from the wall [m]
-constexpr double kSmallestLength = 4.0;    ///< of a branch with a name, relative to the height of the letters
+constexpr double kHeatRadius = 2e-3;     ///< distance over which the colour of a touched triangle fades [m]
+constexpr double kHeatInset = 0.1e-3;    ///< distance of the coloured triangles from the wall, into the lumen [m]
+constexpr double kNameOffset = 2e-3;     ///< distance of a name from the wall [m]
+constexpr double kNamePlace = 0.7;       ///< of a name along its branch: distal parts of branches lie farther apart [1]
+constexpr double kSmallestLength = 4.0;  ///< of a branch with a name, relative to the height of the letters
 constexpr double kSmallestDistance = 2.5;  ///< between two names, relative to the height of the letters
 
 geometry::TriangleMesh toMesh(const VesselMesh& message)
@@ -118,10 +119,10 @@ std::vector<BranchName> branchNames(const VesselCentreline& message, double heig
       continue;
     const geometry::Polyline line(points);
     const double radius = *std::max_element(radii.begin(), radii.end());
-    const Eigen::Vector3d beside = (radius + kNameOffset) * Eigen::Vector3d(0.0, -1.0, 0.0);
+    const Eigen::Vector3d beside(radius + kNameOffset, 0.0, 0.0);
     if (line.length() >= kSmallestLength * height)
       candidates.push_back(
-          {{visualization::branchLabel(branch.name), line.at(0.5 * line.length()) + beside}, line.length()});
+          {{visualization::branchLabel(branch.name), line.at(kNamePlace * line.length()) + beside}, line.length()});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.length > b.length; });

@@ -27,7 +27,7 @@ enum class HeatQuantity
 struct BranchName
 {
   std::string text;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< beside the branch [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< left end of the text [m]
 };
 
 /** Surfaces of the wall and of its heat map. Independent of Ogre. */
@@ -60,7 +60,7 @@ private:
   double full_scale_ = 0.05;
 };
 
-/** Names of the branches of a centreline, each beside the middle of its branch, towards the patient's front.
+/** Names of the branches of a centreline, each beside its branch, on the patient's left.
  *
  *  Branches with a generated name (branch_<k>), and those with invalid points, have none. So that names do not overlap,
  * the longest branches come first; a name is missing beside a branch shorter than four letters are high, and within 2.5

@@ -21,6 +21,7 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
+constexpr int kStatusWidth = 160;         // [pixels]
 constexpr int kRefreshPeriod = 50;        // [ms]
 constexpr double kAtmosphere = 101325.0;  // [Pa]
 constexpr std::size_t kMostErrors = 3;    // shown lines
@@ -113,7 +114,6 @@ QWidget* SessionWidget::sessionRow()
           });
   layout->addWidget(record_, 0, 3);
   labels_.status = label("status");
-  labels_.status->setWordWrap(true);
   labels_.recording = label("recording");
   layout->addWidget(labels_.status, 1, 0, 1, 2);
   layout->addWidget(labels_.recording, 1, 2, 1, 2);
@@ -346,12 +346,17 @@ void SessionWidget::refresh()
   const auto index = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
   const PanelTexts texts = panelTexts(state_, index);
   const std::pair<QLabel*, const std::string*> shown[] = {
-      {labels_.insertion, &texts.insertion}, {labels_.rotation, &texts.rotation}, {labels_.force, &texts.force},
-      {labels_.torque, &texts.torque},       {labels_.branch, &texts.branch},     {labels_.time, &texts.time},
-      {labels_.step, &texts.step},           {labels_.status, &texts.status},     {labels_.recording, &texts.recording},
+      {labels_.insertion, &texts.insertion}, {labels_.rotation, &texts.rotation},
+      {labels_.force, &texts.force},         {labels_.torque, &texts.torque},
+      {labels_.branch, &texts.branch},       {labels_.time, &texts.time},
+      {labels_.step, &texts.step},           {labels_.recording, &texts.recording},
       {labels_.pressure, &texts.pressure}};
   for (const auto& [target, text] : shown)
     target->setText(QString::fromStdString(*text));
+  // One line: buttons below must not move under the mouse. The reason is among the errors.
+  labels_.status->setText(
+      labels_.status->fontMetrics().elidedText(QString::fromStdString(texts.status), Qt::ElideRight, kStatusWidth));
+  labels_.status->setToolTip(QString::fromStdString(texts.status));
   gauge_->setValue(texts.gauge);
   gauge_->setFormat(QString("%1 % of the force limit").arg(texts.gauge));
   gauge_->setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(gaugeColour(texts.gauge)));
