@@ -25,7 +25,17 @@ Ogre::MaterialPtr makeMaterial(DrawingOrder order, DrawnFaces faces)
   Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
       uniqueName(), Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
   material->setReceiveShadows(false);
-  Ogre::Pass* pass = material->getTechnique(0)->getPass(0);
+  Ogre::Technique* technique = material->getTechnique(0);
+  Ogre::Pass* pass = technique->getPass(0);
+  if (order == DrawingOrder::kFarWall)
+  {
+    // Depth first: of several walls behind each other only the nearest one is drawn, in whatever order its triangles
+    // come.
+    pass->setColourWriteEnabled(false);
+    pass->setLightingEnabled(false);
+    pass->setCullingMode(Ogre::CULL_CLOCKWISE);
+    pass = technique->createPass();
+  }
   pass->setLightingEnabled(true);
   pass->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
   const float specular = order == DrawingOrder::kOpaque || order == DrawingOrder::kInside ? 0.5F : 0.15F;
