@@ -98,7 +98,7 @@ TEST(BranchNames, StandBesideNamedBranches)
   message.branches[1].name = "branch_3";
   message.branches[2].name = "broken";
   message.branches[2].points[1].z = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<BranchName> names = branchNames(message, 0.01);
+  const std::vector<BranchName> names = branchNames(message, [](const Eigen::Vector3d&) { return 0.01; });
   ASSERT_EQ(names.size(), 1U);
   EXPECT_EQ(names[0].text, "left renal");
   EXPECT_NEAR(names[0].position.z(), 0.07, 1e-12);
@@ -118,10 +118,10 @@ TEST(BranchNames, DoNotOverlap)
     branch.points[1].z = lengths[k];
     branch.radii = {0.01, 0.01};
   }
-  const std::vector<BranchName> large = branchNames(message, 0.01);
+  const std::vector<BranchName> large = branchNames(message, [](const Eigen::Vector3d&) { return 0.01; });
   ASSERT_EQ(large.size(), 1U);
   EXPECT_EQ(large[0].text, "name 2");
-  EXPECT_EQ(branchNames(message, 0.001).size(), 3U);
+  EXPECT_EQ(branchNames(message, [](const Eigen::Vector3d&) { return 0.001; }).size(), 3U);
 }
 
 }  // namespace

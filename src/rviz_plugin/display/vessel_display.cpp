@@ -1,5 +1,9 @@
 #include "rviz_plugin/display/vessel_display.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <OgreCamera.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
@@ -10,6 +14,8 @@
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "nodes/runtime/ros_names.h"
@@ -22,6 +28,9 @@ namespace
 
 constexpr int kLegendLeft = 10, kLegendTop = 70;  // below the legend of the wire [pixels]
 constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
+constexpr double kNamesPeriod = 0.5;    ///< shortest time between two drawings of the names [s]
+constexpr float kCameraShare = 0.1F;    ///< motion of the camera that resizes names, relative to the distance
+constexpr double kViewHeight = 700.0;   ///< usual height of a view [pixels]
 constexpr double kCutawayPeriod = 0.2;  ///< shortest time between two cutaways [s]
 constexpr double kCutawayShare = 0.1;   ///< motion of the tip that moves the cutaway, relative to its radius
 
@@ -77,9 +86,9 @@ VesselDisplay::VesselDisplay()
   shows_names_ = new rviz::BoolProperty("Branch Names", true, "Names of the branches.", this, SLOT(redraw()));
   name_colour_ = new rviz::ColorProperty("Name Colour", QColor(245, 245, 245), "Colour of the names.", shows_names_,
                                          SLOT(redraw()), this);
-  name_height_ =
-      new rviz::FloatProperty("Name Height", 0.012F, "Height of the letters in m.", shows_names_, SLOT(redraw()), this);
-  name_height_->setMin(0.0005F);
+  name_height_ = new rviz::FloatProperty("Name Height", 13.0F, "Height of the letters in pixels.", shows_names_,
+                                         SLOT(redraw()), this);
+  name_height_->setMin(4.0F);
 }
 
 VesselDisplay::~VesselDisplay()
@@ -180,6 +189,24 @@ void VesselDisplay::redraw()
   is_mesh_new_ = is_heat_new_ = are_names_new_ = true;
 }
 
+Ogre::Camera* VesselDisplay::camera() const
+{
+  const rviz::ViewController* view = context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
+  return view != nullptr ? view->getCamera() : nullptr;
+}
+
+bool VesselDisplay::hasCameraMoved() const
+{
+  const Ogre::Camera* camera = this->camera();
+  if (camera == nullptr || !centreline_message_ || (ros::WallTime::now() - names_drawn_).toSec() < kNamesPeriod)
+    return false;
+  const Ogre::Vector3 position = camera->getDerivedPosition();
+  float nearest = 1.0F;
+  for (const Ogre::SceneNode* node : name_nodes_)
+    nearest = std::min(nearest, position.distance(node->_getDerivedPosition()));
+  return position.distance(named_from_) > kCameraShare * nearest;
+}
+
 bool VesselDisplay::isCutawayDue() const
 {
   const double radius = cutaway_->getFloat();
@@ -193,6 +220,7 @@ void VesselDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
   guarded(*this,
           [this]
           {
+            are_names_new_ = are_names_new_ || hasCameraMoved();
             if (is_mesh_new_ || is_heat_new_ || are_names_new_)
               draw();
             else if (near_wall_ && mesh_message_ && isCutawayDue())
@@ -275,11 +303,22 @@ void VesselDisplay::drawNames()
   }
   name_nodes_.clear();
   names_.clear();
-  if (!centreline_message_ || !shows_names_->getBool())
+  const Ogre::Camera* camera = this->camera();
+  if (!centreline_message_ || !shows_names_->getBool() || camera == nullptr)
     return;
-  for (const BranchName& name : branchNames(*centreline_message_, name_height_->getFloat()))
+  names_drawn_ = ros::WallTime::now();
+  named_from_ = camera->getDerivedPosition();
+  // Metres per pixel at a unit of distance.
+  const double pixel = 2.0 * std::tan(0.5 * camera->getFOVy().valueRadians()) / kViewHeight;
+  const auto height_at = [&](const Eigen::Vector3d& point)
   {
-    auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", name_height_->getFloat(),
+    const Ogre::Vector3 place = scene_node_->convertLocalToWorldPosition(
+        {static_cast<float>(point.x()), static_cast<float>(point.y()), static_cast<float>(point.z())});
+    return name_height_->getFloat() * pixel * std::max(named_from_.distance(place), 1e-3F);
+  };
+  for (const BranchName& name : branchNames(*centreline_message_, height_at))
+  {
+    auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", static_cast<float>(name.height),
                                                     name_colour_->getOgreColor());
     text->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
     text->showOnTop();

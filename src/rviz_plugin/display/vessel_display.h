@@ -60,6 +60,8 @@ private:
   void drawLegend();
   void receiveWire(const RodStateVisual& message);
   bool isCutawayDue() const;
+  bool hasCameraMoved() const;
+  Ogre::Camera* camera() const;
   bool placeInFrame(const std::string& frame);
 
   rviz::RosTopicProperty *mesh_topic_, *centreline_topic_, *force_topic_, *wire_topic_;
@@ -76,8 +78,9 @@ private:
   Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();     ///< of the newest message [m]
   Eigen::Vector3d cut_at_ = Eigen::Vector3d::Zero();  ///< centre of the drawn cutaway [m]
   bool has_tip_ = false, is_cut_ = false;
-  ros::WallTime last_cut_;
-  QString legend_of_;  ///< title and scale of the shown legend; empty: none
+  ros::WallTime last_cut_, names_drawn_;
+  Ogre::Vector3 named_from_ = Ogre::Vector3::ZERO;  ///< position of the camera for which the names were drawn
+  QString legend_of_;                               ///< title and scale of the shown legend; empty: none
 
   std::unique_ptr<SurfaceObject> far_wall_, near_wall_, heat_;
   std::vector<std::unique_ptr<rviz::MovableText>> names_;

@@ -100,7 +100,8 @@ void VesselDrawing::cutAway(const Eigen::Vector3d& point, double radius, float o
   visualization::cutAway(point, radius, opacity, wall_);
 }
 
-std::vector<BranchName> branchNames(const VesselCentreline& message, double height)
+std::vector<BranchName> branchNames(const VesselCentreline& message,
+                                    const std::function<double(const Eigen::Vector3d&)>& height_at)
 {
   struct Candidate
   {
@@ -120,17 +121,19 @@ std::vector<BranchName> branchNames(const VesselCentreline& message, double heig
     const geometry::Polyline line(points);
     const double radius = *std::max_element(radii.begin(), radii.end());
     const Eigen::Vector3d beside(radius + kNameOffset, 0.0, 0.0);
+    const Eigen::Vector3d position = line.at(kNamePlace * line.length()) + beside;
+    const double height = height_at(position);
     if (line.length() >= kSmallestLength * height)
-      candidates.push_back(
-          {{visualization::branchLabel(branch.name), line.at(kNamePlace * line.length()) + beside}, line.length()});
+      candidates.push_back({{visualization::branchLabel(branch.name), position, height}, line.length()});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.length > b.length; });
   std::vector<BranchName> names;
   for (const Candidate& candidate : candidates)
-    if (std::none_of(names.begin(), names.end(),
-                     [&](const BranchName& name)
-                     { return (name.position - candidate.name.position).norm() < kSmallestDistance * height; }))
+    if (std::none_of(
+            names.begin(), names.end(),
+            [&](const BranchName& name)
+            { return (name.position - candidate.name.position).norm() < kSmallestDistance * candidate.name.height; }))
       names.push_back(candidate.name);
   return names;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct BranchName
 {
   std::string text;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< left end of the text [m]
+  double height = 0.0;                                 ///< of the letters [m]
 };
 
 /** Surfaces of the wall and of its heat map. Independent of Ogre. */
@@ -65,7 +67,8 @@ private:
  *  Branches with a generated name (branch_<k>), and those with invalid points, have none. So that names do not overlap,
  * the longest branches come first; a name is missing beside a branch shorter than four letters are high, and within 2.5
  *  heights of another name.
- *  @param height height of the letters [m] */
-std::vector<BranchName> branchNames(const VesselCentreline& message, double height);
+ *  @param height_at height of the letters at a point [m] */
+std::vector<BranchName> branchNames(const VesselCentreline& message,
+                                    const std::function<double(const Eigen::Vector3d&)>& height_at);
 
 }  // namespace endovascular_sim::rviz_plugin
