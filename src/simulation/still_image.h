@@ -24,7 +24,7 @@ public:
   /** Origin and placement of the patient, for the log. */
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /** Turns the C-arm to a view (fluoroscopy::parseView()); another text leaves it as it is. */
+  /** Sets the angles of a view in clinical notation (fluoroscopy::parseView()). An unknown name changes nothing. */
   void setView(const std::string& view);
 
   /** Writes the image of a simulation as PNG.

@@ -10,26 +10,6 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-/** SplitMix64: keys from seed and frame. */
-std::uint64_t splitMix(std::uint64_t& state)
-{
-  state += 0x9e3779b97f4a7c15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
-/** Bijective hash of 32 bits with low bias (C. Wellons' lowbias32). */
-inline std::uint32_t mix(std::uint32_t x)
-{
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
-}
-
 /** sin(πx)/(x(1 − x²)) by its power series in x², |x| ≤ ½. */
 inline float sinPi(float x)
 {
@@ -46,8 +26,8 @@ EVS_WIDE_VECTORS void normals(std::uint32_t first, int count, std::uint32_t key0
   for (int i = 0; i < count; ++i)
   {
     const std::uint32_t counter = (first + static_cast<std::uint32_t>(i)) * 0x9e3779b9U;
-    const std::uint32_t h = mix(mix(counter + key0) ^ key1);
-    const std::uint32_t g = mix(mix(h + key2) ^ key3);
+    const std::uint32_t h = mixedBits32(mixedBits32(counter + key0) ^ key1);
+    const std::uint32_t g = mixedBits32(mixedBits32(h + key2) ^ key3);
     const auto u = static_cast<float>(static_cast<std::int32_t>(h >> 8) + 1) * kUnit;        // in (0, 1]
     const auto v = static_cast<float>(static_cast<std::int32_t>(g >> 8) - 8388608) * kUnit;  // in [−½, ½)
     const float square = -2.0F * fastLog(u);
@@ -61,17 +41,7 @@ EVS_WIDE_VECTORS void normals(std::uint32_t first, int count, std::uint32_t key0
 
 }  // namespace
 
-NoiseSource::NoiseSource(std::uint64_t seed, std::uint64_t frame)
-{
-  std::uint64_t state = seed;
-  state = splitMix(state) ^ (frame * 0xd1342543de82ef95ULL);
-  for (int k = 0; k < 4; k += 2)
-  {
-    const std::uint64_t bits = splitMix(state);
-    keys_[k] = static_cast<std::uint32_t>(bits);
-    keys_[k + 1] = static_cast<std::uint32_t>(bits >> 32);
-  }
-}
+NoiseSource::NoiseSource(std::uint64_t seed, std::uint64_t frame) : keys_(counterKeys(seed, frame)) {}
 
 void NoiseSource::fill(std::uint32_t first, int count, float* a, float* b) const
 {

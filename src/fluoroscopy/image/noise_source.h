@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "common/numerics/counter_hash.h"
+
 namespace endovascular_sim::fluoroscopy
 {
 
@@ -17,7 +19,7 @@ public:
   void fill(std::uint32_t first, int count, float* a, float* b) const;
 
 private:
-  std::uint32_t keys_[4];
+  CounterKeys keys_;
 };
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -288,7 +288,8 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   else if (!patient_error_.empty())
     status.summary(DiagnosticStatus::ERROR, patient_error_);
   else if (needs_patient_)
-    status.summary(DiagnosticStatus::WARN, "waiting for the vessel's centreline, by which the patient is placed");
+    status.summary(DiagnosticStatus::WARN,
+                   "waiting for vessel/centreline, which determines the position of the patient");
   else if (!new_error_.empty())
     status.summary(DiagnosticStatus::WARN, new_error_);
   else

@@ -2,17 +2,10 @@
 
 #include <cstdint>
 
+#include "common/numerics/counter_hash.h"
+
 namespace endovascular_sim::fluoroscopy::body
 {
-
-/** Finaliser of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014). */
-inline std::uint64_t mixedBits(std::uint64_t value)
-{
-  value += 0x9e3779b97f4a7c15ULL;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
-  return value ^ (value >> 31);
-}
 
 /** Random numbers that are functions of seed, stream and counter: equal on all machines, and a stream does not change
  * when another one takes more numbers. */
