@@ -13,6 +13,7 @@ namespace
 constexpr double kSpacing = 1.0;          ///< of the points, in radii
 constexpr double kShortest = 1e-3;        ///< least distance of two points [m]
 constexpr double kBranchesAtAnEnd = 0.6;  ///< distance of a child from an end that it closes, in radii
+constexpr double kContinues = 0.4;        ///< least radius of a child that continues its parent, in radii of the parent
 
 /** Indices of the branches, parents first. */
 std::vector<std::size_t> parentsFirst(const std::vector<LumenBranch>& branches)
@@ -83,17 +84,30 @@ vessel::CentrelineBranch centrelineOf(const std::vector<LumenBranch>& branches, 
   return result;
 }
 
-/** True if a child passes near a point of a branch. */
+double medianRadius(const vessel::CentrelineBranch& branch)
+{
+  std::vector<double> radii = branch.radii;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+/** True if children continue a branch at its end: they pass near the end and are about as wide. A narrow child near the
+ * end, such as a coronary artery near the aortic valve, leaves the end open. */
 bool isJunction(const vessel::CentrelineTree& tree, int branch, const Eigen::Vector3d& end, double radius)
 {
   for (const vessel::CentrelineBranch& child : tree.branches)
-    for (std::size_t k = 0; child.parent == branch && k + 1 < child.points.size(); ++k)
+  {
+    if (child.parent != branch || medianRadius(child) < kContinues * radius)
+      continue;
+    for (std::size_t k = 0; k + 1 < child.points.size(); ++k)
     {
       const Eigen::Vector3d step = child.points[k + 1] - child.points[k];
       const double t = std::clamp((end - child.points[k]).dot(step) / std::max(1e-12, step.squaredNorm()), 0.0, 1.0);
       if ((child.points[k] + t * step - end).norm() < kBranchesAtAnEnd * radius)
         return true;
     }
+  }
   return false;
 }
 

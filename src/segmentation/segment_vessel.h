@@ -27,11 +27,4 @@ struct Segmentation
 Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
                              const ProgressReport& progress = {});
 
-/** Joins the branches to one tree. The widest branch is the root. A branch joins the nearest other one by the end that
- * is nearer; where that is its last click, the branch is reversed. Its path is extended by a minimal path into the
- * lumen of the parent, and its cross-sections are fitted again.
- *  @throws InputError for a branch that is farther than 12 mm from all others */
-void joinBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
-                  Segmentation& segmentation);
-
 }  // namespace endovascular_sim::segmentation

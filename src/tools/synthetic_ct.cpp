@@ -112,7 +112,7 @@ int make(const Options& options)
   const phantom::PhantomSettings settings = settingsOf(options, anatomy);
   if (!options.clicks.empty())
     writeClicks(options, anatomy, settings.grid);
-  tools::writeFile(options.out, "");  // fails now rather than after the computation
+  tools::requireWritable(options.out);
   const image::Volume volume =
       phantom::makePhantom(anatomy, settings, options.quiet ? ProgressReport() : progressOnErrorStream());
   image::writeVolume(options.out, volume);

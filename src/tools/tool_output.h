@@ -43,6 +43,18 @@ inline void writeFile(const std::filesystem::path& path, const std::string& text
   writeTextFile(path.string(), text);
 }
 
+/** Throws before a long computation, rather than after it, if its result cannot be written. Changes no existing file and
+ * leaves no new one.
+ *  @throws InputError with the reason of the operating system */
+inline void requireWritable(const std::filesystem::path& path)
+{
+  const bool existed = std::filesystem::exists(path);
+  if (!std::ofstream(path, std::ios::app))
+    throw writeError(path.string());
+  if (!existed)
+    std::filesystem::remove(path);
+}
+
 /** Draws a progress bar on the error stream, over the one drawn before.
  *  @param share completed share, 0 to 1 */
 inline void drawProgress(double share, const std::string& text)

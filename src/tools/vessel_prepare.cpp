@@ -125,7 +125,7 @@ int prepare(Options a)
     source += " + " + anatomy;
   }
   const std::filesystem::path out(a.out);
-  tools::writeFile(a.out, "");  // fails now rather than after minutes of work
+  tools::requireWritable(a.out);
 
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](const std::string& stage)

@@ -17,6 +17,7 @@
 #include "common/quantities.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
+#include "segmentation/join_branches.h"
 #include "segmentation/lumen_centreline.h"
 #include "segmentation/segment_vessel.h"
 #include "segmentation/segmentation_report.h"
@@ -209,7 +210,7 @@ int writePage(const Options& options)
   const StageClock clock(options.quiet);
   std::vector<std::string> warnings;
   const std::filesystem::path page(options.page);
-  tools::writeFile(options.page, "");
+  tools::requireWritable(options.page);
   const segmentation::Scan scan = readScan(options, (page.parent_path() / page.stem()).string(), clock, warnings);
   clock.begin("writing the page");
   tools::writeFile(options.page, segmentation::ctPage(scan));
@@ -226,13 +227,13 @@ int segment(const Options& options)
   const std::string stem = (out.parent_path() / out.stem()).string();
   std::vector<std::string> warnings;
   const segmentation::ClickSet clicks = segmentation::readClicks(options.clicks);
-  tools::writeFile(options.out, "");  // fails now rather than after the computation
+  tools::requireWritable(options.out);
   const segmentation::Scan scan = readScan(options, stem, clock, warnings);
   const segmentation::EdgeSettings settings = settingsOf(options, scan);
   clock.begin("segmenting the branches");
   segmentation::Segmentation result = segmentation::segmentBranches(scan, clicks, settings, options.threads);
-  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   segmentation::joinBranches(scan, clicks, settings, options.threads, result);
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   clock.begin("drawing the straightened views");
   writeViews(scan, result.branches, stem);
   clock.begin("uniting the branches");

@@ -1,3 +1,4 @@
+#include "segmentation/join_branches.h"
 #include "segmentation/segment_vessel.h"
 
 #include <cstdio>

@@ -230,6 +230,34 @@ private:
                  proposal(p));
   }
 
+  /** Brightest place within one voxel of a point. A click at the edge of a vessel gets into it. Only for images without
+   * Hounsfield units, in which nothing beside the lumen is brighter. */
+  Eigen::Vector3d brightestNear(const Eigen::Vector3d& p) const
+  {
+    const double range = scan_.spacing().maxCoeff();
+    const double pitch = 0.5 * scan_.spacing().minCoeff();
+    const int steps = static_cast<int>(range / pitch);
+    Eigen::Vector3d best = p;
+    double most = -1e30;
+    for (int c = -steps; c <= steps; ++c)
+      for (int b = -steps; b <= steps; ++b)
+        for (int a = -steps; a <= steps; ++a)
+        {
+          const Eigen::Vector3d offset = pitch * Eigen::Vector3d(a, b, c);
+          if (offset.norm() > range || !scan_.contains(p + offset))
+            continue;
+          double sum = 0.0;
+          for (const double value : around(scan_, p + offset, pitch, 1))
+            sum += value;
+          if (sum > most + 1e-9 * std::abs(most))
+          {
+            most = sum;
+            best = p + offset;
+          }
+        }
+    return best;
+  }
+
   CheckedBranch checkedBranch(const BranchClicks& branch, std::vector<std::string>& warnings) const
   {
     CheckedBranch checked;
@@ -242,6 +270,8 @@ private:
       LumenAtClick lumen;
       constexpr double kResolution = 1e-6;  // m; the formats of images round their origin differently
       lumen.position = (scan_.toGrid(click.position) / kResolution).array().round() * kResolution;
+      if (!is_ct_)
+        lumen.position = brightestNear(lumen.position);
       lumen.value = localValue(scan_, lumen.position);
       double own = backgroundAt(lumen.position, 5e-3);
       lumen.radius = radiusAt(scan_, lumen.position, 0.5 * (lumen.value + own));

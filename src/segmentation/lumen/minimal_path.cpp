@@ -140,7 +140,7 @@ private:
       double z = 0.0;
       if (value < range_.low)
         z = (value - range_.low) / range_.width();
-      else if (value > range_.high)
+      else if (value > range_.high && scan_.modality() == image::Modality::kCt)  // calcium; MR has none
         z = 0.5 * (value - range_.high) / range_.width();
       float speed = std::max(static_cast<float>(std::exp(-0.5 * z * z)), kSlowest);
       if (speed > kSlowInWideRegions && wide_.contains(scan_.centreOf(v)))

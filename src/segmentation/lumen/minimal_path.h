@@ -30,11 +30,15 @@ struct MinimalPath
   std::vector<Eigen::Vector3d> points;                     ///< grid frame, from the first point to the last [m]
   double longest_gap = 0.0;                                ///< longest stretch outside of the lumen [m]
   Eigen::Vector3d gap_location = Eigen::Vector3d::Zero();  ///< middle of that stretch [m]
+
+  /** True if the path leaves the lumen for more than 2 mm: its ends lie in two vessels. */
+  bool leavesLumen() const { return longest_gap > 2e-3; }
 };
 
 /** Path of least travel time through the lumen, over the 26 neighbours of voxels (Dijkstra's algorithm with the
  * straight distance as bound). Speed: exp(−½ z²), z the deviation from the range in widths, not below 0.004; in wide
- * regions not above 0.006. The whole image is open to the path; memory is used only where it searches.
+ * regions not above 0.006. Values above the range slow the path in CT only, where they are calcium. The whole image is
+ * open to the path; memory is used only where it searches.
  *  @param from, to points of the grid frame inside the image [m] */
 MinimalPath minimalPath(const Scan& scan, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                         const LumenRange& range, const WideRegions& wide);

@@ -19,15 +19,19 @@ button, input { font-size: 14px; margin: 3px 3px 3px 0; padding: 3px 8px; }
 <div><canvas id="v2"></canvas><span>axial: patient's right on the left</span></div>
 <div><canvas id="v1"></canvas><span>coronal, from the front</span></div>
 <div><canvas id="v0"></canvas><span>sagittal, from the left</span></div>
-<div><canvas id="v3"></canvas><span>projection of maximal values, from the front</span></div>
+<div><canvas id="v3"></canvas><span>projection of maximal values</span></div>
 </div>
 <div id="side">
-<p>Click a plane to move the cross, turn the wheel to leaf through, drag with the right button to set brightness and contrast. A click into
-the projection goes to the brightest voxel there. The key <b>a</b> adds the cross as a click to the branch.</p>
+<p>Click a plane to move the cross, turn the wheel to leaf through, drag with the right button to set brightness and contrast.
+Shift and wheel, or the keys <b>+</b> and <b>-</b>, enlarge the surroundings of the cross. A click into the projection goes to the
+brightest voxel there. The key <b>a</b> adds the cross as a click to the branch.</p>
 <p>Two clicks per branch suffice: one near each end, inside the lumen.</p>
-<p id="place"></p>
+<p>Projection <select id="axis"><option value="1">from the front</option><option value="0">from the left</option><option value="2">from
+the feet</option></select> of <select id="slab"><option value="0">the whole image</option><option value="40">40 mm around the cross</option><option
+value="20">20 mm around the cross</option></select></p>
+<p id="place">reading the image</p>
 <p><input id="name" value="left_anterior_descending" size="26"><button id="add">add click (a)</button><button id="undo">undo</button></p>
-<textarea id="yaml" readonly></textarea><br>
+<textarea id="yaml" wrap="off" readonly></textarea><br>
 <button id="copy">copy</button><button id="save">save clicks.yaml</button>
 </div>
 <script>
@@ -37,20 +41,39 @@ the projection goes to the brightest voxel there. The key <b>a</b> adds the cros
 constexpr auto kPageEnd = R"html(
 const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));
 const n = grid.size, cross = n.map(k => k >> 1), clicks = [];
-let low = 0, high = 255;
+let low = 0, high = 255, zoom = 1;
 const at = (i, j, k) => bytes[(k * n[1] + j) * n[0] + i];
 // Column and row axis of every view; images show the patient's head up, or the front up in the axial plane.
 const layout = [{fixed: 0, column: 1, row: 2, up: true}, {fixed: 1, column: 0, row: 2, up: true},
-                {fixed: 2, column: 0, row: 1, up: false}, {fixed: 1, column: 0, row: 2, up: true}];
-const most = new Uint8Array(n[0] * n[2]), depth = new Uint16Array(n[0] * n[2]);
-for (let k = 0; k < n[2]; k++) for (let j = 0; j < n[1]; j++) for (let i = 0; i < n[0]; i++) {
-  const v = at(i, j, k), p = k * n[0] + i;
-  if (v > most[p]) { most[p] = v; depth[p] = j; }
+                {fixed: 2, column: 0, row: 1, up: false}, null];  // the last view is the projection
+// Maximal values along the fixed axis of the last view, from first to last, and the place of each.
+let projected = "", most = null, depth = null;
+function project() {
+  const view = layout[3] = layout[Number(document.getElementById("axis").value)], f = view.fixed;
+  const slab = Number(document.getElementById("slab").value) / 2, half = slab ? Math.round(slab / grid.spacing[f]) : n[f];
+  const first = Math.max(0, cross[f] - half), last = Math.min(n[f] - 1, cross[f] + half), q = [0, 0, 0];
+  if (projected == [f, first, last].join()) return;
+  projected = [f, first, last].join();
+  most = new Uint8Array(n[view.column] * n[view.row]); depth = new Uint16Array(most.length);
+  for (q[2] = f == 2 ? first : 0; q[2] < (f == 2 ? last + 1 : n[2]); q[2]++)
+    for (q[1] = f == 1 ? first : 0; q[1] < (f == 1 ? last + 1 : n[1]); q[1]++)
+      for (q[0] = f == 0 ? first : 0; q[0] < (f == 0 ? last + 1 : n[0]); q[0]++) {
+        const v = at(q[0], q[1], q[2]), p = q[view.row] * n[view.column] + q[view.column];
+        if (v > most[p]) { most[p] = v; depth[p] = q[f]; }
+      }
+}
+// Part of a view that is shown: first column and row, and their numbers; it contains the cross.
+function region(view) {
+  const w = n[view.column], h = n[view.row], width = w / zoom, height = h / zoom;
+  const clamp = (v, most) => Math.max(0, Math.min(most, v));
+  const row = view.up ? h - 1 - cross[view.row] : cross[view.row];
+  return {column: clamp(cross[view.column] + 0.5 - width / 2, w - width), row: clamp(row + 0.5 - height / 2, h - height), width, height};
 }
 function position() {
   return [0, 1, 2].map(a => grid.origin[a] + [0, 1, 2].reduce((s, k) => s + grid.axes[k][a] * grid.spacing[k] * cross[k], 0));
 }
 function draw() {
+  project();
   layout.forEach((view, number) => {
     const canvas = document.getElementById("v" + number), w = n[view.column], h = n[view.row];
     const stretch = grid.spacing[view.row] / grid.spacing[view.column], scale = Math.max(1, Math.round(600 / Math.max(w, h * stretch)));
@@ -59,14 +82,17 @@ function draw() {
     const context = canvas.getContext("2d"), small = new ImageData(w, h), q = cross.slice();
     for (let r = 0; r < h; r++) for (let c = 0; c < w; c++) {
       q[view.column] = c; q[view.row] = view.up ? h - 1 - r : r;
-      const raw = number == 3 ? most[q[2] * n[0] + q[0]] : at(q[0], q[1], q[2]);
+      const raw = number == 3 ? most[q[view.row] * w + q[view.column]] : at(q[0], q[1], q[2]);
       const v = 255 * (raw - low) / (high - low), p = 4 * (r * w + c);
       small.data[p] = small.data[p + 1] = small.data[p + 2] = v; small.data[p + 3] = 255;
     }
     const buffer = document.createElement("canvas");
     buffer.width = w; buffer.height = h; buffer.getContext("2d").putImageData(small, 0, 0);
-    context.imageSmoothingEnabled = true; context.drawImage(buffer, 0, 0, W, H);
-    const x = v => (v + 0.5) * W / w, y = v => (view.up ? h - 0.5 - v : v + 0.5) * H / h;
+    const part = region(view);
+    context.imageSmoothingEnabled = true;
+    context.drawImage(buffer, part.column, part.row, part.width, part.height, 0, 0, W, H);
+    const x = v => (v + 0.5 - part.column) * W / part.width;
+    const y = v => ((view.up ? h - 0.5 - v : v + 0.5) - part.row) * H / part.height;
     context.strokeStyle = "#0af8"; context.beginPath();
     context.moveTo(x(cross[view.column]), 0); context.lineTo(x(cross[view.column]), H);
     context.moveTo(0, y(cross[view.row])); context.lineTo(W, y(cross[view.row])); context.stroke();
@@ -83,9 +109,11 @@ function draw() {
 }
 function yaml() {
   const names = [...new Set(clicks.map(c => c.name))];
-  document.getElementById("yaml").value = "frame: LPS\nunit: 0.001\nbranches:\n" + names.map(name => "  - name: " + name +
+  const text = document.getElementById("yaml");
+  text.value = "frame: LPS\nunit: 0.001\nbranches:\n" + names.map(name => "  - name: " + name +
     "\n    clicks:\n" + clicks.filter(c => c.name == name).map(c => "      - [" + c.position.map(p => p.toFixed(2)).join(", ") +
     "]  # about " + c.value + grid.unit + "\n").join("")).join("");
+  text.scrollTop = text.scrollHeight;
 }
 function add() {
   const name = document.getElementById("name").value.replace(/[^A-Za-z0-9_.-]/g, "_"), v = at(cross[0], cross[1], cross[2]);
@@ -93,19 +121,21 @@ function add() {
                value: Math.round(grid.window[0] + v / 255 * (grid.window[1] - grid.window[0]))});
   yaml(); draw();
 }
-layout.forEach((view, number) => {
+[0, 1, 2, 3].forEach(number => {
   const canvas = document.getElementById("v" + number);
-  const place = event => {
+  const place = (event, view) => {
     const box = canvas.getBoundingClientRect(), scale = Math.min(box.width / canvas.width, box.height / canvas.height);
     const x = (event.clientX - box.left - (box.width - scale * canvas.width) / 2) / (scale * canvas.width);
     const y = (event.clientY - box.top - (box.height - scale * canvas.height) / 2) / (scale * canvas.height);
-    const clamp = (v, m) => Math.max(0, Math.min(m - 1, Math.floor(v * m)));
-    return [clamp(x, n[view.column]), view.up ? n[view.row] - 1 - clamp(y, n[view.row]) : clamp(y, n[view.row])];
+    const part = region(view), clamp = (v, m) => Math.max(0, Math.min(m - 1, Math.floor(v)));
+    const column = clamp(part.column + x * part.width, n[view.column]), row = clamp(part.row + y * part.height, n[view.row]);
+    return [column, view.up ? n[view.row] - 1 - row : row];
   };
   canvas.onmousedown = event => {
     if (event.button != 0) return;
-    [cross[view.column], cross[view.row]] = place(event);
-    if (number == 3) cross[1] = depth[cross[2] * n[0] + cross[0]];
+    const view = layout[number];
+    [cross[view.column], cross[view.row]] = place(event, view);
+    if (number == 3) cross[view.fixed] = depth[cross[view.row] * n[view.column] + cross[view.column]];
     draw();
   };
   canvas.onmousemove = event => {
@@ -115,12 +145,20 @@ layout.forEach((view, number) => {
   canvas.oncontextmenu = event => event.preventDefault();
   canvas.onwheel = event => {
     event.preventDefault();
+    if (event.shiftKey) return enlarge((event.deltaY || event.deltaX) < 0);
+    const view = layout[number];
     cross[view.fixed] = Math.max(0, Math.min(n[view.fixed] - 1, cross[view.fixed] + (event.deltaY > 0 ? -1 : 1))); draw();
   };
 });
+function enlarge(more) { zoom = Math.max(1, Math.min(8, more ? zoom * 1.5 : zoom / 1.5)); draw(); }
+for (const name of ["axis", "slab"]) document.getElementById(name).onchange = event => { event.target.blur(); draw(); };
 document.getElementById("add").onclick = add;
 document.getElementById("undo").onclick = () => { clicks.pop(); yaml(); draw(); };
-document.onkeydown = event => { if (event.key == "a" && event.target.tagName != "INPUT") add(); };
+document.onkeydown = event => {
+  if (event.target.tagName == "INPUT" || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key == "a") add();
+  if (event.key == "+" || event.key == "-") enlarge(event.key == "+");
+};
 document.getElementById("copy").onclick = () => { const t = document.getElementById("yaml"); t.select(); document.execCommand("copy"); };
 document.getElementById("save").onclick = () => {
   const link = document.createElement("a");
