@@ -69,6 +69,8 @@ void resolvePaths(Scene& scene, const SceneNode& root)
     return;
   if (const SceneNode* mesh = vessel->find("mesh"))
     scene.vessel->mesh = findSceneFile(*mesh, "vessel.mesh", scene.file);
+  if (const SceneNode* centreline = vessel->find("centreline"))
+    scene.vessel->centreline = findSceneFile(*centreline, "vessel.centreline", scene.file);
   if (const SceneNode* anatomy = vessel->find("anatomy"))
     scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
 }

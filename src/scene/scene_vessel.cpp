@@ -13,6 +13,7 @@
 #include "geometry/mesh_distance.h"
 #include "scene/schema/scene_schema.h"
 #include "vessel/anatomy/anatomy_mesh.h"
+#include "vessel/anatomy/mesh_centreline.h"
 #include "vessel/anatomy/tube.h"
 #include "vessel/centreline/centreline_extraction.h"
 #include "vessel/io/mesh_reader.h"
@@ -57,6 +58,8 @@ vessel::Vessel vesselFromMeshFile(const VesselScene& scene, const ProgressReport
   }
   for (Eigen::Vector3d& v : vessel.mesh.vertices)
     v = scene.transform * v;
+  if (!scene.centreline.empty())
+    vessel.centreline = vessel::readMeshCentreline(scene.centreline, scene.transform, vessel.mesh);
   return vessel;
 }
 

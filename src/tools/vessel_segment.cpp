@@ -260,7 +260,8 @@ int segment(const Options& options)
             << " mm from the contours\nlook at the straightened views " << stem << "_BRANCH.png before use\nwrote "
             << options.out << ", " << stem << "_centreline.yaml, " << stem << "_report.json\n"
             << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="
-            << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
+            << std::filesystem::absolute(out).string() << " --set vessel.unit=1 --set vessel.centreline="
+            << std::filesystem::absolute(stem + "_centreline.yaml").string() << "\n";
   return 0;
 }
 

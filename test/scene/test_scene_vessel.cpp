@@ -179,6 +179,58 @@ TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileIfRequired)
   std::filesystem::remove(file);
 }
 
+TEST(SceneVessel, TakesTheCentrelineOfAMeshWithItsNamesFromAFile)
+{
+  const std::string file = testing::TempDir() + "/scene_vessel_fork.obj";
+  const VesselScene fork = forkScene();
+  vessel::writeObj(buildVessel(fork, EntryScene(), "scene.yaml").mesh, file);
+  VesselScene scene;
+  scene.mesh = file;
+  scene.centreline = fork.anatomy;
+  scene.transform.translation() = Eigen::Vector3d(0.1, -0.2, 0.3);
+  vessel::Lesion lesion;
+  lesion.branch = "right";
+  lesion.fraction = 0.5;
+  lesion.length = 0.004;
+  lesion.grade = 0.3;
+  scene.lesions = {lesion};
+  EntryScene entry;
+  entry.centreline_end = "right";
+  entry.offset = 0.006;
+  const vessel::Vessel vessel = buildVessel(scene, entry, "scene.yaml");
+  ASSERT_EQ(vessel.lesions.size(), 1U);
+  const EntryPose pose = resolveEntry(entry, vessel, "scene.yaml");
+  EXPECT_GT(geometry::windingNumber(vessel.mesh, pose.position), 0.5);
+  const vessel::Vessel original = buildVessel(fork, entry, "scene.yaml");
+  const EntryPose unmoved = resolveEntry(entry, original, "scene.yaml");
+  EXPECT_LT((pose.position - unmoved.position - scene.transform.translation()).norm(), 1e-4);
+  std::filesystem::remove(file);
+}
+
+TEST(SceneVessel, RejectsTheCentrelineOfAnotherVesselAndNamesAPointOutside)
+{
+  const std::string file = testing::TempDir() + "/scene_vessel_other.obj";
+  geometry::TriangleMesh mesh = buildVessel(forkScene(), EntryScene(), "scene.yaml").mesh;
+  for (Eigen::Vector3d& v : mesh.vertices)
+    v.x() += 0.05;
+  vessel::writeObj(mesh, file);
+  VesselScene scene;
+  scene.mesh = file;
+  scene.centreline = forkScene().anatomy;
+  try
+  {
+    buildVessel(scene, EntryScene(), "scene.yaml");
+    FAIL() << "the centreline of another vessel was accepted";
+  }
+  catch (const InputError& error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("fork.yaml"), std::string::npos) << text;
+    EXPECT_NE(text.find("lies outside of the mesh"), std::string::npos) << text;
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(SceneVessel, ListsTheEndsIfTheNamedOneDoesNotExist)
 {
   EntryScene entry;

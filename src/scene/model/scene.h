@@ -30,8 +30,9 @@ struct VesselScene
   double unit = 1.0;  ///< metres per unit of the mesh file (0.001 for millimetres)
   /** Transform from the frame of the mesh file, after the unit, to the patient frame: x left, y posterior, z head. */
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  int smoothing = 0;   ///< number of Loop subdivisions of the mesh, 0 to 3
-  bool repair = true;  ///< true: repair defects that are safe to repair; false: reject a mesh with defects
+  int smoothing = 0;       ///< number of Loop subdivisions of the mesh, 0 to 3
+  bool repair = true;      ///< true: repair defects that are safe to repair; false: reject a mesh with defects
+  std::string centreline;  ///< path of an anatomy file with the mesh's centreline and its names; empty: extracted
 
   std::string anatomy;  ///< path of an anatomy YAML file, for a generated vessel
 

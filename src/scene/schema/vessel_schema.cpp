@@ -63,6 +63,8 @@ void visitMesh(SceneFields& fields, VesselScene& vessel)
   fields.vector3("translation", translation, quantities::kPosition);
   vessel.transform.translation() = translation;
   fields.boolean("repair", vessel.repair);
+  if (fields.reading() || !vessel.centreline.empty())
+    fields.text("centreline", vessel.centreline);
 }
 
 void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
@@ -121,7 +123,7 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
 /** Rejects keys that apply to a mesh file only, with a more specific message than for unknown keys. */
 void rejectMeshKeys(SceneFields& fields)
 {
-  for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair"})
+  for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair", "centreline"})
     if (fields.has(key))
       fields.reject(key, "applies to a mesh file only; remove it, or give vessel.mesh");
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "geometry/triangle_mesh.h"
+#include "vessel/centreline/centreline.h"
+
+namespace endovascular_sim::vessel
+{
+
+/** Centreline of a mesh from an anatomy file, such as the one that vessel_segment or vessel_prepare writes beside the
+ * mesh. It brings the names of the branches.
+ *  @param file anatomy file; its lengths are in metres, or in its own unit
+ *  @param transform from the frame of the file to that of the mesh
+ *  @param mesh wall of the vessel [m]
+ *  @throws InputError if the file is invalid, or belongs to another vessel: more than one point in twenty of a branch
+ * lies outside of the mesh */
+CentrelineTree readMeshCentreline(const std::string& file, const Eigen::Isometry3d& transform,
+                                  const geometry::TriangleMesh& mesh);
+
+}  // namespace endovascular_sim::vessel
