@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "segmentation/surface/lumen_surface.h"
 #include "test/segmentation/accuracy.h"
+#include "test/segmentation/tree_accuracy.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -101,6 +102,40 @@ TEST_P(SegmentationOfTheHeart, IsWithinATenthOfAVoxel)
 INSTANTIATE_TEST_SUITE_P(Branches, SegmentationOfTheHeart,
                          ::testing::Values("left_anterior_descending", "left_circumflex", "right_coronary"),
                          [](const auto& info) { return std::string(info.param); });
+
+TEST(Segmentation, OfATreeIsCloseToTheExactSurfaceAlsoAtOstiaBifurcationsAndInTheAorta)
+{
+  const Truth truth;
+  for (int seed = 1; seed <= seeds(); ++seed)
+  {
+    phantom::PhantomSettings noise;
+    noise.seed = static_cast<std::uint64_t>(seed);
+    const Scan scan(heartScan(truth, noise));
+    const EdgeSettings settings = edgeSettings(scan.modality(), scan.spacing());
+    const ClickSet clicks = clicksInto(
+        truth, {"ascending_aorta", "left_main", "left_anterior_descending", "left_circumflex", "right_coronary"},
+        scan.volume().grid, noise.seed);
+    Segmentation result = segmentBranches(scan, clicks, settings, 0);
+    joinBranches(scan, clicks, settings, 0, result);
+    SurfaceSettings surface;
+    surface.spacing = 3e-4;
+    const geometry::TriangleMesh mesh = lumenSurface(result.branches, surface);
+    const TreeAccuracy accuracy = TreeComparison(truth, scan, result.branches, mesh).run();
+    std::printf("tree, seed %d: aorta Dice %.4f\n", seed, accuracy.aorta_dice);
+    EXPECT_GE(accuracy.aorta_dice, 0.97);
+    for (const auto& [direction, regions] : {std::pair("to the truth", accuracy.there), std::pair("back", accuracy.back)})
+      for (const auto& [region, d] : regions)
+      {
+        const bool is_junction = region.find('+') != std::string::npos;
+        std::printf("  %-50s %-12s mean %.3f, 95 %% %.3f, largest %.2f mm, %zu points\n", region.c_str(), direction,
+                    1e3 * d.mean, 1e3 * d.p95, 1e3 * d.largest, d.points);
+        if (is_junction && d.points > 100)
+        {
+          EXPECT_LE(d.mean, 3e-4) << region;
+        }
+      }
+  }
+}
 
 TEST(Segmentation, HasTheSameBitsWithOneAndWithFourThreads)
 {
