@@ -1,4 +1,4 @@
-// Writes a volume of synthetic_ct by ITK: FOLDER/series (DICOM), image.nii.gz, image.nrrd and image.mha.
+// Writes a volume of synthetic_ct by ITK: FOLDER/series (DICOM) and FOLDER/image.nii.gz.
 // usage: images_by_itk VOLUME.vol FOLDER
 
 #include <array>
@@ -17,9 +17,7 @@
 #include <itkImage.h>
 #include <itkImageFileWriter.h>
 #include <itkMetaDataObject.h>
-#include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
-#include <itkNrrdImageIO.h>
 
 namespace
 {
@@ -127,8 +125,6 @@ int main(int argc, char** argv)
     writeSeries(content, folder + "/series");
     const Image::Pointer image = imageOf(content, 0, -1);
     write(image, itk::NiftiImageIO::New(), folder + "/image.nii.gz");
-    write(image, itk::NrrdImageIO::New(), folder + "/image.nrrd");
-    write(image, itk::MetaImageIO::New(), folder + "/image.mha");
     return 0;
   }
   catch (const std::exception& error)

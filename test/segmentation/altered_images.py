@@ -1,6 +1,6 @@
 """Writes a volume of synthetic_ct as images with a defect each, without ITK: VOLUME FOLDER.
 
-thick.mha: slices twice as far apart; metal.mha: a cube of metal beside the vessel; plain.mha: without contrast agent;
+thick.mha: slices twice as far apart; metal.mha: a cube of metal beside the trunk of fork.yaml; plain.mha: without contrast agent;
 nan.nrrd: a value that is no number; grey.mha: 8 bit."""
 import os
 import sys
@@ -25,7 +25,8 @@ def main(volume, folder):
     write("thick.mha", values[::2], step=2)
     write("plain.mha", numpy.minimum(values, 60))
     metal = values.copy()
-    metal[20:24, 2:5, 2:5] = 3071
+    i, j, k = numpy.rint(([12.0, 4.0, 15.0] - origin) / spacing).astype(int)  # 8 mm beside the wall of the trunk
+    metal[k : k + 3, j : j + 3, i : i + 3] = 3071
     write("metal.mha", metal)
     broken = values.astype("<f4")
     broken[5, 5, 5] = numpy.nan
