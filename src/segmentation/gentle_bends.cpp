@@ -17,8 +17,8 @@ constexpr double kWanted = 1.08;         ///< ratio, with a margin for other sam
 constexpr double kSampleSpacing = 0.25;  ///< in radii of the lumen, as in an anatomy
 constexpr int kSmoothings = 60;
 constexpr int kReductions = 200;
-constexpr double kReduction = 0.97;     ///< of a radius in one round
-constexpr double kLeastShare = 0.5;     ///< of a radius after a shift
+constexpr double kReduction = 0.97;  ///< of a radius in one round
+constexpr double kLeastShare = 0.5;  ///< of a radius after a shift
 
 /** Tightest bend of a branch, relative to the one that is permitted. */
 struct Bend

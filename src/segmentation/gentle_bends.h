@@ -9,9 +9,9 @@ namespace endovascular_sim::segmentation
  * lumen), along the spline through the points of a branch; an anatomy needs 1. */
 double bendRatio(const vessel::CentrelineBranch& branch);
 
-/** Makes the bends of a branch gentle enough for an anatomy. Its points are smoothed where it bends too tightly, and their
- * radii reduced by the shift, as those of inscribed circles; where that does not suffice, the radii are reduced further.
- * The ends stay, gentle branches are not changed. */
+/** Makes the bends of a branch gentle enough for an anatomy. Its points are smoothed where it bends too tightly, and
+ * their radii reduced by the shift, as those of inscribed circles; where that does not suffice, the radii are reduced
+ * further. The ends stay, gentle branches are not changed. */
 void makeBendsGentle(vessel::CentrelineBranch& branch);
 
 }  // namespace endovascular_sim::segmentation

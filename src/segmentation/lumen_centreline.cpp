@@ -15,12 +15,12 @@ namespace endovascular_sim::segmentation
 namespace
 {
 
-constexpr double kSpacing = 1.0;          ///< of the points, in radii
-constexpr double kShortest = 1e-3;        ///< least distance of two points [m]
-constexpr double kBeginSpacing = 0.25;    ///< of the points of a parent that are tried as the begin of a branch, in radii
-constexpr double kNearestBegin = 0.3;     ///< least distance of the begin from the ostium, in radii
-constexpr double kFarthestBegin = 4.0;    ///< largest one, beyond the distance of the parent's centreline, in radii
-constexpr double kGentle = 1.5;           ///< ratio of bends (gentle_bends.h) beyond which the nearest begin is best
+constexpr double kSpacing = 1.0;        ///< of the points, in radii
+constexpr double kShortest = 1e-3;      ///< least distance of two points [m]
+constexpr double kBeginSpacing = 0.25;  ///< of the points of a parent that are tried as the begin of a branch, in radii
+constexpr double kNearestBegin = 0.3;   ///< least distance of the begin from the ostium, in radii
+constexpr double kFarthestBegin = 4.0;  ///< largest one, beyond the distance of the parent's centreline, in radii
+constexpr double kGentle = 1.5;         ///< ratio of bends (gentle_bends.h) beyond which the nearest begin is best
 constexpr double kCostOfDistance = 0.1;   ///< ratio of bends that justifies a begin one radius farther away
 constexpr double kBranchesAtAnEnd = 0.6;  ///< distance of a child from an end that it closes, in radii
 
@@ -57,8 +57,8 @@ std::size_t ostiumOf(const std::vector<LumenBranch>& branches, const LumenBranch
     lumens.emplace_back(branches[static_cast<std::size_t>(p)].sections, 1e-3);
   const std::size_t last = branch.sections.size() / 2;
   std::size_t k = 0;
-  while (k < last && std::any_of(lumens.begin(), lumens.end(), [&](const Tube& lumen)
-                                 { return lumen.at(branch.sections[k].centre).distance < 0.0; }))
+  while (k < last && std::any_of(lumens.begin(), lumens.end(),
+                                 [&](const Tube& lumen) { return lumen.at(branch.sections[k].centre).distance < 0.0; }))
     ++k;
   return k;
 }
@@ -92,7 +92,8 @@ vessel::CentrelineBranch centrelineFrom(const LumenBranch& branch, std::size_t f
 }
 
 /** Lets a branch begin on the centreline of its parent: at the nearest point from which it reaches its ostium without a
- * tight bend. The path through the parent's lumen is not that of the images, where a wide branch would turn on the spot. */
+ * tight bend. The path through the parent's lumen is not that of the images, where a wide branch would turn on the
+ * spot. */
 void beginOnParent(const vessel::CentrelineBranch& parent, vessel::CentrelineBranch& branch)
 {
   const geometry::Spline3 spline(parent.points);

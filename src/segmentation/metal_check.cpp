@@ -7,8 +7,8 @@ namespace endovascular_sim::segmentation
 namespace
 {
 
-constexpr double kMetal = 3000.0;   // HU; cortical bone and calcium lie below 2000
-constexpr double kFarthest = 0.03;  ///< of metal whose streaks matter [m]
+constexpr double kMetal = 3000.0;     // HU; cortical bone and calcium lie below 2000
+constexpr double kFarthest = 0.03;    ///< of metal whose streaks matter [m]
 constexpr std::size_t kMost = 20000;  ///< metal voxels that are compared with the branches
 
 /** Positions of metal voxels, evenly thinned out; grid frame [m]. */
@@ -58,10 +58,11 @@ std::vector<std::string> metalWarnings(const Scan& scan, const std::vector<Lumen
       continue;
     const Eigen::Vector3d place = 1e3 * scan.toPatient(at);
     char text[250];
-    std::snprintf(text, sizeof text,
-                  ": metal at (%.1f, %.1f, %.1f) mm, %.0f mm from its axis at %.0f mm: streaks may displace the contour; "
-                  "check it in the straightened view, or use a reconstruction with metal artefact reduction",
-                  place.x(), place.y(), place.z(), 1e3 * nearest, 1e3 * branch.arc()[beside]);
+    std::snprintf(
+        text, sizeof text,
+        ": metal at (%.1f, %.1f, %.1f) mm, %.0f mm from its axis at %.0f mm: streaks may displace the contour; "
+        "check it in the straightened view, or use a reconstruction with metal artefact reduction",
+        place.x(), place.y(), place.z(), 1e3 * nearest, 1e3 * branch.arc()[beside]);
     warnings.push_back(branch.name + text);
   }
   return warnings;

@@ -26,7 +26,7 @@ if [ -x "$programs/volume_import" ]; then
   mkdir outputs
   /usr/bin/python3 "$repository/test/segmentation/volume_formats.py" fork.vol .
   /usr/bin/python3 "$repository/test/segmentation/series_by_pydicom.py" fork.vol pydicom
-  for images in pydicom dicom image.nii; do
+  for images in pydicom image.nii; do
     grep -a -q 'Doe^Jane' -r "$images"
     modality=$([ "$images" = image.nii ] && echo "--modality ct" || true)
     # shellcheck disable=SC2086

@@ -26,8 +26,8 @@ namespace endovascular_sim::nodes
 {
 
 /** ROS node of the vessel: loads or generates the vessel of a scene and publishes it as latched topics, as a service,
- * as a marker for rviz and as static frames. Names the end at which a point is clicked in rviz. Displaces the wall under
- * balloon loads. */
+ * as a marker for rviz and as static frames. Names the end at which a point is clicked in rviz. Displaces the wall
+ * under balloon loads. */
 class VesselServerNode
 {
 public:

@@ -22,8 +22,8 @@ const std::string& nameOf(const CentrelineTree& tree, const CentrelineEnd& end)
   return tree.branches[static_cast<std::size_t>(end.branch)].name;
 }
 
-[[noreturn]] void reject(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends,
-                         const std::string& option, const std::string& source)
+[[noreturn]] void reject(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends, const std::string& option,
+                         const std::string& source)
 {
   std::string list;
   for (const CentrelineEnd& end : ends)

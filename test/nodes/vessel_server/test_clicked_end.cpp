@@ -13,7 +13,8 @@ vessel::CentrelineTree fork()
 {
   vessel::CentrelineTree tree;
   tree.branches.push_back({"branch_0", -1, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.05}, {0.0, 0.0, 0.1}}, {4e-3, 4e-3, 4e-3}});
-  tree.branches.push_back({"branch_1", 0, {{0.0, 0.0, 0.05}, {0.02, 0.0, 0.06}, {0.04, 0.0, 0.07}}, {2e-3, 2e-3, 2e-3}});
+  tree.branches.push_back(
+      {"branch_1", 0, {{0.0, 0.0, 0.05}, {0.02, 0.0, 0.06}, {0.04, 0.0, 0.07}}, {2e-3, 2e-3, 2e-3}});
   return tree;
 }
 

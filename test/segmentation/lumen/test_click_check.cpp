@@ -47,7 +47,8 @@ ClickSet clicksAt(const Eigen::Vector3d& first)
   const Eigen::Vector3d origin(-0.1, 0.2, 0.3);
   ClickSet set;
   set.file = "clicks.yaml";
-  set.branches.push_back({"artery", {{origin + 1e-3 * first, "line 6"}, {origin + 1e-3 * Eigen::Vector3d(10, 10, 25), "line 6"}}, 0.0});
+  set.branches.push_back(
+      {"artery", {{origin + 1e-3 * first, "line 6"}, {origin + 1e-3 * Eigen::Vector3d(10, 10, 25), "line 6"}}, 0.0});
   return set;
 }
 
@@ -91,10 +92,11 @@ TEST_P(WrongClick, IsRefusedWithItsPlaceItsTissueAndTheNearestLumen)
   EXPECT_LT(proposedOffAxis(error), kRadius) << error;
 }
 
-INSTANTIATE_TEST_SUITE_P(Tissues, WrongClick,
-                         ::testing::Values(std::pair("lies in fat", Eigen::Vector3d(10.0, 14.5, 10.0)),
-                                           std::pair("lies in soft tissue or the wall", Eigen::Vector3d(10.0, 12.5, 10.0)),
-                                           std::pair("lies in bone, calcium or metal", Eigen::Vector3d(2.0, 10.0, 10.0))));
+INSTANTIATE_TEST_SUITE_P(
+    Tissues, WrongClick,
+    ::testing::Values(std::pair("lies in fat", Eigen::Vector3d(10.0, 14.5, 10.0)),
+                      std::pair("lies in soft tissue or the wall", Eigen::Vector3d(10.0, 12.5, 10.0)),
+                      std::pair("lies in bone, calcium or metal", Eigen::Vector3d(2.0, 10.0, 10.0))));
 
 TEST(ClickCheck, RefusesAClickIntoAir)
 {
