@@ -1,6 +1,7 @@
 #include "phantom/true_clicks.h"
 
 #include <algorithm>
+#include <set>
 
 #include "common/error.h"
 #include "common/numerics/counter_noise.h"
@@ -78,7 +79,13 @@ std::vector<BranchClicks> trueClicks(const vessel::Anatomy& anatomy, const std::
                      [&name](const vessel::AnatomyBranch& branch) { return branch.name == name; }))
       throw InputError(anatomy.file, name, "is no branch of this anatomy");
   std::vector<BranchClicks> clicks;
+  std::set<int> with_clicks;
+  std::set<int> parents;
   for (const vessel::AnatomyChain& chain : chains)
+  {
+    // Without names: one tree, not a branch whose parent is out of view.
+    if (names.empty() && !clicks.empty() && with_clicks.count(chain.parent) + parents.count(chain.parent) == 0)
+      continue;
     for (std::size_t b = 0; b < chain.branches.size(); ++b)
     {
       const std::string& name = anatomy.branches[static_cast<std::size_t>(chain.branches[b])].name;
@@ -101,8 +108,11 @@ std::vector<BranchClicks> trueClicks(const vessel::Anatomy& anatomy, const std::
       while (end + 1 < run.end && chain.arc[end] - chain.arc[run.begin] < kDistal * length)
         ++end;
       const auto branch = static_cast<std::uint64_t>(chain.branches[b]);
+      with_clicks.insert(chain.branches[b]);
+      parents.insert(chain.parent);
       clicks.push_back({name, {click(chain, run.begin, seed, 2 * branch), click(chain, end, seed, 2 * branch + 1)}});
     }
+  }
   return clicks;
 }
 

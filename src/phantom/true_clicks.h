@@ -23,6 +23,7 @@ struct BranchClicks
  * the radius in a random direction.
  *  @param seed of the directions
  *  @param names of the branches, which may continue others; empty: all that have 15 mm or more in the field of view
+ *         and belong to one tree there
  *  @param view field of view [m]
  *  @throws InputError for a name that the anatomy does not hold, or a branch outside of the field of view */
 std::vector<BranchClicks> trueClicks(const vessel::Anatomy& anatomy, const std::vector<std::string>& names,

@@ -11,7 +11,9 @@ namespace endovascular_sim::segmentation
 {
 
 /** Centreline tree of joined branches in the grid frame, one branch per branch and with its name, parents before
- * their children. Points are about one radius apart. Radii are those of circles inscribed into the contours. */
+ * their children. Points are about one radius apart. Radii are those of circles inscribed into the contours. A branch
+ * leads straight from its parent's centreline to its ostium. Bends are as gentle as an anatomy needs them
+ * (vessel/anatomy/anatomy.h). */
 vessel::CentrelineTree lumenCentreline(const std::vector<LumenBranch>& branches);
 
 /** Tree of the patient frame, from one of the grid frame. */

@@ -19,6 +19,7 @@
 #include "image/volume_file.h"
 #include "segmentation/join_branches.h"
 #include "segmentation/lumen_centreline.h"
+#include "segmentation/metal_check.h"
 #include "segmentation/segment_vessel.h"
 #include "segmentation/segmentation_report.h"
 #include "segmentation/surface/lumen_surface.h"
@@ -45,6 +46,8 @@ struct Options
   std::string out;
   std::string page;
   std::string modality;
+  std::vector<std::string> open;
+  std::vector<std::string> closed;
   int series = 0;
   double point_spread = 0.0;   // mm; 0: by modality
   double wall = -1.0;          // mm; < 0: by modality
@@ -170,14 +173,34 @@ geometry::TriangleMesh closedSurface(const std::vector<segmentation::LumenBranch
   return mesh;
 }
 
-/** Opens the ends of the tree. The surface ends in flat lids there, so a shallow cut suffices.
+/** Ends of the tree that become open: all, or those of --open; without those of --closed. */
+std::vector<vessel::CentrelineEnd> wantedEnds(const Options& options, const segmentation::Scan& scan,
+                                              const vessel::CentrelineTree& tree)
+{
+  const std::vector<vessel::CentrelineEnd> ends = segmentation::openEnds(tree);
+  std::vector<vessel::CentrelineEnd> in_patient = ends;  // in the frame of the options
+  for (vessel::CentrelineEnd& end : in_patient)
+    end.position = scan.toPatient(end.position);
+  const std::vector<std::string> all{"all"};
+  std::vector<std::size_t> open =
+      vessel::matchingEnds(tree, in_patient, options.open.empty() ? all : options.open, "--open", options.images);
+  for (const std::size_t closed : vessel::matchingEnds(tree, in_patient, options.closed, "--closed", options.images))
+    open.erase(std::remove(open.begin(), open.end(), closed), open.end());
+  std::vector<vessel::CentrelineEnd> wanted;
+  for (const std::size_t k : open)
+    wanted.push_back(ends[k]);
+  return wanted;
+}
+
+/** Opens ends of the vessel. The surface ends in flat lids there, so a shallow cut suffices.
  *  @return number of open ends */
 int openEnds(const Options& options, const segmentation::Scan& scan, const vessel::CentrelineTree& tree,
-             geometry::TriangleMesh& mesh, std::vector<std::string>& warnings)
+             const std::vector<vessel::CentrelineEnd>& ends, geometry::TriangleMesh& mesh,
+             std::vector<std::string>& warnings)
 {
   constexpr double kDeepest = 2e-3;  // m
   int open = 0;
-  for (const vessel::CentrelineEnd& end : segmentation::openEnds(tree))
+  for (const vessel::CentrelineEnd& end : ends)
   {
     try
     {
@@ -234,6 +257,10 @@ int segment(const Options& options)
   segmentation::Segmentation result = segmentation::segmentBranches(scan, clicks, settings, options.threads);
   segmentation::joinBranches(scan, clicks, settings, options.threads, result);
   warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  for (const std::string& warning : segmentation::metalWarnings(scan, result.branches))
+    warnings.push_back(warning);
+  const vessel::CentrelineTree tree = segmentation::lumenCentreline(result.branches);
+  const std::vector<vessel::CentrelineEnd> ends = wantedEnds(options, scan, tree);
   clock.begin("drawing the straightened views");
   writeViews(scan, result.branches, stem);
   clock.begin("uniting the branches");
@@ -246,8 +273,7 @@ int segment(const Options& options)
   vessel::PreparedVessel prepared = vessel::prepareVessel(surface, options.images, prepare,
                                                           [&clock](const std::string& stage) { clock.begin(stage); });
   clock.begin("opening the ends");
-  const vessel::CentrelineTree tree = segmentation::lumenCentreline(result.branches);
-  const int open = openEnds(options, scan, tree, prepared.mesh, warnings);
+  const int open = openEnds(options, scan, tree, ends, prepared.mesh, warnings);
   vessel::writeObj(segmentation::toPatient(scan, prepared.mesh), options.out);
   vessel::writeCentreline(segmentation::toPatient(scan, tree), out.stem().string(), stem + "_centreline.yaml");
   tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
@@ -301,6 +327,10 @@ int main(int argc, char** argv)
       ->check(CLI::Range(0.01, 10.0));
   line.option("--wall", options.wall, "MM", "thickness of the vessel wall [CT 0.8 mm; else 0]")
       ->check(CLI::Range(0.0, 5.0));
+  line.repeated("--open", options.open, "WHICH",
+                "ends that become open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end; "
+                "vessel_server prints it for a click in rviz), or a branch [all]");
+  line.repeated("--closed", options.closed, "WHICH", "ends that stay closed, named likewise");
   line.quantity("--max-distance", options.max_distance, "M", quantities::kSurfaceDistance,
                 "largest distance of the mesh from the contours [0.0002]");
   line.quantity("--cut-back", options.cut_back, "R", quantities::kScale,

@@ -46,7 +46,7 @@ def accept(name, path, *options, modality=1):
                     return
     with open(out, "rb") as file:
         content = file.read()
-    expect(name, b"Doe" not in content and b"4711" not in content, "the output names the patient")
+    expect(name, b"Doe" not in content and b"4711" not in content and b"1962" not in content, "the output names the patient")
     expect(name, "Doe" not in result.stdout + result.stderr, "a message names the patient")
 
 
@@ -87,6 +87,10 @@ refuse("no_such_series", here("two"), "--series must be one of them", options=("
 # wrong series
 files.write_series(here("gap"), slices=(0, 1, 3, 4))
 refuse("missing_slice", here("gap"), "slices are missing")
+files.write_series(here("double"), slices=(0, 1, 2, 3, 4), heights=(0, 1, 1, 2, 3))
+refuse("double_slice", here("double"), "is the place of", "image_", "a slice twice")
+files.write_series(here("uneven"), heights=(0, 1, 2, 3, 4.2))
+refuse("uneven_spacing", here("uneven"), "slices are 1.250 mm apart, but 1.500 mm between", "image_", "equal spacing")
 files.write_series(here("tilt"), shift=(0.0, 0.4, 0.0))
 refuse("tilt", here("tilt"), "gantry tilt")
 files.write_series(here("one"), slices=(0,))
@@ -98,6 +102,11 @@ for tag, word in (
 ):
     files.write_series(here("without_" + word), without=(tag,))
     refuse("without_" + word, here("without_" + word), word, "is missing")
+for tag, word in (((0x0028, 0x1053), "RescaleSlope"), ((0x0028, 0x1052), "RescaleIntercept")):
+    files.write_series(here("without_" + word), without=(tag,))
+    refuse("without_" + word, here("without_" + word), word, "image_", "is missing", "--modality ct")
+files.write_series(here("bytes"), bits=8)
+refuse("8_bit_series", here("bytes"), "8 bit", "--modality other")
 os.makedirs(here("empty"), exist_ok=True)
 refuse("empty_folder", here("empty"), "no DICOM")
 
@@ -153,6 +162,12 @@ files.write(here("short_series/image_1.2.3.4_3"), content[:-40])
 refuse("truncated_series", here("short_series"), "export")
 files.write_mha(here("positive.mha"), data=struct.pack("<%dh" % len(numbers), *(v + 1000 for v in files.values())))
 refuse("unknown_modality", here("positive.mha"), "--modality")
+grey = {"ElementType": "MET_UCHAR"}
+files.write_mha(here("grey.mha"), grey, bytes(n % 256 for n in range(len(numbers))))
+refuse("8_bit", here("grey.mha"), "8 bit", "--modality other")
+refuse("8_bit_ct", here("grey.mha"), "8 bit", "--modality other", options=("--modality", "ct"))
+out, result = run("8_bit_other", here("grey.mha"), "--modality", "other")
+expect("8_bit_other", result.returncode == 0, result.stderr)
 files.write_mha(here("large.mha"), {"DimSize": "4000 4000 4000"})
 refuse("too_large", here("large.mha"), "needs 512000 MB", "the limit is 4000 MB", "--memory")
 files.write_mha(here("huge.mha"), {"DimSize": "2000000000 2000000000 2"})

@@ -60,7 +60,7 @@ def decimal(numbers):
     return "\\".join("%.10g" % n for n in numbers)
 
 
-def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=None):
+def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=None, bits=16):
     """DICOM file of a slice. `without`: elements left out, as (group, number)."""
     pixels = [value(i, j, k) + 1024 for j in range(size[1]) for i in range(size[0])] if pixels is None else pixels
     elements = [
@@ -69,6 +69,7 @@ def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=
         (0x0008, 0x0060, "CS", "CT"),
         (0x0010, 0x0010, "PN", "Doe^Jane"),
         (0x0010, 0x0020, "LO", "ID4711"),
+        (0x0010, 0x0030, "DA", "19620314"),
         (0x0020, 0x000D, "UI", "1.2.3"),
         (0x0020, 0x000E, "UI", series),
         (0x0020, 0x0013, "IS", str(k + 1)),
@@ -79,26 +80,30 @@ def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=
         (0x0028, 0x0010, "US", struct.pack("<H", size[1])),
         (0x0028, 0x0011, "US", struct.pack("<H", size[0])),
         (0x0028, 0x0030, "DS", decimal((SPACING[1], SPACING[0]))),
-        (0x0028, 0x0100, "US", struct.pack("<H", 16)),
-        (0x0028, 0x0101, "US", struct.pack("<H", 16)),
-        (0x0028, 0x0102, "US", struct.pack("<H", 15)),
-        (0x0028, 0x0103, "US", struct.pack("<H", 1)),
-        (0x0028, 0x1052, "DS", "-1024"),
+        (0x0028, 0x0100, "US", struct.pack("<H", bits)),
+        (0x0028, 0x0101, "US", struct.pack("<H", bits)),
+        (0x0028, 0x0102, "US", struct.pack("<H", bits - 1)),
+        (0x0028, 0x0103, "US", struct.pack("<H", 1 if bits == 16 else 0)),
+        (0x0028, 0x1052, "DS", "-1024" if bits == 16 else "0"),
         (0x0028, 0x1053, "DS", "1"),
-        (0x7FE0, 0x0010, "OW", struct.pack("<%dh" % len(pixels), *pixels)),
+        (0x7FE0, 0x0010, "OW", struct.pack("<%d%s" % (len(pixels), "h" if bits == 16 else "B"), *pixels)),
     ]
     meta = element(0x0002, 0x0010, "UI", "1.2.840.10008.1.2.1")
     meta = element(0x0002, 0x0000, "UL", struct.pack("<I", len(meta))) + meta
     return bytes(128) + b"DICM" + meta + b"".join(element(*e) for e in elements if (e[0], e[1]) not in without)
 
 
-def write_series(folder, slices=None, shift=(0.0, 0.0, 0.0), series="1.2.3.4", without=()):
-    """Folder of a series; the names of its files are not in the order of the slices. `shift`: of each slice [mm]."""
+def write_series(folder, slices=None, shift=(0.0, 0.0, 0.0), series="1.2.3.4", without=(), heights=None, bits=16):
+    """Folder of a series; the names of its files are not in the order of the slices. `shift`: of each slice [mm].
+    `heights`: of the slices along their normal, in their regular distance."""
     os.makedirs(folder, exist_ok=True)
     axes = rotation()
-    for k in range(SIZE[2]) if slices is None else slices:
-        origin = [a + b * k for a, b in zip(position(0, 0, k), shift)]
-        write(os.path.join(folder, "image_%s_%d" % (series, (3 * k) % 5)), slice_file(k, origin, axes, series, without))
+    for n, k in enumerate(range(SIZE[2]) if slices is None else slices):
+        height = k if heights is None else heights[n]
+        origin = [a + b * k for a, b in zip(position(0, 0, height), shift)]
+        pixels = None if bits == 16 else [(i + 7 * k) % 256 for i in range(SIZE[0] * SIZE[1])]
+        name = "image_%s_%d" % (series, (3 * n) % 5)
+        write(os.path.join(folder, name), slice_file(k, origin, axes, series, without, pixels=pixels, bits=bits))
 
 
 # files with a whole volume

@@ -3,8 +3,10 @@
 #include <cstdlib>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/Marker.h>
 
@@ -107,6 +109,34 @@ TEST(VesselServer, PublishesTheFrameOfTheIntroducerAtTheEntry)
   EXPECT_LT((rotation * Eigen::Vector3d::UnitX() - entry.direction).norm(), 1e-9);
   EXPECT_LT((rotation * Eigen::Vector3d::UnitY() - entry.d1).norm(), 1e-9);
   EXPECT_EQ(transform.transform.translation.x, entry.position.x());
+}
+
+TEST(VesselServer, NamesTheEndAtAClickInRviz)
+{
+  ASSERT_TRUE(latched<VesselMesh>(names::kVesselMesh));
+  const vessel::CentrelineEnd end = vessel::centrelineEnds(expectedVessel().centreline).back();
+  ros::NodeHandle node;
+  std::string found;
+  const auto listen = [&found](const rosgraph_msgs::LogConstPtr& line)
+  {
+    if (line->msg.rfind("clicked point: ", 0) == 0)
+      found = line->msg;
+  };
+  const ros::Subscriber log = node.subscribe<rosgraph_msgs::Log>("/rosout", 100, listen);
+  const ros::Publisher clicks = node.advertise<geometry_msgs::PointStamped>(names::kClickedPoint, 1);
+  geometry_msgs::PointStamped click;
+  click.header.frame_id = names::kPatientFrame;
+  click.point.x = end.position.x() + 1e-3;
+  click.point.y = end.position.y();
+  click.point.z = end.position.z();
+  for (const ros::Time limit = ros::Time::now() + kTimeout; found.empty() && ros::Time::now() < limit;)
+  {
+    clicks.publish(click);
+    ros::Duration(0.1).sleep();
+    ros::spinOnce();
+  }
+  EXPECT_NE(found.find(", 1.0 mm from the click"), std::string::npos) << found;
+  EXPECT_NE(found.find("--set entry.nearest_centreline_end=true"), std::string::npos) << found;
 }
 
 TEST(VesselServer, PublishesDiagnostics)

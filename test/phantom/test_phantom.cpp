@@ -131,5 +131,17 @@ TEST(TrueClicks, LieInTheLumenOfTheirBranch)
   EXPECT_THROW(trueClicks(anatomy, {"vertebral"}, heart, 1), InputError);
 }
 
+TEST(TrueClicks, WithoutNamesFormOneTree)
+{
+  // The abdomen up to the heart's lower border: the right coronary artery is in view, its parent is not.
+  const Eigen::AlignedBox3d abdomen(Eigen::Vector3d(-0.095, -0.06, -0.15), Eigen::Vector3d(0.095, 0.08, 0.11));
+  std::vector<std::string> names;
+  for (const BranchClicks& branch : trueClicks(body(), {}, abdomen, 1))
+    names.push_back(branch.name);
+  const std::vector<std::string> tree = {"abdominal_aorta", "left_common_iliac", "left_external_iliac",
+                                         "right_common_iliac", "right_external_iliac"};
+  EXPECT_EQ(names, tree);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::phantom

@@ -1,6 +1,7 @@
 #include "segmentation/join_branches.h"
 #include "segmentation/segment_vessel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -9,6 +10,7 @@
 #include "common/error.h"
 #include "segmentation/surface/lumen_surface.h"
 #include "test/segmentation/accuracy.h"
+#include "test/segmentation/tree_accuracy.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -102,6 +104,56 @@ TEST_P(SegmentationOfTheHeart, IsWithinATenthOfAVoxel)
 INSTANTIATE_TEST_SUITE_P(Branches, SegmentationOfTheHeart,
                          ::testing::Values("left_anterior_descending", "left_circumflex", "right_coronary"),
                          [](const auto& info) { return std::string(info.param); });
+
+TEST(Segmentation, OfATreeIsCloseToTheExactSurfaceAlsoAtOstiaBifurcationsAndInTheAorta)
+{
+  const Truth truth;
+  for (int seed = 1; seed <= seeds(); ++seed)
+  {
+    phantom::PhantomSettings noise;
+    noise.seed = static_cast<std::uint64_t>(seed);
+    const Scan scan(heartScan(truth, noise));
+    const EdgeSettings settings = edgeSettings(scan.modality(), scan.spacing());
+    ClickSet clicks = clicksInto(
+        truth, {"ascending_aorta", "left_main", "left_anterior_descending", "left_circumflex", "right_coronary"},
+        scan.volume().grid, noise.seed);
+    // The last simulated click lies beside the left coronary ostium; the aorta continues up to its arch.
+    const std::vector<Eigen::Vector3d>& aorta = truth.chain("ascending_aorta").points;
+    clicks.branches[0].clicks[1].position =
+        *std::find_if(aorta.begin(), aorta.end(), [](const Eigen::Vector3d& p) { return p.z() > 0.221; });
+    Segmentation result = segmentBranches(scan, clicks, settings, 0);
+    joinBranches(scan, clicks, settings, 0, result);
+    SurfaceSettings surface;
+    surface.spacing = 3e-4;
+    const geometry::TriangleMesh mesh = lumenSurface(result.branches, surface);
+    const TreeAccuracy accuracy = TreeComparison(truth, scan, result.branches, mesh).run();
+    std::printf("tree, seed %d: aorta Dice %.4f\n", seed, accuracy.aorta_dice);
+    EXPECT_GE(accuracy.aorta_dice, 0.98);
+    for (const auto& [direction, regions] :
+         {std::pair("to the truth", accuracy.there), std::pair("back", accuracy.back)})
+      for (const auto& [region, d] : regions)
+      {
+        const bool is_junction = region.find('+') != std::string::npos;
+        std::printf("  %-50s %-12s mean %.3f, 95 %% %.3f, largest %.2f mm, %zu points\n", region.c_str(), direction,
+                    1e3 * d.mean, 1e3 * d.p95, 1e3 * d.largest, d.points);
+        if (d.points < 100)
+          continue;
+        if (is_junction && region.find("aorta") == std::string::npos)  // bifurcations
+        {
+          EXPECT_LE(d.mean, 6e-5) << region;
+          EXPECT_LE(d.p95, 1.2e-4) << region;
+        }
+        else if (is_junction)  // ostia: funnels, which are wider than the longest ray of a narrow branch
+        {
+          EXPECT_LE(d.mean, 1.2e-3) << region;
+        }
+        else if (region == "ascending_aorta")
+        {
+          EXPECT_LE(d.mean, 1.5e-4) << region;
+        }
+      }
+  }
+}
 
 TEST(Segmentation, HasTheSameBitsWithOneAndWithFourThreads)
 {

@@ -21,6 +21,7 @@ namespace
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kLargest = 32767.0;  // stored value
+constexpr float kBelowFat = -500.0F;  // HU; every CT holds air around the patient or in the lungs
 
 std::string megabytes(std::uint64_t bytes)
 {
@@ -71,11 +72,24 @@ void store(const std::vector<float>& values, const std::string& path, Volume& vo
         std::lround(std::clamp(static_cast<double>(value) / volume.scale, -kLargest, kLargest))));
 }
 
+bool holdsAir(const std::vector<float>& values)
+{
+  return std::any_of(values.begin(), values.end(), [](float value) { return value < kBelowFat; });
+}
+
+/** @throws InputError for a CT of 8-bit values without air, i.e. grey values in place of Hounsfield units */
+void requireHounsfieldUnits(const std::vector<float>& values, unsigned bits, const std::string& path)
+{
+  if (bits == 8 && !holdsAir(values))
+    throw InputError(path, "",
+                     "has grey values of 8 bit, which are no Hounsfield units; export the CT with 16 bit, or give "
+                     "--modality other");
+}
+
 /** Modality of values whose file does not name it: air in a CT has −1000 HU. */
 Modality modalityOf(const std::vector<float>& values, const std::string& path)
 {
-  constexpr float kBelowFat = -500.0F;
-  if (std::any_of(values.begin(), values.end(), [](float value) { return value < kBelowFat; }))
+  if (holdsAir(values))
     return Modality::kCt;
   throw InputError(
       path, "",
@@ -124,15 +138,30 @@ Slice sliceOf(const ItkImage& image, const std::string& file)
   return slice;
 }
 
+/** Checks that the values of a CT slice have a unit: ITK takes a missing slope for 1.
+ *  @throws InputError naming the field */
+void requireRescaling(const ItkImage& image, const std::string& file)
+{
+  for (const auto& [key, name] : {std::pair("0028|1053", "RescaleSlope"), std::pair("0028|1052", "RescaleIntercept")})
+    if (image.field(key).empty())
+      throw InputError(file, name,
+                       "is missing, so the values may be no Hounsfield units; export the series with it, or give "
+                       "--modality ct if they are");
+}
+
 Volume readSeries(const std::string& folder, const ImportOptions& options)
 {
   std::vector<Slice> slices;
   std::string modality;
+  unsigned bits = 16;
   for (const std::string& file : seriesOf(folder, options))
   {
     const ItkImage image(file, {ImageFormat::kDicom});
     slices.push_back(sliceOf(image, file));
     modality = image.field("0008|0060");
+    bits = image.field("0028|0100") == "8" ? 8 : 16;
+    if (modality == "CT" && !options.modality)
+      requireRescaling(image, file);
   }
   const SliceStack stack = stackSlices(std::move(slices), folder);
   Volume volume;
@@ -148,6 +177,8 @@ Volume readSeries(const std::string& folder, const ImportOptions& options)
     ItkImage(file, {ImageFormat::kDicom}).read(values);
   if (values.size() != voxels)
     throw InputError(folder, "", "its slices hold other numbers of pixels than their headers; export the series again");
+  if (volume.modality == Modality::kCt)
+    requireHounsfieldUnits(values, bits, folder);
   store(values, folder, volume);
   return volume;
 }
@@ -212,6 +243,8 @@ Volume readFile(const std::string& file, const ImportOptions& options)
   std::vector<float> values;
   values.reserve(voxels);
   image.read(values);
+  if (options.modality.value_or(Modality::kCt) == Modality::kCt)
+    requireHounsfieldUnits(values, 8 * image.valueBytes(), file);
   volume.modality = options.modality ? *options.modality : modalityOf(values, file);
   store(values, file, volume);
   return volume;

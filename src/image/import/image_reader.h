@@ -21,7 +21,8 @@ struct ImportOptions
  *  points in ITK are LPS, as in the patient frame. No name, number or date of a patient is taken over.
  *  @throws InputError for a file that is none of these, a folder with several series, missing spacing or orientation,
  *          gantry tilt and missing slices, more than one value per voxel, values that are not finite, an unknown
- *          modality, and a need beyond the limit of memory, which is known before the values are read */
+ *          modality, a CT without the slope of its values or with grey values of 8 bit, and a need beyond the limit of
+ * memory, which is known before the values are read */
 Volume readImages(const std::string& path, const ImportOptions& options);
 
 }  // namespace endovascular_sim::image

@@ -24,6 +24,7 @@ constexpr auto kGetVessel = "vessel/get";
 constexpr auto kBalloonLoad = "vessel/pressing";
 constexpr auto kWallDisplacement = "vessel/moved";
 constexpr auto kVesselMarker = "vessel/marker";
+constexpr auto kClickedPoint = "/clicked_point";  ///< of rviz's tool "Publish Point"
 
 constexpr auto kRodState = "rod/state";
 constexpr auto kRodStateVisual = "rod/state_visual";

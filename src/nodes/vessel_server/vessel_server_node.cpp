@@ -9,6 +9,7 @@
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/real_time.h"
 #include "nodes/runtime/ros_names.h"
+#include "nodes/vessel_server/clicked_end.h"
 #include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
@@ -58,6 +59,9 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   notes_ = vessel.notes;
   publishFrames(scene::resolveEntry(scene.entry, vessel, scene.file));
   publishVessel(vessel);
+  scene_ = *scene.vessel;
+  tree_ = vessel.centreline;
+  click_subscriber_ = node_.subscribe(names::kClickedPoint, kQueue, &VesselServerNode::nameEnd, this);
   if (simulation::hasBalloon(scene))
     serveWall(vessel);
   service_ = node_.advertiseService(names::kGetVessel, &VesselServerNode::get, this);
@@ -103,6 +107,20 @@ void VesselServerNode::publishFrames(const scene::EntryPose& entry)
   transform.transform.rotation.z = rotation.z();
   transform.transform.rotation.w = rotation.w();
   frames_.sendTransform(transform);
+}
+
+/** Prints which end of the vessel lies at a click, and the options that name it. */
+void VesselServerNode::nameEnd(const geometry_msgs::PointStampedConstPtr& click)
+{
+  const std::string& frame = click->header.frame_id;
+  if (frame != names::kPatientFrame)
+  {
+    ROS_WARN("a point was clicked in the frame \"%s\"; set the fixed frame of rviz to %s", frame.c_str(),
+             names::kPatientFrame);
+    return;
+  }
+  const Eigen::Vector3d point(click->point.x, click->point.y, click->point.z);
+  ROS_INFO("%s", clickedEndText(tree_, scene_, point).c_str());
 }
 
 /** Subscribes to balloon loads. Their callback runs in the thread that reads them; meshes for display are published by

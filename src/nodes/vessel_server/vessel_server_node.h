@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PointStamped.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/Marker.h>
@@ -25,7 +26,8 @@ namespace endovascular_sim::nodes
 {
 
 /** ROS node of the vessel: loads or generates the vessel of a scene and publishes it as latched topics, as a service,
- * as a marker for rviz and as static frames. Displaces the wall under balloon loads. */
+ * as a marker for rviz and as static frames. Names the end at which a point is clicked in rviz. Displaces the wall
+ * under balloon loads. */
 class VesselServerNode
 {
 public:
@@ -36,6 +38,7 @@ public:
 private:
   void publishVessel(const vessel::Vessel& vessel);
   void publishFrames(const scene::EntryPose& entry);
+  void nameEnd(const geometry_msgs::PointStampedConstPtr& click);
   void serveWall(const vessel::Vessel& vessel);
   void receiveLoad(const BalloonLoadConstPtr& message);
   void requestRealTime();
@@ -44,6 +47,8 @@ private:
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
+  scene::VesselScene scene_;
+  vessel::CentrelineTree tree_;
   VesselMesh mesh_;
   std::uint64_t marker_version_ = 1;  ///< version of the wall in the last marker
   VesselCentreline centreline_;
@@ -58,7 +63,7 @@ private:
   DirectCallbackQueue queue_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber load_subscriber_;
+  ros::Subscriber load_subscriber_, click_subscriber_;
   ros::WallTimer republish_timer_, diagnostics_timer_;
   ros::ServiceServer service_;
 };

@@ -13,8 +13,6 @@ namespace
 
 /** Spacing of the centreline's samples, in radii of the lumen. */
 constexpr double kSampleSpacing = 0.25;
-/** Smallest radius of curvature of the centreline, in radii of the lumen. */
-constexpr double kTightestBend = 1.15;
 
 const AnatomyBranch& branchAt(const Anatomy& anatomy, int index)
 {

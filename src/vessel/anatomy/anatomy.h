@@ -11,6 +11,9 @@
 namespace endovascular_sim::vessel
 {
 
+/** Smallest radius of curvature of a centreline, in radii of the lumen. */
+constexpr double kTightestBend = 1.15;
+
 /** Stenosis of a branch with a cosine-shaped reduction of the diameter. */
 struct Stenosis
 {

@@ -22,13 +22,13 @@ const std::string& nameOf(const CentrelineTree& tree, const CentrelineEnd& end)
   return tree.branches[static_cast<std::size_t>(end.branch)].name;
 }
 
-[[noreturn]] void reject(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends,
-                         const std::string& selector, const std::string& source)
+[[noreturn]] void reject(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends, const std::string& option,
+                         const std::string& source)
 {
   std::string list;
   for (const CentrelineEnd& end : ends)
     list += (list.empty() ? "" : ", ") + nameOf(tree, end) + " near " + formatLocation(end.position);
-  throw InputError(source, "--open " + selector,
+  throw InputError(source, option,
                    "matches no end; specify all, largest, a count up to " + std::to_string(ends.size()) +
                        ", x,y,z in metres, or a branch: " + list);
 }
@@ -86,15 +86,21 @@ std::vector<CentrelineEnd> selectEnds(const CentrelineTree& tree, const std::vec
                                       const std::string& source)
 {
   const std::vector<CentrelineEnd> ends = centrelineEnds(tree);
+  std::vector<CentrelineEnd> result;
+  for (const std::size_t k : matchingEnds(tree, ends, selectors, "--open", source))
+    result.push_back(ends[k]);
+  return result;
+}
+
+std::vector<std::size_t> matchingEnds(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends,
+                                      const std::vector<std::string>& selectors, const std::string& option,
+                                      const std::string& source)
+{
   std::set<std::size_t> selected;
   for (const std::string& selector : selectors)
     if (!select(tree, ends, selector, selected))
-      reject(tree, ends, selector, source);
-  std::vector<CentrelineEnd> result;
-  result.reserve(selected.size());
-  for (std::size_t k : selected)
-    result.push_back(ends[k]);
-  return result;
+      reject(tree, ends, std::string(option).append(" ").append(selector), source);
+  return {selected.begin(), selected.end()};
 }
 
 Opening openEnd(geometry::TriangleMesh& mesh, const CentrelineTree& tree, const CentrelineEnd& end, double cut_back,

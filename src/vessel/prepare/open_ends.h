@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,14 @@ namespace endovascular_sim::vessel
  *  @param source name of the mesh in errors
  *  @throws InputError listing the ends, if a selector matches none */
 std::vector<CentrelineEnd> selectEnds(const CentrelineTree& tree, const std::vector<std::string>& selectors,
+                                      const std::string& source);
+
+/** Indices of the ends that match selectors, ascending.
+ *  @param ends ends of the tree among which is selected
+ *  @param option name of the option in errors
+ *  @throws InputError listing the ends, if a selector matches none */
+std::vector<std::size_t> matchingEnds(const CentrelineTree& tree, const std::vector<CentrelineEnd>& ends,
+                                      const std::vector<std::string>& selectors, const std::string& option,
                                       const std::string& source);
 
 /** Opens an end of a closed vessel by a cut normal to its centreline.

@@ -1,0 +1,51 @@
+#!/bin/bash
+# vessel_segment refuses wrong images and clicks with place and remedy, leaves no vessel, and warns of doubtful images.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+failures=0
+
+check() { # check STATUS IMAGES CLICKS PATTERN OPTION...: the exit code, and a message that matches the pattern
+  local wanted=$1 images=$2 clicks=$3 pattern=$4 status=0
+  "$programs/vessel_segment" "$images" --clicks "$clicks" --out result.obj --max-distance 0.0005 --quiet "${@:5}" > output 2>&1 ||
+    status=$?
+  [ "$status" -eq "$wanted" ] && grep -qE -e "$pattern" output && return
+  echo "wanted exit code $wanted and '$pattern' of $images with $clicks; got $status and:"
+  cat output
+  failures=$((failures + 1))
+}
+click() { # click X,Y,Z FILE: the clicks with another first one
+  sed "0,/clicks: \[\[[^]]*\]/s//clicks: [[$1]/" fork.yaml > "$2"
+}
+
+"$programs/synthetic_ct" --anatomy "$repository/config/anatomies/fork.yaml" --view fit --spacing 0.8 --out fork.vol \
+  --clicks fork.yaml --quiet > log
+
+click '0.9, 9.9, 0.6' beside.yaml
+check 1 fork.vol beside.yaml 'trunk, click 1 \(line [0-9]+\) at \(0.9, 9.9, 0.6\) mm: lies in fat .*; the nearest lumen is at \('
+click '0.0, 4.5, 0.6' wall.yaml
+check 1 fork.vol wall.yaml 'trunk, click 1 .*(on the wall|soft tissue or the wall) .*; the nearest lumen is at \('
+click '0.9, 90.9, 0.6' outside.yaml
+check 1 fork.vol outside.yaml 'trunk, click 1 .* lies outside of the image, which extends from \(.*check the frame \(LPS or RAS\)'
+sed 's/unit: 0.001/unit: 1/' fork.yaml > unit.yaml
+check 1 fork.vol unit.yaml 'is no position in a patient; check the numbers and the unit|lies outside of the image'
+check 1 fork.vol none.yaml 'none.yaml.*give a file of clicks'
+check 1 fork.vol fork.yaml 'fork.vol: needs about 0.3. GB; raise --memory' --memory 0.1
+check 1 fork.vol fork.yaml '\-\-open nowhere: matches no end; .*trunk near' --open nowhere
+
+if [ -x "$programs/volume_import" ]; then
+  /usr/bin/python3 "$repository/test/segmentation/altered_images.py" fork.vol .
+  check 0 thick.mha fork.yaml 'warning: slices are 1.6.* mm apart: .*reconstruct slices of 1 mm or less' --modality ct
+  check 0 metal.mha fork.yaml 'warning: trunk: metal at \(.*\) mm, .*streaks may displace the contour' --modality ct
+  grep -q 'metal at' result_report.json || { echo "the report has no warning of metal"; failures=$((failures + 1)); }
+  check 1 plain.mha fork.yaml 'no click lies in contrast, .* give the series with contrast agent' --modality ct
+  check 1 nan.nrrd fork.yaml 'nan.nrrd: 1 values are not finite; replace them' --modality ct
+  check 1 grey.mha fork.yaml 'grey values of 8 bit, which are no Hounsfield units; .*--modality other'
+  check 1 fork.yaml fork.yaml 'fork.yaml: is no image that can be read|holds no image that can be read|no image'
+  mkdir empty
+  check 1 empty fork.yaml 'empty: holds no DICOM images; give a folder with a DICOM series'
+fi
+[ "$failures" -eq 0 ]
