@@ -1,5 +1,8 @@
 #include "rviz_plugin/display/session_panel.h"
 
+#include <ros/console.h>
+#include <rviz/view_manager.h>
+#include <rviz/visualization_manager.h>
 #include <QLabel>
 #include <QVBoxLayout>
 #include <pluginlib/class_list_macros.hpp>
@@ -29,10 +32,25 @@ void SessionPanel::onInitialize()
     widget_ = new SessionWidget(*session_, this);
     widget_->setSpeedSetting(speed_setting_);
     layout()->addWidget(widget_);
+    connect(widget_, &SessionWidget::viewChosen, this, &SessionPanel::showView);
   }
   catch (const std::exception& error)  // rviz would end
   {
     layout()->addWidget(new QLabel(QString::fromUtf8(error.what())));
+  }
+}
+
+void SessionPanel::showView(const QString& view)
+{
+  try
+  {
+    rviz::ViewManager* views = vis_manager_->getViewManager();
+    if (views != nullptr)
+      views->setCurrentViewControllerType("endovascular_sim/" + view);
+  }
+  catch (const std::exception& error)  // rviz would end
+  {
+    ROS_ERROR("view %s: %s", view.toUtf8().constData(), error.what());
   }
 }
 

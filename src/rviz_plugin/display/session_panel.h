@@ -24,6 +24,9 @@ public:
   void load(const rviz::Config& config) override;
   void save(rviz::Config config) const override;
 
+private Q_SLOTS:
+  void showView(const QString& view);
+
 private:
   std::unique_ptr<SessionPort> session_;
   SessionWidget* widget_ = nullptr;  ///< owned by Qt; null before the initialisation, or if it failed

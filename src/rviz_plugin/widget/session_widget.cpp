@@ -58,7 +58,7 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent) : QWidget(paren
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
-  for (QWidget* part : {sessionRow(), driveBox(), balloonRow(), cArmRow(), stateBox()})
+  for (QWidget* part : {sessionRow(), driveBox(), balloonRow(), cArmRow(), viewRow(), stateBox()})
     layout->addWidget(part);
   layout->addStretch(1);
   connect(&timer_, &QTimer::timeout, this, &SessionWidget::refresh);
@@ -237,6 +237,33 @@ QWidget* SessionWidget::cArmRow()
             setFocus();
           });
   layout->addWidget(move);
+  return row;
+}
+
+QWidget* SessionWidget::viewRow()
+{
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(3);
+  layout->addWidget(new QLabel("View"));
+  const struct
+  {
+    const char *text, *view;
+  } views[] = {{"Overview", "Overview"}, {"Tip", "Tip"}, {"In vessel", "AlongVessel"}};
+  for (const auto& choice : views)
+  {
+    auto* button = new QPushButton(choice.text);
+    button->setObjectName(QString("view_") + choice.view);
+    button->setFocusPolicy(Qt::NoFocus);
+    connect(button, &QPushButton::clicked, this,
+            [this, view = QString(choice.view)]
+            {
+              setFocus();
+              Q_EMIT viewChosen(view);
+            });
+    layout->addWidget(button, 1);
+  }
   return row;
 }
 

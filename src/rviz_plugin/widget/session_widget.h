@@ -34,6 +34,9 @@ public:
   int speedSetting() const;           ///< position of the speed slider, 0 to 100
   void setSpeedSetting(int setting);  ///< as speedSetting()
 
+Q_SIGNALS:
+  void viewChosen(const QString& view);  ///< view of the picture: Overview, Tip or AlongVessel
+
 public Q_SLOTS:
   void refresh();  ///< takes over the state of the session; a timer calls it
 
@@ -55,6 +58,7 @@ private:
   QWidget* driveBox();
   QWidget* balloonRow();
   QWidget* cArmRow();
+  QWidget* viewRow();
   QWidget* stateBox();
   QPushButton* motionButton(const QString& text, const QString& name, Motion motion);
   QPushButton* requestButton(const QString& text, const QString& name, Request request);

@@ -115,6 +115,15 @@ TEST_F(SessionWidgetTest, HoldsAVelocityWhileAKeyIsPressed)
   EXPECT_TRUE(session.lastHeld().isZero());
 }
 
+TEST_F(SessionWidgetTest, ChoosesTheViewOfThePicture)
+{
+  std::vector<QString> views;
+  QObject::connect(widget.get(), &SessionWidget::viewChosen, [&](const QString& view) { views.push_back(view); });
+  for (const char* button : {"view_Overview", "view_Tip", "view_AlongVessel"})
+    QTest::mouseClick(child<QPushButton>(button), Qt::LeftButton);
+  EXPECT_EQ(views, (std::vector<QString>{"Overview", "Tip", "AlongVessel"}));
+}
+
 TEST_F(SessionWidgetTest, EndsAllMotionsWhenItLosesTheFocusOrIsHidden)
 {
   QTest::keyPress(widget.get(), Qt::Key_Up);
