@@ -69,7 +69,8 @@ void addPoint(const Stack& stack, std::size_t instrument, std::size_t node, doub
   }
   if (stack.holdsAnother(instrument, at))
     colour.opacity = stack.style.opacity_over_another;
-  axis.add(point, stack.style.radius_scale * radius, colour);
+  const double outer = std::max(state.radii[node], 1e-6);
+  axis.add(point, std::max(stack.style.radius_scale, stack.style.smallest_radius / outer) * radius, colour);
 }
 
 }  // namespace

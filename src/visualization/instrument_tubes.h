@@ -32,6 +32,7 @@ struct WireState
 struct WireStyle
 {
   double radius_scale = 1.0;           ///< drawn radius relative to the true one [1]
+  double smallest_radius = 0.0;        ///< drawn outer radius is not below; the inner instruments scale with it [m]
   std::vector<Colour> colours;         ///< of the instruments, repeated if there are fewer
   float opacity_over_another = 0.35F;  ///< of an instrument where another one lies in its lumen
   bool shows_forces = true;            ///< true: the outermost surface has the colours of force

@@ -84,45 +84,5 @@ TEST(VesselDrawing, DrawsNoForcesOfAnotherVesselAndNoInvalidOnes)
   EXPECT_TRUE(drawing.heat().positions.empty());
 }
 
-TEST(BranchNames, StandBesideNamedBranches)
-{
-  VesselCentreline message;
-  message.branches.resize(3);
-  for (VesselCentrelineBranch& branch : message.branches)
-  {
-    branch.points.resize(2);
-    branch.points[1].z = 0.1;
-    branch.radii = {0.01, 0.01};
-  }
-  message.branches[0].name = "left_renal";
-  message.branches[1].name = "branch_3";
-  message.branches[2].name = "broken";
-  message.branches[2].points[1].z = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<BranchName> names = branchNames(message, [](const Eigen::Vector3d&) { return 0.01; });
-  ASSERT_EQ(names.size(), 1U);
-  EXPECT_EQ(names[0].text, "left renal");
-  EXPECT_NEAR(names[0].position.z(), 0.07, 1e-12);
-  EXPECT_NEAR(names[0].position.x(), 0.012, 1e-12);
-}
-
-TEST(BranchNames, DoNotOverlap)
-{
-  VesselCentreline message;
-  message.branches.resize(3);
-  const double lengths[3] = {0.03, 0.1, 0.11};
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    VesselCentrelineBranch& branch = message.branches[k];
-    branch.name = "name_" + std::to_string(k);
-    branch.points.resize(2);
-    branch.points[1].z = lengths[k];
-    branch.radii = {0.01, 0.01};
-  }
-  const std::vector<BranchName> large = branchNames(message, [](const Eigen::Vector3d&) { return 0.01; });
-  ASSERT_EQ(large.size(), 1U);
-  EXPECT_EQ(large[0].text, "name 2");
-  EXPECT_EQ(branchNames(message, [](const Eigen::Vector3d&) { return 0.001; }).size(), 3U);
-}
-
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -55,6 +55,16 @@ TEST(InstrumentTubes, HaveTheTrueRadiusTimesTheScaleAlsoInsideAnotherInstrument)
   EXPECT_DOUBLE_EQ(fixture.axes[1].radii.front(), 2.0 * 1e-3);
 }
 
+TEST(InstrumentTubes, AreNotThinnerThanTheSmallestRadiusAndStayInsideOneAnother)
+{
+  Fixture fixture(0.0205);
+  fixture.style.smallest_radius = 4e-3;
+  fixture.draw();
+  EXPECT_DOUBLE_EQ(fixture.axes[1].radii.front(), 4e-3);
+  EXPECT_DOUBLE_EQ(fixture.axes[0].radii.front(), 4.0 * 2e-4);  // in the catheter
+  EXPECT_DOUBLE_EQ(fixture.axes[0].radii[40], 4e-3);
+}
+
 TEST(InstrumentTubes, AreTranslucentOnlyOverAnotherInstrument)
 {
   Fixture fixture(0.05);

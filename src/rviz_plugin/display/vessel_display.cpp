@@ -6,6 +6,7 @@
 #include <OgreCamera.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
+#include <OgreViewport.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/ogre_helpers/movable_text.h>
@@ -26,13 +27,15 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr int kLegendLeft = 10, kLegendTop = 70;  // below the legend of the wire [pixels]
+constexpr int kLegendLeft = 10, kLegendTop = 70;                 // below the legend of the wire [pixels]
+constexpr double kLegendsWidth = 200.0, kLegendsHeight = 130.0;  ///< of both legends with their rim [pixels]
 constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
-constexpr double kNamesPeriod = 0.5;    ///< shortest time between two drawings of the names [s]
-constexpr float kCameraShare = 0.1F;    ///< motion of the camera that resizes names, relative to the distance
-constexpr double kViewHeight = 700.0;   ///< usual height of a view [pixels]
-constexpr double kCutawayPeriod = 0.2;  ///< shortest time between two cutaways [s]
-constexpr double kCutawayShare = 0.1;   ///< motion of the tip that moves the cutaway, relative to its radius
+constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
+constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
+constexpr double kMotionOfNames = 12.0;  ///< motion of the picture after which names are placed anew [pixels]
+constexpr double kShareOfNames = 0.05;   ///< change of the distance after which they are placed anew, relative
+constexpr double kCutawayPeriod = 0.2;   ///< shortest time between two cutaways [s]
+constexpr double kCutawayShare = 0.1;    ///< motion of the tip that moves the cutaway, relative to its radius
 
 template <typename Message>
 QString typeOf()
@@ -43,6 +46,11 @@ QString typeOf()
 visualization::Colour toColour(const QColor& colour)
 {
   return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()), static_cast<float>(colour.blueF())};
+}
+
+Eigen::Vector3d toEigen(const Ogre::Vector3& vector)
+{
+  return {vector.x, vector.y, vector.z};
 }
 
 }  // namespace
@@ -189,22 +197,44 @@ void VesselDisplay::redraw()
   is_mesh_new_ = is_heat_new_ = are_names_new_ = true;
 }
 
-Ogre::Camera* VesselDisplay::camera() const
+std::optional<PictureView> VesselDisplay::pictureView() const
 {
-  const rviz::ViewController* view = context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
-  return view != nullptr ? view->getCamera() : nullptr;
+  const rviz::ViewController* controller =
+      context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
+  const Ogre::Camera* camera = controller != nullptr ? controller->getCamera() : nullptr;
+  if (camera == nullptr)
+    return std::nullopt;
+  const auto axis = [&](const Ogre::Vector3& direction)
+  { return toEigen(scene_node_->getOrientation().Inverse() * direction).normalized().eval(); };
+  PictureView view;
+  view.eye = toEigen(scene_node_->convertWorldToLocalPosition(camera->getDerivedPosition()));
+  view.right = axis(camera->getDerivedRight());
+  view.up = axis(camera->getDerivedUp());
+  view.forward = axis(camera->getDerivedDirection());
+  const Ogre::Viewport* viewport = camera->getViewport();
+  if (viewport != nullptr && viewport->getActualHeight() > 0)
+  {
+    view.width = viewport->getActualWidth();
+    view.height = viewport->getActualHeight();
+  }
+  view.legend_width = kLegendsWidth;
+  view.legend_height = kLegendsHeight;
+  view.focal = 0.5 * view.height / std::tan(0.5 * camera->getFOVy().valueRadians());
+  return view;
 }
 
 bool VesselDisplay::hasCameraMoved() const
 {
-  const Ogre::Camera* camera = this->camera();
-  if (camera == nullptr || !centreline_message_ || (ros::WallTime::now() - names_drawn_).toSec() < kNamesPeriod)
+  if (!centreline_message_ || (ros::WallTime::now() - names_drawn_).toSec() < kNamesPeriod)
     return false;
-  const Ogre::Vector3 position = camera->getDerivedPosition();
-  float nearest = 1.0F;
-  for (const Ogre::SceneNode* node : name_nodes_)
-    nearest = std::min(nearest, position.distance(node->_getDerivedPosition()));
-  return position.distance(named_from_) > kCameraShare * nearest;
+  const std::optional<PictureView> view = pictureView();
+  if (!view)
+    return false;
+  // Motion of a point in the middle distance, in the picture.
+  const Eigen::Vector3d point = named_in_.eye + kMiddleDistance * named_in_.forward;
+  return view->width != named_in_.width || view->height != named_in_.height || view->depth(point) <= 0.0 ||
+         view->project(point).norm() > kMotionOfNames ||
+         std::abs(view->depth(point) / kMiddleDistance - 1.0) > kShareOfNames;
 }
 
 bool VesselDisplay::isCutawayDue() const
@@ -303,20 +333,12 @@ void VesselDisplay::drawNames()
   }
   name_nodes_.clear();
   names_.clear();
-  const Ogre::Camera* camera = this->camera();
-  if (!centreline_message_ || !shows_names_->getBool() || camera == nullptr)
+  const std::optional<PictureView> view = pictureView();
+  if (!centreline_message_ || !shows_names_->getBool() || !view)
     return;
   names_drawn_ = ros::WallTime::now();
-  named_from_ = camera->getDerivedPosition();
-  // Metres per pixel at a unit of distance.
-  const double pixel = 2.0 * std::tan(0.5 * camera->getFOVy().valueRadians()) / kViewHeight;
-  const auto height_at = [&](const Eigen::Vector3d& point)
-  {
-    const Ogre::Vector3 place = scene_node_->convertLocalToWorldPosition(
-        {static_cast<float>(point.x()), static_cast<float>(point.y()), static_cast<float>(point.z())});
-    return name_height_->getFloat() * pixel * std::max(named_from_.distance(place), 1e-3F);
-  };
-  for (const BranchName& name : branchNames(*centreline_message_, height_at))
+  named_in_ = *view;
+  for (const BranchName& name : branchNames(*centreline_message_, *view, name_height_->getFloat()))
   {
     auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", static_cast<float>(name.height),
                                                     name_colour_->getOgreColor());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <ros/subscriber.h>
@@ -13,6 +14,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "rviz_plugin/display/legend_overlay.h"
 #include "rviz_plugin/display/surface_object.h"
+#include "rviz_plugin/model/branch_names.h"
 #include "rviz_plugin/model/vessel_drawing.h"
 
 namespace rviz
@@ -61,7 +63,7 @@ private:
   void receiveWire(const RodStateVisual& message);
   bool isCutawayDue() const;
   bool hasCameraMoved() const;
-  Ogre::Camera* camera() const;
+  std::optional<PictureView> pictureView() const;
   bool placeInFrame(const std::string& frame);
 
   rviz::RosTopicProperty *mesh_topic_, *centreline_topic_, *force_topic_, *wire_topic_;
@@ -79,8 +81,8 @@ private:
   Eigen::Vector3d cut_at_ = Eigen::Vector3d::Zero();  ///< centre of the drawn cutaway [m]
   bool has_tip_ = false, is_cut_ = false;
   ros::WallTime last_cut_, names_drawn_;
-  Ogre::Vector3 named_from_ = Ogre::Vector3::ZERO;  ///< position of the camera for which the names were drawn
-  QString legend_of_;                               ///< title and scale of the shown legend; empty: none
+  PictureView named_in_;  ///< view for which the names were placed
+  QString legend_of_;     ///< title and scale of the shown legend; empty: none
 
   std::unique_ptr<SurfaceObject> far_wall_, near_wall_, heat_;
   std::vector<std::unique_ptr<rviz::MovableText>> names_;

@@ -1,6 +1,11 @@
 #include "rviz_plugin/display/wire_display.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <OgreCamera.h>
 #include <OgreSceneNode.h>
+#include <OgreViewport.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
@@ -8,6 +13,8 @@
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
 #include <rviz/properties/ros_topic_property.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "nodes/runtime/ros_names.h"
@@ -19,6 +26,8 @@ namespace
 {
 
 constexpr int kLegendLeft = 10, kLegendTop = 10;  // [pixels]
+constexpr int kUsualHeight = 700;                 // of a view [pixels]
+constexpr double kShareOfRadius = 0.1;            // change of the smallest radius that is drawn
 
 template <typename Message>
 QString typeOf()
@@ -46,6 +55,10 @@ WireDisplay::WireDisplay()
       "Radius Scale", 1.5F, "Drawn radius of the instruments relative to the true one.", this, SLOT(redraw()));
   radius_scale_->setMin(0.1F);
   radius_scale_->setMax(20.0F);
+  smallest_width_ = new rviz::FloatProperty(
+      "Smallest Width", 3.0F, "Width below which instruments are not drawn, in pixels. 0: none.", this, SLOT(redraw()));
+  smallest_width_->setMin(0.0F);
+  smallest_width_->setMax(50.0F);
   sides_ = new rviz::IntProperty("Sides", 12, "Number of sides of a tube.", this, SLOT(redraw()));
   sides_->setMin(3);
   sides_->setMax(64);
@@ -166,6 +179,9 @@ void WireDisplay::receiveScene(const SessionInfoConstPtr& info)
 
 void WireDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
 {
+  const double radius = smallestRadius();
+  if (std::abs(radius - drawn_smallest_radius_) > kShareOfRadius * drawn_smallest_radius_)
+    is_wire_new_ = is_wire_new_ || wire_message_ != nullptr;
   if (is_wire_new_ || is_treatment_new_)
     guarded(*this, [this] { draw(); });
 }
@@ -174,6 +190,7 @@ void WireDisplay::draw()
 {
   if (!opaque_ || !legend_)
     return;
+  drawn_smallest_radius_ = smallestRadius();
   const bool is_wire_new = is_wire_new_, is_treatment_new = is_treatment_new_;
   is_wire_new_ = is_treatment_new_ = false;
   if (is_wire_new)
@@ -252,10 +269,27 @@ bool WireDisplay::placeInFrame(const std::string& frame)
   return true;
 }
 
+double WireDisplay::smallestRadius() const
+{
+  const rviz::ViewController* view = context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
+  const Ogre::Camera* camera = view != nullptr ? view->getCamera() : nullptr;
+  if (camera == nullptr || !wire_message_ || wire_message_->nodes.empty())
+    return 0.0;
+  const geometry_msgs::Point& tip = wire_message_->nodes.back();
+  const Ogre::Vector3 place = scene_node_->convertLocalToWorldPosition(
+      {static_cast<float>(tip.x), static_cast<float>(tip.y), static_cast<float>(tip.z)});
+  const Ogre::Viewport* viewport = camera->getViewport();
+  const int height = viewport != nullptr ? std::max(viewport->getActualHeight(), 1) : kUsualHeight;
+  const double pixel =
+      2.0 * std::tan(0.5 * camera->getFOVy().valueRadians()) * camera->getDerivedPosition().distance(place) / height;
+  return std::isfinite(pixel) ? 0.5 * smallest_width_->getFloat() * pixel : 0.0;
+}
+
 visualization::WireStyle WireDisplay::style() const
 {
   visualization::WireStyle style;
   style.radius_scale = radius_scale_->getFloat();
+  style.smallest_radius = drawn_smallest_radius_;
   style.opacity_over_another = catheter_opacity_->getFloat();
   style.shows_forces = shows_forces_->getBool();
   style.full_force = full_force_->getFloat();

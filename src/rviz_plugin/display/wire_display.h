@@ -60,9 +60,10 @@ private:
   void drawLegend();
   bool placeInFrame(const std::string& frame);
   visualization::WireStyle style() const;
+  double smallestRadius() const;
 
   rviz::RosTopicProperty *wire_topic_, *treatment_topic_, *scene_topic_;
-  rviz::FloatProperty *radius_scale_, *catheter_opacity_, *full_force_;
+  rviz::FloatProperty *radius_scale_, *smallest_width_, *catheter_opacity_, *full_force_;
   rviz::IntProperty* sides_;
   rviz::BoolProperty *shows_forces_, *shows_legend_, *shows_treatment_;
   std::array<rviz::ColorProperty*, kColours> colours_;
@@ -72,7 +73,8 @@ private:
   RodStateVisualConstPtr wire_message_;
   TreatmentVisualConstPtr treatment_message_;
   bool is_wire_new_ = false, is_treatment_new_ = false;
-  double legend_of_ = 0.0;  ///< full scale of the shown legend [N]; 0: none
+  double drawn_smallest_radius_ = 0.0;  ///< [m]
+  double legend_of_ = 0.0;              ///< full scale of the shown legend [N]; 0: none
 
   std::unique_ptr<SurfaceObject> opaque_, translucent_, balloons_, struts_;
   std::unique_ptr<PictureOverlay> legend_;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/polyline.h"
 #include "rviz_plugin/model/message_points.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -13,12 +12,8 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr double kHeatRadius = 2e-3;     ///< distance over which the colour of a touched triangle fades [m]
-constexpr double kHeatInset = 0.1e-3;    ///< distance of the coloured triangles from the wall, into the lumen [m]
-constexpr double kNameOffset = 2e-3;     ///< distance of a name from the wall [m]
-constexpr double kNamePlace = 0.7;       ///< of a name along its branch: distal parts of branches lie farther apart [1]
-constexpr double kSmallestLength = 4.0;  ///< of a branch with a name, relative to the height of the letters
-constexpr double kSmallestDistance = 2.5;  ///< between two names, relative to the height of the letters
+constexpr double kHeatRadius = 2e-3;   ///< distance over which the colour of a touched triangle fades [m]
+constexpr double kHeatInset = 0.1e-3;  ///< distance of the coloured triangles from the wall, into the lumen [m]
 
 geometry::TriangleMesh toMesh(const VesselMesh& message)
 {
@@ -98,44 +93,6 @@ std::string VesselDrawing::setForces(const ContactForceMap& message, HeatQuantit
 void VesselDrawing::cutAway(const Eigen::Vector3d& point, double radius, float opacity)
 {
   visualization::cutAway(point, radius, opacity, wall_);
-}
-
-std::vector<BranchName> branchNames(const VesselCentreline& message,
-                                    const std::function<double(const Eigen::Vector3d&)>& height_at)
-{
-  struct Candidate
-  {
-    BranchName name;
-    double length;
-  };
-  std::vector<Candidate> candidates;
-  std::vector<Eigen::Vector3d> points;
-  for (const VesselCentrelineBranch& branch : message.branches)
-  {
-    toEigen(branch.points, points);
-    const std::vector<double> radii(branch.radii.begin(), branch.radii.end());
-    const bool is_generated = branch.name.empty() || branch.name.rfind("branch_", 0) == 0;
-    if (is_generated || points.size() < 2 || visualization::problemOfTube(points, radii) != nullptr ||
-        (points.back() - points.front()).norm() < 1e-9)
-      continue;
-    const geometry::Polyline line(points);
-    const double radius = *std::max_element(radii.begin(), radii.end());
-    const Eigen::Vector3d beside(radius + kNameOffset, 0.0, 0.0);
-    const Eigen::Vector3d position = line.at(kNamePlace * line.length()) + beside;
-    const double height = height_at(position);
-    if (line.length() >= kSmallestLength * height)
-      candidates.push_back({{visualization::branchLabel(branch.name), position, height}, line.length()});
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.length > b.length; });
-  std::vector<BranchName> names;
-  for (const Candidate& candidate : candidates)
-    if (std::none_of(
-            names.begin(), names.end(),
-            [&](const BranchName& name)
-            { return (name.position - candidate.name.position).norm() < kSmallestDistance * candidate.name.height; }))
-      names.push_back(candidate.name);
-  return names;
 }
 
 }  // namespace endovascular_sim::rviz_plugin

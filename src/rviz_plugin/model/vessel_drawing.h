@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "endovascular_sim/ContactForceMap.h"
-#include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "visualization/colour_legend.h"
 #include "visualization/wall_heat_map.h"
@@ -22,14 +20,6 @@ enum class HeatQuantity
   kPeak,
   kIntegral,
   kTimeOverThreshold,
-};
-
-/** Name of a branch and its place. */
-struct BranchName
-{
-  std::string text;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< left end of the text [m]
-  double height = 0.0;                                 ///< of the letters [m]
 };
 
 /** Surfaces of the wall and of its heat map. Independent of Ogre. */
@@ -61,14 +51,5 @@ private:
   visualization::FollowingScale scale_{0.05};
   double full_scale_ = 0.05;
 };
-
-/** Names of the branches of a centreline, each beside its branch, on the patient's left.
- *
- *  Branches with a generated name (branch_<k>), and those with invalid points, have none. So that names do not overlap,
- * the longest branches come first; a name is missing beside a branch shorter than four letters are high, and within 2.5
- *  heights of another name.
- *  @param height_at height of the letters at a point [m] */
-std::vector<BranchName> branchNames(const VesselCentreline& message,
-                                    const std::function<double(const Eigen::Vector3d&)>& height_at);
 
 }  // namespace endovascular_sim::rviz_plugin
