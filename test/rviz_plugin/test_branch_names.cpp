@@ -67,8 +67,8 @@ TEST(BranchNames, DoNotOverlapAtAFork)
     for (std::size_t b = 0; b < a; ++b)
     {
       const Eigen::Vector2d first = view.project(names[a].position), second = view.project(names[b].position);
-      const double gap_right = second.x() - first.x() - 13.0 * 0.5 * static_cast<double>(names[a].text.size());
-      const double gap_left = first.x() - second.x() - 13.0 * 0.5 * static_cast<double>(names[b].text.size());
+      const double gap_right = second.x() - first.x() - 13.0 * 0.4 * static_cast<double>(names[a].text.size());
+      const double gap_left = first.x() - second.x() - 13.0 * 0.4 * static_cast<double>(names[b].text.size());
       EXPECT_TRUE(std::abs(first.y() - second.y()) >= 12.9 || gap_right > 0.0 || gap_left > 0.0)
           << names[a].text << ", " << names[b].text;
     }
@@ -83,7 +83,7 @@ TEST(BranchNames, StayInThePicture)
   {
     const Eigen::Vector2d place = view.project(name.position);
     EXPECT_GT(place.x(), -150.0);
-    EXPECT_LT(place.x() + 13.0 * 0.5 * static_cast<double>(name.text.size()), 150.0);
+    EXPECT_LT(place.x() + 13.0 * 0.4 * static_cast<double>(name.text.size()), 150.0);
     EXPECT_LT(std::abs(place.y()), 100.0);
   }
 }

@@ -107,6 +107,13 @@ void SurfaceObject::update(const visualization::Surface& surface, const std::vec
   object_->setVisible(true);
 }
 
+void SurfaceObject::setGlow(const visualization::Colour& colour)
+{
+  Ogre::Technique* technique = material_->getTechnique(0);
+  technique->getPass(static_cast<unsigned short>(technique->getNumPasses() - 1))
+      ->setSelfIllumination(colour.red, colour.green, colour.blue);
+}
+
 void SurfaceObject::setVisible(bool visible)
 {
   object_->setVisible(visible && !object_->getSections().empty());

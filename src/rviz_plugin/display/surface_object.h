@@ -43,6 +43,8 @@ public:
   /** Replaces vertices and triangles. Buffers of the graphics processor are reused.
    *  @param triangles vertices of the surface, three per triangle */
   void update(const visualization::Surface& surface, const std::vector<std::uint32_t>& triangles);
+  /** Light of the surface's own, for walls that are seen at a grazing angle. */
+  void setGlow(const visualization::Colour& colour);
   void setVisible(bool visible);
   void clear();
 

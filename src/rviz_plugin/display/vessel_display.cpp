@@ -31,6 +31,7 @@ constexpr int kLegendLeft = 10, kLegendTop = 70;                 // below the le
 constexpr double kLegendsWidth = 200.0, kLegendsHeight = 130.0;  ///< of both legends with their rim [pixels]
 constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
 constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
+constexpr float kGlow = 0.3F;           ///< of the far wall, relative to its colour
 constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
 constexpr double kMotionOfNames = 12.0;  ///< motion of the picture after which names are placed anew [pixels]
 constexpr double kShareOfNames = 0.05;   ///< change of the distance after which they are placed anew, relative
@@ -293,6 +294,7 @@ void VesselDisplay::drawWall()
     setStatus(rviz::StatusProperty::Ok, "Wall", QString("%1 triangles").arg(drawing_.wall().triangles.size() / 3));
   else
     setStatus(rviz::StatusProperty::Error, "Wall", QString::fromStdString(problem));
+  far_wall_->setGlow(visualization::blend({}, toColour(colour_->getColor()), kGlow));
   far_wall_->update(drawing_.wall(), drawing_.wall().triangles);
   drawNearWall();
 }

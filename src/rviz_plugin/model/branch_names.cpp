@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "rviz_plugin/model/message_points.h"
@@ -13,11 +14,25 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr double kWidth = 0.62;          ///< mean width of a letter, relative to its height
+constexpr double kSurroundings = 1.0;    ///< that a name keeps free of the vessel, relative to the height
 constexpr double kGap = 0.5;             ///< between wall and name, relative to the height of the letters
 constexpr double kShortest = 2.0;        ///< of a branch with a name, relative to the height of the letters
 constexpr double kSmallestDepth = 5e-3;  ///< of a point in the picture [m]
 constexpr double kShares[] = {0.6, 0.75, 0.45, 0.9, 0.3, 0.15};  ///< places of a name along its branch
+
+/** Width of a text, relative to the height of its letters: advance widths of Liberation Sans. */
+double widthOf(const std::string& text)
+{
+  constexpr double kTextureShare = 0.87;  // of the height of a line, as rviz draws it
+  double width = 0.0;
+  for (const char letter : text)
+    width += std::strchr("ijl", letter) != nullptr   ? 0.22
+             : std::strchr("ftr", letter) != nullptr ? 0.3
+             : std::strchr("mw", letter) != nullptr  ? 0.8
+             : letter == ' '                         ? 0.67
+                                                     : 0.56;
+  return kTextureShare * width;
+}
 
 /** Rectangle in the picture [pixels]. */
 struct Rectangle
@@ -86,7 +101,7 @@ public:
 
   std::optional<BranchName> place(const DrawnBranch& branch)
   {
-    const double width = kWidth * letters_ * static_cast<double>(branch.text.size());
+    const double width = letters_ * widthOf(branch.text);
     const Eigen::Vector2d middle(0.0, 0.5 * letters_);
     std::optional<BranchName> best;
     Rectangle best_rectangle;
@@ -134,7 +149,7 @@ private:
     for (const DrawnBranch& branch : branches_)
       for (std::size_t i = 0; i < branch.places.size(); ++i)
       {
-        const Eigen::Vector2d radius = Eigen::Vector2d::Constant(branch.radii[i]);
+        const Eigen::Vector2d radius = Eigen::Vector2d::Constant(branch.radii[i] + kSurroundings * letters_);
         covered += Rectangle(rectangle.low - radius, rectangle.high + radius).contains(branch.places[i]) ? 1 : 0;
       }
     return covered;
