@@ -31,7 +31,7 @@ constexpr int kLegendLeft = 10, kLegendTop = 70;                 // below the le
 constexpr double kLegendsWidth = 200.0, kLegendsHeight = 130.0;  ///< of both legends with their rim [pixels]
 constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
 constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
-constexpr float kGlow = 0.3F;           ///< of the far wall, relative to its colour
+constexpr float kGlow = 0.3F;            ///< of the far wall, relative to its colour
 constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
 constexpr double kMotionOfNames = 12.0;  ///< motion of the picture after which names are placed anew [pixels]
 constexpr double kShareOfNames = 0.05;   ///< change of the distance after which they are placed anew, relative
