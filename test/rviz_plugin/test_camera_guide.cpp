@@ -131,7 +131,7 @@ TEST(CameraGuide, LooksAlongTheVesselWithoutRoll)
   {
     const double turn = 2.0 + 0.03 * k;
     guide.setWire(wireTo(turn));
-    const CameraPose pose = guide.advance({}, kFrame, 1.5, kFieldOfView);
+    const CameraPose pose = guide.advance({0.0, 0.0, 0.03}, kFrame, 1.5, kFieldOfView);
     const Eigen::Vector3d forward = (pose.focus - pose.eye).normalized();
     EXPECT_NEAR(pose.up.dot(forward), 0.0, 1e-9);
     if (k > 60)

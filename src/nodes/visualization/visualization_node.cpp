@@ -154,6 +154,7 @@ std::vector<std_msgs::ColorRGBA> VisualizationNode::nodeColours(const RodStateVi
     forces[i] = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
   force_scale_.follow(*std::max_element(forces.begin(), forces.end()));
   std::vector<std_msgs::ColorRGBA> colours;
+  colours.reserve(forces.size());
   for (const double force : forces)
     colours.push_back(toColour(visualization::forceColour(force, forceScale()), 1.0));
   return colours;

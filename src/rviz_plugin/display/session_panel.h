@@ -27,7 +27,7 @@ public:
 private Q_SLOTS:
   void showView(const QString& view);
 
-private:
+private:  // NOLINT(readability-redundant-access-specifiers): after slots
   std::unique_ptr<SessionPort> session_;
   SessionWidget* widget_ = nullptr;  ///< owned by Qt; null before the initialisation, or if it failed
   int speed_setting_ = 60;

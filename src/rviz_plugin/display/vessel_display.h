@@ -53,7 +53,7 @@ private Q_SLOTS:
   void subscribe();
   void redraw();
 
-private:
+private:  // NOLINT(readability-redundant-access-specifiers): after slots
   void draw();
   void drawWall();
   void drawNearWall();

@@ -50,7 +50,7 @@ private Q_SLOTS:
   void subscribe();
   void redraw();
 
-private:
+private:  // NOLINT(readability-redundant-access-specifiers): after slots
   static constexpr int kColours = 4;
 
   void receiveScene(const SessionInfoConstPtr& info);

@@ -37,7 +37,7 @@ public:
 Q_SIGNALS:
   void viewChosen(const QString& view);  ///< view of the picture: Overview, Tip or AlongVessel
 
-public Q_SLOTS:
+public Q_SLOTS:    // NOLINT(readability-redundant-access-specifiers): after signals
   void refresh();  ///< takes over the state of the session; a timer calls it
 
 protected:
