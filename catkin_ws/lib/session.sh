@@ -242,24 +242,6 @@ after_session() {
   "$programs"/session_summary.py "$results" || $session_interrupted || session_status=1
 }
 
-# Writes a copy of replay.rviz whose camera shows the whole vessel from the front.
-fitted_view() {
-  python3 - "$results/report.json" "$repository/rviz/replay.rviz" "$results/log/replay.rviz" <<'PYTHON'
-import json, re, sys
-box = json.load(open(sys.argv[1])).get("vessel_box")
-text = open(sys.argv[2]).read()
-if box:
-    size = [b - a for a, b in zip(box["min"], box["max"])]
-    centre = [0.5 * (a + b) for a, b in zip(box["min"], box["max"])]
-    # The field of view is about 45 degrees both ways. A tenth is added for the rim, and half the depth.
-    distance = 0.5 * 1.1 * max(size[0], size[2]) / 0.414 + 0.5 * size[1]
-    point = "Focal Point:\n        X: %.4f\n        Y: %.4f\n        Z: %.4f" % tuple(centre)
-    text = re.sub(r"Distance: [0-9.]+", "Distance: %.4f" % distance, text, count=1)
-    text = re.sub(r"Focal Point:\s+X: \S+\s+Y: \S+\s+Z: \S+", point, text, count=1)
-open(sys.argv[3], "w").write(text)
-PYTHON
-}
-
 # The session's scene if its X-ray images must be computed: it has fluoroscopy, and the bag does not contain the images.
 scene_with_x_ray() {
   if grep -q '^fluoroscopy:' "$results/scene.yaml" && ! grep -q '^  x_ray_frames: true' "$results/scene.yaml"; then
@@ -272,7 +254,6 @@ draw_rviz() {
   session_phase=drawing
   local display_file="$results/log/display" display scene waited=0
   ros_environment
-  fitted_view || return 1
   scene=$(scene_with_x_ray)
   trap clean_up EXIT
   trap interrupted INT TERM
@@ -286,7 +267,7 @@ draw_rviz() {
   say "Drawing rviz from the recording, in software"
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
     roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" \
-    "rviz_config:=$results/log/replay.rviz" rate:=8 > "$results/log/rviz.log" 2>&1 &
+    rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   waited=0
   # The player ends with the bag; rviz then has 2 s to draw the last state.

@@ -119,6 +119,11 @@ TubeMesh tubeMesh(const std::vector<Eigen::Vector3d>& nodes, const std::vector<d
   return mesh;
 }
 
+Colour blend(const Colour& a, const Colour& b, float share)
+{
+  return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green), a.blue + share * (b.blue - a.blue)};
+}
+
 Colour forceColour(double force, double full_scale)
 {
   const std::array<Colour, 4> stops{
@@ -126,10 +131,8 @@ Colour forceColour(double force, double full_scale)
   const double ratio = full_scale > 0.0 && std::isfinite(force) ? std::clamp(force / full_scale, 0.0, 1.0) : 0.0;
   const double position = ratio * static_cast<double>(stops.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(position), stops.size() - 2);
-  const auto blend = static_cast<float>(position - static_cast<double>(below));
-  const Colour& a = stops[below];
-  const Colour& b = stops[below + 1];
-  return {a.red + blend * (b.red - a.red), a.green + blend * (b.green - a.green), a.blue + blend * (b.blue - a.blue)};
+  const auto share = static_cast<float>(position - static_cast<double>(below));
+  return blend(stops[below], stops[below + 1], share);
 }
 
 }  // namespace endovascular_sim::visualization

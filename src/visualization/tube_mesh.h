@@ -40,6 +40,9 @@ TubeMesh tubeMesh(const std::vector<Eigen::Vector3d>& nodes, const std::vector<d
  *  @param nodes centreline of at least two nodes without coinciding adjacent ones [m] */
 std::vector<Eigen::Vector3d> transportedNormals(const std::vector<Eigen::Vector3d>& nodes);
 
+/** Linear interpolation from @p a (share 0) to @p b (share 1). */
+Colour blend(const Colour& a, const Colour& b, float share);
+
 /** Colour of a contact force: steel grey at 0, then yellow, orange to red at @p full_scale and beyond.
  *  @param force magnitude of the force [N]
  *  @param full_scale force that is shown in red [N] */

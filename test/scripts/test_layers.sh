@@ -1,6 +1,6 @@
 #!/bin/bash
 # No include of src runs upwards or in a circle between folders: each points to its own folder or to one earlier in the
-# list of docs/ARCHITECTURE.md, section "Layers". Only nodes and tools include ROS. A folder holds at most 15 concepts.
+# list of docs/ARCHITECTURE.md, section "Layers". Only nodes, tools and rviz_plugin include ROS. A folder holds at most 15 concepts.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'
@@ -38,7 +38,7 @@ for parent, folders, files in os.walk("src"):
         continue
     for name in sources:
         path = os.path.join(parent, name)
-        with_ros = folder.split("/")[0] in ("nodes", "tools")
+        with_ros = folder.split("/")[0] in ("nodes", "tools", "rviz_plugin")
         for number, line in enumerate(open(path), 1):
             include = re.match(r'\s*#include\s+(["<])([^">]+)[">]', line)
             if not include:
@@ -46,7 +46,7 @@ for parent, folders, files in os.walk("src"):
             where, target = "%s:%d: " % (path, number), include.group(2)
             if ROS.match(target):
                 if not with_ros:
-                    errors.append(where + "only nodes and tools include ROS: " + target)
+                    errors.append(where + "only nodes, tools and rviz_plugin include ROS: " + target)
             elif include.group(1) == '"' and "/" in target:
                 other = os.path.dirname(target)
                 if not os.path.exists(os.path.join("src", target)):

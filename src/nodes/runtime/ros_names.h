@@ -37,6 +37,7 @@ constexpr auto kContactSet = "contact/set";
 constexpr auto kContactForces = "contact/forces";
 constexpr auto kContactForceMap = "contact/force_map";
 constexpr auto kContactForceMarker = "contact/force_marker";
+constexpr auto kForceLegendMarker = "contact/legend_marker";
 
 constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kProcedureStep = "procedure/step";

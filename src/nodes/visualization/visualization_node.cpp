@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
+#include <regex>
+#include <sstream>
 
 #include "common/error.h"
 #include "intervention/stent_placement.h"
@@ -23,6 +26,7 @@ constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two points o
 constexpr double kTipPathWidth = 0.6e-3;      ///< width of the drawn path [m]
 constexpr int kBalloonSides = 24;             ///< corners of the drawn cross-section of a balloon
 constexpr double kStrutWidth = 0.12e-3;       ///< width of drawn struts [m]
+constexpr double kLegendHeight = 12e-3;       ///< of the letters of the legend, and its distance from the vessel [m]
 constexpr double kHeatRadius = 2e-3;          ///< distance over which the colour of a touched triangle fades [m]
 constexpr double kHeatInset = 0.1e-3;         ///< distance of the coloured triangles from the wall, into the lumen [m]
 
@@ -65,6 +69,12 @@ std_msgs::ColorRGBA toColour(const visualization::Colour& colour, double alpha)
   return result;
 }
 
+/** Full scale of a parameter; 0: it follows the largest value. */
+double fullScale(const ros::NodeHandle& parameters, const std::string& name, const Quantity& quantity)
+{
+  return parameters.param(name, 0.0) == 0.0 ? 0.0 : numericParameter(parameters, name, 0.0, quantity);
+}
+
 /** Publishes a marker; an empty one as a deletion, since rviz rejects empty lists. */
 void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& publisher)
 {
@@ -76,15 +86,16 @@ void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& p
 }  // namespace
 
 VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle& parameters)
-  : full_scale_(numericParameter(parameters, "force_full_scale", 0.1, quantities::kWallForce)),
+  : full_scale_(fullScale(parameters, "force_full_scale", quantities::kWallForce)),
     radius_scale_(numericParameter(parameters, "radius_scale", 1.5, quantities::kScale)),
     heat_of_(parameters.param<std::string>("heat_of", "peak")),
-    heat_full_scale_(numericParameter(parameters, "heat_full_scale", 0.1, quantities::kHeatScale)),
+    heat_full_scale_(fullScale(parameters, "heat_full_scale", quantities::kHeatScale)),
     wire_publisher_(node.advertise<visualization_msgs::Marker>(names::kWireMarker, 1, true)),
     tip_path_publisher_(node.advertise<visualization_msgs::Marker>(names::kTipPathMarker, 1, true)),
     balloon_publisher_(node.advertise<visualization_msgs::Marker>(names::kBalloonMarker, 1, true)),
     stent_publisher_(node.advertise<visualization_msgs::Marker>(names::kStentMarker, 1, true)),
-    heat_publisher_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true))
+    heat_publisher_(node.advertise<visualization_msgs::Marker>(names::kContactForceMarker, 1, true)),
+    legend_publisher_(node.advertise<visualization_msgs::Marker>(names::kForceLegendMarker, 1, true))
 {
   if (heat_of_ != "peak" && heat_of_ != "integral" && heat_of_ != "time_over_threshold")
   {
@@ -105,7 +116,12 @@ VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle
 void VisualizationNode::drawWire(const RodStateVisual& state)
 {
   if (state.time < last_time_)
-    path_.clear();  // the session or the replay was restarted
+  {
+    // The session or the replay was restarted.
+    path_.clear();
+    force_scale_.reset();
+    heat_scale_.reset();
+  }
   else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
     return;
   last_time_ = state.time;
@@ -119,6 +135,9 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   tube.points.resize(mesh.corners.size());
   std::transform(mesh.corners.begin(), mesh.corners.end(), tube.points.begin(), toPoint);
   const std::vector<std_msgs::ColorRGBA> colours = nodeColours(state);
+  if (!heat_)
+    legend_place_ = state.nodes.front();
+  drawLegend(state.header);
   tube.colors.reserve(mesh.corners.size());
   for (const std::size_t i : mesh.node_of_corner)
     tube.colors.push_back(colours[i]);
@@ -128,17 +147,39 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   drawTipPath(state.header, nodes.back());
 }
 
-std::vector<std_msgs::ColorRGBA> VisualizationNode::nodeColours(const RodStateVisual& state) const
+std::vector<std_msgs::ColorRGBA> VisualizationNode::nodeColours(const RodStateVisual& state)
 {
-  std::vector<std_msgs::ColorRGBA> colours(state.nodes.size());
-  for (std::size_t i = 0; i < colours.size(); ++i)
-  {
-    double force = 0.0;
-    if (i < state.contact_force.size())
-      force = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
-    colours[i] = toColour(visualization::forceColour(force, full_scale_), 1.0);
-  }
+  std::vector<double> forces(state.nodes.size(), 0.0);
+  for (std::size_t i = 0; i < std::min(forces.size(), state.contact_force.size()); ++i)
+    forces[i] = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
+  force_scale_.follow(*std::max_element(forces.begin(), forces.end()));
+  std::vector<std_msgs::ColorRGBA> colours;
+  colours.reserve(forces.size());
+  for (const double force : forces)
+    colours.push_back(toColour(visualization::forceColour(force, forceScale()), 1.0));
   return colours;
+}
+
+void VisualizationNode::drawLegend(const std_msgs::Header& header)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "red: " << forceScale() << " N on the wire";
+  if (heat_)
+    text << ", " << heatScale()
+         << (heat_of_ == "peak"       ? " N"
+             : heat_of_ == "integral" ? " N s"
+                                      : " s")
+         << " on the wall (" << std::regex_replace(heat_of_, std::regex("_"), " ") << ")";
+  if (text.str() == legend_)
+    return;
+  legend_ = text.str();
+  visualization_msgs::Marker legend = marker(header, "legend", visualization_msgs::Marker::TEXT_VIEW_FACING);
+  legend.pose.position = legend_place_;
+  legend.scale.z = kLegendHeight;
+  legend.color.r = legend.color.g = legend.color.b = 0.95F;
+  legend.text = legend_;
+  legend_publisher_.publish(legend);
 }
 
 void VisualizationNode::drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
@@ -165,6 +206,18 @@ void VisualizationNode::receiveVessel(const VesselMesh& vessel)
   heat_ = std::make_unique<visualization::WallHeatMap>(fromMessage(vessel), kHeatRadius, kHeatInset);
   if (vessel.version == 1 || vessel_hash_ == 0)
     vessel_hash_ = vessel.content_hash;  // maps contain the hash of the initial wall
+  geometry_msgs::Point low, high;
+  for (const geometry_msgs::Point& vertex : vessel.mesh.vertices)
+  {
+    const bool is_first = &vertex == &vessel.mesh.vertices.front();
+    low.x = is_first ? vertex.x : std::min(low.x, vertex.x);
+    high.x = is_first ? vertex.x : std::max(high.x, vertex.x);
+    high.z = is_first ? vertex.z : std::max(high.z, vertex.z);
+  }
+  legend_place_ = high;
+  legend_place_.x = 0.5 * (low.x + high.x);
+  legend_place_.z += 2.0 * kLegendHeight;
+  legend_.clear();
   if (newest_map_)
     drawHeatMap(*newest_map_);  // it arrived before the vessel
   if (vessel_publisher_)
@@ -235,15 +288,17 @@ void VisualizationNode::drawHeatMap(const ContactForceMap& map)
       heat_->patch(map.triangles, of_peak                  ? map.peak
                                   : heat_of_ == "integral" ? map.integral
                                                            : map.time_over_threshold);
+  if (!patch.values.empty())
+    heat_scale_.follow(*std::max_element(patch.values.begin(), patch.values.end()));
   visualization_msgs::Marker heat = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
   heat.points.resize(patch.corners.size());
   std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
   for (const double value : patch.values)
     // Small values are transparent; the first colour of the scale, grey, is for the wire only.
-    heat.colors.push_back(
-        toColour(visualization::forceColour(std::max(value, heat_full_scale_ / 3.0), heat_full_scale_),
-                 std::min(1.0, 3.0 * value / heat_full_scale_)));
+    heat.colors.push_back(toColour(visualization::forceColour(std::max(value, heatScale() / 3.0), heatScale()),
+                                   std::min(1.0, 3.0 * value / heatScale())));
   publishOrDelete(heat, heat_publisher_);
+  drawLegend(map.header);
 }
 
 void VisualizationNode::drawVessel(const VesselMesh& vessel)

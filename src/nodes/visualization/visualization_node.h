@@ -14,13 +14,14 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "visualization/colour_legend.h"
 #include "visualization/wall_heat_map.h"
 
 namespace endovascular_sim::nodes
 {
 
 /** ROS node of visualization: publishes markers of the wire, the path of its tip, balloons, stents, the forces on the
- *  wall and, in a replay, the vessel. */
+ *  wall with their legend and, in a replay, the vessel. */
 class VisualizationNode
 {
 public:
@@ -28,8 +29,10 @@ public:
   VisualizationNode(ros::NodeHandle node, const ros::NodeHandle& parameters);
 
 private:
+  static constexpr double kSmallestScale = 0.05;  ///< smallest value that is drawn red [N], [N·s] or [s]
+
   void drawWire(const RodStateVisual& state);
-  std::vector<std_msgs::ColorRGBA> nodeColours(const RodStateVisual& state) const;
+  std::vector<std_msgs::ColorRGBA> nodeColours(const RodStateVisual& state);
   void drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip);
   void receiveVessel(const VesselMesh& vessel);
   void drawVessel(const VesselMesh& vessel);
@@ -39,17 +42,25 @@ private:
   void receiveForceMap(const ContactForceMapConstPtr& map);
   void drawHeatMap(const ContactForceMap& map);
 
-  double full_scale_;                                 ///< contact force at a node that is drawn red [N]
-  double radius_scale_;                               ///< drawn radius of the wire relative to its radius [1]
-  std::string heat_of_;                               ///< quantity of the heat map
-  double heat_full_scale_;                            ///< value of it that is drawn red [N], [N·s] or [s]
+  void drawLegend(const std_msgs::Header& header);
+  double forceScale() const { return full_scale_ > 0.0 ? full_scale_ : force_scale_.full(); }
+  double heatScale() const { return heat_full_scale_ > 0.0 ? heat_full_scale_ : heat_scale_.full(); }
+
+  double full_scale_;       ///< contact force at a node that is drawn red [N]; 0: follows
+  double radius_scale_;     ///< drawn radius of the wire relative to its radius [1]
+  std::string heat_of_;     ///< quantity of the heat map
+  double heat_full_scale_;  ///< value of it that is drawn red [N], [N·s] or [s]; 0: follows
+  visualization::FollowingScale force_scale_{kSmallestScale}, heat_scale_{kSmallestScale};
+  std::string legend_;                                ///< published text
+  geometry_msgs::Point legend_place_;                 ///< above the vessel, or at the first node without one [m]
   std::unique_ptr<visualization::WallHeatMap> heat_;  ///< null before the vessel
   std::uint64_t vessel_hash_ = 0;                     ///< content hash of the initial wall
   ContactForceMapConstPtr newest_map_;
   double last_time_ = -1.0;       ///< simulated time of the drawn wire [s]
   double last_treatment_ = -1.0;  ///< simulated time of the drawn treatment [s]
   std::deque<geometry_msgs::Point> path_;
-  ros::Publisher wire_publisher_, tip_path_publisher_, balloon_publisher_, stent_publisher_, heat_publisher_;
+  ros::Publisher wire_publisher_, tip_path_publisher_, balloon_publisher_, stent_publisher_, heat_publisher_,
+      legend_publisher_;
   ros::Publisher vessel_publisher_;  ///< valid in a replay only
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber rod_subscriber_, vessel_subscriber_, force_map_subscriber_, treatment_subscriber_;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <OgreMaterial.h>
+#include <OgreTexture.h>
+#include <QImage>
+
+#include "visualization/colour_legend.h"
+
+namespace Ogre
+{
+class Overlay;
+class OverlayContainer;
+}  // namespace Ogre
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Picture of a legend: a title, a bar of colours, ticks with labels.
+ *  @param colour_at colour of a value */
+QImage legendImage(const std::string& title, const visualization::LegendScale& scale,
+                   const std::function<visualization::Colour(double)>& colour_at);
+
+/** Picture in a fixed place over the scene. */
+class PictureOverlay
+{
+public:
+  PictureOverlay();
+  ~PictureOverlay();
+  PictureOverlay(const PictureOverlay&) = delete;
+  PictureOverlay& operator=(const PictureOverlay&) = delete;
+
+  void show(const QImage& image, int left, int top);
+  void hide();
+
+private:
+  void resize(int width, int height);
+
+  std::string name_;
+  Ogre::Overlay* overlay_;
+  Ogre::OverlayContainer* panel_;
+  Ogre::MaterialPtr material_;
+  Ogre::TexturePtr texture_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <OgreManualObject.h>
+#include <OgreMaterial.h>
+#include <OgreSceneManager.h>
+
+#include "visualization/tube_surface.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Order in which translucent surfaces are drawn: after the opaque ones, from the far wall to the near one. */
+enum class DrawingOrder
+{
+  kOpaque,
+  kFarWall,   ///< back faces of the wall
+  kInside,    ///< translucent bodies in the vessel, and the heat map
+  kNearWall,  ///< front faces of the wall
+};
+
+/** Drawn faces of a surface. */
+enum class DrawnFaces
+{
+  kFront,
+  kBack,  ///< lit from their own side
+  kBoth,
+};
+
+/** Surface in the scene of Ogre. */
+class SurfaceObject
+{
+public:
+  /** @param parent node to which the surface is attached; it and the scene manager outlive this */
+  SurfaceObject(Ogre::SceneManager* manager, Ogre::SceneNode* parent, DrawingOrder order, DrawnFaces faces);
+  ~SurfaceObject();
+  SurfaceObject(const SurfaceObject&) = delete;
+  SurfaceObject& operator=(const SurfaceObject&) = delete;
+
+  /** Replaces vertices and triangles. Buffers of the graphics processor are reused.
+   *  @param triangles vertices of the surface, three per triangle */
+  void update(const visualization::Surface& surface, const std::vector<std::uint32_t>& triangles);
+  /** Light of the surface's own, for walls that are seen at a grazing angle. */
+  void setGlow(const visualization::Colour& colour);
+  void setVisible(bool visible);
+  void clear();
+
+private:
+  Ogre::SceneManager* manager_;
+  DrawnFaces faces_;
+  Ogre::MaterialPtr material_;
+  Ogre::ManualObject* object_;
+  bool has_wide_indices_ = false;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

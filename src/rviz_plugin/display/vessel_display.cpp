@@ -1,0 +1,406 @@
+#include "rviz_plugin/display/vessel_display.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <OgreCamera.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreViewport.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/ogre_helpers/movable_text.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/ros_topic_property.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/guarded.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr int kLegendLeft = 10, kLegendTop = 70;                 // below the legend of the wire [pixels]
+constexpr double kLegendsWidth = 200.0, kLegendsHeight = 130.0;  ///< of both legends with their rim [pixels]
+constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
+constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
+constexpr float kGlow = 0.3F;            ///< of the far wall, relative to its colour
+constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
+constexpr double kMotionOfNames = 12.0;  ///< motion of the picture after which names are placed anew [pixels]
+constexpr double kShareOfNames = 0.05;   ///< change of the distance after which they are placed anew, relative
+constexpr double kCutawayPeriod = 0.2;   ///< shortest time between two cutaways [s]
+constexpr double kCutawayShare = 0.1;    ///< motion of the tip that moves the cutaway, relative to its radius
+
+template <typename Message>
+QString typeOf()
+{
+  return QString::fromStdString(ros::message_traits::datatype<Message>());
+}
+
+visualization::Colour toColour(const QColor& colour)
+{
+  return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()), static_cast<float>(colour.blueF())};
+}
+
+Eigen::Vector3d toEigen(const Ogre::Vector3& vector)
+{
+  return {vector.x, vector.y, vector.z};
+}
+
+}  // namespace
+
+VesselDisplay::VesselDisplay()
+{
+  namespace names = nodes::names;
+  mesh_topic_ = new rviz::RosTopicProperty("Mesh Topic", names::kVesselMesh, typeOf<VesselMesh>(),
+                                           "Wall of the vessel.", this, SLOT(subscribe()));
+  centreline_topic_ =
+      new rviz::RosTopicProperty("Centreline Topic", names::kVesselCentreline, typeOf<VesselCentreline>(),
+                                 "Branches and their names.", this, SLOT(subscribe()));
+  force_topic_ = new rviz::RosTopicProperty("Force Topic", names::kContactForceMap, typeOf<ContactForceMap>(),
+                                            "Forces on the wall.", this, SLOT(subscribe()));
+  wire_topic_ = new rviz::RosTopicProperty("Wire Topic", names::kRodStateVisual, typeOf<RodStateVisual>(),
+                                           "State of the instruments; its tip is the centre of the cutaway.", this,
+                                           SLOT(subscribe()));
+  colour_ = new rviz::ColorProperty("Colour", QColor(226, 120, 110), "Colour of the wall.", this, SLOT(redraw()));
+  far_opacity_ =
+      new rviz::FloatProperty("Far Wall Opacity", 0.75F, "Opacity of the wall behind the lumen.", this, SLOT(redraw()));
+  near_opacity_ = new rviz::FloatProperty("Near Wall Opacity", 0.18F, "Opacity of the wall before the lumen.", this,
+                                          SLOT(redraw()));
+  for (rviz::FloatProperty* opacity : {far_opacity_, near_opacity_})
+  {
+    opacity->setMin(0.0F);
+    opacity->setMax(1.0F);
+  }
+  cutaway_ = new rviz::FloatProperty("Cutaway Radius", 0.03F, "The near wall is open around the tip, in m. 0: closed.",
+                                     this, SLOT(redraw()));
+  cutaway_->setMin(0.0F);
+  shows_heat_ = new rviz::BoolProperty("Forces", true, "Heat map of the forces on the wall.", this, SLOT(redraw()));
+  heat_of_ = new rviz::EnumProperty("Quantity", "Peak", "Quantity of the heat map.", shows_heat_, SLOT(redraw()), this);
+  heat_of_->addOption("Peak", static_cast<int>(HeatQuantity::kPeak));
+  heat_of_->addOption("Integral", static_cast<int>(HeatQuantity::kIntegral));
+  heat_of_->addOption("Time over threshold", static_cast<int>(HeatQuantity::kTimeOverThreshold));
+  full_scale_ = new rviz::FloatProperty(
+      "Full Scale", 0.0F, "Value that is drawn red, in N, N·s or s. 0: follows the largest value of the run.",
+      shows_heat_, SLOT(redraw()), this);
+  full_scale_->setMin(0.0F);
+  shows_legend_ = new rviz::BoolProperty("Legend", true, "Legend of the heat map.", shows_heat_, SLOT(redraw()), this);
+  shows_names_ = new rviz::BoolProperty("Branch Names", true, "Names of the branches.", this, SLOT(redraw()));
+  name_colour_ = new rviz::ColorProperty("Name Colour", QColor(245, 245, 245), "Colour of the names.", shows_names_,
+                                         SLOT(redraw()), this);
+  name_height_ = new rviz::FloatProperty("Name Height", 13.0F, "Height of the letters in pixels.", shows_names_,
+                                         SLOT(redraw()), this);
+  name_height_->setMin(4.0F);
+}
+
+VesselDisplay::~VesselDisplay()
+{
+  for (Ogre::SceneNode* node : name_nodes_)
+    scene_manager_->destroySceneNode(node);
+}
+
+void VesselDisplay::onInitialize()
+{
+  guarded(*this,
+          [this]
+          {
+            far_wall_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kFarWall, DrawnFaces::kBack);
+            near_wall_ = std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kNearWall,
+                                                         DrawnFaces::kFront);
+            heat_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kInside, DrawnFaces::kBoth);
+            legend_ = std::make_unique<PictureOverlay>();
+          });
+}
+
+void VesselDisplay::onEnable()
+{
+  subscribe();
+}
+
+void VesselDisplay::onDisable()
+{
+  for (ros::Subscriber* subscriber :
+       {&mesh_subscriber_, &centreline_subscriber_, &force_subscriber_, &wire_subscriber_})
+    subscriber->shutdown();
+  reset();
+}
+
+void VesselDisplay::fixedFrameChanged()
+{
+  redraw();
+}
+
+void VesselDisplay::reset()
+{
+  rviz::Display::reset();
+  force_message_.reset();
+  has_tip_ = false;
+  if (!isEnabled())
+  {
+    mesh_message_.reset();  // published once: a reset of the scene's time keeps it
+    centreline_message_.reset();
+  }
+  redraw();
+  guarded(*this, [this] { draw(); });
+}
+
+void VesselDisplay::subscribe()
+{
+  if (!isEnabled())
+    return;
+  guarded(
+      *this,
+      [this]
+      {
+        mesh_subscriber_ = update_nh_.subscribe<VesselMesh>(mesh_topic_->getTopicStd(), 1,
+                                                            [this](const VesselMeshConstPtr& message)
+                                                            {
+                                                              mesh_message_ = message;
+                                                              is_mesh_new_ = is_heat_new_ = true;
+                                                            });
+        centreline_subscriber_ = update_nh_.subscribe<VesselCentreline>(centreline_topic_->getTopicStd(), 1,
+                                                                        [this](const VesselCentrelineConstPtr& message)
+                                                                        {
+                                                                          centreline_message_ = message;
+                                                                          are_names_new_ = true;
+                                                                        });
+        force_subscriber_ = update_nh_.subscribe<ContactForceMap>(force_topic_->getTopicStd(), 1,
+                                                                  [this](const ContactForceMapConstPtr& message)
+                                                                  {
+                                                                    force_message_ = message;
+                                                                    is_heat_new_ = true;
+                                                                  });
+        wire_subscriber_ = update_nh_.subscribe<RodStateVisual>(
+            wire_topic_->getTopicStd(), 1, [this](const RodStateVisualConstPtr& message) { receiveWire(*message); });
+      });
+}
+
+void VesselDisplay::receiveWire(const RodStateVisual& message)
+{
+  if (message.nodes.empty())
+    return;
+  const geometry_msgs::Point& tip = message.nodes.back();
+  tip_ = {tip.x, tip.y, tip.z};
+  has_tip_ = tip_.allFinite();
+}
+
+void VesselDisplay::redraw()
+{
+  is_mesh_new_ = is_heat_new_ = are_names_new_ = true;
+}
+
+std::optional<PictureView> VesselDisplay::pictureView() const
+{
+  const rviz::ViewController* controller =
+      context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
+  const Ogre::Camera* camera = controller != nullptr ? controller->getCamera() : nullptr;
+  if (camera == nullptr)
+    return std::nullopt;
+  const auto axis = [&](const Ogre::Vector3& direction)
+  { return toEigen(scene_node_->getOrientation().Inverse() * direction).normalized().eval(); };
+  PictureView view;
+  view.eye = toEigen(scene_node_->convertWorldToLocalPosition(camera->getDerivedPosition()));
+  view.right = axis(camera->getDerivedRight());
+  view.up = axis(camera->getDerivedUp());
+  view.forward = axis(camera->getDerivedDirection());
+  const Ogre::Viewport* viewport = camera->getViewport();
+  if (viewport != nullptr && viewport->getActualHeight() > 0)
+  {
+    view.width = viewport->getActualWidth();
+    view.height = viewport->getActualHeight();
+  }
+  view.legend_width = kLegendsWidth;
+  view.legend_height = kLegendsHeight;
+  view.focal = 0.5 * view.height / std::tan(0.5 * camera->getFOVy().valueRadians());
+  return view;
+}
+
+bool VesselDisplay::hasCameraMoved() const
+{
+  if (!centreline_message_ || (ros::WallTime::now() - names_drawn_).toSec() < kNamesPeriod)
+    return false;
+  const std::optional<PictureView> view = pictureView();
+  if (!view)
+    return false;
+  // Motion of a point in the middle distance, in the picture.
+  const Eigen::Vector3d point = named_in_.eye + kMiddleDistance * named_in_.forward;
+  return view->width != named_in_.width || view->height != named_in_.height || view->depth(point) <= 0.0 ||
+         view->project(point).norm() > kMotionOfNames ||
+         std::abs(view->depth(point) / kMiddleDistance - 1.0) > kShareOfNames;
+}
+
+bool VesselDisplay::isCutawayDue() const
+{
+  const double radius = cutaway_->getFloat();
+  if (radius <= 0.0 || (ros::WallTime::now() - last_cut_).toSec() < kCutawayPeriod)
+    return false;
+  return has_tip_ != is_cut_ || (has_tip_ && (tip_ - cut_at_).norm() > kCutawayShare * radius);
+}
+
+void VesselDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
+{
+  guarded(*this,
+          [this]
+          {
+            are_names_new_ = are_names_new_ || hasCameraMoved();
+            if (is_mesh_new_ || is_heat_new_ || are_names_new_)
+              draw();
+            else if (near_wall_ && mesh_message_ && isCutawayDue())
+            {
+              drawNearWall();
+              context_->queueRender();
+            }
+          });
+}
+
+void VesselDisplay::draw()
+{
+  if (!far_wall_ || !legend_)
+    return;
+  const bool is_mesh_new = is_mesh_new_, is_heat_new = is_heat_new_, are_names_new = are_names_new_;
+  is_mesh_new_ = is_heat_new_ = are_names_new_ = false;
+  if (is_mesh_new)
+    drawWall();
+  if (is_heat_new)
+    drawHeat();
+  if (are_names_new)
+    drawNames();
+  drawLegend();
+  context_->queueRender();
+}
+
+void VesselDisplay::drawWall()
+{
+  static const std::vector<std::uint32_t> kNone;
+  if (!mesh_message_ || !placeInFrame(mesh_message_->header.frame_id))
+  {
+    is_mesh_new_ = mesh_message_ != nullptr;  // until the transform is known
+    far_wall_->update({}, kNone);
+    near_wall_->update({}, kNone);
+    return;
+  }
+  const std::string problem =
+      drawing_.setVessel(*mesh_message_, {toColour(colour_->getColor()), far_opacity_->getFloat()});
+  if (problem.empty())
+    setStatus(rviz::StatusProperty::Ok, "Wall", QString("%1 triangles").arg(drawing_.wall().triangles.size() / 3));
+  else
+    setStatus(rviz::StatusProperty::Error, "Wall", QString::fromStdString(problem));
+  far_wall_->setGlow(visualization::blend({}, toColour(colour_->getColor()), kGlow));
+  far_wall_->update(drawing_.wall(), drawing_.wall().triangles);
+  drawNearWall();
+}
+
+void VesselDisplay::drawNearWall()
+{
+  drawing_.cutAway(tip_, has_tip_ ? cutaway_->getFloat() : 0.0F, near_opacity_->getFloat());
+  near_wall_->update(drawing_.wall(), drawing_.wall().triangles);
+  cut_at_ = tip_;
+  is_cut_ = has_tip_;
+  last_cut_ = ros::WallTime::now();
+}
+
+void VesselDisplay::drawHeat()
+{
+  static const std::vector<std::uint32_t> kNone;
+  if (!force_message_ || !mesh_message_ || !shows_heat_->getBool())
+  {
+    heat_->update({}, kNone);
+    return;
+  }
+  const auto quantity = static_cast<HeatQuantity>(heat_of_->getOptionInt());
+  const std::string problem = drawing_.setForces(*force_message_, quantity, full_scale_->getFloat());
+  if (problem.empty())
+    setStatus(rviz::StatusProperty::Ok, "Forces",
+              QString("%1 touched triangles").arg(force_message_->triangles.size()));
+  else
+    setStatus(rviz::StatusProperty::Warn, "Forces", QString::fromStdString(problem));
+  heat_->update(drawing_.heat(), drawing_.heat().triangles);
+}
+
+void VesselDisplay::drawNames()
+{
+  for (Ogre::SceneNode* node : name_nodes_)
+  {
+    node->detachAllObjects();
+    scene_manager_->destroySceneNode(node);
+  }
+  name_nodes_.clear();
+  names_.clear();
+  const std::optional<PictureView> view = pictureView();
+  if (!centreline_message_ || !shows_names_->getBool() || !view)
+    return;
+  names_drawn_ = ros::WallTime::now();
+  named_in_ = *view;
+  for (const BranchName& name : branchNames(*centreline_message_, *view, name_height_->getFloat()))
+  {
+    auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", static_cast<float>(name.height),
+                                                    name_colour_->getOgreColor());
+    text->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
+    text->showOnTop();
+    text->setRenderQueueGroup(kNamesQueue);  // after the near wall
+    Ogre::SceneNode* node = scene_node_->createChildSceneNode(Ogre::Vector3(static_cast<float>(name.position.x()),
+                                                                            static_cast<float>(name.position.y()),
+                                                                            static_cast<float>(name.position.z())));
+    node->attachObject(text.get());
+    name_nodes_.push_back(node);
+    names_.push_back(std::move(text));
+  }
+}
+
+void VesselDisplay::drawLegend()
+{
+  const bool is_shown =
+      isEnabled() && shows_heat_->getBool() && shows_legend_->getBool() && force_message_ && mesh_message_;
+  const auto quantity = static_cast<HeatQuantity>(heat_of_->getOptionInt());
+  const double full = drawing_.fullScale();
+  const QString legend = is_shown ? QString("%1 %2").arg(static_cast<int>(quantity)).arg(full) : QString();
+  if (legend == legend_of_)
+    return;
+  legend_of_ = legend;
+  if (!is_shown)
+  {
+    legend_->hide();
+    return;
+  }
+  const char* title = quantity == HeatQuantity::kPeak       ? "Peak force on the wall"
+                      : quantity == HeatQuantity::kIntegral ? "Force integral on the wall"
+                                                            : "Time over threshold";
+  const char* unit = quantity == HeatQuantity::kPeak ? "N" : quantity == HeatQuantity::kIntegral ? "N·s" : "s";
+  const visualization::Colour wall = toColour(colour_->getColor());
+  legend_->show(legendImage(title, visualization::legendScale(full, unit),
+                            [&](double value)
+                            {
+                              const visualization::TranslucentColour heat = visualization::heatColour(value, full);
+                              return visualization::blend(wall, heat.colour, heat.opacity);
+                            }),
+                kLegendLeft, kLegendTop);
+}
+
+bool VesselDisplay::placeInFrame(const std::string& frame)
+{
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation))
+  {
+    setStatus(rviz::StatusProperty::Error, "Transform",
+              QString("no transform from %1 to the fixed frame").arg(frame.c_str()));
+    return false;
+  }
+  deleteStatus("Transform");
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(orientation);
+  return true;
+}
+
+}  // namespace endovascular_sim::rviz_plugin
+
+PLUGINLIB_EXPORT_CLASS(endovascular_sim::rviz_plugin::VesselDisplay, rviz::Display)

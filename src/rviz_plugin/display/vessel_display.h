@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <ros/subscriber.h>
+#include <ros/time.h>
+#include <rviz/display.h>
+
+#include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/VesselCentreline.h"
+#include "endovascular_sim/VesselMesh.h"
+#include "rviz_plugin/display/legend_overlay.h"
+#include "rviz_plugin/display/surface_object.h"
+#include "rviz_plugin/model/branch_names.h"
+#include "rviz_plugin/model/vessel_drawing.h"
+
+namespace rviz
+{
+class BoolProperty;
+class ColorProperty;
+class EnumProperty;
+class FloatProperty;
+class MovableText;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Display of rviz: the wall with smooth shading, back faces before front faces, opened around the tip; the heat map of
+ * the forces on it; the names of the branches. */
+class VesselDisplay : public rviz::Display
+{
+  Q_OBJECT
+
+public:
+  VesselDisplay();
+  ~VesselDisplay() override;
+
+  void update(float wall_dt, float ros_dt) override;
+  void reset() override;
+
+protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+  void fixedFrameChanged() override;
+
+private Q_SLOTS:
+  void subscribe();
+  void redraw();
+
+private:  // NOLINT(readability-redundant-access-specifiers): after slots
+  void draw();
+  void drawWall();
+  void drawNearWall();
+  void drawHeat();
+  void drawNames();
+  void drawLegend();
+  void receiveWire(const RodStateVisual& message);
+  bool isCutawayDue() const;
+  bool hasCameraMoved() const;
+  std::optional<PictureView> pictureView() const;
+  bool placeInFrame(const std::string& frame);
+
+  rviz::RosTopicProperty *mesh_topic_, *centreline_topic_, *force_topic_, *wire_topic_;
+  rviz::ColorProperty *colour_, *name_colour_;
+  rviz::FloatProperty *far_opacity_, *near_opacity_, *cutaway_, *full_scale_, *name_height_;
+  rviz::BoolProperty *shows_heat_, *shows_legend_, *shows_names_;
+  rviz::EnumProperty* heat_of_;
+
+  VesselDrawing drawing_;
+  VesselMeshConstPtr mesh_message_;
+  VesselCentrelineConstPtr centreline_message_;
+  ContactForceMapConstPtr force_message_;
+  bool is_mesh_new_ = false, is_heat_new_ = false, are_names_new_ = false;
+  Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();     ///< of the newest message [m]
+  Eigen::Vector3d cut_at_ = Eigen::Vector3d::Zero();  ///< centre of the drawn cutaway [m]
+  bool has_tip_ = false, is_cut_ = false;
+  ros::WallTime last_cut_, names_drawn_;
+  PictureView named_in_;  ///< view for which the names were placed
+  QString legend_of_;     ///< title and scale of the shown legend; empty: none
+
+  std::unique_ptr<SurfaceObject> far_wall_, near_wall_, heat_;
+  std::vector<std::unique_ptr<rviz::MovableText>> names_;
+  std::vector<Ogre::SceneNode*> name_nodes_;
+  std::unique_ptr<PictureOverlay> legend_;
+  ros::Subscriber mesh_subscriber_, centreline_subscriber_, force_subscriber_, wire_subscriber_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,303 @@
+#include "rviz_plugin/display/wire_display.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <OgreCamera.h>
+#include <OgreSceneNode.h>
+#include <OgreViewport.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/ros_topic_property.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/guarded.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr int kLegendLeft = 10, kLegendTop = 10;  // [pixels]
+constexpr int kUsualHeight = 700;                 // of a view [pixels]
+constexpr double kShareOfRadius = 0.1;            // change of the smallest radius that is drawn
+
+template <typename Message>
+QString typeOf()
+{
+  return QString::fromStdString(ros::message_traits::datatype<Message>());
+}
+
+visualization::Colour toColour(const QColor& colour)
+{
+  return {static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()), static_cast<float>(colour.blueF())};
+}
+
+}  // namespace
+
+WireDisplay::WireDisplay()
+{
+  namespace names = nodes::names;
+  wire_topic_ = new rviz::RosTopicProperty("Wire Topic", names::kRodStateVisual, typeOf<RodStateVisual>(),
+                                           "State of the instruments.", this, SLOT(subscribe()));
+  treatment_topic_ = new rviz::RosTopicProperty("Treatment Topic", names::kTreatmentVisual, typeOf<TreatmentVisual>(),
+                                                "Balloons and stents.", this, SLOT(subscribe()));
+  scene_topic_ = new rviz::RosTopicProperty("Scene Topic", names::kSessionInfo, typeOf<SessionInfo>(),
+                                            "Scene with the shapes of the instruments.", this, SLOT(subscribe()));
+  radius_scale_ = new rviz::FloatProperty(
+      "Radius Scale", 1.5F, "Drawn radius of the instruments relative to the true one.", this, SLOT(redraw()));
+  radius_scale_->setMin(0.1F);
+  radius_scale_->setMax(20.0F);
+  smallest_width_ = new rviz::FloatProperty(
+      "Smallest Width", 3.0F, "Width below which instruments are not drawn, in pixels. 0: none.", this, SLOT(redraw()));
+  smallest_width_->setMin(0.0F);
+  smallest_width_->setMax(50.0F);
+  sides_ = new rviz::IntProperty("Sides", 12, "Number of sides of a tube.", this, SLOT(redraw()));
+  sides_->setMin(3);
+  sides_->setMax(64);
+  catheter_opacity_ =
+      new rviz::FloatProperty("Opacity over Another", 0.35F,
+                              "Opacity of an instrument where another one lies in its lumen.", this, SLOT(redraw()));
+  catheter_opacity_->setMin(0.0F);
+  catheter_opacity_->setMax(1.0F);
+  shows_forces_ =
+      new rviz::BoolProperty("Forces", true, "Colours of the wall's force on each node.", this, SLOT(redraw()));
+  full_force_ = new rviz::FloatProperty("Full Force", 0.0F,
+                                        "Force that is drawn red, in N. 0: follows the largest force of the run.",
+                                        shows_forces_, SLOT(redraw()), this);
+  full_force_->setMin(0.0F);
+  shows_legend_ =
+      new rviz::BoolProperty("Legend", true, "Legend of the colours of force.", shows_forces_, SLOT(redraw()), this);
+  shows_treatment_ =
+      new rviz::BoolProperty("Balloons and Stents", true, "Draws balloons and stents.", this, SLOT(redraw()));
+  const std::array<QColor, kColours> defaults{QColor(205, 212, 222), QColor(70, 160, 225), QColor(110, 200, 130),
+                                              QColor(190, 140, 220)};
+  for (std::size_t k = 0; k < colours_.size(); ++k)
+    colours_[k] =
+        new rviz::ColorProperty(QString("Colour %1").arg(k + 1), defaults[k],
+                                "Colour of an instrument, counted from the inside out.", this, SLOT(redraw()));
+}
+
+WireDisplay::~WireDisplay() = default;
+
+void WireDisplay::onInitialize()
+{
+  guarded(*this,
+          [this]
+          {
+            opaque_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kOpaque, DrawnFaces::kFront);
+            translucent_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kInside, DrawnFaces::kFront);
+            balloons_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kInside, DrawnFaces::kFront);
+            struts_ =
+                std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kOpaque, DrawnFaces::kFront);
+            legend_ = std::make_unique<PictureOverlay>();
+          });
+}
+
+void WireDisplay::onEnable()
+{
+  subscribe();
+}
+
+void WireDisplay::onDisable()
+{
+  wire_subscriber_.shutdown();
+  treatment_subscriber_.shutdown();
+  scene_subscriber_.shutdown();
+  reset();
+}
+
+void WireDisplay::fixedFrameChanged()
+{
+  redraw();
+}
+
+void WireDisplay::reset()
+{
+  rviz::Display::reset();
+  wire_message_.reset();
+  treatment_message_.reset();
+  redraw();
+  guarded(*this, [this] { draw(); });
+}
+
+void WireDisplay::subscribe()
+{
+  if (!isEnabled())
+    return;
+  guarded(*this,
+          [this]
+          {
+            // Queues of one message: between two frames of a slow display only the newest one is of use.
+            wire_subscriber_ = update_nh_.subscribe<RodStateVisual>(wire_topic_->getTopicStd(), 1,
+                                                                    [this](const RodStateVisualConstPtr& message)
+                                                                    {
+                                                                      wire_message_ = message;
+                                                                      is_wire_new_ = true;
+                                                                    });
+            treatment_subscriber_ = update_nh_.subscribe<TreatmentVisual>(treatment_topic_->getTopicStd(), 1,
+                                                                          [this](const TreatmentVisualConstPtr& message)
+                                                                          {
+                                                                            treatment_message_ = message;
+                                                                            is_treatment_new_ = true;
+                                                                          });
+            scene_subscriber_ = update_nh_.subscribe<SessionInfo>(
+                scene_topic_->getTopicStd(), 1, [this](const SessionInfoConstPtr& info) { receiveScene(info); });
+          });
+}
+
+void WireDisplay::redraw()
+{
+  wire_.setSides(sides_->getInt());
+  is_wire_new_ = is_treatment_new_ = true;
+}
+
+void WireDisplay::receiveScene(const SessionInfoConstPtr& info)
+{
+  try
+  {
+    wire_.setScene(sceneSummary(*info));
+    setStatus(rviz::StatusProperty::Ok, "Scene", QString::fromStdString(info->scene_name));
+  }
+  catch (const std::exception& error)
+  {
+    wire_.clearScene();
+    setStatus(rviz::StatusProperty::Warn, "Scene", QString::fromUtf8(error.what()));
+  }
+  is_wire_new_ = true;
+}
+
+void WireDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
+{
+  const double radius = smallestRadius();
+  if (std::abs(radius - drawn_smallest_radius_) > kShareOfRadius * drawn_smallest_radius_)
+    is_wire_new_ = is_wire_new_ || wire_message_ != nullptr;
+  if (is_wire_new_ || is_treatment_new_)
+    guarded(*this, [this] { draw(); });
+}
+
+void WireDisplay::draw()
+{
+  if (!opaque_ || !legend_)
+    return;
+  drawn_smallest_radius_ = smallestRadius();
+  const bool is_wire_new = is_wire_new_, is_treatment_new = is_treatment_new_;
+  is_wire_new_ = is_treatment_new_ = false;
+  if (is_wire_new)
+    drawWire();
+  if (is_treatment_new)
+    drawTreatment();
+  drawLegend();
+  context_->queueRender();
+}
+
+void WireDisplay::drawWire()
+{
+  if (wire_message_ && placeInFrame(wire_message_->header.frame_id))
+  {
+    const std::string problem = wire_.update(*wire_message_, style());
+    if (problem.empty())
+      setStatus(rviz::StatusProperty::Ok, "Wire", QString("largest force %1 N").arg(wire_.largestForce(), 0, 'f', 3));
+    else
+      setStatus(rviz::StatusProperty::Error, "Wire", QString::fromStdString(problem));
+  }
+  else
+  {
+    wire_.clear();
+    is_wire_new_ = wire_message_ != nullptr;  // until the transform is known
+  }
+  opaque_->update(wire_.surface(), wire_.opaqueTriangles());
+  translucent_->update(wire_.surface(), wire_.translucentTriangles());
+}
+
+void WireDisplay::drawTreatment()
+{
+  treatment_.clear();
+  if (treatment_message_ && shows_treatment_->getBool())
+  {
+    const std::string problem = treatment_.update(*treatment_message_);
+    if (problem.empty())
+      deleteStatus("Treatment");
+    else
+      setStatus(rviz::StatusProperty::Error, "Treatment", QString::fromStdString(problem));
+  }
+  balloons_->update(treatment_.balloons(), treatment_.balloons().triangles);
+  struts_->update(treatment_.struts(), treatment_.struts().triangles);
+}
+
+void WireDisplay::drawLegend()
+{
+  const bool is_shown = isEnabled() && shows_forces_->getBool() && shows_legend_->getBool() && wire_message_;
+  const double full = is_shown ? wire_.fullForce() : 0.0;
+  if (full == legend_of_)
+    return;
+  legend_of_ = full;
+  if (!is_shown)
+  {
+    legend_->hide();
+    return;
+  }
+  const visualization::Colour base = toColour(colours_[0]->getColor());
+  legend_->show(legendImage("Force on the instrument", visualization::legendScale(full, "N"),
+                            [&](double force) { return visualization::forceColourOver(base, force, full); }),
+                kLegendLeft, kLegendTop);
+}
+
+bool WireDisplay::placeInFrame(const std::string& frame)
+{
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation))
+  {
+    setStatus(rviz::StatusProperty::Error, "Transform",
+              QString("no transform from %1 to the fixed frame").arg(frame.c_str()));
+    return false;
+  }
+  deleteStatus("Transform");
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(orientation);
+  return true;
+}
+
+double WireDisplay::smallestRadius() const
+{
+  const rviz::ViewController* view = context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
+  const Ogre::Camera* camera = view != nullptr ? view->getCamera() : nullptr;
+  if (camera == nullptr || !wire_message_ || wire_message_->nodes.empty())
+    return 0.0;
+  const geometry_msgs::Point& tip = wire_message_->nodes.back();
+  const Ogre::Vector3 place = scene_node_->convertLocalToWorldPosition(
+      {static_cast<float>(tip.x), static_cast<float>(tip.y), static_cast<float>(tip.z)});
+  const Ogre::Viewport* viewport = camera->getViewport();
+  const int height = viewport != nullptr ? std::max(viewport->getActualHeight(), 1) : kUsualHeight;
+  const double pixel =
+      2.0 * std::tan(0.5 * camera->getFOVy().valueRadians()) * camera->getDerivedPosition().distance(place) / height;
+  return std::isfinite(pixel) ? 0.5 * smallest_width_->getFloat() * pixel : 0.0;
+}
+
+visualization::WireStyle WireDisplay::style() const
+{
+  visualization::WireStyle style;
+  style.radius_scale = radius_scale_->getFloat();
+  style.smallest_radius = drawn_smallest_radius_;
+  style.opacity_over_another = catheter_opacity_->getFloat();
+  style.shows_forces = shows_forces_->getBool();
+  style.full_force = full_force_->getFloat();
+  for (const rviz::ColorProperty* colour : colours_)
+    style.colours.push_back(toColour(colour->getColor()));
+  return style;
+}
+
+}  // namespace endovascular_sim::rviz_plugin
+
+PLUGINLIB_EXPORT_CLASS(endovascular_sim::rviz_plugin::WireDisplay, rviz::Display)

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <ros/subscriber.h>
+#include <rviz/display.h>
+
+#include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionInfo.h"
+#include "endovascular_sim/TreatmentVisual.h"
+#include "rviz_plugin/display/legend_overlay.h"
+#include "rviz_plugin/display/surface_object.h"
+#include "rviz_plugin/model/treatment_drawing.h"
+#include "rviz_plugin/model/wire_drawing.h"
+
+namespace rviz
+{
+class BoolProperty;
+class ColorProperty;
+class FloatProperty;
+class IntProperty;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Display of rviz: instruments as smooth tubes with the colours of force, balloons and stents.
+ *
+ *  A message is drawn with the next frame; of several messages between two frames only the newest one is drawn. */
+class WireDisplay : public rviz::Display
+{
+  Q_OBJECT
+
+public:
+  WireDisplay();
+  ~WireDisplay() override;
+
+  void update(float wall_dt, float ros_dt) override;
+  void reset() override;
+
+protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+  void fixedFrameChanged() override;
+
+private Q_SLOTS:
+  void subscribe();
+  void redraw();
+
+private:  // NOLINT(readability-redundant-access-specifiers): after slots
+  static constexpr int kColours = 4;
+
+  void receiveScene(const SessionInfoConstPtr& info);
+  void draw();
+  void drawWire();
+  void drawTreatment();
+  void drawLegend();
+  bool placeInFrame(const std::string& frame);
+  visualization::WireStyle style() const;
+  double smallestRadius() const;
+
+  rviz::RosTopicProperty *wire_topic_, *treatment_topic_, *scene_topic_;
+  rviz::FloatProperty *radius_scale_, *smallest_width_, *catheter_opacity_, *full_force_;
+  rviz::IntProperty* sides_;
+  rviz::BoolProperty *shows_forces_, *shows_legend_, *shows_treatment_;
+  std::array<rviz::ColorProperty*, kColours> colours_;
+
+  WireDrawing wire_;
+  TreatmentDrawing treatment_;
+  RodStateVisualConstPtr wire_message_;
+  TreatmentVisualConstPtr treatment_message_;
+  bool is_wire_new_ = false, is_treatment_new_ = false;
+  double drawn_smallest_radius_ = 0.0;  ///< [m]
+  double legend_of_ = 0.0;              ///< full scale of the shown legend [N]; 0: none
+
+  std::unique_ptr<SurfaceObject> opaque_, translucent_, balloons_, struts_;
+  std::unique_ptr<PictureOverlay> legend_;
+  ros::Subscriber wire_subscriber_, treatment_subscriber_, scene_subscriber_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,66 @@
+#include "rviz_plugin/model/operator_controls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+// Speeds of hands: from a fine adjustment to a fast advance.
+constexpr double kSlowest = 1e-3, kFastest = 0.1;                // [m/s]
+constexpr double kSlowestTurn = 0.5, kFastestTurn = 4.0 * M_PI;  // [rad/s]
+
+double onLogarithmicScale(double setting, double low, double high)
+{
+  return low * std::pow(high / low, setting);
+}
+
+}  // namespace
+
+void OperatorControls::releaseAll()
+{
+  by_button_.fill(false);
+  by_key_.fill(false);
+}
+
+void OperatorControls::choose(const std::string& instrument, double largest_speed, double largest_turning_speed)
+{
+  releaseAll();
+  instrument_ = instrument;
+  largest_speed_ = largest_speed;
+  largest_turning_speed_ = largest_turning_speed;
+}
+
+void OperatorControls::setSpeed(double setting)
+{
+  setting_ = std::isfinite(setting) ? std::clamp(setting, 0.0, 1.0) : 0.0;
+}
+
+double OperatorControls::speed() const
+{
+  return std::min(onLogarithmicScale(setting_, kSlowest, kFastest), largest_speed_);
+}
+
+double OperatorControls::turningSpeed() const
+{
+  return std::min(onLogarithmicScale(setting_, kSlowestTurn, kFastestTurn), largest_turning_speed_);
+}
+
+bool OperatorControls::isHeld(Motion motion) const
+{
+  const auto index = static_cast<std::size_t>(motion);
+  return by_button_[index] || by_key_[index];
+}
+
+HandVelocity OperatorControls::velocity() const
+{
+  if (instrument_.empty())
+    return {};
+  const int push = (isHeld(Motion::kPush) ? 1 : 0) - (isHeld(Motion::kPull) ? 1 : 0);
+  const int twist = (isHeld(Motion::kTwistLeft) ? 1 : 0) - (isHeld(Motion::kTwistRight) ? 1 : 0);
+  return {instrument_, push * speed(), twist * turningSpeed()};
+}
+
+}  // namespace endovascular_sim::rviz_plugin

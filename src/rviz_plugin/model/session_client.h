@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include "endovascular_sim/SessionProgress.h"
+#include "rviz_plugin/model/branch_finder.h"
+#include "rviz_plugin/model/session_port.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Connection to a session by its topics and services. Messages are received in a thread of its own, velocities sent in
+ * a second one, and services called in a third one. */
+class SessionClient : public SessionPort
+{
+public:
+  explicit SessionClient(const ros::NodeHandle& node);
+  ~SessionClient() override;
+
+  SessionState state() const override;
+  void hold(const HandVelocity& velocity) override { commander_->hold(velocity); }
+  void confirm() override { commander_->confirm(); }
+  void request(Request request) override;
+  void changePressure(const std::string& instrument, double difference) override;
+  void moveCArm(const std::string& view) override;
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /** Outcome of the service calls; outlives the client while a call does not return. */
+  struct Calls
+  {
+    std::mutex mutex;
+    bool is_busy = false;
+    std::string answer;
+    unsigned run = 0;          ///< of the recording
+    unsigned stopped_run = 0;  ///< run whose recording was stopped
+  };
+
+  struct Diagnosis
+  {
+    std::string text;
+    Clock::time_point received;
+  };
+
+  /** Topics of one instrument. */
+  struct Topics
+  {
+    ros::Publisher servo_jv, servo_jr;
+    ros::Subscriber operating_state, state_reason;
+    std::string state, reason;
+  };
+
+  void subscribe();
+  void receiveScene(const SessionInfoConstPtr& info);
+  void receiveWire(const RodStateVisualConstPtr& message);
+  void receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message);
+  void connectInstruments(const SceneSummary& scene);
+  void searchInstruments();
+  void send(const HandVelocity& velocity);
+  void publish(const std::string& instrument, bool is_relative, const sensor_msgs::JointState& command);
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;  ///< of the members up to the next blank line
+  SessionState state_;
+  Clock::time_point wire_received_, branch_found_;
+  BranchFinder branches_;
+  std::map<std::string, std::shared_ptr<Topics>> instruments_;
+  std::map<std::string, Diagnosis> diagnoses_;
+
+  std::shared_ptr<Calls> calls_ = std::make_shared<Calls>();
+  ros::Publisher c_arm_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer search_;
+  ros::AsyncSpinner spinner_;
+  std::unique_ptr<VelocityCommander> commander_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,90 @@
+#include "rviz_plugin/model/session_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr double kStateAge = 1.0;  ///< wall time after which the last state is old [s]
+const char* const kDash = "–";
+
+/** Number in a unit; a dash for a value that is not finite. */
+std::string number(double value, int decimals, const char* unit)
+{
+  if (!std::isfinite(value) || std::abs(value) > 1e9)
+    return kDash;
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
+  return text;
+}
+
+double at(const std::vector<double>& values, std::size_t index)
+{
+  return index < values.size() ? values[index] : std::nan("");
+}
+
+std::string stepText(const SessionState& state)
+{
+  if (!state.has_step)
+    return "no procedure";
+  const ProcedureStep& step = state.step;
+  std::string text = std::to_string(step.begun) + ": " + step.phase + ", " + step.name;
+  if (step.outcome == ProcedureStep::DONE)
+    text += " (done)";
+  else if (step.outcome == ProcedureStep::FAILED)
+    text += " (failed: " + step.failure + ")";
+  else if (step.outcome == ProcedureStep::LOST)
+    text += " (repeated)";
+  return text;
+}
+
+std::string statusText(const SessionState& state, std::size_t instrument)
+{
+  if (!state.has_wire)
+    return "waiting for the simulation";
+  if (instrument < state.scene.instruments.size())
+  {
+    const auto operating = state.operating.find(state.scene.instruments[instrument].shape.name);
+    if (operating != state.operating.end() && operating->second != "ENABLED")
+      return operating->second;
+  }
+  return state.wire_age > kStateAge ? "no state of the simulation" : "running";
+}
+
+}  // namespace
+
+PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
+{
+  PanelTexts texts;
+  const RodStateVisual& wire = state.wire;
+  const double force = at(wire.hand_force, instrument);
+  texts.insertion = number(1e3 * at(wire.insertion, instrument), 1, "mm");
+  texts.rotation = number(180.0 / M_PI * at(wire.rotation, instrument), 0, "°");
+  texts.force = number(force, 2, "N");
+  texts.torque = number(1e3 * at(wire.hand_torque, instrument), 2, "mN·m");
+  texts.time = number(state.has_wire ? wire.time : std::nan(""), 1, "s");
+  texts.pressure = kDash;
+  if (instrument < state.scene.instruments.size())
+  {
+    const InstrumentSummary& summary = state.scene.instruments[instrument];
+    if (summary.force_limit > 0.0)
+    {
+      texts.force += " of " + number(summary.force_limit, 1, "N");
+      if (std::isfinite(force))
+        texts.gauge = static_cast<int>(std::lround(100.0 * std::min(std::abs(force) / summary.force_limit, 1.0)));
+    }
+    if (summary.has_balloon)
+      texts.pressure = number(at(wire.pressure, instrument) / 101325.0, 1, "atm");
+  }
+  texts.branch = state.branch.empty() ? kDash : state.branch;
+  texts.step = stepText(state);
+  texts.status = statusText(state, instrument);
+  texts.recording = state.is_recording ? "recording, run " + std::to_string(state.run) : "not recording";
+  return texts;
+}
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "endovascular_sim/ProcedureStep.h"
+#include "endovascular_sim/RodStateVisual.h"
+#include "rviz_plugin/model/scene_summary.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** What the panel knows of a session. */
+struct SessionState
+{
+  SceneSummary scene;   ///< without instruments before they are known
+  RodStateVisual wire;  ///< without nodes
+  bool has_wire = false;
+  double wire_age = 0.0;                         ///< wall time since the last state [s]
+  std::string branch;                            ///< of the foremost tip; empty: unknown
+  std::map<std::string, std::string> operating;  ///< operating state of each instrument, with its reason
+  ProcedureStep step;
+  bool has_step = false;
+  std::vector<std::string> errors;  ///< warnings and errors of the diagnostics
+  bool is_recording = false;
+  unsigned run = 0;                  ///< number of the run
+  std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()
+  std::string answer;                ///< to the last request
+  bool is_busy = false;              ///< true: a request is on its way
+};
+
+/** Texts of the panel for one instrument. Invalid or missing values are a dash. */
+struct PanelTexts
+{
+  std::string insertion, rotation, force, torque, pressure, time, branch, step, status, recording;
+  int gauge = 0;  ///< share of the force limit [%], 0 to 100
+};
+
+/** @param instrument index of the chosen instrument */
+PanelTexts panelTexts(const SessionState& state, std::size_t instrument);
+
+}  // namespace endovascular_sim::rviz_plugin

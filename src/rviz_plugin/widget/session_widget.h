@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <QTimer>
+#include <QWidget>
+
+#include "rviz_plugin/model/operator_controls.h"
+#include "rviz_plugin/model/session_port.h"
+
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Widget of the panel: controls of a session and its state. Independent of rviz and of ROS's connections.
+ *
+ *  Keys, while the widget has the focus: up and down push and pull, left and right twist, space pauses and starts,
+ *  page up and down choose an instrument. Loss of the focus ends all motions. */
+class SessionWidget : public QWidget
+{
+  Q_OBJECT
+
+public:
+  /** @param port outlives the widget */
+  explicit SessionWidget(SessionPort& port, QWidget* parent = nullptr);
+  ~SessionWidget() override;
+
+  int speedSetting() const;           ///< position of the speed slider, 0 to 100
+  void setSpeedSetting(int setting);  ///< as speedSetting()
+
+Q_SIGNALS:
+  void viewChosen(const QString& view);  ///< view of the picture: Overview, Tip or AlongVessel
+
+public Q_SLOTS:    // NOLINT(readability-redundant-access-specifiers): after signals
+  void refresh();  ///< takes over the state of the session; a timer calls it
+
+protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+private:
+  struct Labels
+  {
+    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *recording, *errors, *pressure,
+        *keys, *speed;
+  };
+
+  QWidget* sessionRow();
+  QWidget* driveBox();
+  QWidget* balloonRow();
+  QWidget* cArmRow();
+  QWidget* viewRow();
+  QWidget* stateBox();
+  QPushButton* motionButton(const QString& text, const QString& name, Motion motion);
+  QPushButton* requestButton(const QString& text, const QString& name, Request request);
+  QLabel* label(const QString& name);
+  void takeOverInstruments(const SessionState& state);
+  void choose(int index);
+  void changePressure(double atmospheres);
+  void sendVelocity();
+  void releaseAll();
+  bool canDrive() const;
+
+  SessionPort& port_;
+  OperatorControls controls_;
+  SessionState state_;
+  QComboBox *instruments_, *views_;
+  QSlider* speed_;
+  QProgressBar* gauge_;
+  std::array<QPushButton*, kMotions> motions_{};
+  QPushButton* record_;
+  QWidget* balloon_;
+  Labels labels_{};
+  QTimer timer_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,87 @@
+#include "rviz_plugin/model/session_state.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+SessionState running()
+{
+  SessionState state;
+  InstrumentSummary wire;
+  wire.shape.name = "wire";
+  wire.force_limit = 5.0;
+  InstrumentSummary balloon;
+  balloon.shape.name = "balloon";
+  balloon.has_balloon = true;
+  state.scene.instruments = {wire, balloon};
+  state.has_wire = true;
+  state.wire.time = 12.34;
+  state.wire.insertion = {0.1234, 0.05};
+  state.wire.rotation = {M_PI, 0.0};
+  state.wire.hand_force = {-2.0, 0.0};
+  state.wire.hand_torque = {1e-3, 0.0};
+  state.wire.pressure = {0.0, 8.0 * 101325.0};
+  state.branch = "left renal";
+  return state;
+}
+
+TEST(PanelTexts, ShowTheChosenInstrument)
+{
+  const PanelTexts wire = panelTexts(running(), 0);
+  EXPECT_EQ(wire.insertion, "123.4 mm");
+  EXPECT_EQ(wire.rotation, "180 °");
+  EXPECT_EQ(wire.force, "-2.00 N of 5.0 N");
+  EXPECT_EQ(wire.gauge, 40);
+  EXPECT_EQ(wire.time, "12.3 s");
+  EXPECT_EQ(wire.branch, "left renal");
+  EXPECT_EQ(wire.pressure, "–");
+  EXPECT_EQ(wire.status, "running");
+  EXPECT_EQ(panelTexts(running(), 1).pressure, "8.0 atm");
+}
+
+TEST(PanelTexts, AreDashesForMissingAndInvalidValues)
+{
+  const PanelTexts empty = panelTexts({}, 0);
+  EXPECT_EQ(empty.insertion, "–");
+  EXPECT_EQ(empty.time, "–");
+  EXPECT_EQ(empty.status, "waiting for the simulation");
+  SessionState state = running();
+  state.wire.hand_force[0] = std::nan("");
+  state.wire.insertion[0] = HUGE_VAL;
+  EXPECT_EQ(panelTexts(state, 0).insertion, "–");
+  EXPECT_EQ(panelTexts(state, 0).gauge, 0);
+  EXPECT_EQ(panelTexts(state, 99).insertion, "–");
+}
+
+TEST(PanelTexts, NameAPauseAndItsReason)
+{
+  SessionState state = running();
+  state.operating["wire"] = "PAUSED: the contact node does not respond";
+  EXPECT_EQ(panelTexts(state, 0).status, "PAUSED: the contact node does not respond");
+  EXPECT_EQ(panelTexts(state, 1).status, "running");
+  state.operating.clear();
+  state.wire_age = 3.0;
+  EXPECT_EQ(panelTexts(state, 0).status, "no state of the simulation");
+}
+
+TEST(PanelTexts, NameTheProcedureStepAndItsOutcome)
+{
+  SessionState state = running();
+  EXPECT_EQ(panelTexts(state, 0).step, "no procedure");
+  state.has_step = true;
+  state.step.begun = 3;
+  state.step.phase = "access";
+  state.step.name = "advance the wire";
+  EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance the wire");
+  state.step.outcome = ProcedureStep::FAILED;
+  state.step.failure = "no progress";
+  EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance the wire (failed: no progress)");
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,224 @@
+#include "rviz_plugin/widget/session_widget.h"
+
+#include <cstdlib>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <QApplication>
+#include <QComboBox>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QtTest/QTest>
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+/** Session that records what the widget does. */
+class FakeSession : public SessionPort
+{
+public:
+  SessionState state() const override { return present; }
+  void hold(const HandVelocity& velocity) override { held.push_back(velocity); }
+  void confirm() override { ++confirmed; }
+  void request(Request request) override { requests.push_back(request); }
+  void changePressure(const std::string& instrument, double difference) override
+  {
+    pressures.emplace_back(instrument, difference);
+  }
+  void moveCArm(const std::string& view) override { views.push_back(view); }
+
+  HandVelocity lastHeld() const { return held.empty() ? HandVelocity{} : held.back(); }
+
+  SessionState present;
+  std::vector<HandVelocity> held;
+  std::vector<Request> requests;
+  std::vector<std::pair<std::string, double>> pressures;
+  std::vector<std::string> views;
+  int confirmed = 0;
+};
+
+class SessionWidgetTest : public ::testing::Test
+{
+protected:
+  static void SetUpTestSuite()
+  {
+    setenv("QT_QPA_PLATFORM", "offscreen", 1);
+    static int count = 1;
+    static char name[] = "test_rviz_plugin";
+    static char* arguments[] = {name, nullptr};
+    static auto* application = new QApplication(count, arguments);
+    (void)application;
+  }
+
+  SessionWidgetTest()
+  {
+    InstrumentSummary wire;
+    wire.shape.name = "wire";
+    wire.largest_speed = 1.0;
+    wire.largest_turning_speed = 60.0;
+    wire.force_limit = 5.0;
+    wire.takes_commands = true;
+    InstrumentSummary balloon = wire;
+    balloon.shape.name = "balloon";
+    balloon.has_balloon = true;
+    session.present.scene.instruments = {wire, balloon};
+    session.present.has_wire = true;
+    session.present.wire.insertion = {0.1, 0.05};
+    session.present.wire.rotation = {0.0, 0.0};
+    session.present.wire.hand_force = {2.5, 0.0};
+    session.present.wire.hand_torque = {0.0, 0.0};
+    session.present.wire.pressure = {0.0, 2.0 * 101325.0};
+    widget = std::make_unique<SessionWidget>(session);
+    widget->show();
+    QTest::qWait(20);
+    widget->setFocus();
+    widget->refresh();
+  }
+
+  template <typename Child>
+  Child* child(const char* name)
+  {
+    auto* found = widget->findChild<Child*>(name);
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+
+  FakeSession session;
+  std::unique_ptr<SessionWidget> widget;
+};
+
+TEST_F(SessionWidgetTest, HoldsAVelocityWhileAButtonIsPressed)
+{
+  QTest::mousePress(child<QPushButton>("push"), Qt::LeftButton);
+  EXPECT_EQ(session.lastHeld().instrument, "wire");
+  EXPECT_GT(session.lastHeld().insertion, 0.0);
+  QTest::mouseRelease(child<QPushButton>("push"), Qt::LeftButton);
+  EXPECT_TRUE(session.lastHeld().isZero());
+  QTest::mousePress(child<QPushButton>("twist_right"), Qt::LeftButton);
+  EXPECT_LT(session.lastHeld().rotation, 0.0);
+  QTest::mouseRelease(child<QPushButton>("twist_right"), Qt::LeftButton);
+  EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+TEST_F(SessionWidgetTest, HoldsAVelocityWhileAKeyIsPressed)
+{
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  QTest::keyPress(widget.get(), Qt::Key_Left);
+  EXPECT_GT(session.lastHeld().insertion, 0.0);
+  EXPECT_GT(session.lastHeld().rotation, 0.0);
+  QTest::keyRelease(widget.get(), Qt::Key_Up);
+  EXPECT_EQ(session.lastHeld().insertion, 0.0);
+  QTest::keyRelease(widget.get(), Qt::Key_Left);
+  EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+TEST_F(SessionWidgetTest, ChoosesTheViewOfThePicture)
+{
+  std::vector<QString> views;
+  QObject::connect(widget.get(), &SessionWidget::viewChosen, [&](const QString& view) { views.push_back(view); });
+  for (const char* button : {"view_Overview", "view_Tip", "view_AlongVessel"})
+    QTest::mouseClick(child<QPushButton>(button), Qt::LeftButton);
+  EXPECT_EQ(views, (std::vector<QString>{"Overview", "Tip", "AlongVessel"}));
+}
+
+TEST_F(SessionWidgetTest, EndsAllMotionsWhenItLosesTheFocusOrIsHidden)
+{
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  EXPECT_FALSE(session.lastHeld().isZero());
+  widget->clearFocus();
+  EXPECT_TRUE(session.lastHeld().isZero());
+  widget->setFocus();
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  EXPECT_FALSE(session.lastHeld().isZero());
+  widget->hide();
+  EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+TEST_F(SessionWidgetTest, SendsTheRequestsOfItsButtons)
+{
+  for (const char* name : {"start", "pause", "reset", "record"})
+    QTest::mouseClick(child<QPushButton>(name), Qt::LeftButton);
+  session.present.is_recording = true;
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("record"), Qt::LeftButton);
+  const std::vector<Request> expected{Request::kStart, Request::kPause, Request::kReset, Request::kReset,
+                                      Request::kStopRecording};
+  EXPECT_EQ(session.requests, expected);
+}
+
+TEST_F(SessionWidgetTest, PausesAndStartsByTheSpaceKey)
+{
+  QTest::keyClick(widget.get(), Qt::Key_Space);
+  session.present.operating["wire"] = "PAUSED: commanded";
+  widget->refresh();
+  QTest::keyClick(widget.get(), Qt::Key_Space);
+  const std::vector<Request> expected{Request::kPause, Request::kStart};
+  EXPECT_EQ(session.requests, expected);
+}
+
+TEST_F(SessionWidgetTest, DrivesTheChosenInstrumentAndItsBalloon)
+{
+  EXPECT_TRUE(child<QPushButton>("inflate")->isHidden() || !child<QPushButton>("inflate")->isVisible());
+  QTest::keyClick(widget.get(), Qt::Key_PageDown);
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("instruments")->currentText(), "balloon");
+  EXPECT_EQ(child<QLabel>("pressure")->text(), "2.0 atm");
+  for (const char* name : {"inflate", "lower", "deflate"})
+    QTest::mouseClick(child<QPushButton>(name), Qt::LeftButton);
+  ASSERT_EQ(session.pressures.size(), 3U);
+  EXPECT_DOUBLE_EQ(session.pressures[0].second, 101325.0);
+  EXPECT_DOUBLE_EQ(session.pressures[1].second, -101325.0);
+  EXPECT_DOUBLE_EQ(session.pressures[2].second, -2.0 * 101325.0);
+  EXPECT_EQ(session.pressures[0].first, "balloon");
+  QTest::keyPress(widget.get(), Qt::Key_Down);
+  EXPECT_EQ(session.lastHeld().instrument, "balloon");
+}
+
+TEST_F(SessionWidgetTest, DoesNotDriveAnInstrumentThatTheSceneDrives)
+{
+  session.present.scene.instruments[0].takes_commands = false;
+  widget->refresh();
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+TEST_F(SessionWidgetTest, MovesTheCArmToAPresetView)
+{
+  child<QComboBox>("views")->setCurrentText("RAO 30 CAU 20");
+  QTest::mouseClick(child<QPushButton>("move_c_arm"), Qt::LeftButton);
+  ASSERT_EQ(session.views.size(), 1U);
+  EXPECT_EQ(session.views[0], "RAO 30 CAU 20");
+}
+
+TEST_F(SessionWidgetTest, ShowsForceStateAndErrors)
+{
+  session.present.answer = "refused";
+  session.present.errors = {"contact: late"};
+  widget->refresh();
+  EXPECT_EQ(child<QProgressBar>("gauge")->value(), 50);
+  EXPECT_EQ(child<QLabel>("insertion")->text(), "100.0 mm");
+  EXPECT_EQ(child<QLabel>("errors")->text(), "refused\ncontact: late");
+}
+
+TEST_F(SessionWidgetTest, ConfirmsItsMotionsWhileItIsAlive)
+{
+  const int before = session.confirmed;
+  QTest::qWait(300);
+  EXPECT_GT(session.confirmed, before);
+}
+
+TEST_F(SessionWidgetTest, IsEmptyWithoutASession)
+{
+  session.present = {};
+  widget->refresh();
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  QTest::mouseClick(child<QPushButton>("push"), Qt::LeftButton);
+  EXPECT_TRUE(session.lastHeld().isZero());
+  EXPECT_EQ(child<QLabel>("insertion")->text(), "–");
+}
+
+}  // namespace
+}  // namespace endovascular_sim::rviz_plugin

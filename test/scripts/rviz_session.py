@@ -1,0 +1,115 @@
+"""Session in rviz on a virtual screen, with clicks and keys by xdotool, observed by topics. Every external call has a time limit.
+
+Places of the controls are those of rviz/*.rviz at 1280 x 800."""
+import os
+import re
+import signal
+import socket
+import subprocess
+import time
+
+import rospy
+from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress
+
+PLACES = {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
+          "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
+          "overview": (86, 317), "tip": (201, 317), "in_vessel": (288, 317), "focus": (250, 264)}
+
+
+def run(*command, seconds=20, **options):
+    """Output of a program; it is killed after the given seconds."""
+    result = subprocess.run(["timeout", "-s", "KILL", str(seconds), *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            universal_newlines=True, **options)
+    return result.stdout
+
+
+class RvizSession:
+    def __init__(self, folder, launch, *arguments):
+        self.folder, self.results = folder, folder + "/results"
+        self.state = self.step = self.progress = None
+        with socket.socket() as free:
+            free.bind(("localhost", 0))
+            port = free.getsockname()[1]
+        read, write = os.pipe()
+        self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            display = ":" + pipe.readline().strip()
+        os.environ.update(ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=folder + "/ros", DISPLAY=display,
+                          LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1", XDG_RUNTIME_DIR=folder,
+                          ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        os.chmod(folder, 0o700)
+        self.log = folder + "/graph.log"
+        self.launch = subprocess.Popen(["roslaunch", "-p", str(port), launch, "results:=" + self.results, *arguments],
+                                       stdout=open(self.log, "w"), stderr=subprocess.STDOUT, start_new_session=True,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+
+    def __enter__(self):
+        try:
+            self.wait(60, lambda: "process[rviz-" in self.text(), "rviz to be started")
+            # Without simulated time and without a handler of SIGINT: the test ends by itself.
+            rospy.init_node("test_of_rviz", anonymous=True, disable_signals=True)
+            rospy.Subscriber("rod/state_visual", RodStateVisual, lambda message: setattr(self, "state", message), queue_size=1)
+            rospy.Subscriber("procedure/step", ProcedureStep, lambda message: setattr(self, "step", message), queue_size=1)
+            rospy.Subscriber("session/progress", SessionProgress, lambda message: setattr(self, "progress", message), queue_size=1)
+            self.wait(90, lambda: self.state is not None, "the first state")
+            self.wait(90, lambda: run("xdotool", "search", "--onlyvisible", "--class", "rviz", seconds=5).strip(), "the window")
+            time.sleep(8)  # the window is black until the first picture
+            return self
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def __exit__(self, *_):
+        rviz = self.pid_of("rviz")
+        if rviz:
+            try:
+                os.kill(rviz, signal.SIGCONT)
+            except ProcessLookupError:
+                pass
+        if self.launch.poll() is None:
+            self.launch.send_signal(signal.SIGINT)
+        try:
+            self.launch.wait(timeout=90)
+        except subprocess.TimeoutExpired:
+            self.launch.kill()
+        self.screen.kill()
+        self.screen.wait()
+
+    def text(self):
+        return open(self.log, errors="replace").read()
+
+    def pid_of(self, node):
+        found = re.findall(r"process\[%s-\d+\]: started with pid \[(\d+)\]" % node, self.text())
+        return int(found[-1]) if found else None
+
+    def wait(self, seconds, condition, name):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if condition():
+                return
+            assert self.launch.poll() is None, self.text()[-3000:]
+            time.sleep(0.1)
+        raise AssertionError("%s: not within %g s\n%s" % (name, seconds, self.text()[-2000:]))
+
+    def mouse(self, place, *action):
+        x, y = PLACES[place] if isinstance(place, str) else place
+        run("xdotool", "mousemove", str(x), str(y), *action)
+
+    def click(self, place):
+        self.mouse(place, "click", "1")
+
+    def hold(self, place, seconds):
+        """Presses a button of the mouse at a place for a time."""
+        self.mouse(place, "mousedown", "1")
+        time.sleep(seconds)
+        run("xdotool", "mouseup", "1")
+
+    def hold_key(self, key, seconds):
+        run("xdotool", "keydown", key)
+        time.sleep(seconds)
+        run("xdotool", "keyup", key)
+
+    def picture(self, name):
+        run("import", "-window", "root", os.path.join(os.environ.get("ENDOVASCULAR_PICTURES", self.folder), name + ".png"))
