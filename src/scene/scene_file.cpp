@@ -70,7 +70,7 @@ void resolvePaths(Scene& scene, const SceneNode& root)
   if (const SceneNode* mesh = vessel->find("mesh"))
     scene.vessel->mesh = findSceneFile(*mesh, "vessel.mesh", scene.file);
   if (const SceneNode* anatomy = vessel->find("anatomy"))
-    scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
+    scene.vessel->anatomy = findAnatomy(*anatomy, "vessel.anatomy", scene.file);
 }
 
 /** Motion of an instrument at the start. */
