@@ -46,6 +46,8 @@ TEST(Steering, APositiveRotationOfTheHandleTurnsTheBendRightHanded)
   const scene::Scene scene = scene::parseScene(
       "vessel: {friction: 0.05, tube: {radius: 0.01, pieces: [{length: 0.2}]}}\n"
       "instrument: {use: guidewire_014_workhorse}\n"
+      "introducer: true\n"
+      "sampling: {kind: adaptive, max_edge: 4.0e-3, turn_per_edge: 0.1}\n"
       "drive: {initial_insertion: 0.05}\n",
       "test scene");
   const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file);
@@ -83,7 +85,7 @@ TEST(Steering, TheOperatorTurnsTheTipAtTheJunctionOfItsGoalOnly)
   EXPECT_EQ(world.hand(0).rotation, 0.0) << "the path goes straight on past the side branch";
   while (world.hand(0).insertion < 0.148 && world.time < 60.0)
     world.run(0.1);
-  EXPECT_NEAR(std::abs(world.hand(0).rotation), M_PI, 0.4) << "the goal lies opposite to the bend";
+  EXPECT_LT(std::cos(world.hand(0).rotation), -0.8) << "the goal lies opposite to the bend";
 }
 
 TEST(Steering, AStepWithoutItDoesNotTurn)
