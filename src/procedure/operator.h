@@ -140,9 +140,9 @@ private:
   // State of the current step:
   int active_ = -1;  ///< moved instrument; −1: none
   int goal_branch_ = -1;
-  std::vector<bool> on_way_;  ///< for each branch: true if it lies on the path to the goal
+  std::vector<bool> on_way_;    ///< for each branch: true if it lies on the path to the goal
   std::optional<Route> route_;  ///< path to the goal of a steered step
-  int support_ = -1;          ///< supporting instrument; −1: none
+  int support_ = -1;            ///< supporting instrument; −1: none
   int support_branch_ = -1;
   Mode mode_ = Mode::kExecute;
   double begin_time_ = 0.0, begin_insertion_ = 0.0, begin_rotation_ = 0.0;

@@ -45,8 +45,8 @@ std::vector<Eigen::Vector3d> pathPoints(const BranchLocator& locator, int from, 
   down.erase(std::find(down.begin(), down.end(), up[k]), down.end());
   std::reverse(down.begin(), down.end());
   const geometry::Polyline& top = locator.line(up[k]);
-  append(top, top.nearest(start).arc,
-         down.empty() ? 0.0 : top.nearest(locator.line(down.front()).points().front()).arc, points);
+  append(top, top.nearest(start).arc, down.empty() ? 0.0 : top.nearest(locator.line(down.front()).points().front()).arc,
+         points);
   for (std::size_t j = 0; j < down.size(); ++j)
   {
     const geometry::Polyline& line = locator.line(down[j]);

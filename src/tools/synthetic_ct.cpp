@@ -105,8 +105,7 @@ void writeClicks(const Options& options, const vessel::Anatomy& anatomy, const i
 
 int make(const Options& options)
 {
-  const std::string file =
-      options.anatomy.empty() ? scene::configFolder() + "/anatomies/plain.yaml" : options.anatomy;
+  const std::string file = options.anatomy.empty() ? scene::configFolder() + "/anatomies/plain.yaml" : options.anatomy;
   const vessel::Anatomy anatomy = vessel::readAnatomy(file);
   tools::printWarnings("synthetic_ct", anatomy.warnings);
   const phantom::PhantomSettings settings = settingsOf(options, anatomy);

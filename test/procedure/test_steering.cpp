@@ -36,8 +36,8 @@ TEST(Steering, TheBendEndsBehindTheForemostCurve)
   const scene::Scene scene = sceneWith("    - {advance: wire, until: {insertion: 0.1}}\n");
   const instrument::Instrument& wire = scene.instruments[0].instrument;
   const instrument::Instrument& catheter = scene.instruments[1].instrument;
-  EXPECT_NEAR(bentLength(wire), 3e-3 * M_PI, 1.5e-3);         // J of 3 mm
-  EXPECT_NEAR(bentLength(catheter), 9.42e-3 + 8e-3, 1e-3);    // primary curve and tip of a Judkins catheter
+  EXPECT_NEAR(bentLength(wire), 3e-3 * M_PI, 1.5e-3);       // J of 3 mm
+  EXPECT_NEAR(bentLength(catheter), 9.42e-3 + 8e-3, 1e-3);  // primary curve and tip of a Judkins catheter
   EXPECT_EQ(bentLength(instrument::Instrument()), 0.0);
 }
 
@@ -77,7 +77,8 @@ void bend(Observation& observation)
 
 TEST(Steering, TheOperatorTurnsTheTipAtTheJunctionOfItsGoalOnly)
 {
-  const scene::Scene scene = sceneWith("    - {advance: wire, until: {tip_in: goal, beyond: 0.01}, speed: 0.02, steer: true}\n");
+  const scene::Scene scene =
+      sceneWith("    - {advance: wire, until: {tip_in: goal, beyond: 0.01}, speed: 0.02, steer: true}\n");
   PlainWorld world(scene);
   world.disturbance = bend;
   while (world.hand(0).insertion < 0.125)

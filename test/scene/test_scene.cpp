@@ -378,7 +378,8 @@ TEST(SceneAnatomy, AWordNamesAnAnatomyOfThePackage)
   }
   catch (const InputError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("vessel.anatomy (line 1): no anatomy \"forks\"; known: "), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("vessel.anatomy (line 1): no anatomy \"forks\"; known: "),
+              std::string::npos)
         << error.what();
     EXPECT_NE(std::string(error.what()).find("fork, natural, plain"), std::string::npos) << error.what();
   }
