@@ -143,7 +143,7 @@ void addVeins(std::vector<TissuePart>& parts, const vessel::Anatomy& anatomy,
 std::vector<TissuePart> bodyParts(const vessel::Anatomy& anatomy, const std::vector<vessel::AnatomyChain>& chains)
 {
   std::vector<TissuePart> parts;
-  if (anatomy.name != "default")
+  if (anatomy.name != "plain")
     return {{Tissue::kFat, [](const Vector3d&) { return -1.0; }}};
   addTrunk(parts);
   addHeart(parts);

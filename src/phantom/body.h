@@ -8,7 +8,7 @@
 namespace endovascular_sim::phantom
 {
 
-/** Tissues around the vessels of an anatomy, without the vessels themselves. For config/anatomies/default.yaml: trunk
+/** Tissues around the vessels of an anatomy, without the vessels themselves. For config/anatomies/plain.yaml: trunk
  * with skin, lungs, bones, abdominal organs, the heart with its chambers, and veins beside the left coronary arteries.
  * Every other anatomy lies in fat. */
 std::vector<TissuePart> bodyParts(const vessel::Anatomy& anatomy, const std::vector<vessel::AnatomyChain>& chains);

@@ -7,7 +7,7 @@
 namespace endovascular_sim::phantom
 {
 
-/** Adds the bones of the trunk for config/anatomies/default.yaml: spine, ribs, sternum, pelvis, proximal femurs. Each
+/** Adds the bones of the trunk for config/anatomies/plain.yaml: spine, ribs, sternum, pelvis, proximal femurs. Each
  * has a cortex of 1.5 to 2 mm around marrow. */
 void addBones(std::vector<TissuePart>& parts);
 

@@ -48,6 +48,9 @@ public:
 
   const geometry::Polyline& line(int branch) const { return lines_[static_cast<std::size_t>(branch)]; }
 
+  /** Parent of a branch; −1 at the root. */
+  int parent(int branch) const { return parent_[static_cast<std::size_t>(branch)]; }
+
   int branches() const { return static_cast<int>(names_.size()); }
 
 private:

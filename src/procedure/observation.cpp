@@ -21,6 +21,21 @@ Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserte
   return state.position[k - 1] + share * (state.position[k] - state.position[k - 1]);
 }
 
+double bentLength(const instrument::Instrument& instrument)
+{
+  double length = 0.0, bent = 0.0;
+  const std::vector<rod::Section>& sections = instrument.wire.sections;
+  for (auto section = sections.rbegin(); section != sections.rend(); ++section)
+  {
+    length += section->length;
+    if (!section->rest_curvature.isZero())
+      bent = length;
+    else if (bent > 0.0)
+      break;
+  }
+  return bent;
+}
+
 void markCovered(Observation& observation)
 {
   for (std::size_t k = 0; k < observation.instruments.size(); ++k)
@@ -40,6 +55,13 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     view.hand = simulation.hand(k);
     view.outside = simulation.isOutside(k);
     view.tip = pointAt(simulation, std::max(0.0, view.hand.insertion));
+    const double bent = bentLength(scene.instruments[static_cast<std::size_t>(k)].instrument);
+    if (bent > 0.0 && view.hand.insertion > 2.0 * bent)
+    {
+      view.bend.length = bent;
+      view.bend.base = pointAt(simulation, view.hand.insertion - bent);
+      view.bend.shaft = (view.bend.base - pointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
+    }
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "procedure/branch_locator.h"
+#include "procedure/steering.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
@@ -20,6 +21,7 @@ struct InstrumentView
   bool covered = false;                           ///< true if the tip lies inside another instrument
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip in the patient frame; the introducer if outside [m]
   BranchPosition branch_position;                 ///< position of the tip in the tree of branches
+  TipBend bend;                                   ///< bend of the tip; straight if outside
   std::optional<Eigen::Vector3d> balloon;         ///< centre of the balloon if it is in the vessel, patient frame [m]
 };
 
@@ -33,6 +35,9 @@ struct Observation
 /** Point of the common centreline of the instruments at a length beyond the introducer [m].
  *  @param inserted length beyond the introducer [m]; negative outside */
 Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted);
+
+/** Length from the tip of an instrument to the proximal end of its foremost curve; 0 for a straight instrument [m]. */
+double bentLength(const instrument::Instrument& instrument);
 
 /** Sets InstrumentView::covered from the insertions. */
 void markCovered(Observation& observation);

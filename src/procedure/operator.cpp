@@ -51,6 +51,7 @@ Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree
   : scene_(scene),
     hand_(scene.procedure->hand),
     locator_(tree, scene.procedure->branches),
+    entry_(entry),
     entry_branch_(locator_.at(entry).branch),
     observation_interval_(
         static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step))))
@@ -236,6 +237,9 @@ void Operator::prepareStep()
   const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
   goal_branch_ = branch.empty() ? -1 : locator_.find(branch);
   on_way_ = locator_.pathBetween(entry_branch_, step().any_branch ? -1 : goal_branch_);
+  route_.reset();
+  if (step().steer && goal_branch_ >= 0 && goal_branch_ != entry_branch_)
+    route_.emplace(locator_, entry_branch_, entry_, goal_branch_);
   support_ = instrumentOf(scene_, step().support.instrument);
   support_branch_ = locator_.find(step().support.tip_in);
 }
@@ -309,6 +313,7 @@ void Operator::execute(const InstrumentView& view)
     case StepAction::kAdvance:
       hand.target_speed = insertionSpeed(view, step().speed);
       hand.target_turn_speed = turn;
+      steer(view);
       break;
     case StepAction::kWithdraw:
       hand.target_speed = insertionSpeed(view, -step().speed);

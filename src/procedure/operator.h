@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/archive.h"
 #include "procedure/branch_locator.h"
 #include "procedure/observation.h"
+#include "procedure/route.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
@@ -103,6 +105,7 @@ private:
   void archiveRecords(Archive& archive);
   void act(const Observation& observation);
   void execute(const InstrumentView& view);
+  void steer(const InstrumentView& view);
   void recover(const InstrumentView& view, double time);
   bool isReached(const Observation& observation) const;
   bool isSupportPosition(const InstrumentView& view) const;
@@ -122,6 +125,7 @@ private:
   scene::Scene scene_;
   scene::HandScene hand_;
   BranchLocator locator_;
+  Eigen::Vector3d entry_;  ///< position of the introducer [m]
   int entry_branch_ = -1;
   std::uint64_t observation_interval_ = 1;
   std::vector<scene::StepScene> steps_;  ///< steps of the procedure, with each exchange split into two
@@ -136,8 +140,9 @@ private:
   // State of the current step:
   int active_ = -1;  ///< moved instrument; −1: none
   int goal_branch_ = -1;
-  std::vector<bool> on_way_;  ///< for each branch: true if it lies on the path to the goal
-  int support_ = -1;          ///< supporting instrument; −1: none
+  std::vector<bool> on_way_;    ///< for each branch: true if it lies on the path to the goal
+  std::optional<Route> route_;  ///< path to the goal of a steered step
+  int support_ = -1;            ///< supporting instrument; −1: none
   int support_branch_ = -1;
   Mode mode_ = Mode::kExecute;
   double begin_time_ = 0.0, begin_insertion_ = 0.0, begin_rotation_ = 0.0;

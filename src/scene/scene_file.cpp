@@ -72,7 +72,7 @@ void resolvePaths(Scene& scene, const SceneNode& root)
   if (const SceneNode* centreline = vessel->find("centreline"))
     scene.vessel->centreline = findSceneFile(*centreline, "vessel.centreline", scene.file);
   if (const SceneNode* anatomy = vessel->find("anatomy"))
-    scene.vessel->anatomy = findSceneFile(*anatomy, "vessel.anatomy", scene.file);
+    scene.vessel->anatomy = findAnatomy(*anatomy, "vessel.anatomy", scene.file);
 }
 
 /** Motion of an instrument at the start. */

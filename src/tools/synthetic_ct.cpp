@@ -38,7 +38,7 @@ struct Options
   bool quiet = false;
 };
 
-/** Field of view in the frame of config/anatomies/default.yaml [mm]. */
+/** Field of view in the frame of config/anatomies/plain.yaml [mm]. */
 struct View
 {
   Eigen::Vector3d low, high;
@@ -105,8 +105,7 @@ void writeClicks(const Options& options, const vessel::Anatomy& anatomy, const i
 
 int make(const Options& options)
 {
-  const std::string file =
-      options.anatomy.empty() ? scene::configFolder() + "/anatomies/default.yaml" : options.anatomy;
+  const std::string file = options.anatomy.empty() ? scene::configFolder() + "/anatomies/plain.yaml" : options.anatomy;
   const vessel::Anatomy anatomy = vessel::readAnatomy(file);
   tools::printWarnings("synthetic_ct", anatomy.warnings);
   const phantom::PhantomSettings settings = settingsOf(options, anatomy);
@@ -138,7 +137,7 @@ int main(int argc, char** argv)
       "arguments.");
   line.option("--out", options.out, "FILE", "file of the volume")->required();
   line.option("--anatomy", options.anatomy, "FILE",
-              "anatomy file [config/anatomies/default.yaml]; tissues other than fat surround only that one")
+              "anatomy file [config/anatomies/plain.yaml]; tissues other than fat surround only that one")
       ->check(CLI::ExistingFile);
   line.option("--view", options.view, "VIEW",
               "field of view: heart (0.45 mm), abdomen (0.8 mm), torso (1 mm), fit: all vessels (0.5 mm) [heart]")

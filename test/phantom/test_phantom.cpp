@@ -20,7 +20,7 @@ vessel::Anatomy fork()
 }
 vessel::Anatomy body()
 {
-  return vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/default.yaml");
+  return vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml");
 }
 
 /** The fork in a box of 0.6 mm voxels. */

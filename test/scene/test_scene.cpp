@@ -364,5 +364,26 @@ TEST(Scene, HasAllKeysInItsDocumentation)
     EXPECT_NE(docs.str().find("`" + key + "`"), std::string::npos) << key;
 }
 
+TEST(SceneAnatomy, AWordNamesAnAnatomyOfThePackage)
+{
+  const std::string entry = "entry: {centreline_end: trunk}\n";
+  const Scene scene = parseScene("vessel: {anatomy: fork, friction: 0.1}\n" + entry, "scene.yaml");
+  EXPECT_EQ(scene.vessel->anatomy, configFolder() + "/anatomies/fork.yaml");
+  EXPECT_EQ(parseScene("vessel: {anatomy: anatomies/fork.yaml, friction: 0.1}\n" + entry, "scene.yaml").vessel->anatomy,
+            scene.vessel->anatomy);
+  try
+  {
+    parseScene("vessel: {anatomy: forks, friction: 0.1}\n" + entry, "scene.yaml");
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("vessel.anatomy (line 1): no anatomy \"forks\"; known: "),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("fork, natural, plain"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace endovascular_sim::scene

@@ -49,12 +49,12 @@ struct Accuracy
   double throat_shift = 0.0;  ///< distance of the segmented throat from the true one [m]
 };
 
-/** Exact geometry of config/anatomies/default.yaml. */
+/** Exact geometry of config/anatomies/plain.yaml. */
 class Truth
 {
 public:
   Truth()
-    : anatomy(vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/default.yaml")),
+    : anatomy(vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml")),
       chains(vessel::sampleChains(anatomy)),
       field(anatomy, chains)
   {

@@ -223,7 +223,7 @@ FuzzVessel& FuzzVessels::get(const std::string& kind, FuzzRandom& random)
   if (kind == "fork")
     return retain(name, forkVessel(which));
   if (kind == "anatomy")
-    return retain(name, vessel::loadAnatomy(scene::configFolder() + "/anatomies/default.yaml"));
+    return retain(name, vessel::loadAnatomy(scene::configFolder() + "/anatomies/natural.yaml"));
   vessel::Vessel vessel;
   vessel.mesh = readCleanMesh(file_of_kind_.at(kind));
   if (kind != std::filesystem::path(file_of_kind_.at(kind)).stem().string())

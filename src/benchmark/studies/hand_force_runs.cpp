@@ -100,7 +100,7 @@ std::string sceneText(const CoronaryPush& push)
 {
   std::ostringstream out;
   out.precision(12);
-  out << "name: coronary\nduration: 100\nvessel: {anatomy: anatomies/default.yaml, friction: " << push.friction
+  out << "name: coronary\nduration: 100\nvessel: {anatomy: anatomies/plain.yaml, friction: " << push.friction
       << ", smoothing: 1}\nentry: {position: [0.004, -0.0165, 0.1988], direction: [0.85, 0.26, 0.45], up: [0, 0, 1]}\n"
       << "instrument:\n  name: guidewire\n  sections:\n";
   writeSection(out, push, 0.05, 50e-6, 7900);
@@ -120,7 +120,7 @@ std::string shaftScene(bool anatomy, int nodes, int smoothing, double travel)
 {
   std::ostringstream out;
   out << "name: shaft\nduration: 100\n"
-      << (anatomy ? "vessel: {anatomy: anatomies/default.yaml, friction: 0.1, smoothing: "
+      << (anatomy ? "vessel: {anatomy: anatomies/plain.yaml, friction: 0.1, smoothing: "
                   : "vessel: {tube: {radius: 4.0e-3, facet_length: 2.2e-3, facets_around: 20, pieces: [{length: 0.05}, "
                     "{length: 0.05, curvature: 20}, {length: 0.03}, {length: 0.05, curvature: 25, plane_angle: 1.5}, "
                     "{length: 0.05}]}, friction: 0.1, smoothing: ")

@@ -37,7 +37,7 @@ drive:
 constexpr auto kCoronary = R"(
 name: coronary
 vessel:
-  anatomy: anatomies/default.yaml
+  anatomy: anatomies/plain.yaml
   stiffness: 5.0e6
   friction: 0.1
 entry:

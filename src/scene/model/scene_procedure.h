@@ -69,6 +69,7 @@ struct StepScene
   GoalScene until;
   double speed = 0.02;       ///< insertion speed [m/s]
   double turn_speed = 0.0;   ///< rotation speed [rad/s]
+  bool steer = false;        ///< true: near junctions the operator turns the bent tip along the path to the goal
   double pressure = 0.0;     ///< pressure of an inflation [Pa]
   double duration = 0.0;     ///< duration of an inflation or a wait [s]
   double time_limit = 30.0;  ///< duration after which the step fails [s]

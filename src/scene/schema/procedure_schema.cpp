@@ -117,6 +117,9 @@ void visitStep(SceneFields& fields, StepScene& step)
   else if (fields.reading())
     step.turn_speed = 1.0;
   fields.number("turn_speed", step.turn_speed, quantities::kAngularSpeed, Range::any());
+  fields.boolean("steer", step.steer);
+  if (fields.reading() && step.steer && (step.action != StepAction::kAdvance || step.until.tip_in.empty()))
+    fields.reject("steer", "needs advance with until.tip_in: the tip is turned along the path to that branch");
   fields.number("time_limit", step.time_limit, quantities::kDuration, Range::positive());
   fields.boolean("any_branch", step.any_branch);
   fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });

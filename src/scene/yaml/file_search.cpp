@@ -3,8 +3,10 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 #include "common/error.h"
 
@@ -78,6 +80,27 @@ std::string findSceneFile(const SceneNode& node, const std::string& path, const 
                    "no such file \"" + node.text + "\"" +
                        (fs::path(node.text).is_absolute() ? "" : "; searched in " + tried.substr(0, tried.size() - 2)) +
                        "; give the path of an existing file");
+}
+
+std::string findAnatomy(const SceneNode& node, const std::string& path, const std::string& scene_file)
+{
+  const bool is_word = node.kind == SceneNode::Kind::kScalar && !node.text.empty() &&
+                       node.text.find_first_of("./\\") == std::string::npos;
+  if (!is_word)
+    return findSceneFile(node, path, scene_file);
+  const fs::path folder = fs::path(configFolder()) / "anatomies";
+  std::error_code error;
+  if (const fs::path file = folder / (node.text + ".yaml"); fs::is_regular_file(file, error))
+    return file.string();
+  std::vector<std::string> known;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    known.push_back(entry.path().stem().string());
+  std::sort(known.begin(), known.end());
+  std::string names;
+  for (const std::string& name : known)
+    names += (names.empty() ? "" : ", ") + name;
+  throw InputError(node.file, path + node.location(),
+                   "no anatomy \"" + node.text + "\"; known: " + names + "; or give the path of an anatomy file");
 }
 
 }  // namespace endovascular_sim::scene

@@ -33,7 +33,7 @@ COLUMNS = ['vessel', 'speed_mm_s', 'angle_deg', 'inserted_mm', 'jammed', 'penetr
 
 def vessels(mesh):
     """Name and overrides of every vessel."""
-    generated = ['vessel.unit=null', 'vessel.anatomy=anatomies/default.yaml', 'entry.position=null',
+    generated = ['vessel.unit=null', 'vessel.anatomy=anatomies/plain.yaml', 'entry.position=null',
                  'entry.direction=null', 'entry.up=null', 'entry.centreline_end=right_common_femoral',
                  'entry.offset=0.005']
     chosen = [('generated', generated)]

@@ -183,6 +183,7 @@ AnatomyChain sampleChain(const Anatomy& anatomy, std::vector<int> branches, cons
   chain.branches = std::move(branches);
   const AnatomyBranch& first = branchAt(anatomy, chain.branches.front());
   chain.parent = first.parent;
+  chain.facets_around = first.facets_around;
   ControlPoints control = controlPoints(anatomy, chain);
   if (chain.parent >= 0)
   {

@@ -31,6 +31,7 @@ struct AnatomyBranch
   std::vector<Eigen::Vector3d> points;               ///< control points of the centreline, patient frame [m]
   std::vector<std::pair<double, double>> diameters;  ///< fraction of the branch's length, diameter [m]
   std::vector<Stenosis> stenoses;
+  int facets_around = 0;  ///< facets of the mesh around the lumen; 0: those of the anatomy
 };
 
 /** Spherical bulge: a sinus of the aortic root, an aneurysm. */
@@ -39,6 +40,7 @@ struct Bulge
   std::string name;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< patient frame [m]
   double radius = 0.0;                               ///< [m]
+  double blend = 1.0;                                ///< blending range with the lumen, in radii of the bulge
 };
 
 /** Parametric vessel tree of centrelines and diameters; the content of a file in config/anatomies. */
@@ -65,6 +67,7 @@ struct AnatomyChain
   std::vector<int> branches;              ///< indices into Anatomy::branches, in order
   std::vector<std::size_t> first_sample;  ///< index of the first sample of each branch
   int parent = -1;                        ///< parent branch of the chain, −1 at the root
+  int facets_around = 0;                  ///< facets of the mesh around the lumen; 0: those of the anatomy
   std::vector<Eigen::Vector3d> points;    ///< [m]
   std::vector<Eigen::Vector3d> tangents;  ///< unit
   std::vector<double> arc;                ///< arc length from the chain's start [m]

@@ -227,9 +227,19 @@ int indexOf(const Anatomy& anatomy, const YamlMap& section, const std::string& k
   section.reject(key, "no earlier branch \"" + name + "\"; a parent must precede its children");
 }
 
+int readFacets(const YamlMap& section)
+{
+  return static_cast<int>(section.number("facets_around", 8.0, 64.0, "a number from 8 to 64"));
+}
+
+double readBlend(const YamlMap& section)
+{
+  return section.number("blend", 0.05, 3.0, "a number from 0.05 to 3");
+}
+
 AnatomyBranch readBranch(const YamlMap& section, double unit, const Anatomy& anatomy)
 {
-  section.allow({"name", "parent", "continues", "points", "diameters", "stenoses"});
+  section.allow({"name", "parent", "continues", "points", "diameters", "stenoses", "facets_around"});
   AnatomyBranch branch;
   branch.name = section.text("name", "the branch's name");
   for (const AnatomyBranch& other : anatomy.branches)
@@ -259,6 +269,12 @@ AnatomyBranch readBranch(const YamlMap& section, double unit, const Anatomy& ana
       section.reject("points", "points " + std::to_string(k) + " and " + std::to_string(k + 1) + " coincide");
   readDiameters(section, unit, branch);
   readStenoses(section, unit, branch);
+  if (section.has("facets_around"))
+  {
+    if (branch.continues)
+      section.reject("facets_around", "belongs to the branch that this one continues; remove it here");
+    branch.facets_around = readFacets(section);
+  }
   return branch;
 }
 
@@ -266,7 +282,7 @@ std::string readText(const std::string& file)
 {
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    throw InputError(file, "", "no such file, or not readable; give an anatomy as in config/anatomies/default.yaml");
+    throw InputError(file, "", "no such file, or not readable; give an anatomy as in config/anatomies/natural.yaml");
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -287,7 +303,7 @@ Anatomy readAnatomy(const std::string& file)
     throw InputError(file, "line " + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
   }
   if (!root.IsMap())
-    throw InputError(file, "", "is not an anatomy; see config/anatomies/default.yaml");
+    throw InputError(file, "", "is not an anatomy; see config/anatomies/natural.yaml");
   Anatomy anatomy;
   const YamlMap top(file, root, "", anatomy.warnings);
   top.allow({"name", "unit", "blend", "facets_around", "longest_facet", "branches", "bulges"});
@@ -299,9 +315,9 @@ Anatomy readAnatomy(const std::string& file)
   anatomy.name = top.text("name", "the anatomy's name");
   const double unit = top.number("unit", 1e-6, 1.0, "metres per unit of every length here, e.g. 0.001");
   if (top.has("blend"))
-    anatomy.blend = top.number("blend", 0.05, 3.0, "a number from 0.05 to 3");
+    anatomy.blend = readBlend(top);
   if (top.has("facets_around"))
-    anatomy.facets_around = static_cast<int>(top.number("facets_around", 8.0, 64.0, "a number from 8 to 64"));
+    anatomy.facets_around = readFacets(top);
   if (top.has("longest_facet"))
     anatomy.longest_facet = top.length("longest_facet", unit, quantities::kFacetLength, "a positive length");
   for (const YamlMap& section : top.maps("branches"))
@@ -310,9 +326,10 @@ Anatomy readAnatomy(const std::string& file)
     top.reject("branches", "missing; give at least one branch");
   for (const YamlMap& section : top.maps("bulges"))
   {
-    section.allow({"name", "centre", "radius"});
+    section.allow({"name", "centre", "radius", "blend"});
     anatomy.bulges.push_back({section.text("name", "the bulge's name"), unit * section.vector("centre", "[x, y, z]"),
-                              section.length("radius", unit, quantities::kVesselRadius, "a positive radius")});
+                              section.length("radius", unit, quantities::kVesselRadius, "a positive radius"),
+                              section.has("blend") ? readBlend(section) : anatomy.blend});
     judgePoint(section, "centre", anatomy.bulges.back().centre);
   }
   return anatomy;

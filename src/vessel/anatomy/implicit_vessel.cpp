@@ -75,7 +75,8 @@ void ImplicitVessel::addTube(AnatomyChain chain)
     tube.widest = std::max(tube.widest, c.radii[k]);
     narrowest = std::min(narrowest, c.radii[k]);
   }
-  tube.shortest_edge = edgeLengthFor(narrowest);
+  tube.facet_per_radius = c.facets_around > 0 ? 2.0 * M_PI / c.facets_around : facet_per_radius_;
+  tube.shortest_edge = edgeLengthFor(tube, narrowest);
   for (std::size_t begin = 0; begin + 1 < n; begin += kClusterSize)
   {
     Cluster cluster;
@@ -96,9 +97,9 @@ void ImplicitVessel::addTube(AnatomyChain chain)
   tubes_.push_back(std::move(tube));
 }
 
-double ImplicitVessel::edgeLengthFor(double radius) const
+double ImplicitVessel::edgeLengthFor(const Tube& tube, double radius) const
 {
-  return std::min(facet_per_radius_ * radius, longest_facet_);
+  return std::min(tube.facet_per_radius * radius, longest_facet_);
 }
 
 ImplicitVessel::TubeSample ImplicitVessel::sampleTube(const Tube& tube, const Eigen::Vector3d& p) const
@@ -174,7 +175,7 @@ FieldSample ImplicitVessel::at(const Eigen::Vector3d& p) const
     if (far_from_wall && has_longer_edges)
       continue;
     const TubeSample sample = sampleTube(tube, p);
-    const double edge_length = edgeLengthFor(sample.radius) + kEdgeGrowth * std::max(sample.distance, 0.0);
+    const double edge_length = edgeLengthFor(tube, sample.radius) + kEdgeGrowth * std::max(sample.distance, 0.0);
     field.edge_length = std::min(field.edge_length, edge_length);
     smoothMinimum(field.distance, field.gradient, sample.distance, sample.gradient, blend_ * sample.radius);
   }
@@ -184,7 +185,7 @@ FieldSample ImplicitVessel::at(const Eigen::Vector3d& p) const
     const double distance = outward.norm();
     smoothMinimum(field.distance, field.gradient, distance - bulge.radius,
                   distance > 0.0 ? Eigen::Vector3d(outward / distance) : Eigen::Vector3d(Eigen::Vector3d::UnitZ()),
-                  blend_ * bulge.radius);
+                  bulge.blend * bulge.radius);
   }
   return field;
 }

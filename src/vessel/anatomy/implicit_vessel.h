@@ -50,6 +50,7 @@ private:
     Eigen::AlignedBox3d axis_box;
     double widest = 0.0;
     double shortest_edge = 0.0;
+    double facet_per_radius = 0.0;  ///< edge length of the mesh, in radii of the lumen
   };
 
   /** Distance function of one tube at a point. */
@@ -62,7 +63,7 @@ private:
 
   void addTube(AnatomyChain chain);
   TubeSample sampleTube(const Tube& tube, const Eigen::Vector3d& p) const;
-  double edgeLengthFor(double radius) const;
+  double edgeLengthFor(const Tube& tube, double radius) const;
 
   double blend_;
   double facet_per_radius_;

@@ -96,6 +96,10 @@ TEST(SceneProcedure, ReportsErrorsWithFileKeyAndRemedy)
             std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {tip_inn: tube}}").find("tip_in"), std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire}").find("procedure.steps.0.until"), std::string::npos);
+  EXPECT_NE(refusalOf("{withdraw: wire, until: {tip_in: side}, steer: true}").find("procedure.steps.0.steer"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("{advance: wire, until: {by: 0.1}, steer: true}").find("needs advance with until.tip_in"),
+            std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {beyond: 0.1, outside: true}}").find("requires a branch"),
             std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {by: 0.1}, speed: -1}").find("procedure.steps.0.speed"),

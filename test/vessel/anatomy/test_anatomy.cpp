@@ -98,6 +98,11 @@ INSTANTIATE_TEST_SUITE_P(
                "fraction of the branch"},
         Change{"stenosis_without_length", "length: 12", "length: 0", "stenoses[throat].length", "a positive length"},
         Change{"flat_bulge", "radius: 4", "radius: 0", "bulges[sinus].radius", "a positive radius"},
+        Change{"facets_of_a_continuation", "continues: trunk", "continues: trunk\n    facets_around: 12",
+               "branches[left].facets_around", "belongs to the branch that this one continues"},
+        Change{"few_facets", "parent: trunk", "parent: trunk\n    facets_around: 3", "branches[right].facets_around",
+               "a number from 8 to 64"},
+        Change{"hard_bulge", "radius: 4", "radius: 4\n    blend: 0", "bulges[sinus].blend", "a number from 0.05 to 3"},
         Change{"begins_outside", "[0, 0, 49], [-12", "[9, 0, 49], [-12", "branches[right].points",
                "must lie inside the parent"},
         Change{"too_tight", "[-12, 0, 66], [-20, 5, 90]", "[-12, 0, 66], [-10, 1, 64], [-12, 2, 62]",
@@ -154,6 +159,24 @@ TEST(Anatomy, HasItsEndsAtTheRootAndTheTips)
   EXPECT_GT(ends[0].inward.z(), 0.9);
   EXPECT_LT(ends[1].inward.x(), -0.5);
   EXPECT_NEAR(ends[2].inward.norm(), 1.0, 1e-12);
+}
+
+TEST(AnatomyFile, TakesFacetsOfABranchAndTheBlendingOfABulge)
+{
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to)
+  { return text.replace(text.find(from), from.size(), to); };
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("anatomy_keys_" + std::to_string(getpid()) + ".yaml")).string();
+  std::string text = replaced(forkText(), "    parent: trunk\n", "    parent: trunk\n    facets_around: 12\n");
+  text = replaced(text, "    radius: 4\n", "    radius: 4\n    blend: 0.3\n");
+  std::ofstream(file) << text;
+  const Anatomy anatomy = readAnatomy(file);
+  EXPECT_EQ(anatomy.branches[2].facets_around, 12);
+  EXPECT_EQ(anatomy.branches[0].facets_around, 0);
+  EXPECT_EQ(sampleChains(anatomy)[1].facets_around, 12);
+  EXPECT_EQ(anatomy.bulges[0].blend, 0.3);
+  EXPECT_EQ(readAnatomy(kFork).bulges[0].blend, readAnatomy(kFork).blend);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

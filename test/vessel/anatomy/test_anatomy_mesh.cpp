@@ -7,12 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
+#include <string>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
 #include "geometry/mesh_distance.h"
 #include "geometry/mesh_topology.h"
+#include "geometry/polyline.h"
 #include "vessel/anatomy/implicit_vessel.h"
 #include "vessel/io/mesh_cache.h"
 #include "vessel/repair/mesh_check.h"
@@ -23,7 +26,8 @@ namespace
 {
 
 const std::string kFork = std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml";
-const std::string kDefault = std::string(PROJECT_DIR) + "/config/anatomies/default.yaml";
+const std::string kPlain = std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml";
+const std::string kNatural = std::string(PROJECT_DIR) + "/config/anatomies/natural.yaml";
 
 /** Temporary folder that is removed after the test. */
 class CacheFolder
@@ -243,14 +247,14 @@ TEST(AnatomyCache, ToleratesAReadOnlyFolder)
   EXPECT_NE(vessel.notes[1].find("could not be cached"), std::string::npos);
 }
 
-/** Default anatomy, generated once for all tests. */
-class DefaultAnatomy : public testing::Test
+/** Plain anatomy, generated once for all tests. */
+class PlainAnatomy : public testing::Test
 {
 protected:
   static void SetUpTestSuite()
   {
-    anatomy_ = new Anatomy(readAnatomy(kDefault));
-    vessel_ = new Vessel(loadAnatomy(kDefault, ""));
+    anatomy_ = new Anatomy(readAnatomy(kPlain));
+    vessel_ = new Vessel(loadAnatomy(kPlain, ""));
   }
   static void TearDownTestSuite()
   {
@@ -261,10 +265,10 @@ protected:
   static Vessel* vessel_;
 };
 
-Anatomy* DefaultAnatomy::anatomy_ = nullptr;
-Vessel* DefaultAnatomy::vessel_ = nullptr;
+Anatomy* PlainAnatomy::anatomy_ = nullptr;
+Vessel* PlainAnatomy::vessel_ = nullptr;
 
-TEST_F(DefaultAnatomy, IsOneWatertightSurfaceOfModestSize)
+TEST_F(PlainAnatomy, IsOneWatertightSurfaceOfModestSize)
 {
   const MeshReport report = checkMesh(vessel_->mesh);
   EXPECT_EQ(report.summary(), "");
@@ -273,12 +277,12 @@ TEST_F(DefaultAnatomy, IsOneWatertightSurfaceOfModestSize)
   EXPECT_LT(vessel_->mesh.triangles.size(), 120000U);
 }
 
-TEST_F(DefaultAnatomy, HasTheDiametersOfItsFile)
+TEST_F(PlainAnatomy, HasTheDiametersOfItsFile)
 {
   EXPECT_GT(compareDiameters(*anatomy_, *vessel_, 0.05), 500);
 }
 
-TEST_F(DefaultAnatomy, NarrowsTheLeftAnteriorDescending)
+TEST_F(PlainAnatomy, NarrowsTheLeftAnteriorDescending)
 {
   const auto& branches = vessel_->centreline.branches;
   const auto lad = std::find_if(branches.begin(), branches.end(),
@@ -297,7 +301,7 @@ TEST_F(DefaultAnatomy, NarrowsTheLeftAnteriorDescending)
               0.04);
 }
 
-TEST_F(DefaultAnatomy, HasTheBranchesAndEndsOfTheIntervention)
+TEST_F(PlainAnatomy, HasTheBranchesAndEndsOfTheIntervention)
 {
   std::vector<std::string> ends;
   for (const CentrelineEnd& end : centrelineEnds(vessel_->centreline))
@@ -309,7 +313,7 @@ TEST_F(DefaultAnatomy, HasTheBranchesAndEndsOfTheIntervention)
   EXPECT_EQ(ends, expected);
 }
 
-TEST_F(DefaultAnatomy, HasASmoothWallOfIsotropicFacets)
+TEST_F(PlainAnatomy, HasASmoothWallOfIsotropicFacets)
 {
   const geometry::TriangleMesh& mesh = vessel_->mesh;
   const auto normal = [&mesh](int t)
@@ -339,6 +343,102 @@ TEST_F(DefaultAnatomy, HasASmoothWallOfIsotropicFacets)
       worst = std::min(worst, std::acos(std::clamp(u.dot((at(2) - at(0)).normalized()), -1.0, 1.0)));
     }
   EXPECT_GT(worst, 10.0 * M_PI / 180.0);
+}
+
+TEST_F(PlainAnatomy, HasTheMeshOfEarlierVersions)
+{
+  EXPECT_EQ(vessel_->mesh.triangles.size(), 97870U);
+  EXPECT_EQ(vessel_->mesh.hash(), 0x066b9f41686ceb64U);
+}
+
+/** Natural anatomy, generated once for all tests. */
+class NaturalAnatomy : public testing::Test
+{
+protected:
+  static void SetUpTestSuite()
+  {
+    anatomy_ = new Anatomy(readAnatomy(kNatural));
+    vessel_ = new Vessel(loadAnatomy(kNatural, ""));
+  }
+  static void TearDownTestSuite()
+  {
+    delete anatomy_;
+    delete vessel_;
+  }
+  static const CentrelineBranch& branch(const std::string& name)
+  {
+    for (const CentrelineBranch& b : vessel_->centreline.branches)
+      if (b.name == name)
+        return b;
+    throw std::runtime_error("no branch " + name);
+  }
+  /** Direction over the first 8 mm of a branch. */
+  static Eigen::Vector3d direction(const std::string& name)
+  {
+    const CentrelineBranch& b = branch(name);
+    std::size_t k = 0;
+    while ((b.points[k] - b.points[0]).norm() < 8e-3)
+      ++k;
+    return (b.points[k] - b.points[0]).normalized();
+  }
+  static double degrees(const Eigen::Vector3d& u, const Eigen::Vector3d& v)
+  {
+    return std::acos(std::clamp(u.dot(v), -1.0, 1.0)) * 180.0 / M_PI;
+  }
+  static Anatomy* anatomy_;
+  static Vessel* vessel_;
+};
+
+Anatomy* NaturalAnatomy::anatomy_ = nullptr;
+Vessel* NaturalAnatomy::vessel_ = nullptr;
+
+TEST_F(NaturalAnatomy, IsOneWatertightSurfaceOfModestSize)
+{
+  const MeshReport report = checkMesh(vessel_->mesh);
+  EXPECT_EQ(report.summary(), "");
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_GT(report.signed_volume, 1e-4);
+  EXPECT_LT(vessel_->mesh.triangles.size(), 120000U);
+  EXPECT_TRUE(vessel_->warnings.empty());
+}
+
+TEST_F(NaturalAnatomy, HasTheDiametersOfItsFile)
+{
+  EXPECT_GT(compareDiameters(*anatomy_, *vessel_, 0.05), 500);
+}
+
+TEST_F(NaturalAnatomy, HasTheBranchesOfThePlainAnatomyInTheSamePlaces)
+{
+  const Anatomy plain = readAnatomy(kPlain);
+  const CentrelineTree tree = anatomyCentreline(plain, sampleChains(plain));
+  for (const CentrelineBranch& b : tree.branches)
+  {
+    EXPECT_LT((branch(b.name).points.front() - b.points.front()).norm(), 0.025) << b.name;
+    if (b.name.find("femoral") != std::string::npos)
+      EXPECT_LT((branch(b.name).points.back() - b.points.back()).norm(), 1e-6) << b.name;
+  }
+}
+
+TEST_F(NaturalAnatomy, HasSideBranchesOfTheCoronaryArteriesAndOfTheAorta)
+{
+  for (const char* name :
+       {"first_diagonal", "second_diagonal", "first_septal", "second_septal", "first_obtuse_marginal",
+        "second_obtuse_marginal", "conus", "acute_marginal", "posterior_descending", "posterolateral", "coeliac_trunk",
+        "superior_mesenteric", "inferior_mesenteric", "left_renal", "right_renal", "left_internal_iliac",
+        "right_internal_iliac"})
+    EXPECT_GT(geometry::Polyline(branch(name).points).length(), 0.015) << name;
+}
+
+// Means and standard deviations of docs/VESSELS.md.
+TEST_F(NaturalAnatomy, HasAnglesAndLengthsWithinPublishedRanges)
+{
+  EXPECT_NEAR(degrees(direction("left_anterior_descending"), direction("left_circumflex")), 75.0, 23.0);
+  EXPECT_NEAR(degrees(direction("superior_mesenteric"), -Eigen::Vector3d::UnitZ()), 53.0, 31.0);
+  const Eigen::Vector3d arch = branch("left_subclavian").points.front() - branch("brachiocephalic").points.front();
+  EXPECT_NEAR(std::atan2(std::abs(arch.x()), std::abs(arch.y())) * 180.0 / M_PI, 50.0, 14.0);
+  const double renal = branch("left_renal").points.front().z();
+  EXPECT_NEAR(branch("coeliac_trunk").points.front().z() - renal, 0.032, 0.008);
+  EXPECT_NEAR(branch("superior_mesenteric").points.front().z() - renal, 0.017, 0.005);
 }
 
 }  // namespace

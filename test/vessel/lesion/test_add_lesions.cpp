@@ -178,7 +178,7 @@ TEST(Lesion, PreservesTheWallOppositeToEccentricPlaque)
 
 TEST(Lesion, NarrowsTheLeftAnteriorDescendingArteryByItsGrade)
 {
-  const Vessel before = loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/default.yaml");
+  const Vessel before = loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml");
   for (double eccentricity : {0.0, 0.7})
   {
     Vessel after = before;

@@ -36,7 +36,7 @@ double boneAtWall(const DensityVolume& volume, const geometry::TriangleMesh& mes
 
 const vessel::Vessel& anatomy()
 {
-  static const vessel::Vessel vessel = vessel::loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/default.yaml");
+  static const vessel::Vessel vessel = vessel::loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml");
   return vessel;
 }
 
