@@ -18,6 +18,7 @@ namespace
 
 using Points = std::vector<Eigen::Vector3d>;
 
+constexpr double kTouching = 0.003;  ///< distance of a branch from its parent up to which it is the nearest one [m]
 constexpr double kNear = 0.012;      ///< distance of a branch from its parent that needs no warning [m]
 constexpr double kFarthest = 0.030;  ///< largest distance of a branch from its parent [m]
 
@@ -120,7 +121,7 @@ private:
             best = attachment;
       }
       LumenBranch& branch = branches_[static_cast<std::size_t>(best.child)];
-      if (best.distance > kNear && best.distance <= kFarthest)
+      if (best.distance > kTouching && best.distance <= kFarthest)
         best = connectedThroughLumen(best, joined);
       if (best.distance > kFarthest)
         throw InputError(

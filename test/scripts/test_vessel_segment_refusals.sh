@@ -32,6 +32,10 @@ click '0.9, 90.9, 0.6' outside.yaml
 check 1 fork.vol outside.yaml 'trunk, click 1 .* lies outside of the image, which extends from \(.*check the frame \(LPS or RAS\)'
 sed 's/unit: 0.001/unit: 1/' fork.yaml > unit.yaml
 check 1 fork.vol unit.yaml 'is no position in a patient; check the numbers and the unit|lies outside of the image'
+[ ! -e result.obj ] || { echo "a refusal left a vessel"; failures=$((failures + 1)); }
+echo kept > result.obj
+check 1 fork.vol beside.yaml 'lies in fat'
+[ "$(cat result.obj)" = kept ] || { echo "a refusal changed an earlier vessel"; failures=$((failures + 1)); }
 check 1 fork.vol none.yaml 'none.yaml.*give a file of clicks'
 check 1 fork.vol fork.yaml 'fork.vol: needs about 0.3. GB; raise --memory' --memory 0.1
 check 1 fork.vol fork.yaml '\-\-open nowhere: matches no end; .*trunk near' --open nowhere

@@ -31,6 +31,20 @@ LumenBranch tubeAlong(const std::string& name, int parent, double radius, const 
   return branch;
 }
 
+TEST(LumenCentreline, ANarrowBranchNearAnEndOfAWideTrunkLeavesTheEndOpen)
+{
+  // Right coronary artery just above the aortic valve.
+  std::vector<Eigen::Vector3d> aorta;
+  std::vector<Eigen::Vector3d> coronary;
+  for (int k = 0; k <= 30; ++k)
+    aorta.emplace_back(0.0, 0.0, 1e-3 * k);
+  for (int k = 0; k <= 60; ++k)
+    coronary.emplace_back(1e-3 * k, 0.0, 0.004);
+  const std::vector<LumenBranch> branches = {tubeAlong("aorta", -1, 0.015, aorta),
+                                             tubeAlong("coronary", 0, 0.002, coronary)};
+  EXPECT_EQ(openEnds(lumenCentreline(branches)).size(), 3U);
+}
+
 TEST(LumenCentreline, OfAWideForkIsAnAnatomy)
 {
   // Iliac arteries: each path follows the aorta and turns to its side on the spot.
