@@ -129,6 +129,7 @@ constexpr Quantity kIodine{"iodine concentrations", "mgI/ml", D::kConcentration,
 constexpr Quantity kMaterialDensity{"densities of materials", "g/cm³", D::kGramDensity, 0.1, 25.0, 1e-3, 100.0};
 
 // Pure numbers.
+constexpr Quantity kCount{"counts", "1", D::kOther, 0.0, 1000.0, 0.0, 1e6};
 constexpr Quantity kFraction{"fractions", "1", D::kFraction, 0.0, 1.0, 0.0, 1.0};
 constexpr Quantity kDirection{"components of a direction", "1", D::kOther, 0.0, 1000.0, 0.0, 1e9};
 constexpr Quantity kRotationMatrix{"components of a rotation", "1", D::kOther, 0.0, 1.001, 0.0, 2.0};

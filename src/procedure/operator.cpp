@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr double kWrongBranchDepth = 3e-3;  // depth beyond the ostium from which a wrong branch is detected [m]
+constexpr double kPressureShare = 0.9;      // share of the pressure that a person has to reach
+constexpr double kAmbientPressure = 1e4;    // pressure of an empty balloon that a person need not reach [Pa]
 constexpr double kSlowdownShare = 0.6;      // share of the force limit from which the operator slows down
 
 using scene::StepAction;
@@ -195,7 +197,7 @@ void Operator::observe(const Observation& observation)
     reached_since_ = -1.0;
   else if (reached_since_ < 0.0)
     reached_since_ = observation.time;
-  if (reached && observation.time - reached_since_ >= step().until.held)
+  if (reached && observation.time - reached_since_ >= holdTime())
     finishStep(observation.time);
   else if (reached && mode_ == Mode::kExecute)
     stop();
@@ -210,6 +212,7 @@ void Operator::begin(const Observation& observation)
   record.step = current_;
   record.name = nameOf(step());
   record.phase = step().phase.empty() && !records_.empty() ? records_.back().phase : step().phase;
+  record.hint = step().hint;
   record.view = viewOf(current_);
   record.begin = record.end = observation.time;
   records_.push_back(record);
@@ -266,8 +269,24 @@ void Operator::fail(const InstrumentView* view, const std::string& why)
                 inMillimetres(view->tip);
 }
 
+/** Duration for which the goal of the step must hold [s]. */
+double Operator::holdTime() const
+{
+  const bool is_guided_inflation = scene_.procedure->guided && step().action == StepAction::kInflate;
+  return is_guided_inflation ? step().duration : step().until.held;
+}
+
+/** True if a balloon has the pressure of the step, or more of it; for a pressure that is not positive, or less. */
+bool Operator::hasPressure(const InstrumentView& view) const
+{
+  return step().pressure > 0.0 ? view.hand.pressure >= kPressureShare * step().pressure
+                               : view.hand.pressure <= kPressureShare * step().pressure + kAmbientPressure;
+}
+
 bool Operator::isReached(const Observation& observation) const
 {
+  if (scene_.procedure->guided && step().action == StepAction::kInflate)
+    return hasPressure(observation.instruments[static_cast<std::size_t>(active_)]);
   if (step().action == StepAction::kWait || step().action == StepAction::kInflate)
     return observation.time - begin_time_ >= step().duration - 1e-9;
   const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
@@ -329,12 +348,33 @@ void Operator::execute(const InstrumentView& view)
   }
 }
 
+bool Operator::isInWrongBranch(const InstrumentView& view) const
+{
+  return !view.covered && view.branch_position.branch >= 0 &&
+         !on_way_[static_cast<std::size_t>(view.branch_position.branch)];
+}
+
+/** Counts the wrong branches that a person enters; the mode tells that the tip is in one. */
+void Operator::watch(const InstrumentView& view)
+{
+  if (!isInWrongBranch(view))
+    mode_ = Mode::kExecute;
+  else if (mode_ == Mode::kExecute && step().action == StepAction::kAdvance &&
+           view.branch_position.depth > kWrongBranchDepth)
+  {
+    mode_ = Mode::kLeaveBranch;
+    ++records_.back().wrong_branches;
+  }
+}
+
 void Operator::act(const Observation& observation)
 {
   stop();
   if (active_ < 0)
     return;
   const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
+  if (scene_.procedure->guided)
+    return watch(view);
   if (step().action == StepAction::kInflate)
     return;
   if (observation.time - begin_time_ > step().time_limit)
@@ -345,9 +385,7 @@ void Operator::act(const Observation& observation)
     return handleLostSupport(view, observation.time);
   if (mode_ != Mode::kExecute)
     return recover(view, observation.time);
-  const bool wrong_branch = !view.covered && view.branch_position.branch >= 0 &&
-                            !on_way_[static_cast<std::size_t>(view.branch_position.branch)];
-  if (step().action == StepAction::kAdvance && wrong_branch && view.branch_position.depth > kWrongBranchDepth)
+  if (step().action == StepAction::kAdvance && isInWrongBranch(view) && view.branch_position.depth > kWrongBranchDepth)
   {
     ++records_.back().wrong_branches;
     if (retry(Mode::kLeaveBranch, view, "entered " + locator_.name(view.branch_position.branch) + " repeatedly"))

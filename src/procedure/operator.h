@@ -36,9 +36,12 @@ struct StepRecord
   int wrong_branches = 0;  ///< number of entries into a wrong branch
   Progress outcome = Progress::kRunning;
   std::size_t step = 0;  ///< index of the step in the procedure, an exchange counted as two
+  std::string hint;      ///< advice to a person; empty: none
 };
 
-/** Scripted operator: a state machine that drives the instruments through the steps of the scene's procedure.
+/** Scripted operator: a state machine that drives the instruments through the steps of the scene's procedure. In a
+ * guided procedure a person drives them: the operator observes which goals are reached, and wrong branches, without a
+ * limit of time and without commands.
  *
  *  At its reaction interval it observes the tips and the forces at the handles. It moves one instrument at a time
  *  within the limits of HandScene. Equal observations give equal commands, bit for bit.
@@ -68,6 +71,7 @@ public:
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */
   const std::string& failure() const { return failure_; }
   const std::vector<StepRecord>& records() const { return records_; }  ///< records of all steps begun so far
+  std::size_t steps() const { return steps_.size(); }                  ///< number of steps, an exchange counted as two
   const BranchLocator& locator() const { return locator_; }
   int entryBranch() const { return entry_branch_; }  ///< branch that contains the introducer
 
@@ -106,6 +110,10 @@ private:
   void act(const Observation& observation);
   void execute(const InstrumentView& view);
   void steer(const InstrumentView& view);
+  void watch(const InstrumentView& view);
+  bool isInWrongBranch(const InstrumentView& view) const;
+  bool hasPressure(const InstrumentView& view) const;
+  double holdTime() const;
   void recover(const InstrumentView& view, double time);
   bool isReached(const Observation& observation) const;
   bool isSupportPosition(const InstrumentView& view) const;

@@ -29,6 +29,7 @@ void Operator::archiveRecords(Archive& archive)
       throw ArchiveError("refers to a step that the procedure does not have");
     record.step = static_cast<std::size_t>(step);
     record.name = nameOf(steps_[record.step]);
+    record.hint = steps_[record.step].hint;
     record.view = viewOf(record.step);
     record.phase = steps_[record.step].phase.empty() && k > 0 ? records_[k - 1].phase : steps_[record.step].phase;
   }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/lesson_mark.h"
 #include "results/svg_plot.h"
 
 namespace endovascular_sim::results
@@ -88,6 +89,21 @@ std::string summary(const Json& json)
     table.add({"integral of the wall forces", number("%.1f N·s", forces["integral"])});
   }
   return html + table.text();
+}
+
+/** Result of a lesson; empty without pass marks. */
+std::string lessonTable(const SessionMetrics& metrics)
+{
+  const std::vector<Mark> marks = lessonMarks(metrics);
+  if (marks.empty())
+    return "";
+  Table table({"mark", "session", "at most", "unit", ""});
+  for (const Mark& mark : marks)
+    table.add({mark.name, number("%.3g", mark.value), number("%.3g", mark.limit), mark.unit,
+               mark.passed ? "passed" : "not passed"});
+  const bool passed = toJson(marks)["passed"];
+  return "<h2 class=\"" + std::string(passed ? "good" : "bad") + "\">" + escaped(verdict(marks)) + "</h2>\n" +
+         table.text();
 }
 
 std::string stepsTable(const Json& json)
@@ -255,8 +271,8 @@ std::string tipMap(const SessionMetrics& metrics)
 std::string metricsPage(const SessionMetrics& metrics)
 {
   const Json json = metrics.json();
-  return kHead + summary(json) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) + errorTables(json) +
-         faultsTable(json) + timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
+  return kHead + summary(json) + lessonTable(metrics) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) +
+         errorTables(json) + faultsTable(json) + timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
 }
 
 }  // namespace endovascular_sim::results

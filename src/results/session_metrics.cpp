@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/lesson_mark.h"
 #include "results/smoothness.h"
 #include "results/wall_force_report.h"
 
@@ -310,6 +311,8 @@ Json SessionMetrics::json() const
   json["procedure_time"] = samples_.empty() ? 0.0 : samples_.back().observation.time;
   json["fluoroscopy_time"] = scene_.fluoroscopy ? activeTime() : 0.0;
   json["instrument_exchanges"] = exchanges_;
+  if (const std::vector<Mark> marks = lessonMarks(*this); !marks.empty())
+    json["lesson"] = toJson(marks);
   json["steps"] = Json::array();
   for (const procedure::StepRecord& step : steps_)
     json["steps"].push_back({{"phase", step.phase},

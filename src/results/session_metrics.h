@@ -68,6 +68,7 @@ public:
   /** Sets the records of the scripted operator. */
   void setSteps(std::vector<procedure::StepRecord> steps, std::string failure);
   void setWallForces(WallForceSummary forces) { wall_forces_ = std::move(forces); }
+  const std::optional<WallForceSummary>& wallForces() const { return wall_forces_; }
   const std::vector<LesionOutcome>& lesions() const { return lesions_; }
   void setLesions(std::vector<LesionOutcome> lesions) { lesions_ = std::move(lesions); }
   /** Adds an event of a treatment; all kinds except a placed stent are errors. */

@@ -436,5 +436,69 @@ TEST(Operator, RejectsASavedStateOfALongerProcedure)
   EXPECT_THROW(shorter.scripted_operator.archive(loaded), ArchiveError);
 }
 
+/** A guided procedure: instruments follow the hands of a person, here the positions of the scene's profiles. */
+scene::Scene guidedScene(const std::string& steps, const std::string& drive)
+{
+  return scene::parseScene(
+      "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
+      "instruments:\n"
+      "  - {instrument: {use: guidewire_035_j, name: wire}, drive: {source: topic, " +
+          drive +
+          "}}\n"
+          "  - {instrument: {use: catheter_5f_jl4, name: catheter}, drive: {source: topic}}\n"
+          "procedure:\n  guided: true\n  steps:\n" +
+          steps,
+      "test scene");
+}
+
+TEST(Operator, OfAGuidedProcedureObservesTheGoalsOfAPersonWithoutCommandsAndTimeLimit)
+{
+  PlainWorld world(
+      guidedScene("    - {advance: wire, until: {tip_in: trunk, beyond: 0.08}, hint: Push, time_limit: 1}\n"
+                  "    - {withdraw: wire, until: {insertion: 0.02}, hint: Pull}\n",
+                  "insertion: {points: [[0, 0.01], [10, 0.1], [20, 0.01]]}"));
+  world.run(5.0);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kRunning) << "no limit of time";
+  EXPECT_NEAR(world.hand(0).insertion, 0.055, 1e-3) << "not moved by the operator";
+  ASSERT_EQ(world.scripted_operator.records().size(), 1U);
+  EXPECT_EQ(world.scripted_operator.records()[0].hint, "Push");
+  world.run(7.0);
+  ASSERT_EQ(world.scripted_operator.records().size(), 2U);
+  EXPECT_EQ(world.scripted_operator.records()[1].hint, "Pull");
+  world.run(10.0);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
+}
+
+TEST(Operator, OfAGuidedProcedureCountsEachEntryOfAWrongBranch)
+{
+  const auto tip = [](double insertion, double /*rotation*/)
+  { return Eigen::Vector3d(std::max(0.0, insertion - 0.1), 0.0, std::min(insertion, 0.1)); };
+  PlainWorld world(guidedScene("    - {advance: wire, until: {tip_in: goal}}\n",
+                               "insertion: {points: [[0, 0.05], [5, 0.14], [10, 0.08], [15, 0.14]]}"),
+                   tip);
+  world.run(4.9);
+  EXPECT_EQ(world.scripted_operator.records()[0].wrong_branches, 1);
+  world.run(10.0);
+  EXPECT_EQ(world.scripted_operator.records()[0].wrong_branches, 2);
+  EXPECT_EQ(world.scripted_operator.records()[0].retries, 0);
+}
+
+TEST(Operator, OfAGuidedProcedureContinuesFromASavedState)
+{
+  const auto scene =
+      guidedScene("    - {advance: wire, until: {tip_in: trunk, beyond: 0.05}, hint: Push}\n    - {wait: 9}\n",
+                  "insertion: {points: [[0, 0.01], [10, 0.1]]}");
+  PlainWorld world(scene);
+  world.run(9.0);
+  Archive saved;
+  world.scripted_operator.archive(saved);
+  PlainWorld other(scene);
+  Archive loaded(saved.bytes());
+  other.scripted_operator.archive(loaded);
+  ASSERT_EQ(other.scripted_operator.records().size(), 2U);
+  EXPECT_EQ(other.scripted_operator.records()[0].hint, "Push");
+  EXPECT_EQ(other.scripted_operator.records()[0].outcome, Progress::kDone);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::procedure

@@ -69,5 +69,20 @@ TEST(OperatorControls, AnotherInstrumentBeginsAtRestWithinItsLimits)
   EXPECT_NEAR(controls.speed(), 1e-3, 1e-15);
 }
 
+TEST(OperatorControls, FollowTheStickWithAShareOfTheSpeed)
+{
+  OperatorControls controls;
+  controls.choose("wire", 1.0, 60.0);
+  controls.setStick(0.5, -1.0);
+  EXPECT_DOUBLE_EQ(controls.velocity().insertion, 0.5 * controls.speed());
+  EXPECT_DOUBLE_EQ(controls.velocity().rotation, -controls.turningSpeed());
+  controls.press(Motion::kPush, OperatorControls::Source::kKey);
+  EXPECT_DOUBLE_EQ(controls.velocity().insertion, controls.speed()) << "not faster than the speed";
+  controls.setStick(std::nan(""), 7.0);
+  EXPECT_DOUBLE_EQ(controls.velocity().rotation, controls.turningSpeed());
+  controls.releaseAll();
+  EXPECT_TRUE(controls.velocity().isZero());
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -83,5 +83,24 @@ TEST(PanelTexts, NameTheProcedureStepAndItsOutcome)
   EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance the wire (failed: no progress)");
 }
 
+TEST(PanelTexts, ShowTheHintOfTheStepAndTheEndOfALesson)
+{
+  SessionState state;
+  EXPECT_EQ(panelTexts(state, 0).hint, "");
+  state.has_step = true;
+  state.step.phase = "To the fork";
+  state.step.name = "advance wire";
+  state.step.hint = "Push the wire.";
+  state.step.step_of_procedure = 2;
+  state.step.steps_of_procedure = 4;
+  EXPECT_EQ(panelTexts(state, 0).step, "2 of 4: To the fork, advance wire");
+  EXPECT_EQ(panelTexts(state, 0).hint, "Push the wire.");
+  state.step.outcome = ProcedureStep::DONE;
+  EXPECT_EQ(panelTexts(state, 0).hint, "") << "the next step begins at once";
+  state.step.step_of_procedure = 4;
+  state.is_recording = true;
+  EXPECT_EQ(panelTexts(state, 0).hint, "All steps are done. Stop the recording for the result.");
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -93,6 +93,9 @@ void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& 
   published_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
   published_.outcome = static_cast<std::uint8_t>(step.outcome);
   published_.failure = operator_.failure();
+  published_.hint = step.hint;
+  published_.step_of_procedure = static_cast<std::uint32_t>(step.step + 1);
+  published_.steps_of_procedure = static_cast<std::uint32_t>(operator_.steps());
   is_complete_ = operator_.progress() == procedure::Progress::kDone;
   publisher_.publish(published_);
   if (was_over)

@@ -8,6 +8,7 @@
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
+#include "results/lesson_mark.h"
 #include "results/session_run.h"
 #include "results/treatment_report.h"
 #include "scene/scene_vessel.h"
@@ -114,6 +115,11 @@ void MetricsRecorder::add(const TreatmentVisual& treatment)
   for (const TreatmentBody& stent : treatment.stents)
     if (stent.opened)
       stents_.push_back(fromMessage(stent));
+}
+
+std::string MetricsRecorder::verdict() const
+{
+  return metrics_ ? results::verdict(results::lessonMarks(*metrics_)) : std::string();
 }
 
 void MetricsRecorder::write(const std::string& folder, const results::WallForceSummary* forces)

@@ -45,6 +45,9 @@ public:
    *  @throws InputError when a file cannot be written */
   void write(const std::string& folder, const results::WallForceSummary* forces);
 
+  /** Verdict on a lesson, after write(); empty without pass marks. */
+  std::string verdict() const;
+
 private:
   /** Event of a balloon or stent. */
   struct Event

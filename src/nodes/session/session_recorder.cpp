@@ -384,7 +384,9 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
 bool SessionRecorder::onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
 {
   response.success = finish();
-  response.message = recording_->path("report.json");
+  const std::string verdict = recording_->results.verdict();
+  response.message =
+      (verdict.empty() ? "" : verdict + ": ") + recording_->path(verdict.empty() ? "report.json" : "metrics.html");
   return true;
 }
 
@@ -444,6 +446,8 @@ bool SessionRecorder::closeRecording()
   outcome.error = recording.bag.error();
   const bool written =
       recording.results.write(outcome, recording.error) && outcome.error.empty() && recording.error.empty();
+  if (const std::string verdict = recording.results.verdict(); !verdict.empty())
+    ROS_INFO("%s", verdict.c_str());
   ROS_INFO("recorded %llu steps in %s", static_cast<unsigned long long>(recording.results.report().steps()),
            recording.folder.c_str());
   return written;

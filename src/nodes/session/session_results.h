@@ -49,6 +49,7 @@ public:
    *  @param error reason of an early end; empty: none
    *  @return true when everything was written */
   bool write(const results::RecordingOutcome& recording, const std::string& error);
+  std::string verdict() const { return metrics_.verdict(); }  ///< on a lesson, after write(); empty without pass marks
 
 private:
   void writeWallForces() const;

@@ -23,6 +23,13 @@ void OperatorControls::releaseAll()
 {
   by_button_.fill(false);
   by_key_.fill(false);
+  stick_push_ = stick_twist_ = 0.0;
+}
+
+void OperatorControls::setStick(double push, double twist)
+{
+  stick_push_ = std::isfinite(push) ? std::clamp(push, -1.0, 1.0) : 0.0;
+  stick_twist_ = std::isfinite(twist) ? std::clamp(twist, -1.0, 1.0) : 0.0;
 }
 
 void OperatorControls::choose(const std::string& instrument, double largest_speed, double largest_turning_speed)
@@ -58,9 +65,10 @@ HandVelocity OperatorControls::velocity() const
 {
   if (instrument_.empty())
     return {};
-  const int push = (isHeld(Motion::kPush) ? 1 : 0) - (isHeld(Motion::kPull) ? 1 : 0);
-  const int twist = (isHeld(Motion::kTwistLeft) ? 1 : 0) - (isHeld(Motion::kTwistRight) ? 1 : 0);
-  return {instrument_, push * speed(), twist * turningSpeed()};
+  const double push = (isHeld(Motion::kPush) ? 1 : 0) - (isHeld(Motion::kPull) ? 1 : 0);
+  const double twist = (isHeld(Motion::kTwistLeft) ? 1 : 0) - (isHeld(Motion::kTwistRight) ? 1 : 0);
+  return {instrument_, std::clamp(push + stick_push_, -1.0, 1.0) * speed(),
+          std::clamp(twist + stick_twist_, -1.0, 1.0) * turningSpeed()};
 }
 
 }  // namespace endovascular_sim::rviz_plugin

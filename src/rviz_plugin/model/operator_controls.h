@@ -19,7 +19,7 @@ enum class Motion
 constexpr std::size_t kMotions = 4;
 
 /** Velocity from the motions that are held, a speed setting and the chosen instrument. Buttons and keys add up: a
- * motion ends when both are released. */
+ * motion ends when both are released. A stick adds a share of the speed. */
 class OperatorControls
 {
 public:
@@ -31,6 +31,9 @@ public:
 
   void press(Motion motion, Source source) { held(source)[static_cast<std::size_t>(motion)] = true; }
   void release(Motion motion, Source source) { held(source)[static_cast<std::size_t>(motion)] = false; }
+  /** Position of a stick, from −1 to 1: a share of the speed.
+   *  @param push, twist other values count as 0 */
+  void setStick(double push, double twist);
   void releaseAll();
 
   /** Chooses an instrument; all motions end.
@@ -52,6 +55,7 @@ private:
   bool isHeld(Motion motion) const;
 
   Held by_button_{}, by_key_{};
+  double stick_push_ = 0.0, stick_twist_ = 0.0;  ///< from −1 to 1
   std::string instrument_;
   double largest_speed_ = 0.0, largest_turning_speed_ = 0.0;
   double setting_ = 0.5;

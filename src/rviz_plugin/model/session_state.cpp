@@ -32,7 +32,10 @@ std::string stepText(const SessionState& state)
   if (!state.has_step)
     return "no procedure";
   const ProcedureStep& step = state.step;
-  std::string text = std::to_string(step.begun) + ": " + step.phase + ", " + step.name;
+  std::string text = step.steps_of_procedure > 0
+                         ? std::to_string(step.step_of_procedure) + " of " + std::to_string(step.steps_of_procedure)
+                         : std::to_string(step.begun);
+  text += ": " + step.phase + ", " + step.name;
   if (step.outcome == ProcedureStep::DONE)
     text += " (done)";
   else if (step.outcome == ProcedureStep::FAILED)
@@ -40,6 +43,15 @@ std::string stepText(const SessionState& state)
   else if (step.outcome == ProcedureStep::LOST)
     text += " (repeated)";
   return text;
+}
+
+std::string hintText(const SessionState& state)
+{
+  if (!state.has_step)
+    return "";
+  if (state.isProcedureDone())
+    return state.is_recording ? "All steps are done. Stop the recording for the result." : "All steps are done.";
+  return state.step.outcome == ProcedureStep::RUNNING ? state.step.hint : "";
 }
 
 std::string statusText(const SessionState& state, std::size_t instrument)
@@ -82,6 +94,7 @@ PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
   }
   texts.branch = state.branch.empty() ? kDash : state.branch;
   texts.step = stepText(state);
+  texts.hint = hintText(state);
   texts.status = statusText(state, instrument);
   texts.recording = state.is_recording ? "recording, run " + std::to_string(state.run) : "not recording";
   return texts;

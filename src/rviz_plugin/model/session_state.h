@@ -29,12 +29,17 @@ struct SessionState
   std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()
   std::string answer;                ///< to the last request
   bool is_busy = false;              ///< true: a request is on its way
+
+  bool isProcedureDone() const
+  {
+    return has_step && step.outcome == ProcedureStep::DONE && step.step_of_procedure == step.steps_of_procedure;
+  }
 };
 
 /** Texts of the panel for one instrument. Invalid or missing values are a dash. */
 struct PanelTexts
 {
-  std::string insertion, rotation, force, torque, pressure, time, branch, step, status, recording;
+  std::string insertion, rotation, force, torque, pressure, time, branch, step, hint, status, recording;
   int gauge = 0;  ///< share of the force limit [%], 0 to 100
 };
 

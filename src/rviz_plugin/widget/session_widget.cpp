@@ -1,6 +1,7 @@
 #include "rviz_plugin/widget/session_widget.h"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include <QComboBox>
@@ -28,6 +29,9 @@ constexpr std::size_t kMostErrors = 3;    // shown lines
 const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", "LAO 40 CRA 20",
                               "AP CRA 30", "spider", "lateral"};
 
+// Buttons of a gamepad: A, B, Y, X.
+constexpr int kButtonPause = 0, kButtonNext = 1, kButtonInflate = 3, kButtonDeflate = 2;
+
 std::optional<Motion> motionOfKey(int key)
 {
   switch (key)
@@ -52,7 +56,8 @@ QString gaugeColour(int share)
 
 }  // namespace
 
-SessionWidget::SessionWidget(SessionPort& port, QWidget* parent) : QWidget(parent), port_(port)
+SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::string& joystick)
+  : QWidget(parent), port_(port), joystick_(joystick)
 {
   setFocusPolicy(Qt::StrongFocus);
   auto* layout = new QVBoxLayout(this);
@@ -287,6 +292,10 @@ QWidget* SessionWidget::stateBox()
     layout->addRow(text, *target);
   }
   labels_.step->setWordWrap(true);
+  labels_.hint = label("hint");
+  labels_.hint->setWordWrap(true);
+  labels_.hint->setStyleSheet("background: #fff6d6; color: #4a3c00; padding: 4px");
+  layout->addRow(labels_.hint);
   labels_.errors = label("errors");
   labels_.errors->setWordWrap(true);
   labels_.errors->setStyleSheet("color: #c62f2f");
@@ -370,13 +379,13 @@ void SessionWidget::refresh()
   port_.confirm();
   state_ = port_.state();
   takeOverInstruments(state_);
+  followJoystick();
   const auto index = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
   const PanelTexts texts = panelTexts(state_, index);
   const std::pair<QLabel*, const std::string*> shown[] = {
-      {labels_.insertion, &texts.insertion}, {labels_.rotation, &texts.rotation},
-      {labels_.force, &texts.force},         {labels_.torque, &texts.torque},
-      {labels_.branch, &texts.branch},       {labels_.time, &texts.time},
-      {labels_.step, &texts.step},           {labels_.recording, &texts.recording},
+      {labels_.insertion, &texts.insertion}, {labels_.rotation, &texts.rotation}, {labels_.force, &texts.force},
+      {labels_.torque, &texts.torque},       {labels_.branch, &texts.branch},     {labels_.time, &texts.time},
+      {labels_.step, &texts.step},           {labels_.hint, &texts.hint},         {labels_.recording, &texts.recording},
       {labels_.pressure, &texts.pressure}};
   for (const auto& [target, text] : shown)
     target->setText(QString::fromStdString(*text));
@@ -384,6 +393,7 @@ void SessionWidget::refresh()
   labels_.status->setText(
       labels_.status->fontMetrics().elidedText(QString::fromStdString(texts.status), Qt::ElideRight, kStatusWidth));
   labels_.status->setToolTip(QString::fromStdString(texts.status));
+  labels_.hint->setVisible(!texts.hint.empty());
   gauge_->setValue(texts.gauge);
   gauge_->setFormat(QString("%1 % of the force limit").arg(texts.gauge));
   gauge_->setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(gaugeColour(texts.gauge)));
@@ -406,6 +416,40 @@ void SessionWidget::refresh()
   labels_.errors->setText(errors.join("\n"));
 }
 
+void SessionWidget::pauseOrStart()
+{
+  const bool is_paused = labels_.status->text().startsWith("PAUSED");
+  port_.request(is_paused ? Request::kStart : Request::kPause);
+}
+
+void SessionWidget::chooseNext(int step)
+{
+  if (instruments_->count() > 0)
+    instruments_->setCurrentIndex((std::max(instruments_->currentIndex(), 0) + step) % instruments_->count());
+}
+
+void SessionWidget::followJoystick()
+{
+  const double time = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  const JoystickState& stick = joystick_.poll(time);
+  for (const int button : stick.pressed)
+  {
+    if (button == kButtonPause)
+      pauseOrStart();
+    else if (button == kButtonNext)
+      chooseNext(1);
+    else if (button == kButtonInflate)
+      changePressure(1.0);
+    else if (button == kButtonDeflate)
+      changePressure(0.0);
+  }
+  const bool is_held = stick.push != 0.0 || stick.twist != 0.0;
+  controls_.setStick(stick.push, stick.twist);
+  if (is_held || is_stick_held_)
+    sendVelocity();
+  is_stick_held_ = is_held;
+}
+
 void SessionWidget::keyPressEvent(QKeyEvent* event)
 {
   const std::optional<Motion> motion = motionOfKey(event->key());
@@ -419,14 +463,10 @@ void SessionWidget::keyPressEvent(QKeyEvent* event)
   }
   else if (event->key() == Qt::Key_Space && !event->isAutoRepeat())
   {
-    const bool is_paused = labels_.status->text().startsWith("PAUSED");
-    port_.request(is_paused ? Request::kStart : Request::kPause);
+    pauseOrStart();
   }
-  else if ((event->key() == Qt::Key_PageUp || event->key() == Qt::Key_PageDown) && instruments_->count() > 0)
-  {
-    const int step = event->key() == Qt::Key_PageUp ? instruments_->count() - 1 : 1;
-    instruments_->setCurrentIndex((std::max(instruments_->currentIndex(), 0) + step) % instruments_->count());
-  }
+  else if (event->key() == Qt::Key_PageUp || event->key() == Qt::Key_PageDown)
+    chooseNext(event->key() == Qt::Key_PageUp ? instruments_->count() - 1 : 1);
   else
     QWidget::keyPressEvent(event);
 }

@@ -6,6 +6,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "rviz_plugin/model/joystick.h"
 #include "rviz_plugin/model/operator_controls.h"
 #include "rviz_plugin/model/session_port.h"
 
@@ -21,14 +22,17 @@ namespace endovascular_sim::rviz_plugin
 /** Widget of the panel: controls of a session and its state. Independent of rviz and of ROS's connections.
  *
  *  Keys, while the widget has the focus: up and down push and pull, left and right twist, space pauses and starts,
- *  page up and down choose an instrument. Loss of the focus ends all motions. */
+ *  page up and down choose an instrument. Loss of the focus ends all motions. A gamepad acts without the focus: its
+ *  sticks push and twist, button 0 (A) pauses and starts, 1 (B) chooses the next instrument, 3 (Y) and 2 (X) inflate
+ * and deflate the balloon. */
 class SessionWidget : public QWidget
 {
   Q_OBJECT
 
 public:
-  /** @param port outlives the widget */
-  explicit SessionWidget(SessionPort& port, QWidget* parent = nullptr);
+  /** @param port outlives the widget
+   *  @param joystick device of a gamepad; it need not exist */
+  explicit SessionWidget(SessionPort& port, QWidget* parent = nullptr, const std::string& joystick = "/dev/input/js0");
   ~SessionWidget() override;
 
   int speedSetting() const;           ///< position of the speed slider, 0 to 100
@@ -50,8 +54,8 @@ protected:
 private:
   struct Labels
   {
-    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *recording, *errors, *pressure,
-        *keys, *speed;
+    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *hint, *recording, *errors,
+        *pressure, *keys, *speed;
   };
 
   QWidget* sessionRow();
@@ -69,9 +73,14 @@ private:
   void sendVelocity();
   void releaseAll();
   bool canDrive() const;
+  void pauseOrStart();
+  void chooseNext(int step);
+  void followJoystick();
 
   SessionPort& port_;
   OperatorControls controls_;
+  Joystick joystick_;
+  bool is_stick_held_ = false;
   SessionState state_;
   QComboBox *instruments_, *views_;
   QSlider* speed_;

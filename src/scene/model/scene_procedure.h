@@ -62,6 +62,7 @@ struct SupportScene
 struct StepScene
 {
   std::string phase;  ///< name of the phase for reports; empty: phase of the previous step
+  std::string hint;   ///< advice to a person who does the step; empty: none
   std::string view;   ///< view of the C-arm (fluoroscopy/gantry/view.h); empty: view of the previous step
   StepAction action = StepAction::kWait;
   std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one
@@ -99,10 +100,23 @@ struct NamedBranch
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< point in the branch, patient frame [m]
 };
 
-/** Procedure of a scripted operator. */
+/** Pass marks of a lesson: largest values of metrics of the session. NaN: not marked. */
+struct PassMarks
+{
+  double time = std::numeric_limits<double>::quiet_NaN();            ///< of the procedure [s]
+  double wall_force = std::numeric_limits<double>::quiet_NaN();      ///< largest force of one contact on the wall [N]
+  double hand_force = std::numeric_limits<double>::quiet_NaN();      ///< largest force on a handle [N]
+  double wrong_branches = std::numeric_limits<double>::quiet_NaN();  ///< entries of wrong branches [1]
+  double errors = std::numeric_limits<double>::quiet_NaN();          ///< errors of the trainee [1]
+  double stenosis = std::numeric_limits<double>::quiet_NaN();  ///< of every lesion by its diameter, at the end [1]
+};
+
+/** Procedure of a scripted operator, or, in a lesson, of a person. */
 struct ProcedureScene
 {
   std::string name;
+  bool guided = false;  ///< true: a person does the steps; the operator observes their goals only
+  PassMarks pass;
   HandScene hand;
   std::vector<NamedBranch> branches;
   std::vector<StepScene> steps;

@@ -93,6 +93,8 @@ void visitStep(SceneFields& fields, StepScene& step)
 {
   if (fields.reading() || !step.phase.empty())
     fields.text("phase", step.phase);
+  if (fields.reading() || !step.hint.empty())
+    fields.text("hint", step.hint);
   if (fields.reading() || !step.view.empty())
     fields.text("view", step.view);
   if (fields.reading() && !step.view.empty() && !fluoroscopy::parseView(step.view))
@@ -140,11 +142,32 @@ void visitHand(SceneFields& fields, HandScene& hand)
   fields.number("speed_scale", hand.speed_scale, quantities::kSpeedScale, Range::positive());
 }
 
-/** Instrument of this name if the procedure drives it, otherwise null. */
+void visitPassMarks(SceneFields& fields, PassMarks& pass)
+{
+  fields.optionalNumber("time", pass.time, quantities::kDuration, Range::positive());
+  fields.optionalNumber("wall_force", pass.wall_force, quantities::kWallForce, Range::positive());
+  fields.optionalNumber("hand_force", pass.hand_force, quantities::kHandForce, Range::positive());
+  fields.optionalNumber("wrong_branches", pass.wrong_branches, quantities::kCount, Range::nonNegative());
+  fields.optionalNumber("errors", pass.errors, quantities::kCount, Range::nonNegative());
+  fields.optionalNumber("stenosis", pass.stenosis, quantities::kFraction, Range::nonNegative());
+}
+
+bool hasMarks(const PassMarks& pass)
+{
+  for (const double mark :
+       {pass.time, pass.wall_force, pass.hand_force, pass.wrong_branches, pass.errors, pass.stenosis})
+    if (!std::isnan(mark))
+      return true;
+  return false;
+}
+
+/** Instrument of this name if the procedure, or in a lesson a person, drives it, otherwise null. */
 const DrivenInstrument* scripted(const Scene& scene, const std::string& instrument)
 {
+  const bool guided = scene.procedure->guided;
   for (const DrivenInstrument& driven : scene.instruments)
-    if (driven.instrument.name == instrument && driven.drive.source == DriveSource::kProcedure)
+    if (driven.instrument.name == instrument && driven.drive.source != DriveSource::kScript &&
+        (guided ? driven.drive.source != DriveSource::kProcedure : driven.drive.source == DriveSource::kProcedure))
       return &driven;
   return nullptr;
 }
@@ -177,6 +200,10 @@ void visitProcedure(SceneFields& fields, ProcedureScene& procedure)
 {
   if (fields.reading() || !procedure.name.empty())
     fields.text("name", procedure.name);
+  if (fields.reading() || procedure.guided)
+    fields.boolean("guided", procedure.guided);
+  if (fields.reading() || hasMarks(procedure.pass))
+    fields.map("pass", [&procedure](SceneFields& pass) { visitPassMarks(pass, procedure.pass); });
   fields.map("hand", [&procedure](SceneFields& hand) { visitHand(hand, procedure.hand); });
   if (fields.reading() || !procedure.branches.empty())
     fields.list(
@@ -205,9 +232,11 @@ void checkProcedure(const SceneFields& fields, const Scene& scene)
   {
     const StepScene& step = scene.procedure->steps[k];
     const std::string path = "procedure.steps." + std::to_string(k) + ".";
-    const std::string remedy =
-        "' is not driven by the procedure; name an instrument of the scene and set its "
-        "drive.source: procedure";
+    const std::string remedy = scene.procedure->guided
+                                   ? "' is not driven by a person; name an instrument of the scene and set its "
+                                     "drive.source: topic, or procedure.guided: false"
+                                   : "' is not driven by the procedure; name an instrument of the scene and set its "
+                                     "drive.source: procedure";
     if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
       fields.reject(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
     if (step.action == StepAction::kInflate && !scripted(scene, step.instrument)->instrument.balloon)

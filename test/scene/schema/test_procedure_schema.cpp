@@ -125,5 +125,39 @@ TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
   }
 }
 
+TEST(SceneProcedure, OfALessonHasHintsAndPassMarksAndAPersonWhoDrives)
+{
+  for (const char* name : {"lesson_bifurcation", "lesson_catheter_needs_wire", "lesson_lad_stent"})
+  {
+    const Scene scene = loadScene(std::string(PROJECT_DIR "/config/scenes/") + name + ".yaml");
+    ASSERT_TRUE(scene.procedure.has_value()) << name;
+    EXPECT_TRUE(scene.procedure->guided) << name;
+    EXPECT_GT(scene.procedure->pass.time, 0.0) << name;
+    for (const StepScene& step : scene.procedure->steps)
+      EXPECT_NE(step.hint, "") << name;
+    for (const DrivenInstrument& driven : scene.instruments)
+      EXPECT_EQ(driven.drive.source, DriveSource::kTopic) << name;
+    const Scene again = parseRecordedScene(scene.resolved_yaml, "recorded");
+    EXPECT_TRUE(again.procedure->guided) << name;
+    EXPECT_EQ(again.procedure->steps[0].hint, scene.procedure->steps[0].hint) << name;
+    EXPECT_EQ(again.procedure->pass.time, scene.procedure->pass.time) << name;
+  }
+}
+
+TEST(SceneProcedure, OfALessonRefusesInstrumentsThatNoPersonDrives)
+{
+  const std::string lesson = PROJECT_DIR "/config/scenes/lesson_bifurcation.yaml";
+  try
+  {
+    loadScene(lesson, {"drive.source=procedure"});
+    FAIL() << "accepted";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("'wire' is not driven by a person"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(loadScene(lesson, {"drive.source=procedure", "procedure.guided=false"}).procedure->guided);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::scene

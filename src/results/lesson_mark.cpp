@@ -1,0 +1,104 @@
+#include "results/lesson_mark.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+std::string text(double value, const std::string& unit)
+{
+  char number[48];
+  std::snprintf(number, sizeof number, unit == "N" ? "%.2f" : unit.empty() ? "%.0f" : "%.1f", value);
+  return unit.empty() ? number : std::string(number) + " " + unit;
+}
+
+double largestHandForce(const SessionMetrics& metrics)
+{
+  double largest = 0.0;
+  for (const Sample& sample : metrics.samples())
+    for (const procedure::InstrumentView& view : sample.observation.instruments)
+      largest = std::max(largest, std::abs(view.hand.force));
+  return largest;
+}
+
+double largestStenosis(const SessionMetrics& metrics)
+{
+  double largest = 0.0;
+  for (const LesionOutcome& lesion : metrics.lesions())
+    largest = std::max(largest, lesion.after.stenosis);
+  return largest;
+}
+
+/** Steps of the procedure that are not done, an exchange counted as two. */
+double missingSteps(const SessionMetrics& metrics)
+{
+  std::size_t all = 0, done = 0;
+  for (const scene::StepScene& step : metrics.scene().procedure->steps)
+    all += step.action == scene::StepAction::kExchange ? 2 : 1;
+  for (const procedure::StepRecord& record : metrics.steps())
+    done += record.outcome == procedure::Progress::kDone ? 1 : 0;
+  return static_cast<double>(all - std::min(all, done));
+}
+
+}  // namespace
+
+std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
+{
+  std::vector<Mark> marks;
+  if (!metrics.scene().procedure)
+    return marks;
+  const auto add = [&marks](const std::string& name, double value, double limit, const std::string& unit)
+  {
+    if (!std::isnan(limit))
+      marks.push_back({name, value, limit, unit, value <= limit});
+  };
+  const scene::PassMarks& pass = metrics.scene().procedure->pass;
+  add("procedure time", metrics.steps().empty() ? 0.0 : metrics.steps().back().end, pass.time, "s");
+  add("largest force on the wall", metrics.wallForces() ? metrics.wallForces()->whole.peak : 0.0, pass.wall_force, "N");
+  add("largest force on a handle", largestHandForce(metrics), pass.hand_force, "N");
+  add("wrong branches", static_cast<double>(metrics.wrongBranches().size()), pass.wrong_branches, "");
+  add("errors", static_cast<double>(metrics.errors().size()), pass.errors, "");
+  add("remaining stenosis", 100.0 * largestStenosis(metrics), 100.0 * pass.stenosis, "%");
+  if (!marks.empty())
+  {
+    const double missing = missingSteps(metrics);
+    marks.insert(marks.begin(), {"steps not done", missing, 0.0, "", missing == 0.0});
+  }
+  return marks;
+}
+
+nlohmann::ordered_json toJson(const std::vector<Mark>& marks)
+{
+  using Json = nlohmann::ordered_json;
+  if (marks.empty())
+    return nullptr;
+  Json json = {{"passed", std::all_of(marks.begin(), marks.end(), [](const Mark& mark) { return mark.passed; })}};
+  json["marks"] = Json::array();
+  for (const Mark& mark : marks)
+    json["marks"].push_back({{"mark", mark.name},
+                             {"value", mark.value},
+                             {"limit", mark.limit},
+                             {"unit", mark.unit},
+                             {"passed", mark.passed}});
+  return json;
+}
+
+std::string verdict(const std::vector<Mark>& marks)
+{
+  if (marks.empty())
+    return "";
+  std::string failures;
+  for (const Mark& mark : marks)
+    if (!mark.passed)
+      failures += (failures.empty() ? " " : "; ") + mark.name + " " + text(mark.value, mark.unit) + ", at most " +
+                  text(mark.limit, mark.unit);
+  return failures.empty() ? "lesson passed" : "lesson not passed:" + failures;
+}
+
+}  // namespace endovascular_sim::results

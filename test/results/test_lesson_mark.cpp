@@ -1,0 +1,89 @@
+#include "results/lesson_mark.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/metrics_page.h"
+#include "test/procedure/procedure_fixtures.h"
+
+namespace endovascular_sim::results
+{
+namespace
+{
+
+SessionMetrics metricsWith(const std::string& pass)
+{
+  scene::Scene scene = procedure::sceneWith("    - {advance: wire, until: {tip_in: goal}}\n");
+  scene.procedure->pass = scene::parseScene(
+                              "vessel: {friction: 0.1, tube: {radius: 0.01, pieces: [{length: 0.3}]}}\n"
+                              "instrument: {use: guidewire_035_j, name: wire}\ndrive: {source: procedure}\n"
+                              "procedure: {pass: " +
+                                  pass + ", steps: [{wait: 1}]}\n",
+                              "marks")
+                              .procedure->pass;
+  return SessionMetrics(scene, procedure::forkedTree(), {0, 0, 0.001});
+}
+
+void finish(SessionMetrics& metrics, double time, procedure::Progress outcome = procedure::Progress::kDone)
+{
+  procedure::StepRecord step;
+  step.end = time;
+  step.outcome = outcome;
+  metrics.setSteps({step}, "");
+}
+
+TEST(LessonMark, IsPassedWithinAllLimits)
+{
+  SessionMetrics metrics = metricsWith("{time: 90, wrong_branches: 0}");
+  finish(metrics, 89.0);
+  const std::vector<Mark> marks = lessonMarks(metrics);
+  ASSERT_EQ(marks.size(), 3U);
+  EXPECT_EQ(marks[0].name, "steps not done");
+  EXPECT_EQ(marks[1].name, "procedure time");
+  EXPECT_EQ(marks[1].value, 89.0);
+  EXPECT_EQ(verdict(marks), "lesson passed");
+  EXPECT_EQ(metrics.json()["lesson"]["passed"], true);
+  EXPECT_NE(metricsPage(metrics).find("lesson passed"), std::string::npos);
+}
+
+TEST(LessonMark, NamesWhatIsNotPassed)
+{
+  SessionMetrics metrics = metricsWith("{time: 90, wall_force: 0.5}");
+  finish(metrics, 95.0);
+  WallForceSummary forces;
+  forces.whole.peak = 0.75;
+  metrics.setWallForces(forces);
+  EXPECT_EQ(
+      verdict(lessonMarks(metrics)),
+      "lesson not passed: procedure time 95.0 s, at most 90.0 s; largest force on the wall 0.75 N, at most 0.50 N");
+  EXPECT_EQ(metrics.json()["lesson"]["passed"], false);
+}
+
+TEST(LessonMark, IsNotPassedBeforeAllStepsAreDone)
+{
+  SessionMetrics metrics = metricsWith("{time: 90}");
+  EXPECT_EQ(verdict(lessonMarks(metrics)), "lesson not passed: steps not done 1, at most 0");
+  finish(metrics, 50.0, procedure::Progress::kRunning);
+  EXPECT_FALSE(lessonMarks(metrics)[0].passed);
+}
+
+TEST(LessonMark, MeasuresTheRemainingStenosis)
+{
+  SessionMetrics metrics = metricsWith("{stenosis: 0.3}");
+  finish(metrics, 1.0);
+  LesionOutcome lesion;
+  lesion.after.stenosis = 0.42;
+  metrics.setLesions({lesion});
+  EXPECT_EQ(verdict(lessonMarks(metrics)), "lesson not passed: remaining stenosis 42.0 %, at most 30.0 %");
+}
+
+TEST(LessonMark, IsMissingWithoutPassMarks)
+{
+  SessionMetrics metrics = metricsWith("{}");
+  EXPECT_TRUE(lessonMarks(metrics).empty());
+  EXPECT_EQ(verdict({}), "");
+  EXPECT_FALSE(metrics.json().contains("lesson"));
+}
+
+}  // namespace
+}  // namespace endovascular_sim::results
