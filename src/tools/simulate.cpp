@@ -34,6 +34,7 @@
 #include "simulation/still_image.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
+#include "vessel/io/mesh_reader.h"
 
 namespace
 {
@@ -256,6 +257,8 @@ Surroundings build(const scene::Scene& scene, const Options& options)
     made.pictures = std::make_unique<procedure::PhasePictures>(scene, vessel, options.out);
   if (options.x_ray)
     made.x_ray = std::make_unique<simulation::StillImage>(scene, vessel);
+  if (options.records("nodes"))
+    vessel::writeObj(vessel.mesh, options.out + "/vessel.obj");
   return made;
 }
 

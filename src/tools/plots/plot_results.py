@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws the results of a session or of `simulate`.
 
-Writes forces.png and tip_path.png from trajectory.csv, wall_forces.png from wall_forces.csv and vessel_points.csv, and
-energy_audit.png from energy_audit.csv, if these exist.
+Writes forces.png from instruments.csv (without it, from trajectory.csv), tip_path.png from trajectory.csv, wall_forces.png
+from wall_forces.csv and vessel_points.csv, and energy_audit.png from energy_audit.csv, if these exist.
 """
 
 import csv
@@ -20,6 +20,7 @@ DISSIPATED = ("wall_friction", "wall_rolling", "layer_friction", "valve", "dampi
 NUMERICAL = ("inertia", "positions", "twisting", "lengths", "iteration", "contact", "resampling", "rejected")
 SUMS = ("work", "stored", "dissipated", "numerical", "error")
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
+CURVES = ("time", "insertion", "rotation", "hand_force", "hand_torque")
 
 
 def read_trajectory(path):
@@ -58,21 +59,48 @@ def read_columns(path, names):
         return None
 
 
-def plot_forces(pyplot, data, path):
-    """Draws force and torque at the hand over time, and force over insertion."""
+def read_instruments(path):
+    """Curves of instruments.csv by instrument, in the order of the scene; None without the file."""
+    if not os.path.isfile(path):
+        return None
+    curves = {}
+    for row in tools.read_rows(path):
+        try:
+            values = [float(row[name]) for name in CURVES]
+        except (KeyError, TypeError, ValueError):
+            continue  # the last row of an interrupted session may be incomplete
+        curve = curves.setdefault(row["instrument"], {name: [] for name in CURVES})
+        for name, value in zip(CURVES, values):
+            curve[name].append(value)
+    return curves or None
+
+
+def plot_forces(pyplot, curves, path):
+    """Draws force and torque at every handle over time, force over insertion, and insertion and rotation (dotted) over time.
+
+    `curves`: values of CURVES by instrument. Outside of the introducer an instrument has no force: its curves have a gap."""
     figure, axes = pyplot.subplots(2, 2, figsize=(11, 7), constrained_layout=True)
-    millimetres = [1e3 * value for value in data["insertion"]]
-    axes[0, 0].plot(data["time"], data["hand_force"], linewidth=0.8)
-    axes[0, 0].set(xlabel="time [s]", ylabel="force at the hand [N]")
-    axes[0, 1].plot(millimetres, data["hand_force"], linewidth=0.8)
-    axes[0, 1].set(xlabel="insertion [mm]", ylabel="force at the hand [N]")
-    axes[1, 0].plot(data["time"], [1e3 * value for value in data["hand_torque"]], linewidth=0.8)
-    axes[1, 0].set(xlabel="time [s]", ylabel="torque at the hand [mN·m]")
-    axes[1, 1].plot(data["time"], millimetres, linewidth=0.8, label="insertion [mm]")
     rotation = axes[1, 1].twinx()
-    rotation.plot(data["time"], data["rotation"], linewidth=0.8, color="tab:orange")
-    rotation.set_ylabel("rotation [rad]", color="tab:orange")
+    for k, (name, data) in enumerate(curves.items()):
+        colour = "C%d" % k
+        inside = [value > 0.0 for value in data["insertion"]]
+
+        def shown(values, scale=1.0):
+            return [scale * value if one else float("nan") for value, one in zip(values, inside)]
+
+        insertion = shown(data["insertion"], 1e3)
+        style = {"linewidth": 0.8, "color": colour, "label": name.replace("_", " ")}
+        axes[0, 0].plot(data["time"], shown(data["hand_force"]), **style)
+        axes[0, 1].plot(insertion, shown(data["hand_force"]), **style)
+        axes[1, 0].plot(data["time"], shown(data["hand_torque"], 1e3), **style)
+        axes[1, 1].plot(data["time"], insertion, **style)
+        rotation.plot(data["time"], shown(data["rotation"]), linewidth=0.8, color=colour, linestyle=":")
+    axes[0, 0].set(xlabel="time [s]", ylabel="force at the handle [N]")
+    axes[0, 1].set(xlabel="insertion [mm]", ylabel="force at the handle [N]")
+    axes[1, 0].set(xlabel="time [s]", ylabel="torque at the handle [mN·m]")
     axes[1, 1].set(xlabel="time [s]", ylabel="insertion [mm]")
+    rotation.set_ylabel("rotation, dotted [rad]")
+    axes[0, 0].legend(fontsize="small")
     for axis in axes.flat:
         axis.grid(alpha=0.3)
     figure.savefig(path, dpi=120)
@@ -143,7 +171,8 @@ def main():
     pyplot = tools.pyplot()
     try:
         os.makedirs(out, exist_ok=True)
-        plot_forces(pyplot, data, os.path.join(out, "forces.png"))
+        curves = read_instruments(os.path.join(arguments.folder, "instruments.csv"))
+        plot_forces(pyplot, curves or {"instrument": data}, os.path.join(out, "forces.png"))
         plot_tip_path(pyplot, data, os.path.join(out, "tip_path.png"))
         forces = read_columns(os.path.join(arguments.folder, "wall_forces.csv"), ("x", "y", "z", "peak"))
         wall = read_columns(os.path.join(arguments.folder, "vessel_points.csv"), ("x", "y", "z"))

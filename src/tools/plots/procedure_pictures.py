@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the phases of a procedure side by side.
 
-Each column shows the instruments in the vessel at the end of a phase and, if images exist, the fluoroscopy image nearest to
+Each column shows the instruments in the vessel, rendered, at the end of a phase and, if images exist, the fluoroscopy image nearest to
 that time.
 """
 
@@ -14,11 +14,18 @@ import tool_support as tools  # noqa: E402
 
 plt = tools.pyplot()
 import numpy as np  # noqa: E402
+import scene_picture  # noqa: E402
 
-COLOURS = ["#d62728", "#ff9900", "#111111", "#1f77b4", "#2ca02c", "#9467bd"]
-WIDTHS = [1.2, 2.2, 1.6, 4.0]   # line widths of the layers, from the innermost [points]
+COLOURS = ["#c8201e", "#f08a00", "#2b2b30", "#2f78b7", "#2ca02c", "#9467bd"]
+STENT = "#26384f"
+BALLOON = "#7fd0e8"
 COLUMNS = 6
-ZOOM = 0.075                    # half the width of a view [m]
+PIXELS = 300                    # width of a picture [1]
+LEAST = 1.5                     # radius of the thinnest instrument in the picture [pixel]
+WIDE, CLOSE = 0.075, 0.032      # half the width of a view, in wide vessels and in narrow ones [m]
+NARROW = 0.0035                 # distance of the wall from a tip in a narrow vessel [m]
+FAR = 0.15                      # instruments beyond this distance from a placed stent leave it in the view [m]
+INFLATED = 0.5e5                # least pressure of a balloon that is drawn inflated [Pa]
 
 
 def phases(folder):
@@ -54,8 +61,8 @@ def shapes(path, times):
     return found
 
 
-def insertions(path, times):
-    """Insertion of every instrument at the sample nearest to each time, in the order of the scene [m]."""
+def states(path, times):
+    """Insertion [m] and pressure [Pa] of every instrument at the sample nearest to each time, in the order of the scene."""
     found = [{} for _ in times]
     best = [{} for _ in times]
     for row in tools.read_rows(path):
@@ -63,7 +70,7 @@ def insertions(path, times):
             distance = abs(float(row["time"]) - wanted)
             if distance < best[k].get(row["instrument"], 1e9):
                 best[k][row["instrument"]] = distance
-                found[k][row["instrument"]] = float(row["insertion"])
+                found[k][row["instrument"]] = (float(row["insertion"]), float(row["pressure"]))
     return found
 
 
@@ -95,25 +102,148 @@ def picture_of(folder, number, time, duration):
     return min(pictures, key=lambda one: abs(int(one.stem.split("_")[1]) / max(last, 1) * duration - time))
 
 
-def draw(axis, vessel, nodes, inside):
-    """Draws one phase from the front: the points of the vessel in grey, every instrument over its inserted length."""
-    axis.scatter([p[0] for p in vessel], [p[2] for p in vessel], s=1.0, c="#c9a9a0", linewidths=0)
-    names = list(inside)
-    tip = (0.0, 0.0, 0.0)
-    for k in reversed(range(len(names))):
-        length = inside[names[k]]
+def last_part(nodes, begin, end):
+    """Part of a polyline between two lengths before its end, begin > end."""
+    rest = truncated(nodes[::-1], begin)
+    cut = truncated(nodes[::-1], end) if end > 0 else nodes[-1:]
+    return rest[len(cut) - 1:][::-1]
+
+
+class Instrument:
+    """Radii [m] and balloon of an instrument of scene.yaml."""
+
+    def __init__(self, entry):
+        self.radius = max(float(section["radius"]) for section in entry["sections"])
+        balloon = entry.get("balloon")
+        # PyYAML reads a number such as 3e-04 as a text.
+        self.balloon = balloon and {key: np.array(value, dtype=float) for key, value in balloon.items()}
+
+    def balloon_radius(self, pressure):
+        """Radius of the balloon under a pressure [m]."""
+        if pressure < INFLATED:
+            return 0.5 * self.balloon["folded_diameter"]
+        pressures, diameters = self.balloon["compliance"].T
+        return 0.5 * float(np.interp(pressure, pressures, diameters))
+
+    def balloon_part(self, line):
+        """Part of the instrument's polyline that the balloon covers."""
+        return last_part(line, self.balloon["from_tip"] + self.balloon["length"], self.balloon["from_tip"])
+
+
+def read_instruments(path):
+    """Instruments of a results folder's scene.yaml by name."""
+    try:
+        import yaml
+    except ImportError as error:
+        return tools.fail("%s; install the Debian package python3-yaml and run with /usr/bin/python3" % error)
+    with open(path, encoding="utf-8") as stream:
+        scene = yaml.load(stream, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    return {one["instrument"]["name"]: Instrument(one["instrument"]) for one in scene["instruments"]}
+
+
+def placed_stents(folder):
+    """Time of placement [s], instrument, diameter, length and middle [m] of every placed stent."""
+    treatment = tools.read_json(folder / "result.json").get("treatment") if (folder / "result.json").exists() else None
+    found = []
+    for balloon in (treatment or {}).get("balloons", []):
+        stent = balloon.get("stent")
+        times = [event["time"] for event in treatment["events"]
+                 if event["event"] == "stent_placed" and event["instrument"] == balloon["instrument"]]
+        if stent and stent["state"] == "placed" and times:
+            found.append((times[0], balloon["instrument"], stent["inner_diameter"], stent["length"], stent["middle"]))
+    return found
+
+
+def stent_axis(line, middle, length):
+    """Part of an instrument's polyline about the middle of its stent, as long as the stent."""
+    line = np.asarray(line)
+    arc = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1)))
+    centre = arc[np.argmin(np.linalg.norm(line - middle, axis=1))]
+    at = np.linspace(centre - 0.5 * length, min(centre + 0.5 * length, arc[-1]), 41)
+    axis = np.stack([np.interp(at, arc, line[:, k]) for k in range(3)], axis=1)
+    return axis + (np.asarray(middle) - axis[20])
+
+
+def draw_stent(picture, axis, radius):
+    """Draws rings of zigzag struts about an axis."""
+    axis = np.asarray(axis)
+    tangent = axis[-1] - axis[0]
+    side = np.cross(tangent, [0.0, 1.0, 0.0])
+    side /= max(np.linalg.norm(side), 1e-12)
+    other = np.cross(tangent, side)
+    other /= max(np.linalg.norm(other), 1e-12)
+    rings = 9
+    angles = np.linspace(0.0, 2.0 * np.pi, 13)
+    for ring in range(rings):
+        share = (ring + np.where(np.arange(13) % 2, 0.9, 0.1)) / rings * (len(axis) - 1)
+        centres = np.stack([np.interp(share, np.arange(len(axis)), axis[:, k]) for k in range(3)], axis=1)
+        strut = centres + radius * (np.cos(angles)[:, None] * side + np.sin(angles)[:, None] * other)
+        picture.add_tube(strut, 0.0, rgb(STENT), 0.7, 0.02)
+
+
+def rgb(colour):
+    """Red, green and blue of a colour such as #102030, from 0 to 1."""
+    return [int(colour[k:k + 2], 16) / 255.0 for k in (1, 3, 5)]
+
+
+def view_of(vessel, nodes, inside, stents):
+    """Centre [m] and half width [m] of the view: the foremost tip, or a placed stent that the instruments have left."""
+    tip = np.array(nodes[-1]) if nodes and max(inside.values())[0] > 0.002 else None
+    if stents and (tip is None or np.linalg.norm(tip - stents[-1][4]) > FAR):
+        return np.array(stents[-1][4]), CLOSE
+    if tip is None:
+        return vessel[0].mean(axis=0), WIDE
+    if np.linalg.norm(vessel[0] - tip, axis=1).min() > NARROW or len(nodes) < 20:
+        return tip, WIDE
+    return np.array(last_part(nodes, 0.012, 0.0)[0]), CLOSE
+
+
+def render(vessel, instruments, nodes, inside, stents):
+    """Picture of one phase; `stents` are those placed, each with its axis."""
+    picture = scene_picture.ScenePicture(*view_of(vessel, nodes, inside, stents), PIXELS)
+    picture.add_wall(*vessel)
+    thinnest = min(one.radius for one in instruments.values())
+    for k, (name, (length, pressure)) in enumerate(inside.items()):
         if length <= 0.002 or not nodes:
             continue
         part = truncated(nodes, length)
-        axis.plot([p[0] for p in part], [p[2] for p in part], color=COLOURS[k % len(COLOURS)],
-                  linewidth=WIDTHS[k % len(WIDTHS)], solid_capstyle="round", label=names[k])
-    if nodes:
-        tip = nodes[-1]
-    axis.set_xlim(tip[0] - ZOOM, tip[0] + ZOOM)
-    axis.set_ylim(tip[2] - ZOOM, tip[2] + ZOOM)
-    axis.set_aspect("equal")
-    axis.set_xticks([])
-    axis.set_yticks([])
+        one = instruments[name]
+        least = LEAST * (one.radius / thinnest) ** 0.5
+        # Inner instruments in front of outer ones: the lumen is shown open.
+        picture.add_tube(part, one.radius, rgb(COLOURS[k % len(COLOURS)]), least, 0.002 * (len(inside) - k))
+        if one.balloon:
+            covered, radius = one.balloon_part(part), one.balloon_radius(pressure)
+            inflated = pressure >= INFLATED
+            picture.add_tube(covered, radius, rgb(BALLOON if inflated else STENT), least + 0.8, 0.015)
+            if inflated and not stents:
+                draw_stent(picture, covered, radius)
+    for _, _, diameter, _, _, axis in stents:
+        draw_stent(picture, axis, 0.5 * diameter)
+    return picture.image()
+
+
+def images(vessel, instruments, moments, nodes, inside, stents):
+    """One picture per phase."""
+    axes = {}
+    result = []
+    for k, (_, end, _) in enumerate(moments):
+        present = []
+        for stent in stents:
+            time, name, _, length, middle = stent
+            if time > end:
+                continue
+            if name not in axes:
+                axes[name] = stent_axis(truncated(nodes[k], inside[k][name][0]), middle, length)
+            present.append(stent + (axes[name],))
+        result.append(render(vessel, instruments, nodes[k], inside[k], present))
+    return result
+
+
+def legend(inside, stents):
+    """Names and colours of the instruments, and of the stent."""
+    from matplotlib.patches import Patch
+    handles = [Patch(color=COLOURS[k % len(COLOURS)], label=name.replace("_", " ")) for k, name in enumerate(inside)]
+    return handles + ([Patch(color=STENT, label="stent in place")] if stents else [])
 
 
 def main():
@@ -129,24 +259,26 @@ def main():
         moments = phases(options.results)
         times = [end for _, end, _ in moments]
         nodes = shapes(shape_folder / "nodes.csv", times)
-        inside = insertions(shape_folder / "instruments.csv", times)
-        vessel = [(float(r["x"]), float(r["y"]), float(r["z"])) for r in tools.read_rows(shape_folder / "vessel_points.csv")]
-    except (OSError, KeyError) as error:
+        inside = states(shape_folder / "instruments.csv", times)
+        vertices, faces = scene_picture.read_obj(shape_folder / "vessel.obj")
+        instruments = read_instruments(shape_folder / "scene.yaml")
+        stents = placed_stents(shape_folder)
+    except (OSError, KeyError, ValueError) as error:
         tools.fail(f"{error}; give the results of a procedure, recorded with --record nodes")
+    vessel = (vertices, faces, scene_picture.vertex_normals(vertices, faces))
+    rendered = images(vessel, instruments, moments, nodes, inside, stents)
     pictures = [picture_of(options.results, number, end, times[-1]) for _, end, number in moments]
     layers = 2 if any(pictures) else 1
     lines = -(-len(moments) // COLUMNS)
     figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
     for axis in axes.flat:
         axis.set_visible(False)
-    handles = {}
     for k, (name, end, _) in enumerate(moments):
         axis = axes[k // COLUMNS * layers][k % COLUMNS]
         axis.set_visible(True)
-        draw(axis, vessel, nodes[k], inside[k])
+        axis.axis("off")
+        axis.imshow(rendered[k])
         axis.set_title("\n".join(textwrap.wrap(f"{name}, {end:.0f} s", 30)), fontsize=7)
-        for handle, label in zip(*axis.get_legend_handles_labels()):
-            handles[label] = handle
         if pictures[k]:
             below = axes[k // COLUMNS * layers + 1][k % COLUMNS]
             below.set_visible(True)
@@ -156,7 +288,8 @@ def main():
             dark = 0.7 * np.percentile(picture, 2)
             below.imshow(picture, cmap="gray", vmin=dark, vmax=picture.max())
     figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
+    handles = legend(inside[0], stents)
+    figure.legend(handles=handles, loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
     figure.savefig(options.out or options.results / "phases.png", dpi=130)
 
 
