@@ -11,6 +11,7 @@
 
 #include "common/error.h"
 #include "scene/scene_vessel.h"
+#include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::scene
 {
