@@ -196,9 +196,9 @@ TEST(MetricsPage, IsSelfContained)
 {
   Session session;
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
-  session.metrics.setSteps(
-      {{"advance wire until its tip is in goal", "Wire & goal <1>", "", 0.0, 1.0, 0, 0, procedure::Progress::kFailed}},
-      "step 1: because");
+  session.metrics.setSteps({{"advance wire until its tip is in goal", "Wire & goal <1>", "", 0.0, 1.0, 0, 0,
+                             procedure::Progress::kFailed, 0, ""}},
+                           "step 1: because");
   const std::string page = metricsPage(session.metrics);
   for (const char* reference : {"http", "src=", "href=", "url(", "@import"})
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
