@@ -367,7 +367,7 @@ TEST(Scene, HasAllKeysInItsDocumentation)
 
 TEST(SceneAnatomy, AWordNamesAnAnatomyOfThePackage)
 {
-  const std::string entry = "entry: {centreline_end: trunk}\n";
+  const std::string entry = "entry: {centreline_end: trunk}\ninstrument: {use: guidewire_035_j}\n";
   const Scene scene = parseScene("vessel: {anatomy: fork, friction: 0.1}\n" + entry, "scene.yaml");
   EXPECT_EQ(scene.vessel->anatomy, configFolder() + "/anatomies/fork.yaml");
   EXPECT_EQ(parseScene("vessel: {anatomy: anatomies/fork.yaml, friction: 0.1}\n" + entry, "scene.yaml").vessel->anatomy,
