@@ -35,6 +35,15 @@ double largestStenosis(const SessionMetrics& metrics)
   return largest;
 }
 
+/** Entries of wrong branches of all steps: a branch may be the goal of one step and wrong in another one. */
+double wrongBranches(const SessionMetrics& metrics)
+{
+  double sum = 0.0;
+  for (const procedure::StepRecord& record : metrics.steps())
+    sum += record.wrong_branches;
+  return sum;
+}
+
 /** Steps of the procedure that are not done, an exchange counted as two. */
 double missingSteps(const SessionMetrics& metrics)
 {
@@ -62,7 +71,7 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
   add("procedure time", metrics.steps().empty() ? 0.0 : metrics.steps().back().end, pass.time, "s");
   add("largest force on the wall", metrics.wallForces() ? metrics.wallForces()->whole.peak : 0.0, pass.wall_force, "N");
   add("largest force on a handle", largestHandForce(metrics), pass.hand_force, "N");
-  add("wrong branches", static_cast<double>(metrics.wrongBranches().size()), pass.wrong_branches, "");
+  add("wrong branches", wrongBranches(metrics), pass.wrong_branches, "");
   add("errors", static_cast<double>(metrics.errors().size()), pass.errors, "");
   add("remaining stenosis", 100.0 * largestStenosis(metrics), 100.0 * pass.stenosis, "%");
   if (!marks.empty())

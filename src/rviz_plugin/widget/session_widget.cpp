@@ -25,6 +25,7 @@ namespace
 constexpr int kStatusWidth = 160;         // [pixels]
 constexpr int kRefreshPeriod = 50;        // [ms]
 constexpr double kAtmosphere = 101325.0;  // [Pa]
+constexpr double kVacuum = -0.8e5;        // by which an inflator deflates a balloon [Pa]
 constexpr std::size_t kMostErrors = 3;    // shown lines
 const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", "LAO 40 CRA 20",
                               "AP CRA 30", "spider", "lateral"};
@@ -352,8 +353,9 @@ void SessionWidget::changePressure(double atmospheres)
   if (index >= state_.scene.instruments.size() || index >= state_.wire.pressure.size() || !canDrive())
     return;
   const double present = state_.wire.pressure[index];
-  const double difference = atmospheres == 0.0 ? -present : std::max(atmospheres * kAtmosphere, -present);
-  port_.changePressure(state_.scene.instruments[index].shape.name, difference);
+  const double target =
+      atmospheres == 0.0 ? kVacuum : std::max(std::max(present, 0.0) + atmospheres * kAtmosphere, 0.0);
+  port_.changePressure(state_.scene.instruments[index].shape.name, target - present);
 }
 
 void SessionWidget::takeOverInstruments(const SessionState& state)

@@ -171,7 +171,11 @@ TEST_F(SessionWidgetTest, DrivesTheChosenInstrumentAndItsBalloon)
   ASSERT_EQ(session.pressures.size(), 3U);
   EXPECT_DOUBLE_EQ(session.pressures[0].second, 101325.0);
   EXPECT_DOUBLE_EQ(session.pressures[1].second, -101325.0);
-  EXPECT_DOUBLE_EQ(session.pressures[2].second, -2.0 * 101325.0);
+  EXPECT_DOUBLE_EQ(session.pressures[2].second, -0.8e5 - 2.0 * 101325.0);
+  session.present.wire.pressure[1] = -0.8e5;
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("inflate"), Qt::LeftButton);
+  EXPECT_DOUBLE_EQ(session.pressures.back().second, 101325.0 + 0.8e5);
   EXPECT_EQ(session.pressures[0].first, "balloon");
   QTest::keyPress(widget.get(), Qt::Key_Down);
   EXPECT_EQ(session.lastHeld().instrument, "balloon");
