@@ -94,8 +94,6 @@ public:
                   if (branches_[b].parent >= 0)
                     extend(before, b);
                 });
-    for (const LumenBranch& branch : branches_)
-      warnOfVanishingLumen(branch);
   }
 
 private:
@@ -121,7 +119,7 @@ private:
             best = attachment;
       }
       LumenBranch& branch = branches_[static_cast<std::size_t>(best.child)];
-      if (best.distance > kTouching && best.distance <= kFarthest)
+      if (best.distance > kTouching)
         best = connectedThroughLumen(best, joined);
       if (best.distance > kFarthest)
         throw InputError(
@@ -141,33 +139,30 @@ private:
     }
   }
 
-  /** Among the parents within reach, the one with the shortest path through the lumen. Near branches of a fork are
-   * close to each other, but the way between them leads through their common parent. */
+  /** The branch whose lumen the path from the child to the root meets first. Near branches of a fork are close to each
+   * other, but the way between them leads through their common parent. Without such a path, the nearest branch. */
   Attachment connectedThroughLumen(const Attachment& nearest, const std::vector<int>& joined) const
   {
-    Attachment best = nearest;
-    double shortest = 1e30;
-    for (const int parent : joined)
-    {
-      const Attachment attachment = attachmentOf(branches_, nearest.child, parent);
-      if (attachment.distance > kFarthest)
-        continue;
-      const LumenBranch& child = branches_[static_cast<std::size_t>(attachment.child)];
-      const Section& end = attachment.reversed ? child.sections.back() : child.sections.front();
-      const Section& on_parent = branches_[static_cast<std::size_t>(parent)].sections[attachment.section];
-      const MinimalPath path =
-          minimalPath(scan_, on_parent.centre, end.centre, rangeOf(static_cast<std::size_t>(attachment.child)), {});
-      double length = path.leavesLumen() ? 1.0 : 0.0;
-      for (std::size_t k = 1; k < path.points.size(); ++k)
-        length += (path.points[k] - path.points[k - 1]).norm();
-      length -= 0.5 * on_parent.diameter();
-      if (length < shortest)
+    const LumenBranch& child = branches_[static_cast<std::size_t>(nearest.child)];
+    const Section& end = nearest.reversed ? child.sections.back() : child.sections.front();
+    const Attachment to_root = attachmentOf(branches_, nearest.child, joined.front());
+    const Section& on_root = branches_[static_cast<std::size_t>(joined.front())].sections[to_root.section];
+    const MinimalPath path =
+        minimalPath(scan_, end.centre, on_root.centre, rangeOf(static_cast<std::size_t>(nearest.child)), {});
+    if (path.leavesLumen())
+      return nearest;
+    for (const Eigen::Vector3d& p : path.points)
+      for (const int parent : joined)
       {
-        shortest = length;
-        best = attachment;
+        const std::vector<Section>& sections = branches_[static_cast<std::size_t>(parent)].sections;
+        for (std::size_t s = 0; s < sections.size(); ++s)
+          if ((sections[s].centre - p).norm() < 0.5 * sections[s].diameter())
+          {
+            const double distance = (sections[s].centre - end.centre).norm() - 0.5 * sections[s].diameter();
+            return {distance, nearest.child, parent, nearest.reversed, s};
+          }
       }
-    }
-    return best;
+    return nearest;
   }
 
   LumenRange rangeOf(std::size_t branch) const
@@ -212,17 +207,6 @@ private:
         begin = k;
     path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(begin));
     branches_[child].sections = fitLumen(scan_, path, branch.largest_radius, settings_);
-  }
-
-  /** A contour below the size of a voxel means that the path has left the lumen there, or an occlusion. */
-  void warnOfVanishingLumen(const LumenBranch& branch)
-  {
-    const auto narrowest =
-        std::min_element(branch.sections.begin(), branch.sections.end(),
-                         [](const Section& a, const Section& b) { return a.diameter() < b.diameter(); });
-    if (narrowest->diameter() < scan_.spacing().minCoeff())
-      warnings_.push_back(branch.name + ": the lumen vanishes at " + locationText(scan_.toPatient(narrowest->centre)) +
-                          "; check the straightened view, add a click there, or end the branch before it");
   }
 
   /** Centres of the parent before a section, from a distance up to the section. */

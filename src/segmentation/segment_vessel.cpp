@@ -70,6 +70,23 @@ void warnOfDetour(const CheckedBranch& checked, const LumenBranch& branch, std::
         "add a click between them");
 }
 
+/** Without an edge along any ray, or with a contour below the size of a voxel, the path has left the lumen, or the
+ * vessel is occluded. The ends are left out: they may lie in the wider lumen of another branch. */
+void warnOfVanishingLumen(const Scan& scan, const LumenBranch& branch, std::vector<std::string>& warnings)
+{
+  const std::vector<double> arc = branch.arc();
+  for (std::size_t s = 0; s < branch.sections.size(); ++s)
+  {
+    const Section& section = branch.sections[s];
+    const double to_end = std::min(arc[s], arc.back() - arc[s]);
+    if ((section.edges > 0.0 || to_end < 2.0 * section.diameter()) && section.diameter() > scan.spacing().minCoeff())
+      continue;
+    warnings.push_back(branch.name + ": the lumen vanishes at " + locationText(scan.toPatient(section.centre)) +
+                       "; check the straightened view, add a click there, or end the branch before it");
+    return;
+  }
+}
+
 }  // namespace
 
 Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
@@ -89,7 +106,10 @@ Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const Edg
                 branch.sections = fitLumen(scan, pathOf(scan, clicks, checked[b]), checked[b].largest_radius, settings);
               });
   for (std::size_t b = 0; b < checked.size(); ++b)
+  {
     warnOfDetour(checked[b], result.branches[b], result.warnings);
+    warnOfVanishingLumen(scan, result.branches[b], result.warnings);
+  }
   return result;
 }
 

@@ -121,10 +121,10 @@ TEST(JoinBranches, APathOfSeveralTimesTheDistanceOfItsClicksIsReported)
   EXPECT_FALSE(holds(joined(loop, clicksAt({{"leg", {{20, 17, 20}, {20, 17, 70}}}})).warnings, "times the length"));
 }
 
-TEST(JoinBranches, AShortInterruptionOfTheLumenIsReportedWithItsPlace)
+TEST(JoinBranches, APathAcrossTheWallBetweenTwoVesselsIsReportedWithItsPlace)
 {
-  const std::vector<Piece> pieces = {{{30, 17, 10}, {30, 17, 42}, 3.0}, {{30, 17, 49.5}, {30, 17, 88}, 3.0}};
-  const Segmentation result = joined(pieces, clicksAt({{"artery", {{30, 17, 14}, {30, 17, 84}}}}));
+  const std::vector<Piece> pieces = {{{20, 17, 10}, {20, 17, 42}, 3.0}, {{27.8, 17, 38}, {27.8, 17, 88}, 3.0}};
+  const Segmentation result = joined(pieces, clicksAt({{"artery", {{20, 17, 14}, {27.8, 17, 84}}}}));
   EXPECT_TRUE(holds(result.warnings, "artery: the lumen vanishes at ("));
   EXPECT_FALSE(holds(joined(kFork, clicksAt({{"trunk", {{30, 17, 84}, {30, 17, 50}}}})).warnings, "vanishes"));
 }
