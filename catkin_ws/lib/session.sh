@@ -249,16 +249,13 @@ scene_with_x_ray() {
   fi
 }
 
-# Plays the bag into rviz on a virtual screen and saves a picture at each moment that matters (rviz_pictures.py). The view of
-# a procedure follows the tip; without one it shows the whole vessel. An interruption ends the drawing.
+# Plays the bag into rviz on a virtual screen and saves a picture at each moment that matters (rviz_pictures.py).
+# An interruption ends the drawing.
 draw_rviz() {
   session_phase=drawing
   local display_file="$results/log/display" display scene waited=0 pictures="$workspace/lib/rviz_pictures.py" moments pictures_pid
-  local view="$results/log/pictures.rviz" class=Overview
   moments=$(/usr/bin/python3 "$pictures" "$results") || return 1
   [ -n "$moments" ] || { note "no instrument entered the vessel: no picture of rviz"; return 0; }
-  grep -q ' rviz$' <<< "$moments" || class=Tip
-  sed "0,/Class: endovascular_sim\/Overview/s//Class: endovascular_sim\/$class/" "$repository/rviz/replay.rviz" > "$view"
   ros_environment
   scene=$(scene_with_x_ray)
   trap clean_up EXIT
@@ -273,7 +270,7 @@ draw_rviz() {
   say "Drawing rviz from the recording, in software"
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
     roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" \
-    "rviz_config:=$view" rate:=8 > "$results/log/rviz.log" 2>&1 &
+    rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" timeout -s KILL 300 /usr/bin/python3 "$pictures" "$results" --play \
     >> "$results/log/rviz_pictures.log" 2>&1 &

@@ -23,7 +23,7 @@ COLUMNS = 6
 PIXELS = 300                    # width of a picture [1]
 LEAST = 1.5                     # radius of the thinnest instrument in the picture [pixel]
 WIDE, CLOSE = 0.075, 0.032      # half the width of a view, in wide vessels and in narrow ones [m]
-NARROW = 0.0035                 # distance of the wall from a tip in a narrow vessel [m]
+NARROW = 0.005                  # a tip is in a narrow vessel if the wall surrounds it within this distance [m]
 FAR = 0.15                      # instruments beyond this distance from a placed stent leave it in the view [m]
 INFLATED = 0.5e5                # least pressure of a balloon that is drawn inflated [Pa]
 
@@ -193,7 +193,11 @@ def view_of(vessel, nodes, inside, stents):
         return np.array(stents[-1][4]), CLOSE
     if tip is None:
         return vessel[0].mean(axis=0), WIDE
-    if np.linalg.norm(vessel[0] - tip, axis=1).min() > NARROW or len(nodes) < 20:
+    towards = vessel[0] - tip
+    distance = np.linalg.norm(towards, axis=1)
+    near = (distance < NARROW) & (distance > 0)
+    # Beside the wall of a wide vessel all directions towards the wall are similar.
+    if near.sum() < 8 or np.linalg.norm((towards[near] / distance[near, None]).mean(axis=0)) > 0.5:
         return tip, WIDE
     return np.array(last_part(nodes, 0.012, 0.0)[0]), CLOSE
 
