@@ -17,7 +17,7 @@ check() { # check STATUS PATTERN TOOL ARGUMENT...
 
 for source in "$repository"/src/tools/*.cpp "$repository"/src/tools/plots/*.py; do
   tool=$(basename "${source%.cpp}")
-  [ "$tool" = tool_support.py ] && continue # a module
+  case "$tool" in tool_support.py | scene_picture.py) continue ;; esac # modules
   check 0 'prints this text' "$tool" --help
   check 0 "^$tool [0-9.]*, commit [0-9a-z-]*, physics [0-9]*$" "$tool" --version
   check 2 "'$tool --help' lists the arguments" "$tool" --no-such-option

@@ -31,7 +31,7 @@ done
 /usr/bin/python3 "$repository/test/segmentation/volume_formats.py" fork.vol .
 /usr/bin/python3 "$repository/test/segmentation/series_by_pydicom.py" fork.vol pydicom
 mkdir itk
-"$programs/images_by_itk" fork.vol itk
+"$programs/images_of_tests_by_itk" fork.vol itk
 for images in dicom image.nii image.nrrd image.mha pydicom itk/series itk/image.nii.gz; do
   case $images in dicom | pydicom | itk/series) modality=() ;; *) modality=(--modality ct) ;; esac
   segment "$images" fork.yaml other.obj "${modality[@]}"

@@ -15,7 +15,7 @@ for program in "$programs"/*; do
     echo "$program loads FFTW"
     exit 1
   fi
-  case $(basename "$program") in volume_import | images_by_itk) continue ;; esac # the second one belongs to the tests
+  case $(basename "$program") in volume_import | images_of_tests_by_itk) continue ;; esac # the second one belongs to the tests
   if grep -q libITK <<< "$libraries"; then
     echo "$program loads ITK"
     exit 1

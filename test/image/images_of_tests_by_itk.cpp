@@ -1,5 +1,5 @@
 // Writes a volume of synthetic_ct by ITK: FOLDER/series (DICOM) and FOLDER/image.nii.gz.
-// usage: images_by_itk VOLUME.vol FOLDER
+// usage: images_of_tests_by_itk VOLUME.vol FOLDER
 
 #include <array>
 #include <cstdint>
@@ -115,7 +115,7 @@ int main(int argc, char** argv)
 {
   if (argc != 3)
   {
-    std::fputs("usage: images_by_itk VOLUME.vol FOLDER\n", stderr);
+    std::fputs("usage: images_of_tests_by_itk VOLUME.vol FOLDER\n", stderr);
     return 2;
   }
   try
@@ -129,7 +129,7 @@ int main(int argc, char** argv)
   }
   catch (const std::exception& error)
   {
-    std::fprintf(stderr, "images_by_itk: %s\n", error.what());
+    std::fprintf(stderr, "images_of_tests_by_itk: %s\n", error.what());
     return 1;
   }
 }
