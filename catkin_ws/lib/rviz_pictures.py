@@ -21,6 +21,7 @@ MOST = 8         # pictures
 EARLIER = 0.3    # time before the end of a phase [s]
 DEEP = 0.9       # share of the largest insertion
 DRAWING = 4.0    # time for rviz to draw a state in software [s]
+STILL = 15.0     # time without a new state after which the recording has ended [s]
 LIMIT = 200.0    # time for all pictures [s]
 
 
@@ -85,13 +86,27 @@ def play(folder):
     rospy.Subscriber("/rod/state_visual", RodStateVisual, lambda message: state.update(time=message.time), queue_size=1)
     end = time.monotonic() + LIMIT
     rospy.wait_for_service("/player/pause_playback", 60)
-    pause = rospy.ServiceProxy("/player/pause_playback", SetBool)
+    player = rospy.ServiceProxy("/player/pause_playback", SetBool)
+
+    def pause(value):
+        try:
+            player(value)
+        except rospy.ServiceException:
+            pass  # the player has ended, and rviz shows the last state
+
+    def wait(when):
+        """Waits until the played state reaches a time [s], or has not changed for a while: the end of the recording."""
+        last, changed = state["time"], time.monotonic()
+        while state["time"] < when and time.monotonic() < min(end, changed + STILL):
+            if state["time"] != last:
+                last, changed = state["time"], time.monotonic()
+            time.sleep(0.005)
+
     wanted, telling = moments(folder)
     for when, name in wanted:
-        while state["time"] < when:
-            if time.monotonic() > end:
-                return False
-            time.sleep(0.005)
+        wait(when)
+        if time.monotonic() > end:
+            return False
         pause(True)
         time.sleep(DRAWING)
         picture = os.path.join(folder, name + ".png")
