@@ -49,10 +49,11 @@ def mentioned():
 def in_code():
     """Names of ros_names.h. The CRTK names begin with a slash and belong below instruments/ and haptic/."""
     values = dict(re.findall(r"constexpr auto (k\w+) =\s*\"([^\"]+)\"", text("src/nodes/runtime/ros_names.h")))
-    crtk = {value for key, value in values.items() if value.startswith("/") and key not in ("kDiagnostics", "kClock")}
+    crtk = {value for key, value in values.items() if value.startswith("/") and key not in ("kDiagnostics", "kClock", "kClickedPoint")}
     assert {"/measured_js", "/servo_jp", "/operating_state"} < crtk, crtk
     of_devices = {"/measured_js", "/operating_state", "/state_reason"}
     topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "(?:/[a-z_]+)+", value)}
+    topics.add(values["kClickedPoint"][1:])
     return topics | {prefix + name for prefix in ("instruments/*", "robot") for name in crtk} | {"haptic/*" + name for name in of_devices}
 
 
