@@ -43,8 +43,8 @@ inline void writeFile(const std::filesystem::path& path, const std::string& text
   writeTextFile(path.string(), text);
 }
 
-/** Throws before a long computation, rather than after it, if its result cannot be written. Changes no existing file and
- * leaves no new one.
+/** Throws before a long computation, rather than after it, if its result cannot be written. Changes no existing file
+ * and leaves no new one.
  *  @throws InputError with the reason of the operating system */
 inline void requireWritable(const std::filesystem::path& path)
 {
