@@ -2,7 +2,7 @@
 """Pictures of rviz at the moments of a session that matter, while its recording is played.
 
 usage: rviz_pictures.py FOLDER     moments of the results, one a line: time [s], name of the picture
-       rviz_pictures.py FOLDER --play    pauses the running player at each of them and saves FOLDER/NAME.png
+       rviz_pictures.py FOLDER --play    starts the paused player, pauses it at each of them and saves FOLDER/NAME.png
 
 The moments are the ends of a procedure's phases with an instrument in the vessel, at most 8. Without a procedure it is the last
 one with the instruments deep in the vessel. rviz.png is the picture of the last moment before an instrument is withdrawn for good.
@@ -103,6 +103,8 @@ def play(folder):
             time.sleep(0.005)
 
     wanted, telling = moments(folder)
+    time.sleep(2.0 * DRAWING)  # the player waits for rviz
+    pause(False)
     for when, name in wanted:
         wait(when)
         if time.monotonic() > end:

@@ -270,7 +270,7 @@ draw_rviz() {
   say "Drawing rviz from the recording, in software"
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
     roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" \
-    rate:=8 > "$results/log/rviz.log" 2>&1 &
+    options:=--pause rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" timeout -s KILL 300 /usr/bin/python3 "$pictures" "$results" --play \
     >> "$results/log/rviz_pictures.log" 2>&1 &

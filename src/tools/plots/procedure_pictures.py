@@ -193,11 +193,9 @@ def view_of(vessel, nodes, inside, stents):
         return np.array(stents[-1][4]), CLOSE
     if tip is None:
         return vessel[0].mean(axis=0), WIDE
-    towards = vessel[0] - tip
-    distance = np.linalg.norm(towards, axis=1)
-    near = (distance < NARROW) & (distance > 0)
-    # Beside the wall of a wide vessel all directions towards the wall are similar.
-    if near.sum() < 8 or np.linalg.norm((towards[near] / distance[near, None]).mean(axis=0)) > 0.5:
+    near = np.linalg.norm(vessel[0] - tip, axis=1) < NARROW
+    # Beside the wall of a wide vessel all normals are similar; around a narrow lumen they cancel.
+    if near.sum() < 8 or np.linalg.norm(vessel[2][near].mean(axis=0)) > 0.5:
         return tip, WIDE
     return np.array(last_part(nodes, 0.012, 0.0)[0]), CLOSE
 
