@@ -58,10 +58,12 @@ class RvizSession:
             time.sleep(8)  # the window is black until the first picture
             return self
         except BaseException:
-            self.__exit__()
+            self.__exit__(BaseException)
             raise
 
-    def __exit__(self, *_):
+    def __exit__(self, failure=None, *_):
+        if failure:
+            self.picture("failure")
         rviz = self.pid_of("rviz")
         if rviz:
             try:
@@ -110,6 +112,21 @@ class RvizSession:
         run("xdotool", "keydown", key)
         time.sleep(seconds)
         run("xdotool", "keyup", key)
+
+    def hold_until(self, place, seconds, condition, name):
+        """Presses a button of the mouse at a place until the condition holds: on a loaded computer an event takes seconds."""
+        self.mouse(place, "mousedown", "1")
+        try:
+            self.wait(seconds, condition, name)
+        finally:
+            run("xdotool", "mouseup", "1")
+
+    def hold_key_until(self, key, seconds, condition, name):
+        run("xdotool", "keydown", key)
+        try:
+            self.wait(seconds, condition, name)
+        finally:
+            run("xdotool", "keyup", key)
 
     def picture(self, name):
         run("import", "-window", "root", os.path.join(os.environ.get("ENDOVASCULAR_PICTURES", self.folder), name + ".png"))
