@@ -25,7 +25,7 @@ namespace
 constexpr int kStatusWidth = 160;         // [pixels]
 constexpr int kRefreshPeriod = 50;        // [ms]
 constexpr double kAtmosphere = 101325.0;  // [Pa]
-constexpr double kVacuum = -0.8e5;        // by which an inflator deflates a balloon [Pa]
+constexpr double kVacuum = -0.8e5;        // gauge pressure of a deflated balloon [Pa]
 constexpr std::size_t kMostErrors = 3;    // shown lines
 const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", "LAO 40 CRA 20",
                               "AP CRA 30", "spider", "lateral"};

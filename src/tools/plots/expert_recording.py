@@ -19,7 +19,7 @@ import tool_support as tools  # noqa: E402
 
 
 def expert_overrides(scene):
-    """Changed values by which the scripted operator drives all instruments of a lesson."""
+    """Overrides of the scene: the scripted operator drives all instruments of the lesson."""
     count = len(scene.get("instruments", [])) or 1
     prefixes = ["instruments.%d." % k for k in range(count)] if "instruments" in scene else [""]
     return ["procedure.guided=false"] + [prefix + "drive.source=procedure" for prefix in prefixes]
