@@ -55,6 +55,33 @@ double missingSteps(const SessionMetrics& metrics)
   return static_cast<double>(all - std::min(all, done));
 }
 
+/** Time of the last sample at which all instruments still rest as in the first one [s]; 0 without samples. */
+double firstMotion(const SessionMetrics& metrics)
+{
+  constexpr double kSlide = 1e-4;  // smallest motion that counts [m]
+  constexpr double kTurn = 0.02;   // [rad]
+  const std::vector<Sample>& samples = metrics.samples();
+  double rest = 0.0;
+  for (const Sample& sample : samples)
+  {
+    for (std::size_t k = 0; k < sample.observation.instruments.size(); ++k)
+    {
+      const simulation::HandState& hand = sample.observation.instruments[k].hand;
+      const simulation::HandState& first = samples.front().observation.instruments[k].hand;
+      if (std::abs(hand.insertion - first.insertion) > kSlide || std::abs(hand.rotation - first.rotation) > kTurn)
+        return rest;
+    }
+    rest = sample.observation.time;
+  }
+  return rest;
+}
+
+/** Time from the first motion to the end of the last step [s]: reading before the start does not count. */
+double lessonTime(const SessionMetrics& metrics)
+{
+  return metrics.steps().empty() ? 0.0 : std::max(0.0, metrics.steps().back().end - firstMotion(metrics));
+}
+
 }  // namespace
 
 std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
@@ -68,7 +95,7 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
       marks.push_back({name, value, limit, unit, value <= limit});
   };
   const scene::PassMarks& pass = metrics.scene().procedure->pass;
-  add("procedure time", metrics.steps().empty() ? 0.0 : metrics.steps().back().end, pass.time, "s");
+  add("time from the first motion", lessonTime(metrics), pass.time, "s");
   add("largest force on the wall", metrics.wallForces() ? metrics.wallForces()->whole.peak : 0.0, pass.wall_force, "N");
   add("largest force on a handle", largestHandForce(metrics), pass.hand_force, "N");
   add("wrong branches", wrongBranches(metrics), pass.wrong_branches, "");

@@ -10,7 +10,7 @@ namespace
 
 // Speeds of hands: from a fine adjustment to a fast advance.
 constexpr double kSlowest = 1e-3, kFastest = 0.1;                // [m/s]
-constexpr double kSlowestTurn = 0.5, kFastestTurn = 4.0 * M_PI;  // [rad/s]
+constexpr double kSlowestTurn = 0.1, kFastestTurn = 2.0 * M_PI;  // [rad/s]
 
 double onLogarithmicScale(double setting, double low, double high)
 {
