@@ -178,6 +178,16 @@ TEST_F(Control, F_EveryRunHasARecordingThatReplays)
   replayedHash(folder / "session.bag");
   for (const char* name : {"report.json", "scene.yaml", "trajectory.csv", "metrics.json"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+
+  const std_srvs::Trigger::Response again = client_->trigger("session/stop");
+  EXPECT_EQ(again.message, stopped.message) << "a second stop has no effect";
+  EXPECT_TRUE(waitForSteps(300)) << "the simulation continues without a recording";
+  EXPECT_TRUE(client_->trigger("simulation/reset").success);
+  EXPECT_TRUE(waitForSteps(300));
+  const std_srvs::Trigger::Response further = client_->trigger("session/stop");
+  EXPECT_TRUE(further.success) << "a reset after a stop begins a further recording";
+  ASSERT_EQ(std::filesystem::path(further.message).parent_path().filename(), "run_4");
+  replayedHash(folder.parent_path() / "run_4/session.bag");
 }
 
 }  // namespace

@@ -114,7 +114,10 @@ void SessionRecorder::record(const std::string& topic, std::uint32_t queue)
   const std::string resolved = node_.resolveName(topic);
   listen<Message>(topic, queue,
                   [this, resolved](const ros::MessageEvent<Message const>& event)
-                  { recording_->bag.write(resolved, event); });
+                  {
+                    if (isRecording())
+                      recording_->bag.write(resolved, event);
+                  });
 }
 
 template <typename Message>
@@ -124,7 +127,8 @@ void SessionRecorder::recordLatched(const std::string& topic, std::uint32_t queu
   listen<Message>(topic, queue,
                   [this, resolved](const ros::MessageEvent<Message const>& event)
                   {
-                    recording_->bag.write(resolved, event);
+                    if (isRecording())
+                      recording_->bag.write(resolved, event);
                     latched_[resolved + " " + event.getPublisherName()] = [resolved, event](Recording& recording)
                     { recording.bag.write(resolved, ros::Time::now(), event); };
                   });
@@ -150,6 +154,8 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
   listen<Message>(topic, queue,
                   [this, resolved](const ros::MessageEvent<Message const>& event)
                   {
+                    if (!isRecording())
+                      return;
                     recording_->bag.write(resolved, event);
                     addToMetrics(*recording_, *event.getMessage());
                   });
@@ -209,7 +215,7 @@ void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event
 {
   const DriveApplied& drive = *event.getMessage();
   handled_ = drive.step + 1;
-  if (finished_ || durationIsOver())
+  if (!isRecording() || durationIsOver())
     return;
   recording_->results.add(drive);
   last_step_ = ros::SteadyTime::now();
@@ -253,7 +259,7 @@ void SessionRecorder::recordJoints(std::size_t k, const char* topic, const Joint
 
 void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event)
 {
-  if (finished_)
+  if (!isRecording())
     return;
   const RodStateVisual& rod = *event.getMessage();
   recording_->results.add(rod);
@@ -266,7 +272,7 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
 
 void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& event)
 {
-  if (finished_)
+  if (!isRecording())
     return;
   const ContactForces& forces = *event.getMessage();
   recording_->results.add(forces);
@@ -276,7 +282,7 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
 
 void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>& event)
 {
-  if (finished_)
+  if (!isRecording())
     return;
   recording_->results.add(event.getConstMessage());
   recording_->bag.write(node_.resolveName(names::kContactForceMap), event);
@@ -295,7 +301,8 @@ void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
     recording.results.add(event.getConstMessage());
     recording.bag.write(topic, ros::Time::now(), event);
   };
-  begin(*recording_);
+  if (isRecording())
+    begin(*recording_);
 }
 
 void SessionRecorder::onCentreline(const ros::MessageEvent<VesselCentreline const>& event)
@@ -306,12 +313,13 @@ void SessionRecorder::onCentreline(const ros::MessageEvent<VesselCentreline cons
     addToMetrics(recording, *event.getConstMessage());
     recording.bag.write(topic, ros::Time::now(), event);
   };
-  begin(*recording_);
+  if (isRecording())
+    begin(*recording_);
 }
 
 void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>& event)
 {
-  if (finished_)
+  if (!isRecording())
     return;
   recording_->results.report().addFluoroscopyFrame();
   if (scene_.record.x_ray_frames)
@@ -336,6 +344,8 @@ void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
 
 void SessionRecorder::onDiagnostics(const ros::MessageEvent<diagnostic_msgs::DiagnosticArray const>& event)
 {
+  if (!isRecording())
+    return;
   recording_->results.add(*event.getMessage());
   recording_->bag.write(node_.resolveName(names::kDiagnostics), event);
 }
@@ -363,7 +373,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
     diagnosed_ = ros::SteadyTime::now();
     diagnostics_.force_update();
   }
-  if (finished_)
+  if (!isRecording())
     return;
   logProgress();
   if (!settings_.stop_at_duration)
@@ -383,7 +393,8 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
 
 bool SessionRecorder::onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
 {
-  response.success = finish();
+  stop();
+  response.success = complete_;
   const std::string verdict = recording_->results.verdict();
   response.message =
       (verdict.empty() ? "" : verdict + ": ") + recording_->path(verdict.empty() ? "report.json" : "metrics.html");
@@ -411,7 +422,7 @@ void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrappe
   else if (recording_->bag.dropped() > 0)  // without an error only the queue drops messages
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "messages were dropped: the disk is too slow");
   else
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, finished_ ? "finished" : "recording");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, isRecording() ? "recording" : "finished");
   status.add("steps recorded", recording_->results.report().steps());
   status.add("messages recorded", recording_->bag.messages());
   status.add("messages dropped", recording_->bag.dropped());
@@ -425,8 +436,16 @@ bool SessionRecorder::finish()
   finished_ = true;
   subscribers_.clear();
   progress_publisher_.shutdown();  // the simulation waits for this recorder no longer
-  complete_ = closeRecording() && complete_;
+  stop();
   return complete_;
+}
+
+void SessionRecorder::stop()
+{
+  if (stopped_)
+    return;
+  stopped_ = true;
+  complete_ = closeRecording() && complete_;
 }
 
 /** Closes the bag and writes the report of the recording. @return true when everything was written */
@@ -466,16 +485,19 @@ void SessionRecorder::onRun(const ros::MessageEvent<SimulationRun const>& event)
 void SessionRecorder::beginRun()
 {
   const SimulationRun& run = *next_;
-  if (run_ != 0)
+  if (run_ != 0 || stopped_)
   {
-    complete_ = closeRecording() && complete_;
+    stop();
     const std::string folder = settings_.folder + "/run_" + std::to_string(run.run);
     recording_ = std::make_unique<Recording>(scene_, createRecordingFolder(folder), stepsOf(scene_, settings_));
     if (info_published_)
       recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
     for (const auto& [key, begin] : latched_)
-      begin(*recording_);
+      if (isRecording())
+        begin(*recording_);
     logged_time_ = 0.0;
+    last_step_ = ros::SteadyTime::now();
+    stopped_ = false;
     ROS_INFO("recording run %u in %s", run.run, folder.c_str());
   }
   handled_ = run_ == 0 ? std::max(handled_, run.first_step) : run.first_step;
@@ -493,7 +515,8 @@ void SessionRecorder::update()
   {
     // The last steps of the previous run may arrive after the announcement.
     const bool is_complete =
-        next_ && (run_ == 0 || recording_->results.report().lastStep() >= next_->previous_steps || durationIsOver());
+        next_ &&
+        (run_ == 0 || stopped_ || recording_->results.report().lastStep() >= next_->previous_steps || durationIsOver());
     if (is_complete || (next_ && (ros::SteadyTime::now() - next_since_).toSec() > kLongestSettling))
       beginRun();
   }

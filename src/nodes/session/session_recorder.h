@@ -41,7 +41,7 @@ struct RecorderSettings
 };
 
 /** Recorder of a session: subscribes to the topics of a scene, records them, and writes the report at the end. A reset
- *  and a loaded state begin a further recording, in the subfolder `run_N`. */
+ *  and a loaded state begin a further recording, in the subfolder `run_N`, also after the service session/stop. */
 class SessionRecorder
 {
 public:
@@ -49,7 +49,8 @@ public:
   SessionRecorder(const ros::NodeHandle& node, scene::Scene scene, RecorderSettings settings);
   ~SessionRecorder();
 
-  /** Closes the bag and writes the report; further calls have no effect. @return true when everything was written */
+  /** Ends the session: stops the recording and unsubscribes; further calls have no effect.
+   *  @return true when everything of all recordings was written */
   bool finish();
 
   /** Begins the recording of a new run once that of the last one is complete, and publishes the progress. To be called
@@ -100,7 +101,10 @@ private:
   void logProgress();
   void fillDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void endWith(const std::string& error);
+  bool isRecording() const { return !finished_ && !stopped_; }
   void beginRun();
+  /** Closes the bag and writes the report; the next run begins a further recording. */
+  void stop();
   bool closeRecording();
   void publishProgress();
 
@@ -116,7 +120,8 @@ private:
   /** Messages that begin every recording, by their topic and publisher. */
   std::map<std::string, std::function<void(Recording&)>> latched_;
   bool info_published_ = false;
-  bool finished_ = false;
+  bool finished_ = false;  ///< the session has ended
+  bool stopped_ = false;   ///< the recording is closed, and no further one has begun
   bool complete_ = true;
   ros::SteadyTime last_step_;  ///< arrival of the last step
   double logged_time_ = 0.0;   ///< simulated time of the last progress message [s]
