@@ -188,6 +188,7 @@ TEST_F(Control, F_EveryRunHasARecordingThatReplays)
   EXPECT_TRUE(further.success) << "a reset after a stop begins a further recording";
   ASSERT_EQ(std::filesystem::path(further.message).parent_path().filename(), "run_4");
   replayedHash(folder.parent_path() / "run_4/session.bag");
+  EXPECT_TRUE(std::filesystem::exists(folder.parent_path() / "run_4/metrics.json")) << "with the vessel";
 }
 
 }  // namespace

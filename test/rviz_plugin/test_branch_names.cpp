@@ -88,6 +88,19 @@ TEST(BranchNames, StayInThePicture)
   }
 }
 
+TEST(BranchNames, AvoidTheLegendsAtTheLowerLeft)
+{
+  PictureView view = viewFromTheFront();
+  const std::size_t all = branchNames(fork(), view, 13.0).size();
+  view.legend_width = view.width;
+  view.legend_height = 0.5 * view.height;
+  const std::vector<BranchName> names = branchNames(fork(), view, 13.0);
+  EXPECT_LT(names.size(), all);
+  EXPECT_FALSE(names.empty());
+  for (const BranchName& name : names)
+    EXPECT_GT(view.project(name.position).y(), 0.0) << name.text;
+}
+
 TEST(BranchNames, AreMissingBesideInvalidShortHiddenAndUnnamedBranches)
 {
   VesselCentreline message = fork();

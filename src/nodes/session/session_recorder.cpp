@@ -490,14 +490,13 @@ void SessionRecorder::beginRun()
     stop();
     const std::string folder = settings_.folder + "/run_" + std::to_string(run.run);
     recording_ = std::make_unique<Recording>(scene_, createRecordingFolder(folder), stepsOf(scene_, settings_));
+    stopped_ = false;
     if (info_published_)
       recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
     for (const auto& [key, begin] : latched_)
-      if (isRecording())
-        begin(*recording_);
+      begin(*recording_);
     logged_time_ = 0.0;
     last_step_ = ros::SteadyTime::now();
-    stopped_ = false;
     ROS_INFO("recording run %u in %s", run.run, folder.c_str());
   }
   handled_ = run_ == 0 ? std::max(handled_, run.first_step) : run.first_step;

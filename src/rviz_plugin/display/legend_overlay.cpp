@@ -62,6 +62,7 @@ PictureOverlay::PictureOverlay() : name_(uniqueName())
   overlay_ = manager.create(name_);
   panel_ = static_cast<Ogre::OverlayContainer*>(manager.createOverlayElement("Panel", name_ + "_panel"));
   panel_->setMetricsMode(Ogre::GMM_PIXELS);
+  panel_->setVerticalAlignment(Ogre::GVA_BOTTOM);
   material_ = Ogre::MaterialManager::getSingleton().create(name_ + "_material",
                                                            Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
   Ogre::Pass* pass = material_->getTechnique(0)->getPass(0);
@@ -85,11 +86,11 @@ PictureOverlay::~PictureOverlay()
     Ogre::TextureManager::getSingleton().remove(texture_);
 }
 
-void PictureOverlay::show(const QImage& image, int left, int top)
+void PictureOverlay::show(const QImage& image, int left, int bottom)
 {
   const QImage pixels = image.convertToFormat(QImage::Format_ARGB32);
   resize(pixels.width(), pixels.height());
-  panel_->setPosition(static_cast<float>(left), static_cast<float>(top));
+  panel_->setPosition(static_cast<float>(left), static_cast<float>(-bottom - pixels.height()));
   panel_->setDimensions(static_cast<float>(pixels.width()), static_cast<float>(pixels.height()));
   const Ogre::PixelBox source(static_cast<Ogre::uint32>(pixels.width()), static_cast<Ogre::uint32>(pixels.height()), 1,
                               Ogre::PF_A8R8G8B8, const_cast<uchar*>(pixels.constBits()));

@@ -23,7 +23,7 @@ namespace endovascular_sim::rviz_plugin
 QImage legendImage(const std::string& title, const visualization::LegendScale& scale,
                    const std::function<visualization::Colour(double)>& colour_at);
 
-/** Picture in a fixed place over the scene. */
+/** Picture over the scene, in a fixed place from the lower left corner. */
 class PictureOverlay
 {
 public:
@@ -32,7 +32,8 @@ public:
   PictureOverlay(const PictureOverlay&) = delete;
   PictureOverlay& operator=(const PictureOverlay&) = delete;
 
-  void show(const QImage& image, int left, int top);
+  /** @param left, bottom margins [pixels] */
+  void show(const QImage& image, int left, int bottom);
   void hide();
 
 private:

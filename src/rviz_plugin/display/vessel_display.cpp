@@ -8,7 +8,6 @@
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
 #include <rviz/display_context.h>
-#include <rviz/frame_manager.h>
 #include <rviz/ogre_helpers/movable_text.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
@@ -20,6 +19,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -27,8 +27,8 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr int kLegendLeft = 10, kLegendTop = 70;                 // below the legend of the wire [pixels]
-constexpr double kLegendsWidth = 200.0, kLegendsHeight = 130.0;  ///< of both legends with their rim [pixels]
+constexpr int kLegendLeft = 198, kLegendBottom = 10;            // beside the legend of the wire [pixels]
+constexpr double kLegendsWidth = 388.0, kLegendsHeight = 74.0;  ///< of both legends with their rim [pixels]
 constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
 constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
 constexpr float kGlow = 0.3F;            ///< of the far wall, relative to its colour
@@ -281,7 +281,7 @@ void VesselDisplay::draw()
 void VesselDisplay::drawWall()
 {
   static const std::vector<std::uint32_t> kNone;
-  if (!mesh_message_ || !placeInFrame(mesh_message_->header.frame_id))
+  if (!mesh_message_ || !placeInFrame(*this, *context_, mesh_message_->header.frame_id, *scene_node_))
   {
     is_mesh_new_ = mesh_message_ != nullptr;  // until the transform is known
     far_wall_->update({}, kNone);
@@ -382,23 +382,7 @@ void VesselDisplay::drawLegend()
                               const visualization::TranslucentColour heat = visualization::heatColour(value, full);
                               return visualization::blend(wall, heat.colour, heat.opacity);
                             }),
-                kLegendLeft, kLegendTop);
-}
-
-bool VesselDisplay::placeInFrame(const std::string& frame)
-{
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation))
-  {
-    setStatus(rviz::StatusProperty::Error, "Transform",
-              QString("no transform from %1 to the fixed frame").arg(frame.c_str()));
-    return false;
-  }
-  deleteStatus("Transform");
-  scene_node_->setPosition(position);
-  scene_node_->setOrientation(orientation);
-  return true;
+                kLegendLeft, kLegendBottom);
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -64,7 +64,6 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   bool isCutawayDue() const;
   bool hasCameraMoved() const;
   std::optional<PictureView> pictureView() const;
-  bool placeInFrame(const std::string& frame);
 
   rviz::RosTopicProperty *mesh_topic_, *centreline_topic_, *force_topic_, *wire_topic_;
   rviz::ColorProperty *colour_, *name_colour_;

@@ -7,7 +7,6 @@
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
 #include <rviz/display_context.h>
-#include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/float_property.h>
@@ -18,6 +17,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -25,9 +25,9 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr int kLegendLeft = 10, kLegendTop = 10;  // [pixels]
-constexpr int kUsualHeight = 700;                 // of a view [pixels]
-constexpr double kShareOfRadius = 0.1;            // change of the smallest radius that is drawn
+constexpr int kLegendLeft = 10, kLegendBottom = 10;  // [pixels]
+constexpr int kUsualHeight = 700;                    // of a view [pixels]
+constexpr double kShareOfRadius = 0.1;               // change of the smallest radius that is drawn
 
 template <typename Message>
 QString typeOf()
@@ -203,7 +203,7 @@ void WireDisplay::draw()
 
 void WireDisplay::drawWire()
 {
-  if (wire_message_ && placeInFrame(wire_message_->header.frame_id))
+  if (wire_message_ && placeInFrame(*this, *context_, wire_message_->header.frame_id, *scene_node_))
   {
     const std::string problem = wire_.update(*wire_message_, style());
     if (problem.empty())
@@ -250,23 +250,7 @@ void WireDisplay::drawLegend()
   const visualization::Colour base = toColour(colours_[0]->getColor());
   legend_->show(legendImage("Force on the instrument", visualization::legendScale(full, "N"),
                             [&](double force) { return visualization::forceColourOver(base, force, full); }),
-                kLegendLeft, kLegendTop);
-}
-
-bool WireDisplay::placeInFrame(const std::string& frame)
-{
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
-  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation))
-  {
-    setStatus(rviz::StatusProperty::Error, "Transform",
-              QString("no transform from %1 to the fixed frame").arg(frame.c_str()));
-    return false;
-  }
-  deleteStatus("Transform");
-  scene_node_->setPosition(position);
-  scene_node_->setOrientation(orientation);
-  return true;
+                kLegendLeft, kLegendBottom);
 }
 
 double WireDisplay::smallestRadius() const

@@ -58,7 +58,6 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   void drawWire();
   void drawTreatment();
   void drawLegend();
-  bool placeInFrame(const std::string& frame);
   visualization::WireStyle style() const;
   double smallestRadius() const;
 

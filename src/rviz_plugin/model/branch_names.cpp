@@ -134,8 +134,8 @@ private:
   bool isFree(const Rectangle& rectangle) const
   {
     const Eigen::Vector2d half = 0.5 * Eigen::Vector2d(view_.width, view_.height);
-    const Eigen::Vector2d legend_end(view_.legend_width - half.x(), half.y() - view_.legend_height);
-    if (rectangle.low.x() < legend_end.x() && rectangle.high.y() > legend_end.y())
+    const Eigen::Vector2d legend_end(view_.legend_width - half.x(), view_.legend_height - half.y());
+    if (rectangle.low.x() < legend_end.x() && rectangle.low.y() < legend_end.y())
       return false;
     const bool is_inside =
         (rectangle.low.array() > -half.array()).all() && (rectangle.high.array() < half.array()).all();

@@ -17,7 +17,7 @@ struct PictureView
   Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ(), forward = Eigen::Vector3d::UnitY();
   double focal = 800.0;                            ///< distance of the picture from the eye [pixels]
   double width = 1000.0, height = 700.0;           ///< [pixels]
-  double legend_width = 0.0, legend_height = 0.0;  ///< of the legends in the upper left corner [pixels]
+  double legend_width = 0.0, legend_height = 0.0;  ///< of the legends in the lower left corner [pixels]
 
   double depth(const Eigen::Vector3d& point) const { return forward.dot(point - eye); }
   /** Place relative to the middle of the picture, to the right and up [pixels].
