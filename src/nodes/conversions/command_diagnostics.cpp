@@ -12,8 +12,6 @@ void diagnoseCommands(const CommandReport& report, diagnostic_updater::Diagnosti
   const std::string& name = report.instrument;
   if (!report.has_publisher)
     status.mergeSummary(DiagnosticStatus::WARN, "no publisher of commands to " + name);
-  else if (report.accepted == 0)
-    status.mergeSummary(DiagnosticStatus::WARN, "no command to " + name + " accepted");
   if (rejected > 0)
     status.mergeSummary(DiagnosticStatus::WARN, std::to_string(rejected) + " rejected commands to " + name);
   status.add(name + ": driver", report.driver);

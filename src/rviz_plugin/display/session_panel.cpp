@@ -1,6 +1,7 @@
 #include "rviz_plugin/display/session_panel.h"
 
 #include <ros/console.h>
+#include <rviz/render_panel.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
 #include <QLabel>
@@ -32,6 +33,7 @@ void SessionPanel::onInitialize()
     widget_ = new SessionWidget(*session_, this);
     widget_->setSpeedSetting(speed_setting_);
     layout()->addWidget(widget_);
+    widget_->takeKeysOf(*vis_manager_->getRenderPanel());  // a click into the picture must not end the keys
     connect(widget_, &SessionWidget::viewChosen, this, &SessionPanel::showView);
   }
   catch (const std::exception& error)  // rviz would end

@@ -114,6 +114,13 @@ void SurfaceObject::setGlow(const visualization::Colour& colour)
       ->setSelfIllumination(colour.red, colour.green, colour.blue);
 }
 
+void SurfaceObject::setFlat()
+{
+  Ogre::Pass* pass = material_->getTechnique(0)->getPass(0);
+  pass->setLightingEnabled(false);
+  pass->setDepthWriteEnabled(false);
+}
+
 void SurfaceObject::setVisible(bool visible)
 {
   object_->setVisible(visible && !object_->getSections().empty());

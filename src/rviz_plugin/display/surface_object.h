@@ -45,6 +45,8 @@ public:
   void update(const visualization::Surface& surface, const std::vector<std::uint32_t>& triangles);
   /** Light of the surface's own, for walls that are seen at a grazing angle. */
   void setGlow(const visualization::Colour& colour);
+  /** Colours without light, as in a legend; the surface hides nothing behind it. For a heat map. */
+  void setFlat();
   void setVisible(bool visible);
   void clear();
 

@@ -117,6 +117,7 @@ void VesselDisplay::onInitialize()
                                                          DrawnFaces::kFront);
             heat_ =
                 std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kInside, DrawnFaces::kBoth);
+            heat_->setFlat();
             legend_ = std::make_unique<PictureOverlay>();
           });
 }

@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double kRate = 6.0;             ///< natural frequency of the camera's motion [rad/s]
-constexpr double kTipDistance = 0.15;     ///< of the camera from the tip [m]
+constexpr double kTipDistance = 0.08;     ///< of the camera from the tip [m]
 constexpr double kDistanceBehind = 0.05;  ///< of the camera behind the tip, along the wire [m]
 constexpr double kRim = 1.08;             ///< picture relative to the vessel
 constexpr double kLegendStrip = 0.1;      ///< share of the height of the overview below the vessel, for the legends

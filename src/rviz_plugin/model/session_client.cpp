@@ -116,7 +116,7 @@ SessionState SessionClient::state() const
         state.operating[name] = topics->reason.empty() ? topics->state : topics->state + ": " + topics->reason;
     for (const auto& [name, diagnosis] : diagnoses_)
       if (secondsSince(diagnosis.received) < kDiagnosisAge)
-        state.errors.push_back(diagnosis.text);
+        (diagnosis.is_error ? state.errors : state.warnings).push_back(diagnosis.text);
   }
   state.dead_man_stops = commander_->timeOuts();
   const std::lock_guard<std::mutex> lock(calls_->mutex);
@@ -137,7 +137,7 @@ void SessionClient::receiveScene(const SessionInfoConstPtr& info)
   catch (const std::exception& error)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    diagnoses_["scene"] = {std::string("scene: ") + error.what(), Clock::now()};
+    diagnoses_["scene"] = {std::string("scene: ") + error.what(), true, Clock::now()};
     return;
   }
   {
@@ -238,7 +238,8 @@ void SessionClient::receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayCon
     if (status.level == diagnostic_msgs::DiagnosticStatus::OK)
       diagnoses_.erase(status.name);
     else
-      diagnoses_[status.name] = {status.name + ": " + status.message, Clock::now()};
+      diagnoses_[status.name] = {status.name + ": " + status.message,
+                                 status.level != diagnostic_msgs::DiagnosticStatus::WARN, Clock::now()};
   }
 }
 

@@ -52,6 +52,7 @@ private:
   struct Diagnosis
   {
     std::string text;
+    bool is_error = false;  ///< false: a warning
     Clock::time_point received;
   };
 

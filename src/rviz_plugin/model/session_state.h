@@ -23,7 +23,8 @@ struct SessionState
   std::map<std::string, std::string> operating;  ///< operating state of each instrument, with its reason
   ProcedureStep step;
   bool has_step = false;
-  std::vector<std::string> errors;  ///< warnings and errors of the diagnostics
+  std::vector<std::string> errors;    ///< of the diagnostics
+  std::vector<std::string> warnings;  ///< of the diagnostics
   bool is_recording = false;
   unsigned run = 0;                  ///< number of the run
   std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()

@@ -26,7 +26,7 @@ constexpr int kStatusWidth = 160;         // [pixels]
 constexpr int kRefreshPeriod = 50;        // [ms]
 constexpr double kAtmosphere = 101325.0;  // [Pa]
 constexpr double kVacuum = -0.8e5;        // gauge pressure of a deflated balloon [Pa]
-constexpr std::size_t kMostErrors = 3;    // shown lines
+constexpr std::size_t kMostTexts = 3;     // of the shown errors, and of the warnings
 const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", "LAO 40 CRA 20",
                               "AP CRA 30", "spider", "lateral"};
 
@@ -53,6 +53,16 @@ std::optional<Motion> motionOfKey(int key)
 QString gaugeColour(int share)
 {
   return share < 50 ? "#3c9d4e" : share < 80 ? "#d9a018" : "#c62f2f";
+}
+
+QStringList firstTexts(const std::vector<std::string>& texts)
+{
+  QStringList shown;
+  for (std::size_t k = 0; k < std::min(texts.size(), kMostTexts); ++k)
+    shown << QString::fromStdString(texts[k]);
+  if (texts.size() > kMostTexts)
+    shown << QString("and %1 more").arg(texts.size() - kMostTexts);
+  return shown;
 }
 
 }  // namespace
@@ -297,10 +307,17 @@ QWidget* SessionWidget::stateBox()
   labels_.hint->setWordWrap(true);
   labels_.hint->setStyleSheet("background: #fff6d6; color: #4a3c00; padding: 4px");
   layout->addRow(labels_.hint);
+  labels_.answer = label("answer");
+  labels_.answer->setWordWrap(true);
+  layout->addRow(labels_.answer);
   labels_.errors = label("errors");
   labels_.errors->setWordWrap(true);
   labels_.errors->setStyleSheet("color: #c62f2f");
   layout->addRow(labels_.errors);
+  labels_.warnings = label("warnings");
+  labels_.warnings->setWordWrap(true);
+  labels_.warnings->setStyleSheet("color: #606060");
+  layout->addRow(labels_.warnings);
   return box;
 }
 
@@ -403,19 +420,15 @@ void SessionWidget::refresh()
   balloon_->setVisible(index < state_.scene.instruments.size() && state_.scene.instruments[index].has_balloon);
   for (QPushButton* button : motions_)
     button->setToolTip(canDrive() ? QString() : QString("the scene does not let a topic drive this instrument"));
-  labels_.keys->setText(!canDrive()  ? QString("driven by the scene")
-                        : hasFocus() ? QString("Keys: arrows, space")
-                                     : QString("Click here for the keys"));
-  QStringList errors;
+  labels_.keys->setText(!canDrive()   ? QString("driven by the scene")
+                        : takesKeys() ? QString("Keys: arrows, space")
+                                      : QString("Click here for the keys"));
+  labels_.answer->setText(QString::fromStdString(state_.answer));
+  QStringList errors = firstTexts(state_.errors);
   if (state_.dead_man_stops > 0)
-    errors << QString("the window was too slow: motions stopped %1 times").arg(state_.dead_man_stops);
-  if (!state_.answer.empty())
-    errors << QString::fromStdString(state_.answer);
-  for (std::size_t k = 0; k < std::min(state_.errors.size(), kMostErrors); ++k)
-    errors << QString::fromStdString(state_.errors[k]);
-  if (state_.errors.size() > kMostErrors)
-    errors << QString("and %1 more").arg(state_.errors.size() - kMostErrors);
+    errors.prepend(QString("the window was too slow: motions stopped %1 times").arg(state_.dead_man_stops));
   labels_.errors->setText(errors.join("\n"));
+  labels_.warnings->setText(firstTexts(state_.warnings).join("\n"));
 }
 
 void SessionWidget::pauseOrStart()
@@ -452,39 +465,76 @@ void SessionWidget::followJoystick()
   is_stick_held_ = is_held;
 }
 
-void SessionWidget::keyPressEvent(QKeyEvent* event)
+void SessionWidget::takeKeysOf(QWidget& other)
 {
-  const std::optional<Motion> motion = motionOfKey(event->key());
+  key_source_ = &other;
+  other.installEventFilter(this);
+}
+
+bool SessionWidget::takesKeys() const
+{
+  return hasFocus() || (key_source_ && key_source_->hasFocus());
+}
+
+bool SessionWidget::eventFilter(QObject* watched, QEvent* event)
+{
+  if (watched != key_source_)
+    return QWidget::eventFilter(watched, event);
+  if (event->type() == QEvent::KeyPress)
+    return pressKey(static_cast<QKeyEvent&>(*event));
+  if (event->type() == QEvent::KeyRelease)
+    return releaseKey(static_cast<QKeyEvent&>(*event));
+  if (event->type() == QEvent::FocusOut)
+    releaseAll();
+  return false;
+}
+
+bool SessionWidget::pressKey(const QKeyEvent& event)
+{
+  const std::optional<Motion> motion = motionOfKey(event.key());
+  const bool is_page = event.key() == Qt::Key_PageUp || event.key() == Qt::Key_PageDown;
+  if (!motion && !is_page && event.key() != Qt::Key_Space)
+    return false;
+  if (is_page)
+  {
+    chooseNext(event.key() == Qt::Key_PageUp ? instruments_->count() - 1 : 1);
+    return true;
+  }
+  if (event.isAutoRepeat())
+    return true;
   if (motion)
   {
-    if (!event->isAutoRepeat())
-    {
-      controls_.press(*motion, OperatorControls::Source::kKey);
-      sendVelocity();
-    }
+    controls_.press(*motion, OperatorControls::Source::kKey);
+    sendVelocity();
   }
-  else if (event->key() == Qt::Key_Space && !event->isAutoRepeat())
-  {
-    pauseOrStart();
-  }
-  else if (event->key() == Qt::Key_PageUp || event->key() == Qt::Key_PageDown)
-    chooseNext(event->key() == Qt::Key_PageUp ? instruments_->count() - 1 : 1);
   else
+    pauseOrStart();
+  return true;
+}
+
+bool SessionWidget::releaseKey(const QKeyEvent& event)
+{
+  const std::optional<Motion> motion = motionOfKey(event.key());
+  if (!motion)
+    return false;
+  if (!event.isAutoRepeat())
+  {
+    controls_.release(*motion, OperatorControls::Source::kKey);
+    sendVelocity();
+  }
+  return true;
+}
+
+void SessionWidget::keyPressEvent(QKeyEvent* event)
+{
+  if (!pressKey(*event))
     QWidget::keyPressEvent(event);
 }
 
 void SessionWidget::keyReleaseEvent(QKeyEvent* event)
 {
-  const std::optional<Motion> motion = motionOfKey(event->key());
-  if (!motion)
-  {
+  if (!releaseKey(*event))
     QWidget::keyReleaseEvent(event);
-    return;
-  }
-  if (event->isAutoRepeat())
-    return;
-  controls_.release(*motion, OperatorControls::Source::kKey);
-  sendVelocity();
 }
 
 void SessionWidget::focusInEvent(QFocusEvent* event)

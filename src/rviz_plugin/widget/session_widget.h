@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 
@@ -21,10 +22,10 @@ namespace endovascular_sim::rviz_plugin
 
 /** Widget of the panel: controls of a session and its state. Independent of rviz and of ROS's connections.
  *
- *  Keys, while the widget has the focus: up and down push and pull, left and right twist, space pauses and starts,
- *  page up and down choose an instrument. Loss of the focus ends all motions. A gamepad acts without the focus: its
- *  sticks push and twist, button 0 (A) pauses and starts, 1 (B) chooses the next instrument, 3 (Y) and 2 (X) inflate
- * and deflate the balloon. */
+ *  Keys, while the widget or the widget of takeKeysOf() has the focus: up and down push and pull, left and right twist,
+ * space pauses and starts, page up and down choose an instrument. Loss of the focus ends all motions. A gamepad acts
+ * without the focus: its sticks push and twist, button 0 (A) pauses and starts, 1 (B) chooses the next instrument, 3
+ * (Y) and 2 (X) inflate and deflate the balloon. */
 class SessionWidget : public QWidget
 {
   Q_OBJECT
@@ -37,6 +38,10 @@ public:
 
   int speedSetting() const;           ///< position of the speed slider, 0 to 100
   void setSpeedSetting(int setting);  ///< as speedSetting()
+
+  /** Also takes the keys of another widget, such as the picture of the scene. It keeps all other keys. */
+  void takeKeysOf(QWidget& other);
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
   void viewChosen(const QString& view);  ///< view of the picture: Overview, Tip or AlongVessel
@@ -54,8 +59,8 @@ protected:
 private:
   struct Labels
   {
-    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *hint, *recording, *errors,
-        *pressure, *keys, *speed;
+    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *hint, *recording, *answer, *errors,
+        *warnings, *pressure, *keys, *speed;
   };
 
   QWidget* sessionRow();
@@ -73,6 +78,9 @@ private:
   void sendVelocity();
   void releaseAll();
   bool canDrive() const;
+  bool takesKeys() const;
+  bool pressKey(const QKeyEvent& event);    ///< @return false for a key without a meaning
+  bool releaseKey(const QKeyEvent& event);  ///< as pressKey()
   void pauseOrStart();
   void chooseNext(int step);
   void followJoystick();
@@ -90,6 +98,7 @@ private:
   QWidget* balloon_;
   Labels labels_{};
   QTimer timer_;
+  QPointer<QWidget> key_source_;  ///< see takeKeysOf(); null without one
 };
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -115,6 +115,23 @@ TEST_F(SessionWidgetTest, HoldsAVelocityWhileAKeyIsPressed)
   EXPECT_TRUE(session.lastHeld().isZero());
 }
 
+TEST_F(SessionWidgetTest, TakesTheKeysOfThePictureUntilThatLosesTheFocus)
+{
+  QWidget picture;
+  widget->takeKeysOf(picture);
+  QTest::keyPress(&picture, Qt::Key_Up);
+  EXPECT_GT(session.lastHeld().insertion, 0.0);
+  QTest::keyRelease(&picture, Qt::Key_Up);
+  EXPECT_TRUE(session.lastHeld().isZero());
+  QTest::keyPress(&picture, Qt::Key_Left);
+  EXPECT_GT(session.lastHeld().rotation, 0.0);
+  QFocusEvent lost(QEvent::FocusOut);
+  QCoreApplication::sendEvent(&picture, &lost);
+  EXPECT_TRUE(session.lastHeld().isZero());
+  QKeyEvent other(QEvent::KeyPress, Qt::Key_F, Qt::NoModifier);
+  EXPECT_FALSE(widget->eventFilter(&picture, &other)) << "other keys remain those of the picture";
+}
+
 TEST_F(SessionWidgetTest, ChoosesTheViewOfThePicture)
 {
   std::vector<QString> views;
@@ -200,11 +217,14 @@ TEST_F(SessionWidgetTest, MovesTheCArmToAPresetView)
 TEST_F(SessionWidgetTest, ShowsForceStateAndErrors)
 {
   session.present.answer = "refused";
-  session.present.errors = {"contact: late"};
+  session.present.errors = {"contact: no vessel"};
+  session.present.warnings = {"late", "slow", "paused", "full"};
   widget->refresh();
   EXPECT_EQ(child<QProgressBar>("gauge")->value(), 50);
   EXPECT_EQ(child<QLabel>("insertion")->text(), "100.0 mm");
-  EXPECT_EQ(child<QLabel>("errors")->text(), "refused\ncontact: late");
+  EXPECT_EQ(child<QLabel>("answer")->text(), "refused");
+  EXPECT_EQ(child<QLabel>("errors")->text(), "contact: no vessel");
+  EXPECT_EQ(child<QLabel>("warnings")->text(), "late\nslow\npaused\nand 1 more");
 }
 
 TEST_F(SessionWidgetTest, ConfirmsItsMotionsWhileItIsAlive)
