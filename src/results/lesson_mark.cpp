@@ -11,6 +11,8 @@ namespace endovascular_sim::results
 namespace
 {
 
+const char* const kMissingSteps = "steps not done";
+
 std::string text(double value, const std::string& unit)
 {
   char number[48];
@@ -104,7 +106,7 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
   if (!marks.empty())
   {
     const double missing = missingSteps(metrics);
-    marks.insert(marks.begin(), {"steps not done", missing, 0.0, "", missing == 0.0});
+    marks.insert(marks.begin(), {kMissingSteps, missing, 0.0, "", missing == 0.0});
   }
   return marks;
 }
@@ -131,9 +133,15 @@ std::string verdict(const std::vector<Mark>& marks)
     return "";
   std::string failures;
   for (const Mark& mark : marks)
-    if (!mark.passed)
-      failures += (failures.empty() ? " " : "; ") + mark.name + " " + text(mark.value, mark.unit) + ", at most " +
-                  text(mark.limit, mark.unit);
+  {
+    if (mark.passed)
+      continue;
+    failures += failures.empty() ? " " : "; ";
+    if (mark.name == kMissingSteps)
+      failures += text(mark.value, mark.unit) + " " + mark.name;
+    else
+      failures += mark.name + " " + text(mark.value, mark.unit) + ", at most " + text(mark.limit, mark.unit);
+  }
   return failures.empty() ? "lesson passed" : "lesson not passed:" + failures;
 }
 

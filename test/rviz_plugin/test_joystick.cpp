@@ -60,13 +60,13 @@ TEST_F(JoystickTest, ReadsSticksAndButtons)
   send(JS_EVENT_BUTTON, 3, 0);
   JoystickState state = joystick.poll(0.1);
   EXPECT_DOUBLE_EQ(state.push, 1.0);
-  EXPECT_DOUBLE_EQ(state.twist, -1.0);
+  EXPECT_DOUBLE_EQ(state.twist, 1.0);
   EXPECT_EQ(state.pressed, std::vector<int>{3});
   send(JS_EVENT_AXIS, 0, 0);
   send(JS_EVENT_AXIS, 3, -32767);  // the right stick
   state = joystick.poll(0.2);
   EXPECT_DOUBLE_EQ(state.push, 1.0);
-  EXPECT_DOUBLE_EQ(state.twist, 1.0);
+  EXPECT_DOUBLE_EQ(state.twist, -1.0);
   EXPECT_TRUE(state.pressed.empty());
 }
 

@@ -31,7 +31,7 @@ TEST(OperatorControls, PushAndTwistAtTheSetSpeed)
   controls.setSpeed(0.5);
   EXPECT_NEAR(controls.speed(), 0.01, 1e-12);  // the middle of 1 to 100 mm/s
   controls.press(Motion::kPush, Source::kButton);
-  controls.press(Motion::kTwistRight, Source::kKey);
+  controls.press(Motion::kTwistLeft, Source::kKey);
   EXPECT_EQ(controls.velocity().instrument, "wire");
   EXPECT_DOUBLE_EQ(controls.velocity().insertion, controls.speed());
   EXPECT_DOUBLE_EQ(controls.velocity().rotation, -controls.turningSpeed());

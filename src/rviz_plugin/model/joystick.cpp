@@ -88,7 +88,7 @@ const JoystickState& Joystick::poll(double time)
   }
   state_.is_connected = file_ >= 0;
   state_.push = -left_y_;  // forwards is negative
-  state_.twist = std::abs(right_x_) > std::abs(left_x_) ? -right_x_ : -left_x_;
+  state_.twist = std::abs(right_x_) > std::abs(left_x_) ? right_x_ : left_x_;
   return state_;
 }
 

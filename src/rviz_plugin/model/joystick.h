@@ -11,7 +11,7 @@ namespace endovascular_sim::rviz_plugin
 struct JoystickState
 {
   double push = 0.0;   ///< left stick forwards: positive
-  double twist = 0.0;  ///< right stick, or left stick, to the left: positive
+  double twist = 0.0;  ///< right stick, or left stick, to the right: positive
   bool is_connected = false;
   std::vector<int> pressed;  ///< buttons that were pressed since the last call
 };

@@ -66,7 +66,7 @@ HandVelocity OperatorControls::velocity() const
   if (instrument_.empty())
     return {};
   const double push = (isHeld(Motion::kPush) ? 1 : 0) - (isHeld(Motion::kPull) ? 1 : 0);
-  const double twist = (isHeld(Motion::kTwistLeft) ? 1 : 0) - (isHeld(Motion::kTwistRight) ? 1 : 0);
+  const double twist = (isHeld(Motion::kTwistRight) ? 1 : 0) - (isHeld(Motion::kTwistLeft) ? 1 : 0);
   return {instrument_, std::clamp(push + stick_push_, -1.0, 1.0) * speed(),
           std::clamp(twist + stick_twist_, -1.0, 1.0) * turningSpeed()};
 }

@@ -13,8 +13,8 @@ enum class Motion
 {
   kPush,
   kPull,
-  kTwistLeft,   ///< positive rotation
-  kTwistRight,  ///< negative rotation
+  kTwistLeft,   ///< negative rotation: in AP, a tip that points to the viewer turns to the left
+  kTwistRight,  ///< positive rotation
 };
 constexpr std::size_t kMotions = 4;
 

@@ -42,6 +42,8 @@ std::string stepText(const SessionState& state)
     text += " (failed: " + step.failure + ")";
   else if (step.outcome == ProcedureStep::LOST)
     text += " (repeated)";
+  if (step.wrong_branches > 0)
+    text += "; wrong branches: " + std::to_string(step.wrong_branches);
   return text;
 }
 

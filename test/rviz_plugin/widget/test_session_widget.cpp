@@ -98,7 +98,7 @@ TEST_F(SessionWidgetTest, HoldsAVelocityWhileAButtonIsPressed)
   QTest::mouseRelease(child<QPushButton>("push"), Qt::LeftButton);
   EXPECT_TRUE(session.lastHeld().isZero());
   QTest::mousePress(child<QPushButton>("twist_right"), Qt::LeftButton);
-  EXPECT_LT(session.lastHeld().rotation, 0.0);
+  EXPECT_GT(session.lastHeld().rotation, 0.0);
   QTest::mouseRelease(child<QPushButton>("twist_right"), Qt::LeftButton);
   EXPECT_TRUE(session.lastHeld().isZero());
 }
@@ -108,7 +108,7 @@ TEST_F(SessionWidgetTest, HoldsAVelocityWhileAKeyIsPressed)
   QTest::keyPress(widget.get(), Qt::Key_Up);
   QTest::keyPress(widget.get(), Qt::Key_Left);
   EXPECT_GT(session.lastHeld().insertion, 0.0);
-  EXPECT_GT(session.lastHeld().rotation, 0.0);
+  EXPECT_LT(session.lastHeld().rotation, 0.0);
   QTest::keyRelease(widget.get(), Qt::Key_Up);
   EXPECT_EQ(session.lastHeld().insertion, 0.0);
   QTest::keyRelease(widget.get(), Qt::Key_Left);
@@ -124,7 +124,7 @@ TEST_F(SessionWidgetTest, TakesTheKeysOfThePictureUntilThatLosesTheFocus)
   QTest::keyRelease(&picture, Qt::Key_Up);
   EXPECT_TRUE(session.lastHeld().isZero());
   QTest::keyPress(&picture, Qt::Key_Left);
-  EXPECT_GT(session.lastHeld().rotation, 0.0);
+  EXPECT_LT(session.lastHeld().rotation, 0.0);
   QFocusEvent lost(QEvent::FocusOut);
   QCoreApplication::sendEvent(&picture, &lost);
   EXPECT_TRUE(session.lastHeld().isZero());

@@ -45,9 +45,9 @@ with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=
     session.hold_key_until("Up", 20, lambda: insertion() > rest + 2e-3, "a push by the key")
     passed("push by the key")
     turn = rotation()
-    session.hold_until("twist_left", 20, lambda: rotation() > turn + 0.3, "a twist by the mouse")
+    session.hold_until("twist_left", 20, lambda: rotation() < turn - 0.3, "a twist by the mouse")
     turn = rotation()
-    session.hold_key_until("Right", 20, lambda: rotation() < turn - 0.3, "a twist by the key")
+    session.hold_key_until("Right", 20, lambda: rotation() > turn + 0.3, "a twist by the key")
     passed("twists by mouse and key")
 
     session.click("pause")
