@@ -58,7 +58,8 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
                    std::to_string(others) + " other session(s) use the same processor: steps may be late");
   else if (on_time < 99.0)
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "the computer is too slow or busy: more than 1 % of the steps are late");
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
+                   "the computer is too slow or busy: more than 1 % of the steps are late");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   status.add("scheduling", grant.describe());
