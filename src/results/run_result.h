@@ -48,6 +48,7 @@ public:
                     const std::vector<LesionOutcome>& lesions);
 
   int nodesOutside() const { return nodes_outside_; }
+  double worstPenetration() const { return worst_penetration_; }  ///< of a surface beyond the wall [m]
   std::uint64_t rejectedSteps() const { return rejected_steps_; }
 
 private:

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +13,7 @@
 #include "common/quantities.h"
 #include "contact/detector.h"
 #include "procedure/perturbation.h"
+#include "results/run_result.h"
 #include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
@@ -24,6 +27,8 @@ namespace
 {
 
 using namespace endovascular_sim;  // NOLINT: a program's main file
+
+constexpr double kCheckPeriod = 0.1;  ///< simulated time between two checks of all nodes [s]
 
 struct Options
 {
@@ -60,12 +65,19 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.require([&options] { return options.spread.speed < 1.0 ? "" : "--speed requires a share below 1"; });
 }
 
+/** Result of one run. */
+struct Outcome
+{
+  double seconds = 0.0;      ///< simulated time at its end [s]
+  int nodes_outside = 0;     ///< largest number of nodes outside of the vessel
+  double penetration = 0.0;  ///< largest one of a surface beyond the wall [m]
+  std::string failure;       ///< reason; empty after success
+};
+
 /** Runs the procedure once and writes its metrics.
- *  @param model wall of the vessel, shared by all runs
- *  @param seconds simulated time at its end [s]
- *  @return reason of the failure, empty after success */
-std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
-                const std::shared_ptr<const contact::WallModel>& model, const std::string& folder, double& seconds)
+ *  @param model wall of the vessel, shared by all runs */
+Outcome run(const scene::Scene& scene, const vessel::Vessel& vessel,
+            const std::shared_ptr<const contact::WallModel>& model, const std::string& folder)
 {
   const scene::EntryPose entry = scene::resolveStart(scene, vessel);
   contact::Detector wall(model, scene::wallLaw(*scene.vessel));
@@ -75,19 +87,27 @@ std::string run(const scene::Scene& scene, const vessel::Vessel& vessel,
   simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
   std::vector<simulation::WallContact> contacts;
   const auto steps = static_cast<std::uint64_t>(scene.duration / scene.solver.time_step);
+  const auto check_interval = static_cast<std::uint64_t>(std::max(1.0, kCheckPeriod / scene.solver.time_step));
+  results::RunResult result(scene, 0, 0);
   while (simulation.steps() < steps && !session.isFinished())
   {
     simulation.stepAll(session.commands(simulation));
     simulation::wallContacts(simulation, contacts);
     session.addStep(simulation, contacts);
+    result.addStep(simulation, 0.0);
+    if (simulation.steps() % check_interval == 0)
+      result.checkOutside(simulation, wall);
   }
-  seconds = simulation.time();
   createFolder(folder);
   session.finish(simulation, moving_wall ? &moving_wall->opening().mesh() : nullptr);
   session.write(folder);
+  Outcome outcome{simulation.time(), result.nodesOutside(), result.worstPenetration(),
+                  session.scriptedOperator()->failure()};
   if (session.scriptedOperator()->progress() == procedure::Progress::kRunning)
-    return "not finished within the scene's duration";
-  return session.scriptedOperator()->failure();
+    outcome.failure = "not finished within the scene's duration";
+  else if (outcome.nodes_outside > 0)
+    outcome.failure = "nodes outside of the vessel";
+  return outcome;
 }
 
 int study(const Options& options)
@@ -103,18 +123,21 @@ int study(const Options& options)
   const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
   createFolder(options.out);
   std::ofstream table = tools::openFile(options.out + "/study.csv");
-  table << "seed,success,time,why\n";
+  table << "seed,success,time,nodes_outside,penetration,why\n";
   int succeeded = 0;
   for (int k = 0; k < options.runs; ++k)
   {
     const auto seed = static_cast<std::uint64_t>(options.first) + static_cast<std::uint64_t>(k);
-    double seconds = 0.0;
-    const std::string why = run(procedure::perturbed(scene, options.spread, seed), vessel, model,
-                                options.out + "/" + std::to_string(seed), seconds);
-    succeeded += why.empty();
-    table << seed << "," << why.empty() << "," << seconds << ",\"" << why << "\"\n" << std::flush;
-    std::printf("start %lu: %s after %.1f s\n", static_cast<unsigned long>(seed),
-                why.empty() ? "success" : ("failed: " + why).c_str(), seconds);
+    const Outcome outcome =
+        run(procedure::perturbed(scene, options.spread, seed), vessel, model, options.out + "/" + std::to_string(seed));
+    const bool is_success = outcome.failure.empty();
+    succeeded += is_success ? 1 : 0;
+    table << seed << "," << is_success << "," << outcome.seconds << "," << outcome.nodes_outside << ","
+          << outcome.penetration << ",\"" << outcome.failure << "\"\n"
+          << std::flush;
+    std::printf("start %lu: %s after %.1f s, %d nodes outside, %.4f mm beyond the wall\n",
+                static_cast<unsigned long>(seed), is_success ? "success" : ("failed: " + outcome.failure).c_str(),
+                outcome.seconds, outcome.nodes_outside, 1e3 * outcome.penetration);
     std::fflush(stdout);
   }
   tools::requireWritten(static_cast<bool>(table), options.out + "/study.csv");

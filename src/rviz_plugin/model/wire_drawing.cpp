@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rviz_plugin/model/message_points.h"
+#include "visualization/wire_refinement.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -10,6 +11,7 @@ namespace
 {
 
 constexpr std::size_t kMostNodes = 20000;  ///< a message with more is no wire
+constexpr double kLargestTurn = 0.06;      ///< angle between drawn segments [rad]
 
 }  // namespace
 
@@ -28,7 +30,8 @@ std::string WireDrawing::update(const RodStateVisual& message, const visualizati
   if (!(scaled.full_force > 0.0))
     scaled.full_force = scale_.full();
   full_force_ = scaled.full_force;
-  visualization::instrumentAxes(state_, shapes_, scaled, axes_);
+  visualization::refineWire(state_, kLargestTurn, refined_);
+  visualization::instrumentAxes(refined_, shapes_, scaled, axes_);
   for (const visualization::TubeAxis& axis : axes_)
     builder_.append(axis, surface_);
   divideTriangles();

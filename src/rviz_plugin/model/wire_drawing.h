@@ -42,7 +42,7 @@ private:
 
   visualization::TubeBuilder builder_;
   std::vector<visualization::InstrumentShape> shapes_;
-  visualization::WireState state_;
+  visualization::WireState state_, refined_;
   std::vector<visualization::TubeAxis> axes_;
   visualization::Surface surface_;
   std::vector<std::uint32_t> opaque_, translucent_;
