@@ -253,14 +253,19 @@ scene_with_x_ray() {
 # An interruption ends the drawing.
 draw_rviz() {
   session_phase=drawing
-  local display_file="$results/log/display" display scene waited=0 pictures="$workspace/lib/rviz_pictures.py" moments pictures_pid
+  local display_file="$results/log/display" config="$results/log/pictures.rviz" pictures="$workspace/lib/rviz_pictures.py"
+  local display scene moments pictures_pid waited=0
   moments=$(/usr/bin/python3 "$pictures" "$results") || return 1
   [ -n "$moments" ] || { note "no instrument entered the vessel: no picture of rviz"; return 0; }
   ros_environment
   scene=$(scene_with_x_ray)
+  cp "$repository/rviz/replay.rviz" "$config"
+  # Phases of a procedure differ at the tip: an overview of the body shows neither the stenosis nor the stent.
+  [ "$(wc -l <<< "$moments")" -eq 1 ] ||
+    sed -i '/^    Current:/,/^    Saved:/{s/Overview/Tip/; s/Distance: 0$/Distance: 0.2/}' "$config"
   trap clean_up EXIT
   trap interrupted INT TERM
-  become own Xvfb -displayfd 5 -screen 0 1600x900x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
+  become own Xvfb -displayfd 5 -screen 0 1280x800x24 -nolisten tcp 5> "$display_file" > "$results/log/xvfb.log" 2>&1 &
   virtual_display_pid=$!
   while [ ! -s "$display_file" ] && [ $waited -lt 50 ] && ! $session_interrupted; do sleep 0.1; waited=$((waited + 1)); done
   ! $session_interrupted || { trap - EXIT INT TERM; return 1; }
@@ -269,7 +274,7 @@ draw_rviz() {
   display=":$display"
   say "Drawing rviz from the recording, in software"
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
-    roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" \
+    roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" "rviz_config:=$config" \
     options:=--pause rate:=8 > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" timeout -s KILL 300 /usr/bin/python3 "$pictures" "$results" --play \
