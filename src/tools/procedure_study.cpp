@@ -30,6 +30,7 @@ using namespace endovascular_sim;  // NOLINT: a program's main file
 
 constexpr double kCheckPeriod = 0.1;  ///< simulated time between two checks of all nodes [s]
 
+/** Arguments of the command line. */
 struct Options
 {
   std::string scene;

@@ -208,7 +208,8 @@ void SessionRecorder::publishInfo()
   info_published_ = true;
   info_.header.stamp = ros::Time::now();
   info_publisher_.publish(info_);
-  recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
+  if (isRecording())
+    recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
 }
 
 void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)

@@ -103,7 +103,7 @@ struct NamedBranch
 /** Pass marks of a lesson: largest values of metrics of the session. NaN: not marked. */
 struct PassMarks
 {
-  double time = std::numeric_limits<double>::quiet_NaN();            ///< of the procedure [s]
+  double time = std::numeric_limits<double>::quiet_NaN();            ///< from the first motion [s]
   double wall_force = std::numeric_limits<double>::quiet_NaN();      ///< largest force of one contact on the wall [N]
   double hand_force = std::numeric_limits<double>::quiet_NaN();      ///< largest force on a handle [N]
   double wrong_branches = std::numeric_limits<double>::quiet_NaN();  ///< entries of wrong branches [1]
