@@ -81,22 +81,25 @@ double WallModel::signedDistance(const Eigen::Vector3d& point, int hint, int* ne
   const Eigen::Vector3i& corners = wall_.triangles[found.triangle];
   const geometry::TrianglePoint closest = geometry::closestPointOnTriangle(
       point, wall_.vertices[corners[0]], wall_.vertices[corners[1]], wall_.vertices[corners[2]]);
-  if (smooth_)
-    return smoothDistance(point, found);
   const Eigen::Vector3d& normal = closest.vertex >= 0 ? wall_.vertex_normals[corners[closest.vertex]]
                                   : closest.edge >= 0
                                       ? wall_.edges[wall_.triangle_edges[found.triangle][closest.edge]].normal
                                       : wall_.normals[found.triangle];
-  return (point - closest.point).dot(normal) >= 0.0 ? found.distance : -found.distance;
+  const bool is_inside = (point - closest.point).dot(normal) >= 0.0;
+  if (smooth_)
+    return smoothDistance(point, found, is_inside);
+  return is_inside ? found.distance : -found.distance;
 }
 
-/** @param nearest the nearest facet: its distance plus the deviation bounds that of the smooth wall */
-double WallModel::smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest) const
+/** @param nearest the nearest facet: its distance plus the deviation bounds that of the smooth wall
+ *  @param is_inside the point's side of the facets, which beyond the deviation is its side of the smooth wall. A walk
+ *         can end there at a foot whose normal points to the other side, e.g. across a fold */
+double WallModel::smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest, bool is_inside) const
 {
   const SmoothFootSearch search(*smooth_);
   double height = search.walk(point, nearest.triangle).height;
   if (nearest.distance > smooth_->deviation())
-    return height;
+    return is_inside ? std::abs(height) : -std::abs(height);
   std::vector<int> triangles, owners;
   const double reach = std::abs(height) + smooth_->deviation();
   bvh_.collect({point, Eigen::Vector3d::Zero(), reach, 0.0}, {point, Eigen::Vector3d::Zero(), 0.0, 0.0}, triangles,

@@ -62,7 +62,7 @@ public:
 private:
   WallModel(const geometry::TriangleMesh& mesh, WallShape shape);
   WallModel(const WallModel& other);
-  double smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest) const;
+  double smoothDistance(const Eigen::Vector3d& point, const Bvh::Nearest& nearest, bool is_inside) const;
 
   Wall wall_;
   WallBounds bounds_;

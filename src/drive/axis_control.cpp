@@ -43,7 +43,7 @@ void AxisControl::moveTo(double goal)
 {
   mode_ = Mode::kMove;
   move_time_ = 0.0;
-  move_ = TrapezoidalMove(position_, velocity_, limits_.range.nearest(goal), limits_.move_speed, limits_.acceleration);
+  move_ = TrapezoidalMove(position_, velocity_, goal, limits_.move_speed, limits_.acceleration);
 }
 
 double AxisControl::wantedVelocity(double effort) const
@@ -53,18 +53,27 @@ double AxisControl::wantedVelocity(double effort) const
   return std::clamp(limits_.gain * (target_ - effort), -limits_.speed, limits_.speed);
 }
 
+/** Position nearest to @p position at which the instrument is within the range and between its stops. */
+double AxisControl::permitted(double position, const AxisFeedback& feedback) const
+{
+  return feedback.stops.nearest(limits_.range.shifted(feedback.slipped).nearest(position));
+}
+
 void AxisControl::integrate(double dt, const AxisFeedback& feedback)
 {
   const double change = limits_.acceleration * dt;
   velocity_ += std::clamp(wantedVelocity(feedback.effort) - velocity_, -change, change);
   // The speed from which the axis can stop at the end of the range.
-  const double up = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, limits_.range.high - position_));
-  const double down = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, position_ - limits_.range.low));
+  const Interval range = limits_.range.shifted(feedback.slipped);
+  const double high = feedback.stops.nearest(range.high);
+  const double low = feedback.stops.nearest(range.low);
+  const double up = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, high - position_));
+  const double down = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, position_ - low));
   velocity_ = std::clamp(velocity_, -down, up);
   position_ += dt * velocity_;
   const double lead = kLead * std::abs(velocity_) + kSlack;
   position_ = std::clamp(position_, feedback.reached - lead, feedback.reached + lead);
-  position_ = limits_.range.nearest(position_);
+  position_ = permitted(position_, feedback);
 }
 
 double AxisControl::next(double dt, const AxisFeedback& feedback)
@@ -77,10 +86,10 @@ double AxisControl::next(double dt, const AxisFeedback& feedback)
   // A move that is over at once still lasts a step, so that it can be observed.
   const bool is_over = move_time_ >= move_.duration() && move_time_ > 0.0;
   move_time_ += dt;
-  position_ = limits_.range.nearest(move_.position(move_time_));
+  position_ = permitted(move_.position(move_time_), feedback);
   velocity_ = move_.velocity(move_time_);
   if (is_over)
-    follow(move_.goal());
+    follow(permitted(move_.goal(), feedback));
   return position_;
 }
 

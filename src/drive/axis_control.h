@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "drive/drive_limits.h"
 #include "drive/trapezoidal_move.h"
 
@@ -21,13 +23,17 @@ struct AxisFeedback
 {
   double reached = 0.0;  ///< position that the instrument has reached, in the scale of the commands
   double effort = 0.0;   ///< force or torque with which the instrument resists
+  double slipped = 0.0;  ///< scale of the commands minus position of the instrument
+  Interval stops{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  ///< positions between the present stops of the instrument, in the scale of the commands
 };
 
 /** Modes of one axis in which the axis itself determines its positions: velocity, effort and move. A stream of
  * positions is the matter of CommandGate; it replaces the position with follow().
  *
- *  The setpoint is a function of the commands, the simulated time and the feedback only. In every mode it stays within
- *  the range, and its acceleration below the limit, except at the ends of the range and in follow(). */
+ *  The setpoint is a function of the commands, the simulated time and the feedback only. In every mode the instrument
+ *  stays within the range, and the setpoint between the stops. Its acceleration stays below the limit, except at the
+ *  ends of the range, at stops, and in follow(). */
 class AxisControl
 {
 public:
@@ -41,7 +47,7 @@ public:
   void setVelocity(double velocity);
   /** Moves with a velocity in proportion to the difference of an effort and the measured one (admittance). */
   void setEffort(double effort);
-  /** Moves to a goal within the range. */
+  /** Moves to a goal, at most to the end of the range or to a stop. */
   void moveTo(double goal);
 
   /** Advances by a step. @return setpoint at its end */
@@ -64,6 +70,7 @@ private:
   };
 
   double wantedVelocity(double effort) const;
+  double permitted(double position, const AxisFeedback& feedback) const;
   void integrate(double dt, const AxisFeedback& feedback);
 
   AxisLimits limits_;

@@ -1,5 +1,6 @@
 #include "drive/command_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -14,7 +15,10 @@ namespace endovascular_sim::drive
 namespace
 {
 
-/** Fields of a row, without blanks at their ends. */
+constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+
+/** Fields of a row, without blanks at their ends and without the quotation marks around them that spreadsheets write.
+ */
 std::vector<std::string> fieldsOf(const std::string& line)
 {
   std::vector<std::string> fields;
@@ -24,8 +28,16 @@ std::vector<std::string> fieldsOf(const std::string& line)
     const auto begin = field.find_first_not_of(" \t\r");
     const auto end = field.find_last_not_of(" \t\r");
     fields.push_back(begin == std::string::npos ? "" : field.substr(begin, end - begin + 1));
+    std::string& text = fields.back();
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+      text = text.substr(1, text.size() - 2);
   }
   return fields;
+}
+
+bool isEmpty(const std::vector<std::string>& fields)
+{
+  return std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); });
 }
 
 /** Row of a file, for errors. */
@@ -77,10 +89,11 @@ std::vector<TimedCommand> readCommandFile(const std::string& path)
   Row row{path, 0};
   for (std::string line; std::getline(stream, line);)
   {
-    ++row.line;
+    if (++row.line == 1 && line.rfind(kByteOrderMark, 0) == 0)
+      line.erase(0, 3);
     const std::vector<std::string> fields = fieldsOf(line);
-    const bool is_heading = row.line == 1 && !fields.empty() && fields[0] == "time";
-    if (fields.empty() || (fields.size() == 1 && fields[0].empty()) || line.front() == '#' || is_heading)
+    const bool is_heading = commands.empty() && !fields.empty() && fields[0] == "time";
+    if (isEmpty(fields) || line.front() == '#' || is_heading)
       continue;
     commands.push_back(commandOf(row, fields));
     if (commands.size() > 1 && commands.back().time < commands[commands.size() - 2].time)

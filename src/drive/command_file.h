@@ -16,8 +16,8 @@ struct TimedCommand
   int line = 0;                ///< line of the file, from 1
 };
 
-/** Reads a file of commands. Empty lines and lines that begin with # are ignored, as is the first line if it begins
- * with "time".
+/** Reads a file of commands. Empty rows and lines that begin with # are ignored, as is a row before the first command
+ *  that begins with "time". Quotation marks around a field and a byte order mark are allowed.
  *  @throws InputError for a missing file, and for a row with its line: a time that is no number or less than the one
  *          before, an unknown command, a wrong number of values, or a value that is no number */
 std::vector<TimedCommand> readCommandFile(const std::string& path);

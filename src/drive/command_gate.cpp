@@ -34,11 +34,12 @@ bool CommandGate::isNear(const HandMotion& command) const
 }
 
 /** Judges a command; where the limits clamp, it is changed. */
-CommandVerdict CommandGate::examine(HandMotion& command)
+CommandVerdict CommandGate::examine(HandMotion& command, const HandMotion& slipped)
 {
   if (!isFinite(command))
     return CommandVerdict::kNotFinite;
-  const HandMotion within{limits_.insertion->nearest(command.insertion), limits_.rotation.nearest(command.rotation)};
+  const HandMotion within{limits_.insertion->shifted(slipped.insertion).nearest(command.insertion),
+                          limits_.rotation.shifted(slipped.rotation).nearest(command.rotation)};
   const bool in_range = within.insertion == command.insertion && within.rotation == command.rotation;
   if (!in_range && limits_.beyond == BeyondLimit::kRefuse)
     return CommandVerdict::kOutOfRange;
@@ -51,9 +52,9 @@ CommandVerdict CommandGate::examine(HandMotion& command)
   return CommandVerdict::kAccepted;
 }
 
-CommandVerdict CommandGate::offer(HandMotion command)
+CommandVerdict CommandGate::offer(HandMotion command, const HandMotion& slipped)
 {
-  const CommandVerdict verdict = examine(command);
+  const CommandVerdict verdict = examine(command, slipped);
   rejected_.add(verdict);
   if (verdict != CommandVerdict::kAccepted)
     return verdict;

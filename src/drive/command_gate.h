@@ -56,8 +56,13 @@ public:
    *  @param limits completed ones (DriveLimits::completed()) */
   CommandGate(const HandMotion& start, const DriveLimits& limits) : target_(start), position_(start), limits_(limits) {}
 
-  /** Examines a command and takes it over if it is accepted. */
-  CommandVerdict offer(HandMotion command);
+  /** Examines a command and takes it over if it is accepted.
+   *  @param slipped scale of the commands minus position of the instrument, by which the ranges shift */
+  CommandVerdict offer(HandMotion command, const HandMotion& slipped = {});
+
+  /** Replaces a target beyond a stop by the stop.
+   *  @param stops of the insertion [m] */
+  void stopAt(const Interval& stops) { target_.insertion = stops.nearest(target_.insertion); }
 
   /** Advances by a step of another mode: jumps are measured from its position.
    *  @param dt duration of the step [s] */
@@ -85,7 +90,7 @@ public:
 private:
   bool isNear(const HandMotion& command) const;
   bool isFirst() const { return accepted_ == 0 || silence_ >= limits_.time_out; }
-  CommandVerdict examine(HandMotion& command);
+  CommandVerdict examine(HandMotion& command, const HandMotion& slipped);
 
   HandMotion target_;
   HandMotion position_;

@@ -16,6 +16,7 @@ struct Interval
 
   bool contains(double value) const { return value >= low && value <= high; }
   double nearest(double value) const;  ///< value of the interval that is nearest to @p value
+  Interval shifted(double by) const { return {low + by, high + by}; }
   bool operator==(const Interval& other) const { return low == other.low && high == other.high; }
 };
 
@@ -33,7 +34,8 @@ enum class Grip
   kChuck,    ///< the chuck stops and keeps its scale: the instrument follows again once the command returns
 };
 
-/** Limits of the commands to one instrument, and the gains of the force mode. */
+/** Limits of the commands to one instrument, and the gains of the force mode. Ranges of positions apply to the
+ *  instrument: in the scale of the commands they shift by the slipped motion. */
 struct DriveLimits
 {
   BeyondLimit beyond = BeyondLimit::kRefuse;

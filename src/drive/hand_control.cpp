@@ -151,7 +151,8 @@ CommandVerdict HandControl::execute(JointCommand command)
 
 CommandVerdict HandControl::stream(const JointCommand& command)
 {
-  HandMotion target = mode_ == Mode::kStream ? gate_.target() : setpoint_.motion;
+  const bool streams = mode_ == Mode::kStream || mode_ == Mode::kIncrements;
+  HandMotion target = streams ? gate_.target() : setpoint_.motion;
   if (command.kind == CommandKind::kServoPosition)
   {
     target.insertion = command.insertion;
@@ -162,11 +163,11 @@ CommandVerdict HandControl::stream(const JointCommand& command)
     target.insertion += command.insertion;
     target.rotation += command.rotation.value_or(0.0);
   }
-  const CommandVerdict verdict = gate_.offer(target);
+  const CommandVerdict verdict = gate_.offer(target, slipped_);
   if (verdict != CommandVerdict::kAccepted)
     return verdict;
   endMove();
-  mode_ = Mode::kStream;
+  mode_ = command.kind == CommandKind::kServoPosition ? Mode::kStream : Mode::kIncrements;
   return verdict;
 }
 
@@ -198,8 +199,8 @@ CommandVerdict HandControl::move(const JointCommand& command)
   goal.rotation =
       is_relative ? goal.rotation + command.rotation.value_or(0.0) : command.rotation.value_or(goal.rotation);
   bool clamped = false;
-  if (!isPermitted(goal.insertion, *limits_.insertion, clamped) ||
-      !isPermitted(goal.rotation, limits_.rotation, clamped))
+  if (!isPermitted(goal.insertion, limits_.insertion->shifted(slipped_.insertion), clamped) ||
+      !isPermitted(goal.rotation, limits_.rotation.shifted(slipped_.rotation), clamped))
     return CommandVerdict::kOutOfRange;
   rejected_.clamped += clamped;
   enterRate();
@@ -215,7 +216,7 @@ CommandVerdict HandControl::move(const JointCommand& command)
 void HandControl::enterRate()
 {
   endMove();
-  if (mode_ == Mode::kStream)
+  if (mode_ == Mode::kStream || mode_ == Mode::kIncrements)
   {
     insertion_.follow(setpoint_.motion.insertion);
     rotation_.follow(setpoint_.motion.rotation);
@@ -307,7 +308,10 @@ const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
 {
   silence_ += dt;
   driver_silence_ += dt;
-  if (mode_ == Mode::kStream)
+  slipped_ = {feedback.insertion.slipped, feedback.rotation.slipped};
+  if (mode_ == Mode::kIncrements)
+    gate_.stopAt(feedback.insertion.stops);
+  if (mode_ == Mode::kStream || mode_ == Mode::kIncrements)
   {
     setpoint_.motion = gate_.next(dt);
     return setpoint_;
@@ -340,7 +344,8 @@ void HandControl::restAt(const HandMotion& position, std::optional<double> press
 
 HandMotion HandControl::goal() const
 {
-  return mode_ == Mode::kStream ? gate_.target() : HandMotion{insertion_.goal(), rotation_.goal()};
+  return mode_ == Mode::kStream || mode_ == Mode::kIncrements ? gate_.target()
+                                                              : HandMotion{insertion_.goal(), rotation_.goal()};
 }
 
 RejectedCommands HandControl::rejected() const

@@ -39,9 +39,10 @@ struct HandSetpoint
 /** Control of one instrument by the commands of clients: modes, limits, time-outs and operating state.
  *
  *  Each mode reduces to insertion and rotation per step, as a function of the commands between the steps, the simulated
- *  time and the feedback. A new command replaces the one before, of any mode. One client drives at a time: the first
- * one whose command is accepted, until it sends none for the time-out, or until `disable`. `disable` and `pause` end
- * any motion; both hold the instrument. */
+ *  time and the feedback. Where the instrument waits at a stop, the setpoint stays at the stop in every mode but that
+ * of absolute positions, which are the client's. A new command replaces the one before, of any mode. One client drives
+ * at a time: the first one whose command is accepted, until it sends none for the time-out, or until `disable`.
+ * `disable` and `pause` end any motion; both hold the instrument. */
 class HandControl
 {
 public:
@@ -92,6 +93,7 @@ private:
     kStream,  ///< positions
     kRate,    ///< velocity or force; at rest without a command
     kMove,
+    kIncrements,  ///< differences of positions
   };
 
   bool isDrivenByAnother(const std::string& client) const;
@@ -116,6 +118,7 @@ private:
   AxisControl rotation_;
   Mode mode_ = Mode::kStream;
   HandSetpoint setpoint_;
+  HandMotion slipped_;  ///< scale of the commands minus position of the instrument, at the last step
   bool is_homing_ = false;
   OperatingState state_;
   std::string driver_;

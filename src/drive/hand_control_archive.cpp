@@ -48,8 +48,9 @@ void CommandGate::archive(Archive& archive)
 void HandControl::archive(Archive& archive)
 {
   archive(gate_, insertion_, rotation_, mode_);
-  requireIndex(static_cast<int>(mode_), 0, static_cast<int>(Mode::kMove) + 1);
+  requireIndex(static_cast<int>(mode_), 0, static_cast<int>(Mode::kIncrements) + 1);
   archiveMotion(archive, setpoint_.motion);
+  archiveMotion(archive, slipped_);
   archive(setpoint_.pressure, is_homing_, state_.is_homed, state_.is_busy, silence_, accepted_);
   requireFinite(setpoint_.pressure.value_or(0.0));
   requireNumbers(silence_);

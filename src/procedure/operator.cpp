@@ -11,21 +11,12 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr double kWrongBranchDepth = 3e-3;  // depth beyond the ostium from which a wrong branch is detected [m]
-constexpr double kPressureShare = 0.9;      // share of the pressure that a person has to reach
-constexpr double kAmbientPressure = 1e4;    // pressure of an empty balloon that a person need not reach [Pa]
-constexpr double kSlowdownShare = 0.6;      // share of the force limit from which the operator slows down
+constexpr double kPressureShare = 0.9;    // share of the pressure that a person has to reach
+constexpr double kAmbientPressure = 1e4;  // pressure of an empty balloon that a person need not reach [Pa]
+constexpr double kSlowdownShare = 0.6;    // share of the force limit from which the operator slows down
 
 using scene::StepAction;
 using scene::StepScene;
-
-int instrumentOf(const scene::Scene& scene, const std::string& name)
-{
-  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
-    if (scene.instruments[k].instrument.name == name)
-      return static_cast<int>(k);
-  return -1;
-}
 
 std::string inMillimetres(const Eigen::Vector3d& point)
 {
@@ -56,9 +47,10 @@ Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree
     entry_(entry),
     entry_branch_(locator_.at(entry).branch),
     observation_interval_(
-        static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step))))
+        static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step)))),
+    steps_(expandedSteps(*scene.procedure)),
+    entries_(scene, locator_, entry_branch_)
 {
-  expand();
   checkBranches();
   for (const scene::DrivenInstrument& driven : scene.instruments)
   {
@@ -69,23 +61,6 @@ Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree
     hands_.push_back(hand);
   }
   commands_.resize(hands_.size());
-}
-
-/** Splits each exchange into a withdrawal and an insertion. */
-void Operator::expand()
-{
-  for (const StepScene& step : scene_.procedure->steps)
-  {
-    steps_.push_back(step);
-    if (step.action != StepAction::kExchange)
-      continue;
-    steps_.back().action = StepAction::kWithdraw;
-    steps_.back().until = scene::GoalScene();
-    steps_.back().until.outside = true;
-    steps_.push_back(step);
-    steps_.back().action = StepAction::kAdvance;
-    steps_.back().instrument = step.replacement;
-  }
 }
 
 void Operator::checkBranches() const
@@ -192,6 +167,8 @@ void Operator::observe(const Observation& observation)
   if (!begun_)
     begin(observation);
   records_.back().end = observation.time;
+  entries_.add(observation, static_cast<int>(current_));
+  records_.back().wrong_branches += entries_.entries();
   const bool reached = mode_ != Mode::kRecoverSupport && isReached(observation);
   if (!reached)
     reached_since_ = -1.0;
@@ -354,27 +331,12 @@ bool Operator::isInWrongBranch(const InstrumentView& view) const
          !on_way_[static_cast<std::size_t>(view.branch_position.branch)];
 }
 
-/** Counts the wrong branches that a person enters; the mode tells that the tip is in one. */
-void Operator::watch(const InstrumentView& view)
-{
-  if (!isInWrongBranch(view))
-    mode_ = Mode::kExecute;
-  else if (mode_ == Mode::kExecute && step().action == StepAction::kAdvance &&
-           view.branch_position.depth > kWrongBranchDepth)
-  {
-    mode_ = Mode::kLeaveBranch;
-    ++records_.back().wrong_branches;
-  }
-}
-
 void Operator::act(const Observation& observation)
 {
   stop();
-  if (active_ < 0)
+  if (active_ < 0 || scene_.procedure->guided)
     return;
   const InstrumentView& view = observation.instruments[static_cast<std::size_t>(active_)];
-  if (scene_.procedure->guided)
-    return watch(view);
   if (step().action == StepAction::kInflate)
     return;
   if (observation.time - begin_time_ > step().time_limit)
@@ -385,9 +347,9 @@ void Operator::act(const Observation& observation)
     return handleLostSupport(view, observation.time);
   if (mode_ != Mode::kExecute)
     return recover(view, observation.time);
-  if (step().action == StepAction::kAdvance && isInWrongBranch(view) && view.branch_position.depth > kWrongBranchDepth)
+  if (step().action == StepAction::kAdvance && isInWrongBranch(view) &&
+      view.branch_position.depth > BranchEntries::kDepth)
   {
-    ++records_.back().wrong_branches;
     if (retry(Mode::kLeaveBranch, view, "entered " + locator_.name(view.branch_position.branch) + " repeatedly"))
       mode_time_ = observation.time;
     return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/archive.h"
+#include "procedure/branch_entries.h"
 #include "procedure/branch_locator.h"
 #include "procedure/observation.h"
 #include "procedure/route.h"
@@ -33,7 +34,7 @@ struct StepRecord
   double begin = 0.0;      ///< start time [s]
   double end = 0.0;        ///< end time; the latest observation while the step runs [s]
   int retries = 0;         ///< number of retries
-  int wrong_branches = 0;  ///< number of entries into a wrong branch
+  int wrong_branches = 0;  ///< number of entries into wrong branches, see BranchEntries
   Progress outcome = Progress::kRunning;
   std::size_t step = 0;  ///< index of the step in the procedure, an exchange counted as two
   std::string hint;      ///< advice to a person; empty: none
@@ -102,7 +103,6 @@ private:
     bool scripted = false;  ///< true if the procedure drives the instrument
   };
 
-  void expand();
   void checkBranches() const;
   void begin(const Observation& observation);
   void prepareStep();
@@ -110,7 +110,6 @@ private:
   void act(const Observation& observation);
   void execute(const InstrumentView& view);
   void steer(const InstrumentView& view);
-  void watch(const InstrumentView& view);
   bool isInWrongBranch(const InstrumentView& view) const;
   bool hasPressure(const InstrumentView& view) const;
   double holdTime() const;
@@ -137,6 +136,7 @@ private:
   int entry_branch_ = -1;
   std::uint64_t observation_interval_ = 1;
   std::vector<scene::StepScene> steps_;  ///< steps of the procedure, with each exchange split into two
+  BranchEntries entries_;
   std::vector<Hand> hands_;
   std::vector<simulation::HandCommand> commands_;
   std::vector<StepRecord> records_;

@@ -43,6 +43,7 @@ void Operator::archive(Archive& archive)
   for (Hand& hand : hands_)
     archive(hand);
   archiveRecords(archive);
+  archive(entries_);
   if (!archive.reading())
     return;
   if (current > steps_.size() || (current == steps_.size() && progress_ == Progress::kRunning))

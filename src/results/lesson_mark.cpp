@@ -23,9 +23,8 @@ std::string text(double value, const std::string& unit)
 double largestHandForce(const SessionMetrics& metrics)
 {
   double largest = 0.0;
-  for (const Sample& sample : metrics.samples())
-    for (const procedure::InstrumentView& view : sample.observation.instruments)
-      largest = std::max(largest, std::abs(view.hand.force));
+  for (std::size_t k = 0; k < metrics.scene().instruments.size(); ++k)
+    largest = std::max(largest, metrics.peakHandForce(k));
   return largest;
 }
 
@@ -37,21 +36,11 @@ double largestStenosis(const SessionMetrics& metrics)
   return largest;
 }
 
-/** Entries of wrong branches of all steps: a branch may be the goal of one step and wrong in another one. */
-double wrongBranches(const SessionMetrics& metrics)
-{
-  double sum = 0.0;
-  for (const procedure::StepRecord& record : metrics.steps())
-    sum += record.wrong_branches;
-  return sum;
-}
-
 /** Steps of the procedure that are not done, an exchange counted as two. */
 double missingSteps(const SessionMetrics& metrics)
 {
-  std::size_t all = 0, done = 0;
-  for (const scene::StepScene& step : metrics.scene().procedure->steps)
-    all += step.action == scene::StepAction::kExchange ? 2 : 1;
+  const std::size_t all = procedure::expandedSteps(*metrics.scene().procedure).size();
+  std::size_t done = 0;
   for (const procedure::StepRecord& record : metrics.steps())
     done += record.outcome == procedure::Progress::kDone ? 1 : 0;
   return static_cast<double>(all - std::min(all, done));
@@ -100,7 +89,7 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
   add("time from the first motion", lessonTime(metrics), pass.time, "s");
   add("largest force on the wall", metrics.wallForces() ? metrics.wallForces()->whole.peak : 0.0, pass.wall_force, "N");
   add("largest force on a handle", largestHandForce(metrics), pass.hand_force, "N");
-  add("wrong branches", wrongBranches(metrics), pass.wrong_branches, "");
+  add("wrong branches", static_cast<double>(metrics.wrongBranches().size()), pass.wrong_branches, "");
   add("errors", static_cast<double>(metrics.errors().size()), pass.errors, "");
   add("remaining stenosis", 100.0 * largestStenosis(metrics), 100.0 * pass.stenosis, "%");
   if (!marks.empty())

@@ -175,7 +175,7 @@ std::string faultsTable(const Json& json)
          table.text();
 }
 
-using Quantity = std::function<double(const procedure::InstrumentView&)>;
+using Quantity = std::function<double(const Sample&, std::size_t)>;
 
 std::vector<PlotLine> overTime(const SessionMetrics& metrics, const Quantity& quantity)
 {
@@ -184,7 +184,7 @@ std::vector<PlotLine> overTime(const SessionMetrics& metrics, const Quantity& qu
   {
     PlotLine line{metrics.scene().instruments[k].instrument.name, colour(k), {}};
     for (const Sample& sample : metrics.samples())
-      line.points.emplace_back(sample.observation.time, quantity(sample.observation.instruments[k]));
+      line.points.emplace_back(sample.observation.time, quantity(sample, k));
     lines.push_back(std::move(line));
   }
   return lines;
@@ -214,27 +214,29 @@ std::string timePlots(const SessionMetrics& metrics)
     svg.bands = phaseBands(metrics);
     return svg.text();
   };
+  const auto hand = [](const Sample& sample, std::size_t k) -> const simulation::HandState&
+  { return sample.observation.instruments[k].hand; };
   std::string html = "<h2>Over time</h2>\n<p>Shaded bands mark the phases. Tooltips show their names.</p>\n";
   html += plot("Insertion", "[mm]",
-               overTime(metrics, [](const procedure::InstrumentView& v) { return 1e3 * v.hand.insertion; }));
+               overTime(metrics, [&hand](const Sample& s, std::size_t k) { return 1e3 * hand(s, k).insertion; }));
   html += plot("Rotation of the handles", "[rad]",
-               overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.rotation; }));
-  html += plot("Force at the handles", "[N]",
-               overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.force; }));
+               overTime(metrics, [&hand](const Sample& s, std::size_t k) { return hand(s, k).rotation; }));
+  html += plot("Force at the handles, largest of every 50 ms", "[N]",
+               overTime(metrics, [](const Sample& s, std::size_t k) { return s.peaks.hand_force[k]; }));
   PlotLine sum{"sum", colour(0), {}};
   PlotLine largest{"largest contact", colour(1), {}};
   bool inflated = false;
   for (const Sample& sample : metrics.samples())
   {
-    sum.points.emplace_back(sample.observation.time, sample.wall_force);
-    largest.points.emplace_back(sample.observation.time, sample.largest);
+    sum.points.emplace_back(sample.observation.time, sample.peaks.wall.sum);
+    largest.points.emplace_back(sample.observation.time, sample.peaks.wall.largest);
     for (const procedure::InstrumentView& view : sample.observation.instruments)
       inflated = inflated || view.hand.pressure != 0.0;
   }
-  html += plot("Force on the wall", "[N]", {sum, largest});
+  html += plot("Force on the wall, largest of every 50 ms", "[N]", {sum, largest});
   if (inflated)
     html += plot("Pressure at the inflator", "[atm]",
-                 overTime(metrics, [](const procedure::InstrumentView& v) { return v.hand.pressure / 101325.0; }));
+                 overTime(metrics, [&hand](const Sample& s, std::size_t k) { return hand(s, k).pressure / 101325.0; }));
   return html;
 }
 

@@ -23,6 +23,14 @@ constexpr auto kLoopNode = "rod_dynamics";
 constexpr auto kStepsKey = "steps";
 constexpr auto kMissesKey = "deadline misses";
 
+/** Value of the largest magnitude; 0 without values. */
+double ofLargestMagnitude(const std::vector<double>& values)
+{
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto largest = std::max_element(values.begin(), values.end(), smaller);
+  return largest == values.end() ? 0.0 : *largest;
+}
+
 /** Number, or null if it is unknown or not finite; JSON has no NaN. */
 Json numberOrNull(std::optional<double> value)
 {
@@ -110,27 +118,19 @@ void SessionReport::addStep(std::uint64_t step, double wall_time, bool stale, st
   stale_steps_ += stale ? 1 : 0;
 }
 
-void SessionReport::addHand(double force, double torque)
+void SessionReport::addHands(const std::vector<double>& forces, const std::vector<double>& torques)
 {
-  hand_force_.add(force);
-  hand_torque_.add(torque);
+  hand_force_.add(ofLargestMagnitude(forces));
+  hand_torque_.add(ofLargestMagnitude(torques));
 }
 
 void SessionReport::addTip(const Eigen::Vector3d& tip, double inserted_length, std::size_t nodes)
 {
   if (!tip.allFinite())
     return;
-  if (tip_)
-    tip_path_ += (tip - *tip_).norm();
   tip_ = tip;
   nodes_ = nodes;
   inserted_length_.add(inserted_length);
-}
-
-void SessionReport::addContacts(double largest, std::size_t count)
-{
-  contact_force_.add(largest);
-  contact_count_.add(static_cast<double>(count));
 }
 
 void SessionReport::setWallForces(WallForceSummary summary, std::size_t triangles)
@@ -208,12 +208,9 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
   report["last_state_hash"] = Hash64::toHex(last_state_hash_);
   report["hand_force"] = summary(hand_force_);
   report["hand_torque"] = summary(hand_torque_);
-  report["contact_force"] = summary(contact_force_);
-  report["contacts"] = summary(contact_count_);
   report["wall_forces"] = wall_forces_ ? toJson(*wall_forces_, touched_triangles_) : Json(nullptr);
   report["inserted_length"] = inserted_length_.final();
   report["tip_position"] = tip_ ? vectorOf(*tip_) : Json(nullptr);
-  report["tip_path_length"] = tip_path_;
   report["nodes"] = nodes_;
   report["vessel_box"] = vessel_box_.isEmpty()
                              ? Json(nullptr)

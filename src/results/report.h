@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -77,14 +78,12 @@ public:
    *  @param state_hash hash of the state after the step */
   void addStep(std::uint64_t step, double wall_time, bool stale, std::uint64_t state_hash);
 
-  /** Adds the rendered force [N] and torque [N·m]. */
-  void addHand(double force, double torque);
+  /** Adds a step's rendered forces [N] and torques [N·m], one per instrument. The statistics are those of the hand with
+   *  the largest one in each step. */
+  void addHands(const std::vector<double>& forces, const std::vector<double>& torques);
 
   /** Adds the tip of the wire in the patient frame [m], the inserted length [m] and the number of nodes. */
   void addTip(const Eigen::Vector3d& tip, double inserted_length, std::size_t nodes);
-
-  /** Adds the largest contact force of a step [N] and the number of contacts with force. */
-  void addContacts(double largest, std::size_t count);
 
   /** Sets the wall forces accumulated so far.
    *  @param triangles number of triangles with contact */
@@ -130,12 +129,9 @@ private:
   RunningValue hand_force_;
   RunningValue hand_torque_;
   RunningValue inserted_length_;
-  RunningValue contact_force_;
-  RunningValue contact_count_;
   std::optional<WallForceSummary> wall_forces_;
   std::size_t touched_triangles_ = 0;
   std::optional<Eigen::Vector3d> tip_;
-  double tip_path_ = 0.0;
   std::size_t nodes_ = 0;
   Eigen::AlignedBox3d vessel_box_;
   std::uint64_t fluoroscopy_frames_ = 0;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/session_sample.h"
 #include "results/wall_force_report.h"
 
 namespace endovascular_sim::results
@@ -78,6 +79,10 @@ RunResult::RunResult(const scene::Scene& scene, std::uint64_t mesh_hash, std::si
   step_seconds_.reserve(reserved);
   for (std::vector<double>& phase : phase_seconds_)
     phase.reserve(reserved);
+  for (const scene::DrivenInstrument& driven : scene.instruments)
+    hand_names_.push_back(driven.instrument.name);
+  hand_forces_.resize(hand_names_.size());
+  hand_torques_.resize(hand_names_.size());
 }
 
 void RunResult::addStep(const simulation::Simulation& simulation, double seconds)
@@ -93,12 +98,30 @@ void RunResult::addStep(const simulation::Simulation& simulation, double seconds
   }
   max_strain_ = std::max(max_strain_, simulation.report().max_strain);
   strained_steps_ += simulation.report().max_strain > kCountedStrain;
-  hand_force_.add(simulation.state().hand_force);
-  hand_torque_.add(simulation.state().hand_torque);
+  addHands(simulation);
   for (std::size_t k = 0; k < kHandParts.size(); ++k)
     hand_parts_[k].add(simulation.state().hand_parts.*kHandParts[k].value);
   work_.add(simulation.report());
   rejected_steps_ += !simulation.report().solved;
+}
+
+/** Adds force and torque of every hand, as results::Peaks without the steps with a fault. */
+void RunResult::addHands(const simulation::Simulation& simulation)
+{
+  if (faultsOf(simulation.report()).any())
+    return;
+  double force = 0.0;
+  double torque = 0.0;
+  for (std::size_t k = 0; k < hand_names_.size(); ++k)
+  {
+    const simulation::HandState hand = simulation.hand(static_cast<int>(k));
+    hand_forces_[k].add(hand.force);
+    hand_torques_[k].add(hand.torque);
+    force = std::abs(hand.force) > std::abs(force) ? hand.force : force;
+    torque = std::abs(hand.torque) > std::abs(torque) ? hand.torque : torque;
+  }
+  hand_force_.add(force);
+  hand_torque_.add(torque);
 }
 
 int firstInsertedNode(const simulation::Simulation& simulation)
@@ -140,6 +163,10 @@ std::string RunResult::json(simulation::Simulation& simulation, const WallForceM
   Json hand_parts;
   for (std::size_t k = 0; k < kHandParts.size(); ++k)
     hand_parts[kHandParts[k].name] = toJson(hand_parts_[k]);
+  Json hands = Json::array();
+  for (std::size_t k = 0; k < hand_names_.size(); ++k)
+    hands.push_back(
+        {{"name", hand_names_[k]}, {"force", toJson(hand_forces_[k])}, {"torque", toJson(hand_torques_[k])}});
   Json json = {
       {"scene", scene_name_},
       {"steps", simulation.steps()},
@@ -157,6 +184,7 @@ std::string RunResult::json(simulation::Simulation& simulation, const WallForceM
       {"tip_position", toJson(state.position[n - 1])},
       {"tip_tangent", toJson((state.position[n - 1] - state.position[n - 2]).normalized())},
       {"hand_force", {{"max", hand_force_.max()}, {"mean", hand_force_.mean()}, {"final", hand_force_.final()}}},
+      {"hands", hands},
       {"hand_force_parts", hand_parts},
       {"hand_torque", {{"max", hand_torque_.max()}, {"mean", hand_torque_.mean()}, {"final", hand_torque_.final()}}},
       {"proximal_force", toJson(state.proximal_force)},

@@ -52,6 +52,8 @@ public:
   std::uint64_t rejectedSteps() const { return rejected_steps_; }
 
 private:
+  void addHands(const simulation::Simulation& simulation);
+
   std::string scene_name_;
   std::uint64_t scene_hash_;
   std::uint64_t mesh_hash_;
@@ -64,8 +66,11 @@ private:
   std::vector<int> nearest_;  ///< last nearest triangle of each node; −1: unknown
   double max_strain_ = 0.0;
   std::uint64_t strained_steps_ = 0;
-  RunningValue hand_force_;
-  RunningValue hand_torque_;
+  RunningValue hand_force_;   ///< in every step, force on the hand with the largest one
+  RunningValue hand_torque_;  ///< in every step, torque on the hand with the largest one
+  std::vector<std::string> hand_names_;
+  std::vector<RunningValue> hand_forces_;   ///< for each instrument
+  std::vector<RunningValue> hand_torques_;  ///< for each instrument
   std::array<RunningValue, 7> hand_parts_;  ///< contributions to the rendered force, in the order of kHandParts
   rod::StepReport work_;
   std::uint64_t rejected_steps_ = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -16,37 +18,11 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kEntryDepth = 3e-3;  // depth beyond an ostium that counts as an entry [m]
-constexpr double kAhead = 2e-3;       // lead of a balloon catheter's tip over its wire that is an error [m]
-constexpr double kMoving = 0.5e-3;    // speed above which a handle counts as moving [m/s]
-constexpr double kSameTime = 1.0;     // interval within which a recurring force belongs to the same error [s]
-constexpr double kRecovery = 0.1;     // time after a fault until forces count as those of the trainee [s]
-constexpr double kTurning = 0.05;     // rotation speed above which a handle counts as moving [rad/s]
-
-/** Allowed branches of each instrument: those on the path to any of its goals in the procedure. An instrument without a
- *  goal has no wrong branches. */
-std::vector<std::vector<bool>> allowedBranches(const scene::Scene& scene, const procedure::BranchLocator& locator,
-                                               int entered)
-{
-  std::vector<std::vector<bool>> allowed(scene.instruments.size());
-  for (std::size_t k = 0; scene.procedure && k < allowed.size(); ++k)
-    for (const scene::StepScene& step : scene.procedure->steps)
-    {
-      const bool exchange = step.action == scene::StepAction::kExchange;
-      const std::string& moved = exchange ? step.replacement : step.instrument;
-      const std::string& goal = step.until.tip_in.empty() ? step.until.balloon_in : step.until.tip_in;
-      if (moved != scene.instruments[k].instrument.name || goal.empty() || locator.find(goal) < 0)
-        continue;
-      const std::vector<bool> way = locator.pathBetween(entered, locator.find(goal));
-      allowed[k].resize(way.size(), false);
-      for (std::size_t b = 0; b < way.size(); ++b)
-        allowed[k][b] = allowed[k][b] || way[b];
-    }
-  for (std::vector<bool>& way : allowed)
-    if (way.empty())
-      way.assign(static_cast<std::size_t>(locator.branches()), true);
-  return allowed;
-}
+constexpr double kAhead = 2e-3;     // lead of a balloon catheter's tip over its wire that is an error [m]
+constexpr double kMoving = 0.5e-3;  // speed above which a handle counts as moving [m/s]
+constexpr double kSameTime = 1.0;   // interval within which a recurring force belongs to the same error [s]
+constexpr double kRecovery = 0.1;   // time after a fault until forces count as those of the trainee [s]
+constexpr double kTurning = 0.05;   // rotation speed above which a handle counts as moving [rad/s]
 
 const char* outcomeName(procedure::Progress progress)
 {
@@ -70,8 +46,7 @@ SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::Centreli
                                const Eigen::Vector3d& entry)
   : scene_(scene),
     locator_(tree, scene.procedure ? scene.procedure->branches : std::vector<scene::NamedBranch>()),
-    on_way_(allowedBranches(scene, locator_, locator_.at(entry).branch)),
-    active_stay_(scene.instruments.size(), -1),
+    branch_entries_(scene, locator_, locator_.at(entry).branch),
     ahead_(scene.instruments.size(), false),
     ahead_time_(scene.instruments.size(), 0.0),
     was_in_(scene.instruments.size(), false),
@@ -89,8 +64,9 @@ void SessionMetrics::add(Sample sample)
   sampled_until_ = time;
   if (!sample.isFinite())
     return;
+  sample.peaks.hand_force.resize(was_in_.size(), 0.0);
+  sample.peaks.hand_torque.resize(was_in_.size(), 0.0);
   procedure::locate(sample.observation, locator_);
-  followBranches(sample);
   followWires(sample);
   followExchanges(sample);
   followForces(sample);
@@ -141,28 +117,52 @@ const std::string& SessionMetrics::nameOf(int instrument) const
   return scene_.instruments[static_cast<std::size_t>(instrument)].instrument.name;
 }
 
-void SessionMetrics::followBranches(const Sample& sample)
+/** Index of the procedure's step at a time, an exchange counted as two; −1: none. */
+int SessionMetrics::stepAt(double time) const
 {
-  for (std::size_t k = 0; k < active_stay_.size(); ++k)
+  const auto later = [](double t, const procedure::StepRecord& step) { return t < step.begin; };
+  const auto next = std::upper_bound(steps_.begin(), steps_.end(), time, later);
+  return next == steps_.begin() ? -1 : static_cast<int>(std::prev(next)->step);
+}
+
+std::vector<WrongBranch> SessionMetrics::wrongBranches() const
+{
+  std::vector<WrongBranch> stays;
+  std::vector<int> active(was_in_.size(), -1);
+  procedure::BranchEntries entries = branch_entries_;
+  const bool is_over = !steps_.empty() && steps_.back().outcome != procedure::Progress::kRunning;
+  for (const Sample& sample : samples_)
   {
-    const procedure::BranchPosition& position = sample.observation.instruments[k].branch_position;
-    const bool wrong = !sample.observation.instruments[k].covered && position.branch >= 0 &&
-                       !on_way_[k][static_cast<std::size_t>(position.branch)];
-    int& now = active_stay_[k];
-    if (now >= 0 && (!wrong || wrong_branches_[static_cast<std::size_t>(now)].branch != position.branch))
-      now = -1;
-    if (wrong && now < 0 && position.depth > kEntryDepth)
+    const double time = sample.observation.time;
+    if (is_over && time > steps_.back().end)
+      break;
+    entries.add(sample.observation, stepAt(time));
+    for (std::size_t k = 0; k < active.size(); ++k)
     {
-      now = static_cast<int>(wrong_branches_.size());
-      wrong_branches_.push_back(
-          {static_cast<int>(k), position.branch, sample.observation.time, sample.observation.time, position.depth});
+      const auto instrument = static_cast<int>(k);
+      const procedure::BranchPosition& position = sample.observation.instruments[k].branch_position;
+      if (entries.enters(instrument))
+      {
+        active[k] = static_cast<int>(stays.size());
+        stays.push_back({instrument, position.branch, time, time, position.depth});
+      }
+      if (!entries.isInside(instrument))
+        continue;
+      WrongBranch& stay = stays[static_cast<std::size_t>(active[k])];
+      stay.end = time;
+      stay.deepest = std::max(stay.deepest, position.depth);
     }
-    if (now < 0)
-      continue;
-    WrongBranch& stay = wrong_branches_[static_cast<std::size_t>(now)];
-    stay.end = sample.observation.time;
-    stay.deepest = std::max(stay.deepest, position.depth);
   }
+  return stays;
+}
+
+double SessionMetrics::peakHandForce(std::size_t instrument) const
+{
+  double peak = 0.0;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (trusted_[i])
+      peak = std::max(peak, std::abs(samples_[i].peaks.hand_force[instrument]));
+  return peak;
 }
 
 /** Detects a balloon catheter that advances ahead of all guidewires. */
@@ -204,15 +204,16 @@ void SessionMetrics::followExchanges(const Sample& sample)
 void SessionMetrics::followForces(const Sample& sample)
 {
   const int foremost = foremostOf(sample.observation);
-  if (sample.observation.time < untrusted_until_ || sample.at_tip <= kPerforation ||
+  const double at_tip = sample.peaks.wall.at_tip;
+  if (sample.observation.time < untrusted_until_ || at_tip <= kPerforation ||
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
   if (sample.observation.time > perforation_until_ + kSameTime)
   {
     perforation_error_ = errors_.size();
-    errors_.push_back({"risk of perforation", foremost, sample.observation.time, sample.at_tip, "N"});
+    errors_.push_back({"risk of perforation", foremost, sample.observation.time, at_tip, "N"});
   }
-  errors_[perforation_error_].value = std::max(errors_[perforation_error_].value, sample.at_tip);
+  errors_[perforation_error_].value = std::max(errors_[perforation_error_].value, at_tip);
   perforation_until_ = sample.observation.time;
 }
 
@@ -237,10 +238,9 @@ double SessionMetrics::activeTime() const
   return time;
 }
 
-Json SessionMetrics::instrumentJson(std::size_t k) const
+Json SessionMetrics::instrumentJson(std::size_t k, const std::vector<WrongBranch>& stays) const
 {
   double path = 0.0;
-  double peak = 0.0;
   std::vector<double> speed;
   std::size_t last = 0;
   for (std::size_t i = 1; i < samples_.size(); ++i)
@@ -249,8 +249,6 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
     const procedure::InstrumentView& now = samples_[i].observation.instruments[k];
     const double travel = (now.tip - before.tip).norm();
     path += travel;
-    if (trusted_[i])
-      peak = std::max(peak, std::abs(now.hand.force));
     if (speed.empty() && travel < kMoving / kRate)
       continue;
     speed.push_back(travel * kRate);
@@ -260,7 +258,7 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
   speed.resize(last);
   int entries = 0;
   double wrong = 0.0;
-  for (const WrongBranch& stay : wrong_branches_)
+  for (const WrongBranch& stay : stays)
     if (stay.instrument == static_cast<int>(k))
     {
       ++entries;
@@ -273,7 +271,7 @@ Json SessionMetrics::instrumentJson(std::size_t k) const
           {"wrong_branch_entries", entries},
           {"wrong_branch_time", wrong},
           {"time_ahead_of_wire", ahead_time_[k]},
-          {"peak_hand_force", peak}};
+          {"peak_hand_force", peakHandForce(k)}};
 }
 
 /** Errors of the trainee in the order of their times. */
@@ -301,6 +299,28 @@ Json SessionMetrics::faultsJson() const
   return json;
 }
 
+/** Steps with the stays in wrong branches that begin during each. */
+Json SessionMetrics::stepsJson(const std::vector<WrongBranch>& stays) const
+{
+  Json json = Json::array();
+  for (std::size_t k = 0; k < steps_.size(); ++k)
+  {
+    const procedure::StepRecord& step = steps_[k];
+    const double next = k + 1 < steps_.size() ? steps_[k + 1].begin : std::numeric_limits<double>::infinity();
+    const auto wrong =
+        std::count_if(stays.begin(), stays.end(),
+                      [&](const WrongBranch& stay) { return stay.begin >= step.begin && stay.begin < next; });
+    json.push_back({{"phase", step.phase},
+                    {"step", step.name},
+                    {"begin", step.begin},
+                    {"end", step.end},
+                    {"new_tries", step.retries},
+                    {"wrong_branches", wrong},
+                    {"outcome", outcomeName(step.outcome)}});
+  }
+  return json;
+}
+
 Json SessionMetrics::json() const
 {
   Json json = {{"scene", scene_.name}};
@@ -313,20 +333,13 @@ Json SessionMetrics::json() const
   json["instrument_exchanges"] = exchanges_;
   if (const std::vector<Mark> marks = lessonMarks(*this); !marks.empty())
     json["lesson"] = toJson(marks);
-  json["steps"] = Json::array();
-  for (const procedure::StepRecord& step : steps_)
-    json["steps"].push_back({{"phase", step.phase},
-                             {"step", step.name},
-                             {"begin", step.begin},
-                             {"end", step.end},
-                             {"new_tries", step.retries},
-                             {"wrong_branches", step.wrong_branches},
-                             {"outcome", outcomeName(step.outcome)}});
+  const std::vector<WrongBranch> stays = wrongBranches();
+  json["steps"] = stepsJson(stays);
   json["instruments"] = Json::array();
   for (std::size_t k = 0; k < was_in_.size(); ++k)
-    json["instruments"].push_back(instrumentJson(k));
+    json["instruments"].push_back(instrumentJson(k, stays));
   json["wrong_branches"] = Json::array();
-  for (const WrongBranch& stay : wrong_branches_)
+  for (const WrongBranch& stay : stays)
     json["wrong_branches"].push_back({{"instrument", nameOf(stay.instrument)},
                                       {"branch", locator_.name(stay.branch)},
                                       {"begin", stay.begin},

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
+#include "procedure/branch_entries.h"
 #include "procedure/branch_locator.h"
 #include "procedure/operator.h"
 #include "results/session_sample.h"
@@ -19,7 +20,8 @@
 namespace endovascular_sim::results
 {
 
-/** Stay of an instrument's tip in a branch that does not lead to any goal of the procedure. */
+/** Stay of an instrument's tip in a wrong branch, as procedure::BranchEntries defines it, at the rate of the samples.
+ */
 struct WrongBranch
 {
   int instrument = 0;    ///< index of the instrument in the scene
@@ -81,18 +83,22 @@ public:
   const procedure::BranchLocator& locator() const { return locator_; }
   const std::vector<Sample>& samples() const { return samples_; }
   const std::vector<procedure::StepRecord>& steps() const { return steps_; }
-  const std::vector<WrongBranch>& wrongBranches() const { return wrong_branches_; }
+  /** Stays in wrong branches; requires the records of the operator. Computed in every call. */
+  std::vector<WrongBranch> wrongBranches() const;
+  /** Largest axial force on the hand of an instrument, by magnitude, in all steps without a fault [N]. */
+  double peakHandForce(std::size_t instrument) const;
   const std::vector<SessionError>& errors() const { return errors_; }
   const std::vector<SimulatorFault>& faults() const { return faults_; }
 
 private:
   void followFaults(const Sample& sample);
   void addFault(const char* kind, double time, std::uint64_t steps);
-  void followBranches(const Sample& sample);
   void followWires(const Sample& sample);
   void followExchanges(const Sample& sample);
   void followForces(const Sample& sample);
-  nlohmann::ordered_json instrumentJson(std::size_t k) const;
+  int stepAt(double time) const;
+  nlohmann::ordered_json stepsJson(const std::vector<WrongBranch>& stays) const;
+  nlohmann::ordered_json instrumentJson(std::size_t k, const std::vector<WrongBranch>& stays) const;
   nlohmann::ordered_json errorsJson() const;
   nlohmann::ordered_json faultsJson() const;
   double activeTime() const;
@@ -100,7 +106,7 @@ private:
 
   scene::Scene scene_;
   procedure::BranchLocator locator_;
-  std::vector<std::vector<bool>> on_way_;  ///< for each instrument and branch: true if the branch is allowed
+  procedure::BranchEntries branch_entries_;  ///< before the first sample
   std::vector<Sample> samples_;
   std::vector<bool> trusted_;   ///< for each sample: true if no fault affects its forces
   std::int64_t interval_ = -1;  ///< sampling interval of the newest sample
@@ -111,8 +117,6 @@ private:
   std::string failure_;
   std::optional<WallForceSummary> wall_forces_;
   std::vector<LesionOutcome> lesions_;
-  std::vector<WrongBranch> wrong_branches_;
-  std::vector<int> active_stay_;  ///< for each instrument: index of the present stay in a wrong branch; −1: none
   std::vector<SessionError> errors_;
   std::vector<bool> ahead_;            ///< for each instrument: true if its tip is ahead of all guidewires
   std::vector<double> ahead_time_;     ///< for each instrument: time ahead of all guidewires [s]

@@ -49,16 +49,17 @@ void SessionRun::write(const std::string& folder) const
 std::string instrumentsCsv(const SessionMetrics& metrics)
 {
   std::string text =
-      "time,instrument,insertion,rotation,pressure,hand_force,hand_torque,tip_x,tip_y,tip_z,branch,depth\n";
+      "time,instrument,insertion,rotation,pressure,hand_force,hand_torque,peak_hand_force,peak_hand_torque,tip_x,tip_y,"
+      "tip_z,branch,depth\n";
   std::array<char, 400> row{};
   for (const Sample& sample : metrics.samples())
     for (std::size_t k = 0; k < sample.observation.instruments.size(); ++k)
     {
       const procedure::InstrumentView& view = sample.observation.instruments[k];
-      std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g\n",
+      std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g\n",
                     sample.observation.time, metrics.scene().instruments[k].instrument.name.c_str(),
                     view.hand.insertion, view.hand.rotation, view.hand.pressure, view.hand.force, view.hand.torque,
-                    view.tip.x(), view.tip.y(), view.tip.z(),
+                    sample.peaks.hand_force[k], sample.peaks.hand_torque[k], view.tip.x(), view.tip.y(), view.tip.z(),
                     metrics.locator().name(view.branch_position.branch).c_str(), view.branch_position.depth);
       text += row.data();
     }

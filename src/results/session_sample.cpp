@@ -5,6 +5,19 @@
 
 namespace endovascular_sim::results
 {
+namespace
+{
+
+/** Tip of the instrument with the largest insertion; the introducer while all are outside [m]. */
+Eigen::Vector3d foremostTip(const simulation::Simulation& simulation)
+{
+  double furthest = 0.0;
+  for (int k = 0; k < simulation.instruments(); ++k)
+    furthest = std::max(furthest, simulation.hand(k).insertion);
+  return procedure::pointAt(simulation, furthest);
+}
+
+}  // namespace
 
 FaultCounts faultsOf(const rod::StepReport& report)
 {
@@ -26,14 +39,27 @@ int foremostOf(const procedure::Observation& observation)
                           observation.instruments.begin());
 }
 
-void Sample::addContact(const Eigen::Vector3d& position, double force)
+void WallLoad::add(const Eigen::Vector3d& position, double force, const Eigen::Vector3d& tip)
 {
-  wall_force += force;
+  sum += force;
   largest = std::max(largest, force);
-  const procedure::InstrumentView& foremost =
-      observation.instruments[static_cast<std::size_t>(foremostOf(observation))];
-  if ((position - foremost.tip).norm() < kTipReach)
+  if ((position - tip).norm() < kTipReach)
     at_tip += force;
+}
+
+void Peaks::add(const simulation::Simulation& simulation, const WallLoad& load)
+{
+  hand_force.resize(static_cast<std::size_t>(simulation.instruments()), 0.0);
+  hand_torque.resize(hand_force.size(), 0.0);
+  for (std::size_t k = 0; k < hand_force.size(); ++k)
+  {
+    const simulation::HandState hand = simulation.hand(static_cast<int>(k));
+    hand_force[k] = std::abs(hand.force) > std::abs(hand_force[k]) ? hand.force : hand_force[k];
+    hand_torque[k] = std::abs(hand.torque) > std::abs(hand_torque[k]) ? hand.torque : hand_torque[k];
+  }
+  wall.sum = std::max(wall.sum, load.sum);
+  wall.largest = std::max(wall.largest, load.largest);
+  wall.at_tip = std::max(wall.at_tip, load.at_tip);
 }
 
 bool Sample::isFinite() const
@@ -43,8 +69,12 @@ bool Sample::isFinite() const
     return std::isfinite(view.hand.insertion) && std::isfinite(view.hand.rotation) && std::isfinite(view.hand.force) &&
            std::isfinite(view.hand.torque) && std::isfinite(view.hand.pressure) && view.tip.allFinite();
   };
-  return std::isfinite(observation.time) && std::isfinite(wall_force) && std::isfinite(largest) &&
-         std::isfinite(at_tip) &&
+  const auto isFiniteLoad = [](const WallLoad& load)
+  { return std::isfinite(load.sum) && std::isfinite(load.largest) && std::isfinite(load.at_tip); };
+  const auto isFiniteValue = [](double value) { return std::isfinite(value); };
+  return std::isfinite(observation.time) && isFiniteLoad(wall) && isFiniteLoad(peaks.wall) &&
+         std::all_of(peaks.hand_force.begin(), peaks.hand_force.end(), isFiniteValue) &&
+         std::all_of(peaks.hand_torque.begin(), peaks.hand_torque.end(), isFiniteValue) &&
          std::all_of(observation.instruments.begin(), observation.instruments.end(), isFiniteView);
 }
 
@@ -60,16 +90,25 @@ bool SessionSampler::addStep(const scene::Scene& scene, const simulation::Simula
   const FaultCounts faults = faultsOf(simulation.report());
   faults_.rejected_steps += faults.rejected_steps;
   faults_.stale_steps += faults.stale_steps;
+  const Eigen::Vector3d tip = foremostTip(simulation);
+  WallLoad load;
+  for (const simulation::WallContact& contact : contacts)
+    load.add(contact.position, contact.normal_force.norm(), tip);
+  if (!faults.any())
+    peaks_.add(simulation, load);
   const std::int64_t interval = intervalAt(simulation.time());
   if (interval == interval_)
     return false;
   interval_ = interval;
   sample_ = Sample();
   sample_.observation = procedure::observe(scene, simulation);
+  sample_.wall = load;
   sample_.faults = faults_;
+  sample_.peaks = peaks_;
+  sample_.peaks.hand_force.resize(sample_.observation.instruments.size(), 0.0);
+  sample_.peaks.hand_torque.resize(sample_.observation.instruments.size(), 0.0);
   faults_ = FaultCounts();
-  for (const simulation::WallContact& contact : contacts)
-    sample_.addContact(contact.position, contact.normal_force.norm());
+  peaks_ = Peaks();
   return true;
 }
 

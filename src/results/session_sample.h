@@ -34,19 +34,39 @@ FaultCounts faultsOf(const rod::StepReport& report);
 void addStep(WallForceMap& map, const simulation::Simulation& simulation,
              const std::vector<simulation::WallContact>& contacts, double dt);
 
+/** Forces of one step on the wall. */
+struct WallLoad
+{
+  double sum = 0.0;      ///< sum of the normal forces [N]
+  double largest = 0.0;  ///< largest normal force of one contact [N]
+  double at_tip = 0.0;   ///< sum of the normal forces within kTipReach of the foremost tip [N]
+
+  /** Adds a contact.
+   *  @param position position of the contact [m]
+   *  @param force normal force [N]
+   *  @param tip foremost tip [m] */
+  void add(const Eigen::Vector3d& position, double force, const Eigen::Vector3d& tip);
+};
+
+/** Largest forces of all steps since the previous sample, that of the sample included. Steps with a fault of the
+ *  simulator are left out. */
+struct Peaks
+{
+  std::vector<double> hand_force;   ///< axial force of the largest magnitude on each hand, with its sign [N]
+  std::vector<double> hand_torque;  ///< torque of the largest magnitude on each hand, with its sign [N·m]
+  WallLoad wall;                    ///< each of its values by itself
+
+  /** Takes a step into account. */
+  void add(const simulation::Simulation& simulation, const WallLoad& load);
+};
+
 /** Sample of a session at one time. */
 struct Sample
 {
   procedure::Observation observation;
-  double wall_force = 0.0;  ///< sum of the normal forces [N]
-  double largest = 0.0;     ///< largest normal force of one contact [N]
-  double at_tip = 0.0;      ///< sum of the normal forces within kTipReach of the foremost tip [N]
-  FaultCounts faults;       ///< faults since the previous sample
-
-  /** Adds a contact with the wall; `observation` must be complete.
-   *  @param position position of the contact [m]
-   *  @param force normal force [N] */
-  void addContact(const Eigen::Vector3d& position, double force);
+  WallLoad wall;       ///< of the step of the sample
+  Peaks peaks;         ///< of all steps since the previous sample
+  FaultCounts faults;  ///< faults since the previous sample
 
   /** True if all values are finite. */
   bool isFinite() const;
@@ -55,7 +75,7 @@ struct Sample
 /** Instrument with the largest insertion. */
 int foremostOf(const procedure::Observation& observation);
 
-/** Sampler of a simulation at the first step of every interval of a fixed rate, with the faults of all steps. The
+/** Sampler of a simulation at the first step of every interval of a fixed rate, with faults and peaks of all steps. The
  *  offline tool and the node graph use this class, so that equal trajectories give equal samples. */
 class SessionSampler
 {
@@ -77,6 +97,7 @@ public:
 private:
   std::int64_t interval_ = -1;  ///< interval of the newest sample
   FaultCounts faults_;          ///< faults since the newest sample
+  Peaks peaks_;                 ///< peaks since the newest sample
   Sample sample_;
 };
 

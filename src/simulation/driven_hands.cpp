@@ -1,6 +1,8 @@
 #include "simulation/driven_hands.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "common/archive.h"
@@ -13,6 +15,19 @@ namespace
 {
 
 constexpr double kSameTime = 1e-9;  ///< tolerance of the time of a command [s]
+
+drive::HandFeedback feedbackOf(const Simulation& simulation, int instrument)
+{
+  const HandState hand = simulation.hand(instrument);
+  const drive::HandMotion reached = simulation.reached(instrument);
+  const drive::HandMotion slipped = simulation.slipped(instrument);
+  drive::HandFeedback feedback;
+  feedback.insertion = {reached.insertion, hand.force, slipped.insertion, simulation.stops(instrument)};
+  feedback.rotation.reached = reached.rotation;
+  feedback.rotation.effort = hand.torque;
+  feedback.rotation.slipped = slipped.rotation;
+  return feedback;
+}
 
 }  // namespace
 
@@ -102,10 +117,7 @@ const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
     const scene::DriveScene& drive = scene_.instruments[k].drive;
     if (controls_[k])
     {
-      const HandState hand = simulation.hand(static_cast<int>(k));
-      const drive::HandMotion reached = simulation.reached(static_cast<int>(k));
-      const drive::HandSetpoint& setpoint =
-          controls_[k]->next(dt, {{reached.insertion, hand.force}, {reached.rotation, hand.torque}});
+      const drive::HandSetpoint& setpoint = controls_[k]->next(dt, feedbackOf(simulation, static_cast<int>(k)));
       const bool has_pressure = setpoint.pressure && scene_.instruments[k].instrument.balloon;
       next_[k] = {setpoint.motion.insertion, setpoint.motion.rotation,
                   has_pressure ? *setpoint.pressure : drive.pressureAt(end)};
@@ -118,7 +130,7 @@ const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
 
 CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
                              std::vector<drive::TimedCommand> commands)
-  : file_(file)
+  : scene_(scene), file_(file)
 {
   for (drive::TimedCommand& command : commands)
   {
@@ -126,6 +138,77 @@ CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
         commandedInstrument(scene, command.instrument, file, "line " + std::to_string(command.line));
     entries_.push_back({std::move(command), instrument});
   }
+}
+
+/** Doubt about the pauses between the rates of an instrument; empty without one. */
+std::string CommandPlayer::pausesOf(std::size_t instrument) const
+{
+  const double time_out = scene_.instruments[instrument].drive.limits.time_out;
+  int pauses = 0;
+  double lost = 0.0;
+  double longest = 0.0;
+  const drive::TimedCommand* before = nullptr;
+  for (const Entry& entry : entries_)
+  {
+    if (entry.instrument != instrument)
+      continue;
+    const bool by_velocity = before != nullptr && before->word == drive::nameOf(drive::CommandKind::kServoVelocity);
+    const bool by_rate =
+        by_velocity || (before != nullptr && before->word == drive::nameOf(drive::CommandKind::kServoForce));
+    const bool moves =
+        by_rate && std::any_of(before->values.begin(), before->values.end(), [](double v) { return v != 0.0; });
+    const double pause = before != nullptr ? entry.command.time - before->time : 0.0;
+    if (moves && pause > time_out - 0.5 * scene_.solver.time_step)
+    {
+      ++pauses;
+      longest = std::max(longest, pause);
+      lost +=
+          by_velocity ? std::abs(before->values.front()) * std::max(scene_.solver.time_step, pause - time_out) : 0.0;
+    }
+    before = &entry.command;
+  }
+  if (pauses == 0)
+    return "";
+  char text[280];
+  std::snprintf(
+      text, sizeof text,
+      "%s: no command follows %d of the velocities and forces within drive.limits.time_out (%.3g s; pauses of up "
+      "to %.3g s), so that the instrument stops; about %.1f mm of the commanded travel are lost; repeat "
+      "commands faster, or raise the time-out",
+      scene_.instruments[instrument].instrument.name.c_str(), pauses, time_out, longest, 1e3 * lost);
+  return file_ + ": " + text;
+}
+
+std::vector<std::string> CommandPlayer::warnings(double end) const
+{
+  std::vector<std::string> warnings;
+  const auto late = std::find_if(entries_.begin(), entries_.end(),
+                                 [end](const Entry& entry) { return entry.command.time >= end - kSameTime; });
+  if (late != entries_.end())
+  {
+    char text[160];
+    std::snprintf(text, sizeof text, "line %d and %td later ones lie at or after the end of the run at %g s",
+                  late->command.line, entries_.end() - late - 1, end);
+    warnings.push_back(file_ + ": " + text);
+  }
+  for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
+    if (const std::string text = pausesOf(k); !text.empty())
+      warnings.push_back(text);
+  return warnings;
+}
+
+void CommandPlayer::requireCommandsBefore(double end) const
+{
+  if (entries_.empty())
+    throw InputError(file_, "", "holds no command; give rows of time,instrument,command,values");
+  if (entries_.front().command.time < end - kSameTime)
+    return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the first command acts at %.10g s, after the end of the run at %g s; times are simulated seconds from "
+                "the start of the scene: subtract that of the first row",
+                entries_.front().command.time, end);
+  throw InputError(file_, "line " + std::to_string(entries_.front().command.line), text);
 }
 
 void CommandPlayer::play(double time, DrivenHands& hands)

@@ -64,9 +64,19 @@ private:
 class CommandPlayer
 {
 public:
-  /** @param file name of the file, in errors and as the name of the client
+  /** @param scene must outlive the player
+   *  @param file name of the file, in errors and as the name of the client
    *  @throws InputError for an instrument that the scene has not, or that no client drives */
   CommandPlayer(const scene::Scene& scene, const std::string& file, std::vector<drive::TimedCommand> commands);
+
+  /** Doubts about the file: commands after the end of the run, and pauses after velocities and forces that exceed
+   *  drive.limits.time_out, with the motion that is lost in them. One line per instrument and cause.
+   *  @param end simulated time of the end [s] */
+  std::vector<std::string> warnings(double end) const;
+
+  /** @param end simulated time of the end of the run [s]
+   *  @throws InputError if no command acts before the end, e.g. for stamps of the calendar */
+  void requireCommandsBefore(double end) const;
 
   /** Gives the commands that are due.
    *  @param time simulated time at the beginning of the coming step [s] */
@@ -85,6 +95,9 @@ private:
     std::size_t instrument = 0;
   };
 
+  std::string pausesOf(std::size_t instrument) const;
+
+  const scene::Scene& scene_;
   std::string file_;
   std::vector<Entry> entries_;
   std::size_t next_ = 0;

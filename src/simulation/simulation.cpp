@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/error.h"
@@ -121,6 +122,20 @@ drive::HandMotion Simulation::reached(int instrument) const
   const HandState now = hand(instrument);
   const Channel& channel = channels_[instrument];
   return {now.insertion + channel.slipped_insertion, now.rotation + channel.slipped_rotation};
+}
+
+drive::HandMotion Simulation::slipped(int instrument) const
+{
+  return {channels_[instrument].slipped_insertion, channels_[instrument].slipped_rotation};
+}
+
+drive::Interval Simulation::stops(int instrument) const
+{
+  if (!scene_.introducer)
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  const double least = leastInsertion(instrument);
+  return drive::Interval{least, std::max(least, mostInsertion(instrument))}.shifted(
+      channels_[instrument].slipped_insertion);
 }
 
 /** Insertion at which an instrument is outside the introducer [m]. */

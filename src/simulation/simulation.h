@@ -69,6 +69,13 @@ public:
    *  difference from the last command is the motion that is still to follow. */
   drive::HandMotion reached(int instrument) const;
 
+  /** Slipped motion of an instrument's handle: the scale of its commands minus its position. */
+  drive::HandMotion slipped(int instrument) const;
+
+  /** Positions between the present stops of an instrument, in the scale of its commands [m]: the introducer, the end of
+   *  the instrument, and an instrument inside that it does not fit. Unbounded without an introducer. */
+  drive::Interval stops(int instrument) const;
+
   /** True where an instrument has left the introducer altogether, so that others need not fit into it. */
   bool isOutside(int instrument) const;
 

@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "benchmark/study_list.h"
+#include "benchmark/tables_page.h"
 #include "common/output_file.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
@@ -67,7 +70,10 @@ void addOptions(tools::CommandLine& line, Options& options)
     summaries += study.name + ": " + study.summary + "\n";
   }
   line.argument("STUDY", options.study, summaries + "all: all studies")->check(CLI::IsMember(names));
-  line.option("--out", options.out, "DIR", "folder for the tables as CSV, the plots and tables.md; created if missing")
+  line.option("--out", options.out, "DIR",
+              "folder for the tables as CSV, the plots and tables.md, whose chapters of the studies run are replaced; "
+              "created if "
+              "missing")
       ->required();
   line.flag("--quick", options.study_options.quick, "fewer and smaller cases: a few minutes");
   line.option("--vessel-mesh", options.study_options.vessel_mesh, "FILE",
@@ -85,15 +91,11 @@ std::string vesselMesh(const std::string& given)
   return folder != nullptr && std::filesystem::exists(mesh) ? std::filesystem::absolute(mesh).string() : "";
 }
 
-/** Part of tables.md that describes one table. */
-std::string markdown(const Section& section)
+/** Text of a file; empty without it. */
+std::string textOf(const std::filesystem::path& file)
 {
-  const TableSpec& spec = section.spec;
-  std::string text = "### " + spec.heading + "\n\nTable: [" + spec.name + ".csv](" + spec.name + ".csv), " +
-                     std::to_string(section.table.rows()) + " rows\n\n" + section.text + "\n\n";
-  if (!spec.plot.empty() && section.table.rows() > 0)
-    text += "![" + spec.heading + "](" + spec.plot + ")\n\n";
-  return text;
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 int run(const Options& options)
@@ -109,25 +111,22 @@ int run(const Options& options)
     if (progress)
       tools::drawProgress(done, text);
   };
-  std::string report =
-      "# Tables of the validation\n\nWritten by `rosrun endovascular_sim benchmark " + options.study +
-      (study_options.quick ? " --quick" : "") +
-      " --out DIR`. Times are medians on one core of the machine of the run; ratios are comparable.\n\n";
+  TablesPage page(textOf(out / "tables.md"));
+  const std::string command =
+      std::string("rosrun endovascular_sim benchmark ") + options.study + (study_options.quick ? " --quick" : "");
   for (const Study& study : studies())
   {
     if (options.study != "all" && options.study != study.name)
       continue;
     std::cerr << study.heading << "\n";
-    report += "## " + study.heading + "\n\n";
-    for (const Section& section : study.run(study_options, show))
-    {
+    const std::vector<Section> sections = study.run(study_options, show);
+    for (const Section& section : sections)
       tools::writeFile(out / (section.spec.name + ".csv"), section.table.csv());
-      report += markdown(section);
-    }
+    page.set(study, command, sections);
     if (progress)
       std::fputc('\n', stderr);
     // Written after every study, so that a failure of a later one loses nothing.
-    tools::writeFile(out / "tables.md", report);
+    tools::writeFile(out / "tables.md", page.text(studies()));
   }
   tools::runPlotScript("plot_benchmark.py", {out.string()});
   return 0;

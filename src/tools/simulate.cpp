@@ -102,7 +102,7 @@ void addOptions(tools::CommandLine& line, Options& options)
       ->excludes(save)
       ->excludes(from);
   line.flag("--no-plots", options.no_plots, "omits the plots");
-  line.flag("--quiet", options.quiet, "prints neither progress nor results");
+  line.flag("--quiet", options.quiet, "prints neither progress nor results, but warnings and the reason of a failure");
 }
 
 void writeNodes(std::ofstream& file, const simulation::Simulation& simulation)
@@ -121,10 +121,14 @@ results::TrajectoryRow rowOf(const simulation::Simulation& simulation)
   const rod::State& state = simulation.state();
   results::TrajectoryRow row;
   row.time = simulation.time();
-  row.insertion = state.inserted_length;
-  row.rotation = state.rotation;
-  row.hand_force = state.hand_force;
-  row.hand_torque = state.hand_torque;
+  simulation::HandState foremost = simulation.hand(0);
+  for (int k = 1; k < simulation.instruments(); ++k)
+    if (simulation.hand(k).insertion > foremost.insertion)
+      foremost = simulation.hand(k);
+  row.insertion = foremost.insertion;
+  row.rotation = foremost.rotation;
+  row.hand_force = foremost.force;
+  row.hand_torque = foremost.torque;
   row.tip = state.position.back();
   for (int k = 0; k < simulation.instruments(); ++k)
     row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
@@ -337,11 +341,15 @@ std::vector<simulation::HandCommand> commandsFor(const scene::Scene& scene, cons
 class CommandedHands
 {
 public:
-  /** @param file path of the file; empty: the profiles of the scene drive these instruments too */
-  CommandedHands(const scene::Scene& scene, const std::string& file) : hands_(scene)
+  /** @param file path of the file; empty: the profiles of the scene drive these instruments too
+   *  @param end simulated time of the end of the run [s] */
+  CommandedHands(const scene::Scene& scene, const std::string& file, double end) : hands_(scene)
   {
-    if (!file.empty())
-      player_.emplace(scene, file, drive::readCommandFile(file));
+    if (file.empty())
+      return;
+    player_.emplace(scene, file, drive::readCommandFile(file));
+    player_->requireCommandsBefore(end);
+    tools::printWarnings("simulate", player_->warnings(end));
   }
 
   /** @param others commands of the operator or of the scene's profiles */
@@ -378,7 +386,7 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
          const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
 {
   Tables tables(scene, options);
-  CommandedHands hands(scene, options.commands);
+  CommandedHands hands(scene, options.commands, static_cast<double>(steps) * scene.solver.time_step);
   if (options.audit)
     simulation.setAudit(tables.audit());
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
@@ -446,7 +454,7 @@ void finishSession(const simulation::Simulation& simulation, const Surroundings&
 }
 
 /** Prints the steps of the scripted operator. */
-void printProcedure(const Surroundings& surroundings)
+void printSteps(const Surroundings& surroundings)
 {
   if (!surroundings.session || !surroundings.session->scriptedOperator())
     return;
@@ -455,8 +463,18 @@ void printProcedure(const Surroundings& surroundings)
     std::fprintf(stderr, "%7.2f to %7.2f s: %s%s%s\n", step.begin, step.end, step.name.c_str(),
                  step.retries > 0 ? (" (" + std::to_string(step.retries) + " retries)").c_str() : "",
                  step.outcome == procedure::Progress::kSupportLost ? ", lost its support" : "");
-  if (!scripted.failure().empty())
-    std::cerr << "simulate: the procedure failed: " << scripted.failure() << "\n";
+}
+
+/** True if the scripted operator has failed; prints the reason. */
+bool hasFailed(const Surroundings& surroundings)
+{
+  if (!surroundings.session || !surroundings.session->scriptedOperator())
+    return false;
+  const procedure::Operator& scripted = *surroundings.session->scriptedOperator();
+  if (scripted.progress() != procedure::Progress::kFailed)
+    return false;
+  std::cerr << "simulate: the procedure failed: " << scripted.failure() << "\n";
+  return true;
 }
 
 int simulate(const Options& options)
@@ -501,17 +519,12 @@ int simulate(const Options& options)
   if (!options.quiet)
   {
     std::cout << text;
-    printProcedure(surroundings);
+    printSteps(surroundings);
   }
+  const bool failed = hasFailed(surroundings);
   if (result.rejectedSteps() > 0)
-  {
     std::cerr << "simulate: " << result.rejectedSteps() << " steps were rejected, in which the wire was held\n";
-    return 1;
-  }
-  return surroundings.session && surroundings.session->scriptedOperator() &&
-                 surroundings.session->scriptedOperator()->progress() == procedure::Progress::kFailed
-             ? 1
-             : 0;
+  return failed || result.rejectedSteps() > 0 ? 1 : 0;
 }
 
 }  // namespace

@@ -57,6 +57,19 @@ TEST_F(CommandFile, HoldsOneCommandPerRow)
   EXPECT_EQ(commands[2].line, 6);
 }
 
+TEST_F(CommandFile, OfASpreadsheetIsRead)
+{
+  const std::string row = "\"0.5\",\"wire\",move_jp,0.06,1.5\r\n";
+  for (const std::string& text : {"\xEF\xBB\xBFtime,instrument,command,values\r\n" + row,
+                                  "# from a robot\n\ntime,instrument,command,values\n" + row + ",,,,\n"})
+  {
+    const std::vector<TimedCommand> commands = read(text);
+    ASSERT_EQ(commands.size(), 1U) << text;
+    EXPECT_EQ(commands[0].time, 0.5);
+    EXPECT_EQ(commands[0].instrument, "wire");
+  }
+}
+
 TEST_F(CommandFile, RefusesAWrongRowWithItsLineAndTheReason)
 {
   EXPECT_NE(refusal("0,wire,servo_jp,0.1\n1,wire,servo_jx,0.1\n").find("line 2: unknown command"), std::string::npos);

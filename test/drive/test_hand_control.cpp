@@ -42,8 +42,12 @@ public:
     for (int k = 0; k < std::lround(seconds / kStep); ++k)
     {
       each();
-      const HandFeedback feedback{{reached.insertion, stiffness * (reached.insertion - kStart.insertion)},
-                                  {reached.rotation, turning_stiffness * (reached.rotation - kStart.rotation)}};
+      HandFeedback feedback;
+      feedback.insertion = {reached.insertion, stiffness * (reached.insertion - kStart.insertion), slipped.insertion,
+                            stops};
+      feedback.rotation.reached = reached.rotation;
+      feedback.rotation.effort = turning_stiffness * (reached.rotation - kStart.rotation);
+      feedback.rotation.slipped = slipped.rotation;
       last = setpoint();
       reached = control.next(kStep, feedback).motion;
       reached.insertion = std::min(reached.insertion, stop);
@@ -56,7 +60,9 @@ public:
   HandControl control;
   HandMotion reached = kStart;
   HandMotion last = kStart;
-  double stop = kInfinity;         ///< largest insertion [m]
+  double stop = kInfinity;  ///< largest insertion, unknown to the control [m]
+  Interval stops{-kInfinity, kInfinity};
+  HandMotion slipped{};
   double stiffness = 0.0;          ///< [N/m]
   double turning_stiffness = 0.0;  ///< [N·m/rad]
 };
@@ -285,6 +291,32 @@ TEST(HandControl, ChangesThePressureByPositionsOnly)
   EXPECT_EQ(bench.control.command("/a", commandOf(CommandKind::kServoPosition, 0.05, 0.2, kNan)),
             CommandVerdict::kMalformed);
   EXPECT_EQ(bench.control.setpoint().pressure, 3e5);
+}
+
+TEST(HandControl, KeepsTheSetpointBetweenTheStopsOfTheInstrument)
+{
+  for (const JointCommand& push :
+       {commandOf(CommandKind::kServoVelocity, 0.5), commandOf(CommandKind::kServoForce, 0.9),
+        commandOf(CommandKind::kServoRelative, 5e-4), commandOf(CommandKind::kMovePosition, 0.5)})
+  {
+    SCOPED_TRACE(nameOf(push.kind));
+    Bench bench;
+    bench.stops = {0.0, 0.1};
+    bench.run(4.0, [&] { bench.control.command("/a", push); });
+    bench.run(1.0);
+    EXPECT_EQ(bench.setpoint().insertion, 0.1);
+  }
+}
+
+TEST(HandControl, JudgesPositionsByThatOfTheInstrumentAfterASlip)
+{
+  Bench bench;
+  bench.slipped = {0.5, 1e4};
+  bench.run(kStep);
+  EXPECT_EQ(bench.send(CommandKind::kMovePosition, 1.0, 1e4), CommandVerdict::kAccepted);
+  EXPECT_EQ(bench.send(CommandKind::kMovePosition, 1.2, 1e4), CommandVerdict::kOutOfRange);
+  EXPECT_EQ(bench.send(CommandKind::kServoPosition, -0.2, 1e4), CommandVerdict::kOutOfRange);
+  EXPECT_EQ(bench.send(CommandKind::kServoPosition, 1.05, 1e4), CommandVerdict::kAccepted);
 }
 
 TEST(HandControl, LeavesAStopByTheNextVelocity)

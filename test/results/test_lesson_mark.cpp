@@ -86,6 +86,24 @@ TEST(LessonMark, IsNotPassedBeforeAllStepsAreDone)
   EXPECT_FALSE(lessonMarks(metrics)[0].passed);
 }
 
+TEST(LessonMark, CountsForcesOfEveryStepAndStaysInWrongBranches)
+{
+  SessionMetrics metrics = metricsWith("{hand_force: 2, wrong_branches: 0}");
+  for (int k = 0; k < 40; ++k)
+  {
+    Sample sample;
+    sample.observation.time = k / SessionMetrics::kRate;
+    sample.observation.instruments.resize(2);
+    sample.observation.instruments[0].hand.insertion = 0.1 + 1e-3 * k;
+    sample.observation.instruments[0].tip = {1e-3 * k, 0.0, 0.1};  // into the side branch
+    sample.peaks.hand_force = {k == 7 ? 2.5 : 0.1, 0.0};
+    metrics.add(sample);
+  }
+  finish(metrics, 2.0);
+  EXPECT_EQ(verdict(lessonMarks(metrics)),
+            "lesson not passed: largest force on a handle 2.50 N, at most 2.00 N; wrong branches 1, at most 0");
+}
+
 TEST(LessonMark, MeasuresTheRemainingStenosis)
 {
   SessionMetrics metrics = metricsWith("{stenosis: 0.3}");

@@ -85,7 +85,7 @@ TEST(SessionReport, ReportsTheShareOfStepsOnTimeOnlyWithDiagnostics)
   EXPECT_TRUE(parsed(report)["on_time_percent"].is_null());
 }
 
-TEST(SessionReport, MeasuresThePathOfTheTip)
+TEST(SessionReport, HoldsTheLastFiniteTip)
 {
   SessionReport report = reportOfSteps(1);
   report.addTip({0, 0, 0}, 0.01, 10);
@@ -93,7 +93,7 @@ TEST(SessionReport, MeasuresThePathOfTheTip)
   report.addTip({std::nan(""), 0, 0}, 0.5, 12);
   report.addTip({3, 4, 1}, 0.03, 13);
   const json result = parsed(report);
-  EXPECT_EQ(result["tip_path_length"], 6.0);
+  EXPECT_EQ(result["tip_position"], json::array({3.0, 4.0, 1.0}));
   EXPECT_EQ(result["nodes"], 13);
   EXPECT_EQ(result["inserted_length"], 0.03);
 }

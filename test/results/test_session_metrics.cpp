@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/metrics_page.h"
+#include "results/session_run.h"
 #include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::results
@@ -15,10 +16,10 @@ namespace
 class Session
 {
 public:
-  Session()
-    : metrics(procedure::sceneWith(
-                  "    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, until: {by: 0.1}}\n"),
-              procedure::forkedTree(), {0, 0, 0.001})
+  explicit Session(const std::string& steps =
+                       "    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, "
+                       "until: {by: 0.1}}\n")
+    : metrics(procedure::sceneWith(steps), procedure::forkedTree(), {0, 0, 0.001})
   {
   }
 
@@ -34,7 +35,8 @@ public:
       Sample sample;
       time_ += 1.0 / SessionMetrics::kRate;
       sample.observation.time = time_;
-      sample.at_tip = at_tip;
+      sample.peaks.wall.at_tip = at_tip;
+      sample.peaks.hand_force = {peak_hand_force, 0.0};
       for (std::size_t k = 0; k < 2; ++k)
       {
         const double share = static_cast<double>(i) / samples;
@@ -53,8 +55,10 @@ public:
   }
 
   nlohmann::ordered_json json() const { return metrics.json(); }
+  double time() const { return time_; }
 
   SessionMetrics metrics;
+  double peak_hand_force = 0.0;  ///< of the wire, in all steps between two samples [N]
 
 private:
   double time_ = 0.0;
@@ -81,6 +85,66 @@ TEST(SessionMetrics, CountsVisitsOfWrongBranches)
   // speed is 40 mm/s.
   EXPECT_NEAR(json["instruments"][0]["wrong_branch_time"], (0.027 + 0.033) / 0.04, 0.1);
   EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
+}
+
+/** Step of the operator from a time on. */
+procedure::StepRecord recordOf(std::size_t step, double begin, double end,
+                               procedure::Progress outcome = procedure::Progress::kDone)
+{
+  procedure::StepRecord record;
+  record.step = step;
+  record.begin = begin;
+  record.end = end;
+  record.outcome = outcome;
+  return record;
+}
+
+TEST(SessionMetrics, CountsABranchThatIsTheGoalOfAnotherStep)
+{
+  Session session(
+      "    - {advance: wire, until: {tip_in: side}}\n    - {withdraw: wire, until: {insertion: 0.1}}\n"
+      "    - {advance: wire, until: {tip_in: goal}}\n");
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {{0.04, 0, 0.1}, kStart}, {0.14, -0.1});  // the side branch, as the first step wants
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  const double third = session.time();
+  session.move(1.0, {{0.04, 0, 0.1}, kStart}, {0.14, -0.1});  // again, although the third step wants the goal
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.metrics.setSteps({recordOf(0, 0.0, 2.5), recordOf(1, 2.55, third),
+                            recordOf(2, third + 0.05, session.time(), procedure::Progress::kRunning)},
+                           "");
+  const nlohmann::ordered_json json = session.json();
+  ASSERT_EQ(json["wrong_branches"].size(), 1U);
+  EXPECT_GT(json["wrong_branches"][0]["begin"], third);
+  EXPECT_EQ(json["steps"][0]["wrong_branches"], 0);
+  EXPECT_EQ(json["steps"][2]["wrong_branches"], 1);
+  EXPECT_EQ(json["instruments"][0]["wrong_branch_entries"], 1);
+}
+
+TEST(SessionMetrics, DoesNotCountABranchThatWasRightWhenTheTipEnteredIt)
+{
+  Session session("    - {advance: wire, until: {tip_in: side}}\n    - {advance: wire, until: {tip_in: goal}}\n");
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.move(1.0, {{0.04, 0, 0.1}, kStart}, {0.14, -0.1});
+  const double second = session.time();
+  session.move(1.0, {{0.05, 0, 0.1}, kStart}, {0.15, -0.1});
+  session.metrics.setSteps(
+      {recordOf(0, 0.0, second), recordOf(1, second + 0.05, session.time(), procedure::Progress::kRunning)}, "");
+  EXPECT_TRUE(session.json()["wrong_branches"].empty());
+}
+
+TEST(SessionMetrics, OfAHandAreThoseOfEveryStep)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.peak_hand_force = -4.5;  // between two samples, whose own force is 0
+  session.move(0.05, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  session.peak_hand_force = 1.0;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+  EXPECT_EQ(session.metrics.peakHandForce(0), 4.5);
+  EXPECT_EQ(session.json()["instruments"][0]["peak_hand_force"], 4.5);
+  EXPECT_NE(metricsPage(session.metrics).find("4.50"), std::string::npos);
+  EXPECT_NE(instrumentsCsv(session.metrics).find(",-4.5,"), std::string::npos);
 }
 
 TEST(SessionMetrics, IgnoresTheBranchOfACoveredTip)
@@ -138,16 +202,14 @@ TEST(SessionMetrics, ReportsARiskOfPerforationOncePerEpisode)
 
 TEST(SessionMetrics, AttributesOnlyNearbyContactsToTheForemostTip)
 {
-  Sample sample;
-  sample.observation.instruments.resize(2);
-  sample.observation.instruments[0].hand.insertion = 0.1;
-  sample.observation.instruments[0].tip = {0, 0, 0.1};
-  sample.addContact({0, 0, 0.104}, 0.3);
-  sample.addContact({0, 0.004, 0.1}, 0.2);
-  sample.addContact({0, 0, 0.0}, 0.7);  // at the tip of the other instrument
-  EXPECT_NEAR(sample.at_tip, 0.5, 1e-12);
-  EXPECT_NEAR(sample.wall_force, 1.2, 1e-12);
-  EXPECT_EQ(sample.largest, 0.7);
+  const Eigen::Vector3d tip(0, 0, 0.1);
+  WallLoad load;
+  load.add({0, 0, 0.104}, 0.3, tip);
+  load.add({0, 0.004, 0.1}, 0.2, tip);
+  load.add({0, 0, 0.0}, 0.7, tip);  // at the tip of another instrument
+  EXPECT_NEAR(load.at_tip, 0.5, 1e-12);
+  EXPECT_NEAR(load.sum, 1.2, 1e-12);
+  EXPECT_EQ(load.largest, 0.7);
 }
 
 TEST(SessionMetrics, ReportsAllTreatmentEventsExceptAPlacedStentAsErrors)

@@ -1,5 +1,6 @@
 #include "simulation/driven_hands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -90,16 +91,113 @@ TEST(DrivenHands, PushUntilTheInstrumentResistsWithACommandedForce)
   EXPECT_LT(bench.insertion(), pushed - 0.005) << "a negative force pulls";
 }
 
-TEST(DrivenHands, ShiftTheScaleOfFingersThatSlipAtTheEnd)
+TEST(DrivenHands, ShiftTheScaleOfFingersWhoseClientStreamsPositionsBeyondTheEnd)
+{
+  Bench bench(", limits: {approach_speed: 0.5}");
+  bench.send(CommandKind::kServoPosition, -0.05);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.insertion(), 0.0, 1e-6);
+  EXPECT_NEAR(bench.simulation->reached(0).insertion, -0.05, 1e-6);
+  bench.send(CommandKind::kServoPosition, 0.02);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.insertion(), 0.07, 1e-3);
+}
+
+TEST(DrivenHands, EndAMoveAtTheStopThatItMeets)
 {
   Bench bench(", limits: {approach_speed: 0.5}");
   bench.send(CommandKind::kMovePosition, -0.05);
   bench.run(1.0);
   EXPECT_NEAR(bench.insertion(), 0.0, 1e-6);
-  EXPECT_NEAR(bench.simulation->reached(0).insertion, -0.05, 1e-6);
+  EXPECT_NEAR(bench.hands.control(0)->setpoint().motion.insertion, 0.0, 1e-6);
   bench.send(CommandKind::kMovePosition, 0.02);
   bench.run(1.0);
-  EXPECT_NEAR(bench.insertion(), 0.07, 1e-3);
+  EXPECT_NEAR(bench.insertion(), 0.02, 1e-6);
+}
+
+/** Two wires in a catheter, of which the second one does not fit beside the first one.
+ *  @param grip of both */
+struct BlockedBench
+{
+  explicit BlockedBench(const std::string& grip)
+    : scene(scene::parseScene(
+          "name: blocked\nvessel: {tube: {radius: 2.0e-3, facet_length: 1.0e-3, pieces: [{length: 0.2}]}, friction: "
+          "0.1}\nentry: "
+          "{position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\nsampling: {kind: uniform, nodes: 101}\n"
+          "instruments:\n" +
+              wireText("blocking", "0.03", grip) + wireText("waiting", "-0.05", grip) +
+              "  - {instrument: {use: catheter_5f_jl4, name: catheter}, drive: {source: topic, initial_insertion: "
+              "0.02}}\n",
+          "blocked.yaml")),
+      hands(scene)
+  {
+    vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file);
+    detector = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
+    simulation =
+        std::make_unique<Simulation>(scene, scene::resolveEntry(scene.entry, vessel, scene.file), detector.get());
+  }
+
+  static std::string wireText(const std::string& name, const std::string& insertion, const std::string& grip)
+  {
+    return "  - {instrument: {name: " + name +
+           ", sections: [{length: 0.3, radius: 0.3e-3, young_modulus: 2.0e10, shear_modulus: 0.8e10, density: 6000, "
+           "material: nitinol}]}, drive: {source: topic, grip: " +
+           grip + ", initial_insertion: " + insertion + "}}\n";
+  }
+
+  /** Repeats a command to an instrument in every step. @return largest insertion setpoint of the second one [m] */
+  double run(double seconds, std::size_t instrument, const JointCommand& command)
+  {
+    double largest = -1.0;
+    for (int k = 0; k < std::lround(seconds / scene.solver.time_step); ++k)
+    {
+      hands.control(instrument)->command("/hand", command);
+      simulation->stepAll(hands.next(*simulation));
+      largest = std::max(largest, hands.control(1)->setpoint().motion.insertion);
+    }
+    return largest;
+  }
+
+  scene::Scene scene;
+  vessel::Vessel vessel;
+  std::unique_ptr<contact::Detector> detector;
+  std::unique_ptr<Simulation> simulation;
+  DrivenHands hands;
+};
+
+/** An instrument that is pushed against one that blocks it is as usable afterwards as one that has rested. */
+TEST(DrivenHands, KeepTheSetpointOfABlockedInstrumentAtItsStop)
+{
+  for (const char* grip : {"fingers", "chuck"})
+    for (const JointCommand& push : {JointCommand{CommandKind::kServoVelocity, 0.3, std::nullopt, std::nullopt},
+                                     JointCommand{CommandKind::kServoForce, 0.5, std::nullopt, std::nullopt},
+                                     JointCommand{CommandKind::kServoRelative, 3e-4, std::nullopt, std::nullopt}})
+    {
+      SCOPED_TRACE(std::string(grip) + " " + drive::nameOf(push.kind));
+      BlockedBench bench(grip);
+      const double outside = bench.simulation->hand(1).insertion;
+      EXPECT_NEAR(bench.run(1.5, 1, push), outside, 1e-6);
+      EXPECT_EQ(bench.simulation->slipped(1).insertion, 0.0);
+      bench.run(0.6, 0, {CommandKind::kServoVelocity, -0.2, std::nullopt, std::nullopt});
+      ASSERT_TRUE(bench.simulation->isOutside(0));
+      bench.run(0.5, 1, {CommandKind::kServoVelocity, 0.1, std::nullopt, std::nullopt});
+      EXPECT_NEAR(bench.simulation->hand(1).insertion, outside + 0.05, 2e-3);
+    }
+}
+
+/** The range of the commands is that of the instrument, however far the fingers have slipped. */
+TEST(DrivenHands, ApplyTheLimitsToThePositionOfTheInstrument)
+{
+  Bench bench(", force_limit: 0.03, limits: {insertion: [0, 0.25]}");
+  bench.run(10.0, JointCommand{CommandKind::kServoVelocity, 0.1, std::nullopt, std::nullopt});
+  const double jammed = bench.insertion();
+  ASSERT_LT(jammed, 0.2);
+  EXPECT_GT(bench.simulation->slipped(0).insertion, 0.5) << "the fingers still push";
+  bench.send(CommandKind::kMoveRelative, -0.02);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.insertion(), jammed - 0.02, 5e-3);
+  bench.run(4.0, JointCommand{CommandKind::kServoVelocity, -0.1, std::nullopt, std::nullopt});
+  EXPECT_NEAR(bench.insertion(), 0.0, 1e-6);
 }
 
 TEST(DrivenHands, KeepTheScaleOfAChuckThatStopsAtTheEnd)
@@ -165,6 +263,42 @@ TEST(DrivenHands, GiveOneTrajectoryForOneFileOfCommands)
     EXPECT_TRUE(repetition == 0 || bench.simulation->trajectoryHash() == hash);
     hash = bench.simulation->trajectoryHash();
   }
+}
+
+drive::TimedCommand timed(double time, const char* word, double value)
+{
+  return {time, "wire", word, {value, 0.0}, 1};
+}
+
+TEST(CommandPlayer, TellsWhichVelocitiesTheTimeOutEnds)
+{
+  const Bench bench;
+  const auto everySeconds = [&bench](double period)
+  {
+    std::vector<drive::TimedCommand> commands;
+    for (int k = 0; k < 10; ++k)
+      commands.push_back(timed(k * period, "servo_jv", 0.02));
+    commands.push_back(timed(10 * period, "servo_jv", 0.0));
+    commands.push_back(timed(10 * period + 5.0, "servo_jv", 0.02));
+    return CommandPlayer(bench.scene, "log.csv", commands).warnings(60.0);
+  };
+  EXPECT_TRUE(everySeconds(0.1).empty()) << "nothing is lost while the instrument rests";
+  const std::vector<std::string> warnings = everySeconds(0.25);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("log.csv: wire: no command follows 10 of"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("about 10.0 mm"), std::string::npos) << warnings[0];
+}
+
+TEST(CommandPlayer, RefusesCommandsThatAllActAfterTheEnd)
+{
+  const Bench bench;
+  const CommandPlayer late(bench.scene, "log.csv",
+                           {timed(1.7e9, "move_jp", 0.05), timed(1.7e9 + 1.0, "move_jp", 0.03)});
+  EXPECT_THROW(late.requireCommandsBefore(5.0), InputError);
+  const CommandPlayer partly(bench.scene, "log.csv", {timed(4.0, "move_jp", 0.05), timed(5.0, "move_jp", 0.03)});
+  EXPECT_NO_THROW(partly.requireCommandsBefore(5.0));
+  ASSERT_EQ(partly.warnings(5.0).size(), 1U);
+  EXPECT_NE(partly.warnings(5.0)[0].find("at or after the end"), std::string::npos);
 }
 
 TEST(DrivenHands, RefuseCommandsToAnUnknownOrAScriptedInstrument)

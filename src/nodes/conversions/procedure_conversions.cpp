@@ -1,5 +1,7 @@
 #include "nodes/conversions/procedure_conversions.h"
 
+#include <algorithm>
+
 namespace endovascular_sim::nodes
 {
 
@@ -12,6 +14,7 @@ procedure::StepRecord fromMessage(const ProcedureStep& message)
   record.end = message.time;
   record.retries = static_cast<int>(message.new_tries);
   record.wrong_branches = static_cast<int>(message.wrong_branches);
+  record.step = std::max(message.step_of_procedure, 1U) - 1U;
   record.outcome = static_cast<procedure::Progress>(message.outcome);
   return record;
 }

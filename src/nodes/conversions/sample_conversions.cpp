@@ -27,20 +27,26 @@ void toMessage(const results::Sample& sample, SessionSample& message)
     message.pressure[k] = view.hand.pressure;
     message.tip[k] = toPoint(view.tip);
   }
-  message.wall_force = sample.wall_force;
-  message.largest_contact = sample.largest;
-  message.tip_force = sample.at_tip;
+  message.wall_force = sample.wall.sum;
+  message.largest_contact = sample.wall.largest;
+  message.tip_force = sample.wall.at_tip;
+  message.peak_hand_force = sample.peaks.hand_force;
+  message.peak_hand_torque = sample.peaks.hand_torque;
+  message.peak_wall_force = sample.peaks.wall.sum;
+  message.peak_contact = sample.peaks.wall.largest;
+  message.peak_tip_force = sample.peaks.wall.at_tip;
   message.rejected_steps = sample.faults.rejected_steps;
   message.stale_steps = sample.faults.stale_steps;
 }
 
 results::Sample fromMessage(const SessionSample& message, std::size_t instruments)
 {
-  for (const std::size_t size : {message.insertion.size(), message.rotation.size(), message.hand_force.size(),
-                                 message.hand_torque.size(), message.pressure.size(), message.tip.size()})
+  for (const std::size_t size :
+       {message.insertion.size(), message.rotation.size(), message.hand_force.size(), message.hand_torque.size(),
+        message.pressure.size(), message.tip.size(), message.peak_hand_force.size(), message.peak_hand_torque.size()})
     if (size != instruments)
       throw InputError(
-          names::kSessionSample, "insertion to tip",
+          names::kSessionSample, "insertion to peak_hand_torque",
           "must have one element for each of the " + std::to_string(instruments) + " instruments of the scene");
   results::Sample sample;
   sample.observation.time = message.time;
@@ -53,9 +59,10 @@ results::Sample fromMessage(const SessionSample& message, std::size_t instrument
     sample.observation.instruments.push_back(view);
   }
   procedure::markCovered(sample.observation);
-  sample.wall_force = message.wall_force;
-  sample.largest = message.largest_contact;
-  sample.at_tip = message.tip_force;
+  sample.wall = {message.wall_force, message.largest_contact, message.tip_force};
+  sample.peaks = {message.peak_hand_force,
+                  message.peak_hand_torque,
+                  {message.peak_wall_force, message.peak_contact, message.peak_tip_force}};
   sample.faults = {message.rejected_steps, message.stale_steps};
   return sample;
 }

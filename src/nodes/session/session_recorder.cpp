@@ -276,7 +276,6 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
   if (!isRecording())
     return;
   const ContactForces& forces = *event.getMessage();
-  recording_->results.add(forces);
   if (recording_->contacts.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
     recording_->bag.write(node_.resolveName(names::kContactForces), event);
 }

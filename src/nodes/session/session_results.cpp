@@ -42,11 +42,6 @@ std::string nodeOf(const std::string& status_name)
   return !node.empty() && node.front() == '/' ? node.substr(1) : node;
 }
 
-double magnitude(const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b)
-{
-  return std::hypot(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-
 /** Calls a function that writes files, and logs its error. @return true without an error */
 template <typename Write>
 bool tryToWrite(Write write)
@@ -81,9 +76,7 @@ void SessionResults::add(const DriveApplied& drive)
   // Simulated time says nothing about the elapsed one.
   const double now = ros::Time::isSimTime() ? ros::WallTime::now().toSec() : drive.header.stamp.toSec();
   report_.addStep(drive.step, now, drive.first_stale_pass != contact::kNoStalePass, drive.state_hash);
-  const std::size_t hands = std::min(drive.hand_force.size(), drive.hand_torque.size());
-  for (std::size_t k = 0; k < hands; ++k)
-    report_.addHand(drive.hand_force[k], drive.hand_torque[k]);
+  report_.addHands(drive.hand_force, drive.hand_torque);
 }
 
 void SessionResults::add(const RodStateVisual& rod)
@@ -107,14 +100,6 @@ void SessionResults::add(const RodStateVisual& rod)
   const bool was_complete = trajectory_.error().empty();
   if (!trajectory_.add(row) && was_complete)
     ROS_ERROR("%s", trajectory_.error().c_str());
-}
-
-void SessionResults::add(const ContactForces& forces)
-{
-  double largest = 0.0;
-  for (const ContactForce& contact : forces.contacts)
-    largest = std::max(largest, magnitude(contact.normal_force, contact.friction_force));
-  report_.addContacts(largest, forces.contacts.size());
 }
 
 void SessionResults::add(const ContactForceMapConstPtr& map)

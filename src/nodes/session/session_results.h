@@ -7,7 +7,6 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 
 #include "endovascular_sim/ContactForceMap.h"
-#include "endovascular_sim/ContactForces.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
@@ -31,7 +30,6 @@ public:
 
   void add(const DriveApplied& drive);
   void add(const RodStateVisual& rod);
-  void add(const ContactForces& forces);
   void add(const ContactForceMapConstPtr& map);
   /** @param vessel initial vessel */
   void add(const VesselMeshConstPtr& vessel);

@@ -79,18 +79,24 @@ def magnitude(value):
     return None if value is None else abs(value)
 
 
+def is_finished(metrics):
+    """True for a session whose procedure is done; also for one without a procedure."""
+    return metrics.get("outcome", "done") == "done" and metrics.get("failure") is None
+
+
 def table(sessions):
-    """Rows of (label, texts, index of the best one or None)."""
+    """Rows of (label, texts, index of the best one or None). Only finished sessions can be the best."""
     rows = []
     for label, form, take, less in ROWS:
         values = [take(metrics) for metrics in sessions]
         if all(value is None for value in values):
             continue
         texts = ["-" if value is None else form.format(value) for value in values]
-        numbers = [value for value in values if isinstance(value, (int, float))]
+        numbers = {k: value for k, value in enumerate(values)
+                   if isinstance(value, (int, float)) and is_finished(sessions[k])}
         best = None
-        if less is not None and len(set(texts)) > 1 and numbers:
-            best = values.index(min(numbers) if less else max(numbers))
+        if less is not None and len(numbers) > 1 and len({texts[k] for k in numbers}) > 1:
+            best = (min if less else max)(numbers, key=numbers.get)
         rows.append((label, texts, best))
     return rows
 
@@ -108,7 +114,7 @@ def page(names, rows):
             "th,td{text-align:left;padding:4px 16px 4px 0;border-bottom:1px solid #ddd;font-weight:normal}\n"
             ".best{color:#1b7a2f;font-weight:bold}</style></head><body><h1>Sessions compared</h1>\n"
             f"<table><tr><th></th>{head}</tr>\n{body}</table>\n"
-            "<p>Bold: best of the row.</p></body></html>\n")
+            "<p>Bold: best of the finished sessions in the row.</p></body></html>\n")
 
 
 def main():
@@ -128,7 +134,7 @@ def main():
     for label, texts, best in rows:
         marked = [text + ("*" if k == best else " ") for k, text in enumerate(texts)]
         print(label.ljust(width) + "".join(text.rjust(column) for text, column in zip(marked, columns)))
-    print("*: best of the row")
+    print("*: best of the finished sessions in the row")
     if options.out:
         pathlib.Path(options.out).write_text(page(names, rows), encoding="utf-8")
 

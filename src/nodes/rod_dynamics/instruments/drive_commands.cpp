@@ -13,7 +13,11 @@ DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, c
   : scene_(scene), subscribers_(scene.instruments.size())
 {
   if (!file.empty())
+  {
     file_.emplace(scene, file, drive::readCommandFile(file));
+    for (const std::string& warning : file_->warnings(scene.duration))
+      ROS_WARN("%s", warning.c_str());
+  }
   reset();
   for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
     if (hands_->control(k) != nullptr)
