@@ -32,6 +32,7 @@ struct Options
   int series = 0;
   double memory = 4.0;  // GB
   double time = 600.0;  // s
+  double subtract = 0.0;
 };
 
 void print(const image::Volume& volume)
@@ -54,6 +55,7 @@ int import(const Options& options)
   {
     image::ImportOptions choices;
     choices.series = options.series;
+    choices.subtract = options.subtract;
     choices.memory = static_cast<std::uint64_t>(options.memory * kGigabyte);
     if (!options.modality.empty())
       choices.modality = options.modality == "ct" ? image::Modality::kCt : image::Modality::kOther;
@@ -132,6 +134,8 @@ int main(int argc, char** argv)
   line.option("--modality", options.modality, "KIND",
               "ct: values are Hounsfield units; other; default: that of the file")
       ->check(CLI::IsMember({"ct", "other"}));
+  line.option("--subtract", options.subtract, "N", "number that is subtracted from all values [0]")
+      ->check(CLI::Range(-1e6, 1e6));
   line.option("--memory", options.memory, "GB", "largest need of memory [4]")->check(CLI::Range(0.1, 1000.0));
   line.option("--time", options.time, "S", "longest time of reading [600]")->check(CLI::Range(1.0, 1e6));
   return line.run(argc, argv, [&options] { return importWithLimits(options); });

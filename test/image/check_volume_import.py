@@ -53,6 +53,7 @@ def accept(name, path, *options, modality=1):
 def refuse(name, path, *words, options=()):
     out, result = run(name, path, *options)
     expect(name, result.returncode == 1, "exit code %d: %s" % (result.returncode, result.stderr))
+    expect(name, result.returncode >= 0 and "signal" not in result.stderr, "ended by a signal: " + result.stderr)
     for word in (os.path.basename(path), *words):
         expect(name, word in result.stderr, "'%s' is missing in: %s" % (word, result.stderr))
     expect(name, not os.path.exists(out), "an output was written")
@@ -76,6 +77,152 @@ accept("nifti", here("a.nii"))
 files.write_nifti(here("scaled.nii"), slope=0.5, stored=[2 * v for v in files.values()])
 accept("nifti_scaled", here("scaled.nii"))
 accept("other", here("a.mha"), "--modality", "other", modality=2)
+
+# NIfTI: units, types, byte orders, both forms
+files.write_nifti(here("metres.nii"), unit=1, scale=1e-3)
+accept("metres", here("metres.nii"))
+files.write_nifti(here("micrometres.nii"), unit=3, scale=1e3)
+accept("micrometres", here("micrometres.nii"))
+in_ras = [-files.ORIGIN[0], -files.ORIGIN[1], files.ORIGIN[2]]
+files.write_nifti(here("metres_of_qform.nii"), oriented=False, qform=in_ras, unit=1, scale=1e-3)
+accept("metres_of_qform", here("metres_of_qform.nii"))
+files.write_nifti(here("both_forms.nii"), qform=[n + 0.3 for n in in_ras[:1]] + in_ras[1:])
+accept("both_forms", here("both_forms.nii"))  # less than half a voxel apart
+files.write_nifti(here("big_endian.nii"), qform=in_ras, order=">", kind="f")
+accept("big_endian", here("big_endian.nii"))
+for kind in "iqd":
+    files.write_nifti(here("kind.nii"), kind=kind)
+    accept("nifti_kind_" + kind, here("kind.nii"))
+files.write_nifti(here("unsigned.nii"), kind="H", stored=[v + 1024 for v in files.values()], intercept=-1024.0)
+accept("nifti_unsigned", here("unsigned.nii"))
+files.write_nifti(here("no_scaling.nii"), slope=float("nan"))
+accept("nifti_no_scaling", here("no_scaling.nii"))
+files.write_nifti(here("4d_of_one.nii"), dimensions=(*files.SIZE, 1))
+accept("nifti_4d_of_one", here("4d_of_one.nii"))
+
+# NIfTI whose place in the patient is wrong or unknown
+files.write_nifti(here("shear.nii"), rows=files.nifti_rows(shear=0.4), qform=in_ras)
+refuse("shear", here("shear.nii"), "sform", "gantry tilt or shear of 17.7", "resample")
+with open(here("shear.nii"), "rb") as whole:
+    files.write(here("shear.nii.gz"), gzip.compress(whole.read()))
+refuse("shear_gz", here("shear.nii.gz"), "sform", "resample")
+files.write_nifti(here("forms_apart.nii"), qform=[in_ras[0] + 0.5, *in_ras[1:]])
+refuse("forms_apart", here("forms_apart.nii"), "qform and sform", "0.5 mm apart")
+mirrored = [[-n for n in files.nifti_rows()[0]]] + files.nifti_rows()[1:]
+files.write_nifti(here("mirrored.nii"), rows=mirrored, qform=in_ras)
+refuse("mirrored", here("mirrored.nii"), "qform and sform", "mm apart")
+for place, number in ((3, 1.7e38), (3, float("nan")), (0, 1.7e38), (0, float("nan")), (2, float("-inf"))):
+    rows = files.nifti_rows()
+    rows[1][place] = number
+    name = "form_%d_%g" % (place, number)
+    files.write_nifti(here(name + ".nii"), rows=rows)
+    refuse(name, here(name + ".nii"), "", options=("--time", "10"))
+files.write_nifti(here("unit.nii"), unit=7)
+refuse("unit", here("unit.nii"), "xyzt_units", "millimetres")
+for name, number in (("nan", float("nan")), ("inf", float("-inf"))):
+    files.write_nifti(here(name + ".nii"), kind="f", stored=[number, *files.values()[1:]])
+    refuse("nifti_" + name, here(name + ".nii"), "1 values are not finite")
+    with open(here(name + ".nii"), "rb") as whole:
+        files.write(here(name + ".nii.gz"), gzip.compress(whole.read()))
+    refuse("nifti_gz_" + name, here(name + ".nii.gz"), "1 values are not finite")
+files.write_nifti(here("padded.nii"), kind="f", stored=[1e30, *files.values()[1:]])
+refuse("padded", here("padded.nii"), "1e+30", "replace")
+refuse("padded_other", here("padded.nii"), "1e+30", options=("--modality", "other"))
+files.write_nifti(here("above.nii"), kind="f", stored=[40000.0, *files.values()[1:]])
+refuse("above", here("above.nii"), "40000", "no Hounsfield units")
+
+# MetaImage with its values in other files, as MetaIO reads them
+raw = struct.pack("<%dh" % len(files.values()), *files.values())
+part = len(raw) // files.SIZE[2]
+os.makedirs(here("slices"), exist_ok=True)
+for k in range(files.SIZE[2]):
+    files.write(here("slices/s%02d.raw" % k), raw[k * part : (k + 1) * part])
+files.write(here("patient 1 gefäß.raw"), raw)
+names = ["slices/s%02d.raw" % k for k in range(files.SIZE[2])]
+for name, data_file in (("name_with_blanks", "patient 1 gefäß.raw"), ("list", "LIST\n" + "\n".join(names)),
+                        ("pattern", "slices/s%02d.raw 0 4 1")):
+    files.write_mha(here(name + ".mhd"), data=b"", data_file=data_file)
+    accept(name, here(name + ".mhd"))
+files.write_mha(here("equals.mha"), equals="=")
+accept("no_blanks_at_equals", here("equals.mha"))
+files.write_mha(here("text.mha"), {"BinaryData": "False"}, " ".join(str(v) for v in files.values()).encode())
+accept("values_as_text", here("text.mha"))
+files.write_mha(here("short_text.mha"), {"BinaryData": "False"}, " ".join(str(v) for v in files.values()[1:]).encode())
+refuse("values_as_text_missing", here("short_text.mha"), "fewer values")
+files.write(here("cut.raw"), raw[:-2])
+files.write_mha(here("cut.mhd"), data=b"", data_file="cut.raw")
+refuse("cut_raw", here("cut.mhd"), "fewer values")
+files.write(here("slices/short.raw"), raw[: part - 2])
+files.write_mha(here("short_list.mhd"), data=b"", data_file="LIST\n" + "\n".join([*names[:4], "slices/short.raw"]))
+refuse("short_list", here("short_list.mhd"), "fewer values")
+files.write_mha(here("list_of_4.mhd"), data=b"", data_file="LIST\n" + "\n".join(names[:4]))
+refuse("list_of_4", here("list_of_4.mhd"), "ElementDataFile", "4 files for 5 slices")
+for pattern in ("s%s.raw 0 4 1", "s%n%d.raw 0 4 1", "s%02d.raw"):
+    files.write_mha(here("pattern_of_words.mhd"), data=b"", data_file=pattern)
+    refuse("pattern_of_words", here("pattern_of_words.mhd"), "ElementDataFile", "pattern")
+packed = zlib.compress(raw)
+files.write(here("packed.zraw"), packed)
+for name, header in (("zraw", {}), ("zraw_with_size", {"CompressedDataSize": str(len(packed))})):
+    files.write_mha(here(name + ".mhd"), {"CompressedData": "True", **header}, b"", data_file="packed.zraw")
+    accept(name, here(name + ".mhd"))
+files.write_mha(here("without_size.mha"), {"CompressedData": "True"}, packed)
+refuse("packed_without_size", here("without_size.mha"), "CompressedDataSize", "is missing")
+files.write_mha(here("wrong_size.mha"), {"CompressedData": "True", "CompressedDataSize": str(len(packed) - 20)}, packed)
+refuse("packed_wrong_size", here("wrong_size.mha"), "fewer values")
+damaged = packed[:60] + bytes(255 - b for b in packed[60:70]) + packed[70:]
+files.write_mha(here("packed_damaged.mha"), {"CompressedData": "True", "CompressedDataSize": str(len(packed))}, damaged)
+refuse("packed_damaged", here("packed_damaged.mha"), "export the images again")
+
+# label maps
+inside = [(i - 3) ** 2 + (j - 3) ** 2 < 5 for k in range(files.SIZE[2]) for j in range(files.SIZE[1]) for i in range(files.SIZE[0])]
+layers = [n // (files.SIZE[0] * files.SIZE[1]) for n in range(len(inside))]
+for name, kind, stored in (("mask", "B", [int(x) for x in inside]), ("mask_255", "B", [255 * int(x) for x in inside]),
+                           ("labels", "i", [(5 + layer // 2 * 20) * int(x) for x, layer in zip(inside, layers)]),
+                           ("float_mask", "f", [float(x) for x in inside])):
+    files.write_nifti(here(name + ".nii"), kind=kind, stored=stored)
+    for modality in ((), ("--modality", "ct"), ("--modality", "other")):
+        refuse(name, here(name + ".nii"), "is a label map", "STL", "3D Slicer", "vessel_prepare", options=modality)
+        expect(name, "16 bit" not in run(name, here(name + ".nii"), *modality)[1].stderr, "advice on 16 bit")
+
+# a CT that is stored without its intercept: air at 0, tissue at 1064, a vessel of 1374
+ct = [(0, 1, 2, 1063, 1064, 1065, 1374)[n % 7] for n in range(len(inside))]
+files.write_nifti(here("raised.nii"), kind="H", stored=ct)
+for modality in ((), ("--modality", "ct")):
+    refuse("raised", here("raised.nii"), "raised by 1024: air at 1, tissue at 1064", "--subtract 1024", options=modality)
+out, result = run("lowered", here("raised.nii"), "--subtract", "1024")
+expect("lowered", result.returncode == 0, result.stderr)
+expect("lowered", sorted(files.read_volume(out)[0]) == [-1024, -1023, -1022, 39, 40, 41, 350], "other values")
+out, result = run("raised_other", here("raised.nii"), "--modality", "other")
+expect("raised_other", result.returncode == 0, result.stderr)
+files.write_nifti(here("window.nii"), stored=[min(max(v - 1024, -200), 300) for v in ct])
+out, result = run("window", here("window.nii"), "--modality", "ct")
+expect("window", result.returncode == 0, result.stderr)
+files.write_series(here("without_rescale"), without=((0x0028, 0x1052), (0x0028, 0x1053)), slices=(0, 1, 2), pixels=ct[:42])
+refuse("without_rescale", here("without_rescale"), "RescaleSlope", "image_")
+refuse("without_rescale_ct", here("without_rescale"), "raised by 1024", "--subtract 1024", options=("--modality", "ct"))
+
+# DICOM as discs, scanners and exports hold it: one line names the cause
+def cause(name, path, *words):
+    refuse(name, path, *words)
+    lines = run(name, path)[1].stderr.strip().splitlines()
+    expect(name, len(lines) == 1, "%d lines: %s" % (len(lines), lines[:3]))
+
+
+files.write_series(here("disc/DICOM/PAT0/SER0"))
+files.write(here("disc/AUTORUN.INF"), b"[autorun]")
+cause("disc", here("disc"), "folders below", "disc/DICOM/PAT0/SER0")
+accept("series_of_a_disc", here("disc/DICOM/PAT0/SER0"))
+files.write_series(here("phases"))
+files.write_series(here("phases"), instances=100)
+cause("two_phases", here("phases"), "is the place of", "a slice twice or two series")
+cause("one_slice_of_a_series", here("phases/image_1.2.3.4_3"), "is one slice of a DICOM series; give its folder")
+os.makedirs(here("enhanced"), exist_ok=True)
+frames = [v + 1024 for v in files.values()]
+files.write(here("enhanced/volume.dcm"),
+            files.slice_file(0, files.ORIGIN, files.rotation(), pixels=frames, frames=files.SIZE[2],
+                             without=((0x0028, 0x0030), (0x0020, 0x0032), (0x0020, 0x0037))))
+for path in ("enhanced", "enhanced/volume.dcm"):
+    cause("enhanced", here(path), "one file with 5 frames (enhanced CT", "dcm2niix")
 
 # two series in one folder
 files.write_series(here("two"))
@@ -107,6 +254,15 @@ for tag, word in (((0x0028, 0x1053), "RescaleSlope"), ((0x0028, 0x1052), "Rescal
     refuse("without_" + word, here("without_" + word), word, "image_", "is missing", "--modality ct")
 files.write_series(here("bytes"), bits=8)
 refuse("8_bit_series", here("bytes"), "8 bit", "--modality other")
+files.write_series(here("zero_pixels"), spacing=(0.0, 0.7))
+refuse("zero_pixels", here("zero_pixels"), "PixelSpacing", "image_", "greater than 0")
+files.write_series(here("word_pixels"), spacing="0.9")
+refuse("word_pixels", here("word_pixels"), "PixelSpacing", "2 numbers")
+for turn in (6.0, 0.5):
+    files.write_series(here("turned_%g" % turn), turned=(2, turn))
+    refuse("turned_%g" % turn, here("turned_%g" % turn), "ImageOrientationPatient", "image_", "differs from that of")
+files.write_series(here("scaled_axes"), axis_scale=0.5)
+refuse("scaled_axes", here("scaled_axes"), "ImageOrientationPatient", "unit vectors")
 os.makedirs(here("empty"), exist_ok=True)
 refuse("empty_folder", here("empty"), "no DICOM")
 

@@ -60,9 +60,10 @@ def decimal(numbers):
     return "\\".join("%.10g" % n for n in numbers)
 
 
-def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=None, bits=16):
+def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=None, bits=16, spacing=None,
+               frames=None):
     """DICOM file of a slice. `without`: elements left out, as (group, number)."""
-    pixels = [value(i, j, k) + 1024 for j in range(size[1]) for i in range(size[0])] if pixels is None else pixels
+    pixels = [value(i, j, k % 100) + 1024 for j in range(size[1]) for i in range(size[0])] if pixels is None else pixels
     elements = [
         (0x0008, 0x0016, "UI", "1.2.840.10008.5.1.4.1.1.2"),
         (0x0008, 0x0018, "UI", series + "." + str(k + 1)),
@@ -77,9 +78,10 @@ def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=
         (0x0020, 0x0037, "DS", decimal(list(axes[0]) + list(axes[1]))),
         (0x0028, 0x0002, "US", struct.pack("<H", 1)),
         (0x0028, 0x0004, "CS", "MONOCHROME2"),
+        *([(0x0028, 0x0008, "IS", str(frames))] if frames else []),
         (0x0028, 0x0010, "US", struct.pack("<H", size[1])),
         (0x0028, 0x0011, "US", struct.pack("<H", size[0])),
-        (0x0028, 0x0030, "DS", decimal((SPACING[1], SPACING[0]))),
+        (0x0028, 0x0030, "DS", spacing if isinstance(spacing, str) else decimal(spacing or (SPACING[1], SPACING[0]))),
         (0x0028, 0x0100, "US", struct.pack("<H", bits)),
         (0x0028, 0x0101, "US", struct.pack("<H", bits)),
         (0x0028, 0x0102, "US", struct.pack("<H", bits - 1)),
@@ -93,23 +95,30 @@ def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=
     return bytes(128) + b"DICM" + meta + b"".join(element(*e) for e in elements if (e[0], e[1]) not in without)
 
 
-def write_series(folder, slices=None, shift=(0.0, 0.0, 0.0), series="1.2.3.4", without=(), heights=None, bits=16):
+def write_series(folder, slices=None, shift=(0.0, 0.0, 0.0), series="1.2.3.4", without=(), heights=None, bits=16,
+                 spacing=None, turned=(-1, 0.0), axis_scale=1.0, instances=0, pixels=None):
     """Folder of a series; the names of its files are not in the order of the slices. `shift`: of each slice [mm].
-    `heights`: of the slices along their normal, in their regular distance."""
+    `heights`: of the slices along their normal, in their regular distance. `turned`: number and angle [degrees] of a slice that
+    is turned in its plane. `axis_scale`: length of the vectors of the axes. `instances`: number of the first image."""
     os.makedirs(folder, exist_ok=True)
-    axes = rotation()
     for n, k in enumerate(range(SIZE[2]) if slices is None else slices):
+        axes = [[axis_scale * x for x in axis] for axis in rotation()]
+        if n == turned[0]:
+            c, s = math.cos(math.radians(turned[1])), math.sin(math.radians(turned[1]))
+            axes[:2] = [[c * a + s * b for a, b in zip(*axes[:2])], [c * b - s * a for a, b in zip(*axes[:2])]]
         height = k if heights is None else heights[n]
         origin = [a + b * k for a, b in zip(position(0, 0, height), shift)]
-        pixels = None if bits == 16 else [(i + 7 * k) % 256 for i in range(SIZE[0] * SIZE[1])]
-        name = "image_%s_%d" % (series, (3 * n) % 5)
-        write(os.path.join(folder, name), slice_file(k, origin, axes, series, without, pixels=pixels, bits=bits))
+        if bits == 8:
+            pixels = [(i + 7 * k) % 256 for i in range(SIZE[0] * SIZE[1])]
+        name = "image_%s_%d" % (series, (3 * n) % 5 + instances)
+        write(os.path.join(folder, name),
+              slice_file(k + instances, origin, axes, series, without, pixels=pixels, bits=bits, spacing=spacing))
 
 
 # files with a whole volume
 
 
-def write_mha(path, header=None, data=None):
+def write_mha(path, header=None, data=None, data_file="LOCAL", equals=" = "):
     axes = rotation()
     lines = {
         "ObjectType": "Image",
@@ -123,9 +132,10 @@ def write_mha(path, header=None, data=None):
         "ElementType": "MET_SHORT",
     }
     lines.update(header or {})
-    text = "".join("%s = %s\n" % (key, text) for key, text in lines.items() if text is not None)
+    lines["ElementDataFile"] = data_file
+    text = "".join(key + equals + text + "\n" for key, text in lines.items() if text is not None)
     data = struct.pack("<%dh" % len(values()), *values()) if data is None else data
-    write(path, (text + "ElementDataFile = LOCAL\n").encode(), data)
+    write(path, text.encode(), data)
 
 
 def write_nrrd(path, space="left-posterior-superior", data=None, kind="short"):
@@ -148,24 +158,46 @@ def write_nrrd(path, space="left-posterior-superior", data=None, kind="short"):
     write(path, ("\n".join(lines) + "\n\n").encode(), data)
 
 
-def write_nifti(path, oriented=True, dimensions=SIZE, slope=1.0, stored=None):
-    """NIfTI with the affine of sform, in RAS."""
+def nifti_rows(shear=0.0):
+    """Rows of the sform, in RAS [mm]. `shear`: shift of each slice along j [mm]."""
     axes = rotation()
-    rows = [[s * axes[c][r] * SPACING[c] for c in range(3)] + [s * ORIGIN[r]] for r, s in ((0, -1), (1, -1), (2, 1))]
+    columns = [[SPACING[c] * n for n in axes[c]] for c in range(3)]
+    columns[2] = [n + shear * m for n, m in zip(columns[2], axes[1])]
+    return [[s * columns[c][r] for c in range(3)] + [s * ORIGIN[r]] for r, s in ((0, -1), (1, -1), (2, 1))]
+
+
+def nifti_quaternion():
+    """Quaternion (b, c, d) of the axes in RAS, and the sign of k."""
+    axes = rotation()
+    matrix = [[s * axes[c][r] for c in range(3)] for r, s in ((0, -1), (1, -1), (2, 1))]
+    real = math.sqrt(max(0.0, 1 + matrix[0][0] + matrix[1][1] + matrix[2][2])) / 2
+    if real < 1e-3:  # a turn by nearly 180 degrees about z
+        d = math.sqrt(1 + matrix[2][2] - matrix[0][0] - matrix[1][1]) / 2
+        return [(matrix[0][2] + matrix[2][0]) / 4 / d, (matrix[1][2] + matrix[2][1]) / 4 / d, d]
+    return [(matrix[r][c] - matrix[c][r]) / 4 / real for r, c in ((2, 1), (0, 2), (1, 0))]
+
+
+def write_nifti(path, oriented=True, dimensions=SIZE, slope=1.0, stored=None, rows=None, qform=None, unit=2, scale=1.0,
+                kind="h", order="<", intercept=0.0):
+    """NIfTI with the affine of sform, in RAS; `rows`: another one. `qform`: origin in RAS [mm], with a qform of the same axes.
+    `unit`: code of the unit, `scale`: of lengths in this unit. `kind` and `order` of the values: as of struct."""
+    rows = nifti_rows() if rows is None else rows
     size = list(dimensions) + [1] * (7 - len(dimensions))
-    header = struct.pack("<i10s18sihcB", 348, b"", b"", 0, 0, b"r", 0)
-    header += struct.pack("<8h", len(dimensions), *size)
-    header += struct.pack("<3f4h", 0, 0, 0, 0, 4, 16, 0)
-    header += struct.pack("<8f", 1, *SPACING, 0, 0, 0, 0)
-    header += struct.pack("<3fhcB", 352, slope, 0.0, 0, b"\0", 2)
-    header += struct.pack("<4f2i", 0, 0, 0, 0, 0, 0)
-    header += struct.pack("<80s24s2h", b"Doe^Jane ID4711", b"", 0, 2 if oriented else 0)
-    header += struct.pack("<6f", 0, 0, 0, 0, 0, 0)
-    header += struct.pack("<12f", *(n for row in rows for n in row))
+    types = {"B": 2, "h": 4, "i": 8, "f": 16, "d": 64, "b": 256, "H": 512, "I": 768, "q": 1024}
+    header = struct.pack(order + "i10s18sihcB", 348, b"", b"", 0, 0, b"r", 0)
+    header += struct.pack(order + "8h", len(dimensions), *size)
+    header += struct.pack(order + "3f4h", 0, 0, 0, 0, types[kind], 8 * struct.calcsize(kind), 0)
+    header += struct.pack(order + "8f", 1, *(scale * n for n in SPACING), 0, 0, 0, 0)
+    header += struct.pack(order + "3fhcB", 352, slope, intercept, 0, b"\0", unit)
+    header += struct.pack(order + "4f2i", 0, 0, 0, 0, 0, 0)
+    header += struct.pack(order + "80s24s2h", b"Doe^Jane ID4711", b"", 1 if qform else 0, 2 if oriented else 0)
+    quaternion = nifti_quaternion() + [scale * n for n in qform] if qform else [0] * 6
+    header += struct.pack(order + "6f", *quaternion)
+    header += struct.pack(order + "12f", *(scale * n for row in rows for n in row))
     header += struct.pack("<16s4s", b"", b"n+1\0")
     assert len(header) == 348
     stored = values() if stored is None else stored
-    write(path, header, bytes(4), struct.pack("<%dh" % len(stored), *stored))
+    write(path, header, bytes(4), struct.pack("%s%d%s" % (order, len(stored), kind), *stored))
 
 
 def read_volume(path):

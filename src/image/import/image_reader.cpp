@@ -5,13 +5,18 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "common/error.h"
 #include "image/import/complete_file.h"
+#include "image/import/image_values.h"
 #include "image/import/itk_image.h"
+#include "image/import/meta_header.h"
+#include "image/import/nifti_file.h"
 #include "image/slice_stack.h"
 
 namespace endovascular_sim::image
@@ -20,8 +25,6 @@ namespace
 {
 
 constexpr double kMillimetre = 1e-3;
-constexpr double kLargest = 32767.0;  // stored value
-constexpr float kBelowFat = -500.0F;  // HU; every CT holds air around the patient or in the lungs
 
 std::string megabytes(std::uint64_t bytes)
 {
@@ -50,57 +53,59 @@ void requireOneComponent(const ItkImage& image, const std::string& file)
                          " values per voxel; give an image with one, no colours or vectors");
 }
 
-/** Stores values in 16 bit. The values of a CT are Hounsfield units and keep their unit. */
-void store(const std::vector<float>& values, const std::string& path, Volume& volume)
+/** @return true for a file that begins like a DICOM file */
+bool isDicom(const std::filesystem::path& file)
 {
-  double largest = 0.0;
-  std::size_t invalid = 0;
-  bool are_integers = true;
-  for (const float value : values)
+  std::string begin(132, '\0');
+  std::ifstream in(file, std::ios::binary);
+  return in.read(begin.data(), static_cast<long>(begin.size())) && begin.compare(128, 4, "DICM") == 0;
+}
+
+/** Folders below a folder that hold DICOM images: discs have one per series. The search ends after a bounded number of
+ * files. */
+std::set<std::string> foldersWithImages(const std::string& folder)
+{
+  constexpr int kMostFiles = 20000;
+  constexpr int kDeepest = 8;
+  std::set<std::string> folders;
+  std::error_code code;
+  const auto options = std::filesystem::directory_options::skip_permission_denied;
+  int files = 0;
+  for (std::filesystem::recursive_directory_iterator entry(folder, options, code), end;
+       !code && entry != end && files < kMostFiles; entry.increment(code), ++files)
   {
-    invalid += std::isfinite(value) ? 0U : 1U;
-    largest = std::max(largest, std::abs(static_cast<double>(value)));
-    are_integers = are_integers && value == std::nearbyint(value);
+    if (entry.depth() >= kDeepest)
+      entry.disable_recursion_pending();
+    const std::string parent = entry->path().parent_path().string();
+    if (entry.depth() > 0 && folders.count(parent) == 0 && entry->is_regular_file(code) && isDicom(entry->path()))
+      folders.insert(parent);
   }
-  if (invalid > 0)
-    throw InputError(path, "", std::to_string(invalid) + " values are not finite; replace them before the import");
-  const bool keeps = volume.modality == Modality::kCt || (are_integers && largest <= kLargest);
-  volume.scale = keeps ? 1.0 : largest / kLargest;
-  volume.stored.reserve(values.size());
-  for (const float value : values)
-    volume.stored.push_back(static_cast<std::int16_t>(
-        std::lround(std::clamp(static_cast<double>(value) / volume.scale, -kLargest, kLargest))));
+  return folders;
 }
 
-bool holdsAir(const std::vector<float>& values)
+/** @throws InputError that names folders with images below a folder without */
+void requireNoSeriesBelow(const std::string& folder)
 {
-  return std::any_of(values.begin(), values.end(), [](float value) { return value < kBelowFat; });
-}
-
-/** @throws InputError for a CT of 8-bit values without air, i.e. grey values in place of Hounsfield units */
-void requireHounsfieldUnits(const std::vector<float>& values, unsigned bits, const std::string& path)
-{
-  if (bits == 8 && !holdsAir(values))
-    throw InputError(path, "",
-                     "has grey values of 8 bit, which are no Hounsfield units; export the CT with 16 bit, or give "
-                     "--modality other");
-}
-
-/** Modality of values whose file does not name it: air in a CT has −1000 HU. */
-Modality modalityOf(const std::vector<float>& values, const std::string& path)
-{
-  if (holdsAir(values))
-    return Modality::kCt;
-  throw InputError(
-      path, "",
-      "has no value below -500, so it may be no CT; give --modality ct for Hounsfield units, or --modality "
-      "other");
+  constexpr std::size_t kNamed = 3;
+  const std::set<std::string> folders = foldersWithImages(folder);
+  if (folders.empty())
+    return;
+  std::string list;
+  std::size_t number = 0;
+  for (const std::string& below : folders)
+    if (number++ < kNamed)
+      list += (list.empty() ? "" : ", ") + below;
+  if (folders.size() > kNamed)
+    list += " and " + std::to_string(folders.size() - kNamed) + " more";
+  throw InputError(folder, "", "holds no DICOM images itself, but folders below do; give one of them: " + list);
 }
 
 /** Files of the wanted series of a folder. */
 std::vector<std::string> seriesOf(const std::string& folder, const ImportOptions& options)
 {
   std::vector<std::vector<std::string>> series = dicomSeries(folder);
+  if (series.empty())
+    requireNoSeriesBelow(folder);
   if (series.empty())
     throw InputError(folder, "",
                      "holds no DICOM images; give a folder with a DICOM series, or a file .nii, .nii.gz, .nrrd, .nhdr, "
@@ -116,25 +121,67 @@ std::vector<std::string> seriesOf(const std::string& folder, const ImportOptions
   return series[static_cast<std::size_t>(std::max(1, options.series)) - 1];
 }
 
+/** Numbers of a field of a DICOM file, which are divided by backslashes. ITK replaces those that are implausible by
+ * defaults.
+ *  @throws InputError for a missing field and another number of finite numbers */
+std::vector<double> numbersOf(const ItkImage& image, const char* key, const char* name, std::size_t count,
+                              const std::string& file)
+{
+  const std::string field = image.field(key);
+  if (field.empty())
+    throw InputError(file, name, "is missing; export the series with spacing, position and orientation");
+  std::vector<double> numbers;
+  std::istringstream words(field);
+  for (std::string word; std::getline(words, word, '\\');)
+  {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(word.c_str(), &end));
+    if (word.empty() || *end != '\0' || !std::isfinite(numbers.back()))
+      numbers.clear();
+  }
+  if (numbers.size() != count)
+    throw InputError(file, name,
+                     "is '" + field + "'; must have " + std::to_string(count) + " numbers; export the series again");
+  return numbers;
+}
+
+/** Unit vectors of rows and columns. @throws InputError for others */
+void readOrientation(const std::vector<double>& numbers, Slice& slice)
+{
+  constexpr double kUnit = 1e-3;  // error of length and scalar product
+  slice.along_row = {numbers[0], numbers[1], numbers[2]};
+  slice.along_column = {numbers[3], numbers[4], numbers[5]};
+  if (!(std::abs(slice.along_row.norm() - 1.0) <= kUnit && std::abs(slice.along_column.norm() - 1.0) <= kUnit &&
+        std::abs(slice.along_row.dot(slice.along_column)) <= kUnit))
+    throw InputError(slice.file, "ImageOrientationPatient",
+                     "is no pair of perpendicular unit vectors; export the series again");
+}
+
+/** Number of frames of a DICOM file. */
+int framesOf(const ItkImage& image)
+{
+  return std::max(1, std::atoi(image.field("0028|0008").c_str()));
+}
+
 /** Geometry of a slice. @throws InputError where the file has no spacing, position or orientation */
 Slice sliceOf(const ItkImage& image, const std::string& file)
 {
   requireOneComponent(image, file);
-  const std::vector<std::pair<const char*, const char*>> needed = {
-      {"0028|0030", "PixelSpacing"}, {"0020|0032", "ImagePositionPatient"}, {"0020|0037", "ImageOrientationPatient"}};
-  for (const auto& [key, name] : needed)
-    if (image.field(key).empty())
-      throw InputError(file, name, "is missing; export the series with spacing, position and orientation");
   const std::vector<std::uint64_t> size = image.size();
-  if (size.size() > 2 && size[2] > 1)
-    throw InputError(file, "", "has several frames; export the volume as single slices, or as NIfTI");
+  if (framesOf(image) > 1 || (size.size() > 2 && size[2] > 1))
+    throw InputError(file, "",
+                     "is one file with " + std::to_string(framesOf(image)) +
+                         " frames (enhanced CT or MR), which is not read; convert it to NIfTI, e.g. by dcm2niix");
   Slice slice;
   slice.file = file;
   slice.size = {static_cast<int>(size.at(0)), static_cast<int>(size.at(1))};
-  slice.spacing = kMillimetre * Eigen::Vector2d(image.spacing(0), image.spacing(1));
-  slice.origin = kMillimetre * Eigen::Vector3d(image.origin(0), image.origin(1), image.origin(2));
-  slice.along_row = directionOf(image, 0);
-  slice.along_column = directionOf(image, 1);
+  const std::vector<double> spacing = numbersOf(image, "0028|0030", "PixelSpacing", 2, file);
+  if (!(spacing[0] > 0.0 && spacing[1] > 0.0))
+    throw InputError(file, "PixelSpacing", "must be greater than 0; export the series with its spacing");
+  slice.spacing = kMillimetre * Eigen::Vector2d(spacing[1], spacing[0]);  // the field begins with that of the rows
+  const std::vector<double> origin = numbersOf(image, "0020|0032", "ImagePositionPatient", 3, file);
+  slice.origin = kMillimetre * Eigen::Vector3d(origin[0], origin[1], origin[2]);
+  readOrientation(numbersOf(image, "0020|0037", "ImageOrientationPatient", 6, file), slice);
   return slice;
 }
 
@@ -149,37 +196,49 @@ void requireRescaling(const ItkImage& image, const std::string& file)
                        "--modality ct if they are");
 }
 
+/** Subtracts the user's number from all values. */
+void subtract(double number, std::vector<float>& values)
+{
+  if (number != 0.0)
+    for (float& value : values)
+      value = static_cast<float>(value - number);
+}
+
+/** Modality that the user or a file names. */
+std::optional<Modality> modalityOf(const std::string& field, const ImportOptions& options)
+{
+  return options.modality.value_or(field == "CT" ? Modality::kCt : Modality::kOther);
+}
+
 Volume readSeries(const std::string& folder, const ImportOptions& options)
 {
   std::vector<Slice> slices;
   std::string modality;
-  unsigned bits = 16;
+  ImageValues read;
   for (const std::string& file : seriesOf(folder, options))
   {
     const ItkImage image(file, {ImageFormat::kDicom});
     slices.push_back(sliceOf(image, file));
     modality = image.field("0008|0060");
-    bits = image.field("0028|0100") == "8" ? 8 : 16;
+    read.bits = image.field("0028|0100") == "8" ? 8 : 16;
     if (modality == "CT" && !options.modality)
       requireRescaling(image, file);
   }
   const SliceStack stack = stackSlices(std::move(slices), folder);
   Volume volume;
   volume.grid = stack.grid;
-  volume.modality = options.modality.value_or(modality == "CT" ? Modality::kCt : Modality::kOther);
+  read.columns = volume.grid.size.x();
   const std::uint64_t voxels = volume.grid.voxels();
   requireMemory(voxels * (sizeof(float) + sizeof(std::int16_t)), options, folder);
-  std::vector<float> values;
-  values.reserve(voxels);
+  read.values.reserve(voxels);
   for (const std::string& file : stack.files)
     requireCompleteDicom(file);
   for (const std::string& file : stack.files)
-    ItkImage(file, {ImageFormat::kDicom}).read(values);
-  if (values.size() != voxels)
+    ItkImage(file, {ImageFormat::kDicom}).read(read.values);
+  if (read.values.size() != voxels)
     throw InputError(folder, "", "its slices hold other numbers of pixels than their headers; export the series again");
-  if (volume.modality == Modality::kCt)
-    requireHounsfieldUnits(values, bits, folder);
-  store(values, folder, volume);
+  subtract(options.subtract, read.values);
+  storeValues(read, modalityOf(modality, options), folder, volume);
   return volume;
 }
 
@@ -188,15 +247,13 @@ Volume readSeries(const std::string& folder, const ImportOptions& options)
 void requireOrientation(const ItkImage& image, const std::string& file)
 {
   std::string missing;
-  if (image.format() == ImageFormat::kNifti)
-    missing = image.field("qform_code") == "0" && image.field("sform_code") == "0" ? "qform or sform" : "";
-  else if (image.format() == ImageFormat::kNrrd)
+  if (image.format() == ImageFormat::kNrrd)
     missing = image.field("NRRD_space").empty() ? "space" : "";
   else
   {
-    const std::map<std::string, std::string> fields = metaFields(file);
-    const bool has_axes = fields.count("TransformMatrix") + fields.count("Orientation") + fields.count("Rotation") > 0;
-    missing = fields.count("ElementSpacing") == 0 ? "ElementSpacing" : has_axes ? "" : "TransformMatrix";
+    const MetaHeader header(file);
+    const bool has_axes = header.has("TransformMatrix") || header.has("Orientation") || header.has("Rotation");
+    missing = !header.has("ElementSpacing") ? "ElementSpacing" : has_axes ? "" : "TransformMatrix";
   }
   if (!missing.empty())
     throw InputError(file, missing,
@@ -226,27 +283,55 @@ VolumeGrid gridOf(const ItkImage& image, const std::string& file)
   return grid;
 }
 
-Volume readFile(const std::string& file, const ImportOptions& options)
+/** Reads NRRD and MetaImage. */
+void readByItk(const std::string& file, const ImportOptions& options, Volume& volume, ImageValues& read)
 {
-  ItkImage image(file, {ImageFormat::kNifti, ImageFormat::kNrrd, ImageFormat::kMetaImage});
+  ItkImage image(file, {ImageFormat::kNrrd, ImageFormat::kMetaImage});
   requireOneComponent(image, file);
   requireOrientation(image, file);
-  Volume volume;
   volume.grid = gridOf(image, file);
   const std::uint64_t voxels = volume.grid.voxels();
   requireMemory(voxels * (image.valueBytes() + sizeof(float) + sizeof(std::int16_t)), options, file);
   if (image.format() == ImageFormat::kMetaImage)
-    requireCompleteMeta(file, voxels * image.valueBytes());
-  if (image.format() == ImageFormat::kNifti)  // the type of the file, not that after scaling
-    requireCompleteNifti(file, std::strtoull(image.field("vox_offset").c_str(), nullptr, 10),
-                         voxels * std::strtoull(image.field("bitpix").c_str(), nullptr, 10) / 8);
-  std::vector<float> values;
-  values.reserve(voxels);
-  image.read(values);
-  if (options.modality.value_or(Modality::kCt) == Modality::kCt)
-    requireHounsfieldUnits(values, 8 * image.valueBytes(), file);
-  volume.modality = options.modality ? *options.modality : modalityOf(values, file);
-  store(values, file, volume);
+    MetaHeader(file).requireComplete(voxels, image.valueBytes(), static_cast<std::size_t>(volume.grid.size.z()));
+  read.bits = 8 * image.valueBytes();
+  read.values.reserve(voxels);
+  image.read(read.values);
+}
+
+void readNifti(const std::string& file, const ImportOptions& options, Volume& volume, ImageValues& read)
+{
+  const NiftiFile image(file);
+  volume.grid = image.grid();
+  requireMemory(volume.grid.voxels() * (sizeof(float) + sizeof(std::int16_t)), options, file);
+  read.bits = 8 * image.valueBytes();
+  image.read(read.values);
+}
+
+/** @throws InputError for a file of DICOM: a series is a folder */
+void requireNoDicom(const std::string& file)
+{
+  if (!isDicom(file))
+    return;
+  const ItkImage image(file, {ImageFormat::kDicom});
+  sliceOf(image, file);
+  throw InputError(
+      file, "",
+      "is one slice of a DICOM series; give its folder " + std::filesystem::absolute(file).parent_path().string());
+}
+
+Volume readFile(const std::string& file, const ImportOptions& options)
+{
+  Volume volume;
+  ImageValues read;
+  requireNoDicom(file);
+  if (NiftiFile::recognises(file))
+    readNifti(file, options, volume, read);
+  else
+    readByItk(file, options, volume, read);
+  read.columns = volume.grid.size.x();
+  subtract(options.subtract, read.values);
+  storeValues(read, options.modality, file, volume);
   return volume;
 }
 

@@ -14,15 +14,16 @@ struct ImportOptions
 {
   int series = 0;                     ///< number of the series of a folder, from 1; 0: the only one
   std::optional<Modality> modality;   ///< empty: that of the file
+  double subtract = 0.0;              ///< from all values
   std::uint64_t memory = 4ULL << 30;  ///< largest need [bytes]
 };
 
-/** Reads images of a patient: a folder with a DICOM series, or a file in NIfTI, NRRD or MetaImage. ITK reads the files;
- *  points in ITK are LPS, as in the patient frame. No name, number or date of a patient is taken over.
- *  @throws InputError for a file that is none of these, a folder with several series, missing spacing or orientation,
- *          gantry tilt and missing slices, more than one value per voxel, values that are not finite, an unknown
- *          modality, a CT without the slope of its values or with grey values of 8 bit, and a need beyond the limit of
- * memory, which is known before the values are read */
+/** Reads images of a patient: a folder with a DICOM series, or a file in NIfTI, NRRD or MetaImage. ITK reads all but
+ * NIfTI; points in ITK are LPS, as in the patient frame. No name, number or date of a patient is taken over.
+ *  @throws InputError for a file that is none of these, a folder with several series, missing or implausible spacing or
+ *          orientation, gantry tilt and missing slices, more than one value per voxel, label maps, values that are not
+ *          finite, an unknown modality, a CT without the slope of its values, with grey values of 8 bit or raised
+ * values, and a need beyond the limit of memory, which is known before the values are read */
 Volume readImages(const std::string& path, const ImportOptions& options);
 
 }  // namespace endovascular_sim::image

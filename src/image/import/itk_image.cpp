@@ -4,11 +4,11 @@
 #include <cctype>
 #include <cstddef>
 
+#include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
 #include "common/error.h"
@@ -24,14 +24,21 @@ itk::ImageIOBase::Pointer ioOf(ImageFormat format)
   {
     case ImageFormat::kDicom:
       return itk::GDCMImageIO::New().GetPointer();
-    case ImageFormat::kNifti:
-      return itk::NiftiImageIO::New().GetPointer();
     case ImageFormat::kNrrd:
       return itk::NrrdImageIO::New().GetPointer();
     case ImageFormat::kMetaImage:
       break;
   }
   return itk::MetaImageIO::New().GetPointer();
+}
+
+/** Silences both libraries: their warnings can contain fields of the header. */
+void silence()
+{
+  itk::Object::GlobalWarningDisplayOff();
+  gdcm::Trace::DebugOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
 }
 
 InputError damaged(const std::string& file, const itk::ExceptionObject& error)
@@ -57,7 +64,7 @@ struct ItkImage::Io
 ItkImage::ItkImage(const std::string& file, const std::vector<ImageFormat>& formats)
   : file_(file), io_(std::make_unique<Io>())
 {
-  itk::Object::GlobalWarningDisplayOff();  // warnings of ITK can contain fields of the header
+  silence();
   try
   {
     for (const ImageFormat format : formats)
@@ -169,7 +176,7 @@ void ItkImage::read(std::vector<float>& values)
 
 std::vector<std::vector<std::string>> dicomSeries(const std::string& folder)
 {
-  itk::Object::GlobalWarningDisplayOff();
+  silence();
   const auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(true);
   names->SetDirectory(folder);

@@ -11,7 +11,6 @@ namespace endovascular_sim::image
 enum class ImageFormat
 {
   kDicom,
-  kNifti,
   kNrrd,
   kMetaImage,
 };
