@@ -191,7 +191,8 @@ for modality in ((), ("--modality", "ct")):
     refuse("raised", here("raised.nii"), "raised by 1024: air at 1, tissue at 1064", "--subtract 1024", options=modality)
 out, result = run("lowered", here("raised.nii"), "--subtract", "1024")
 expect("lowered", result.returncode == 0, result.stderr)
-expect("lowered", sorted(files.read_volume(out)[0]) == [-1024, -1023, -1022, 39, 40, 41, 350], "other values")
+if result.returncode == 0:
+    expect("lowered", sorted(files.read_volume(out)[0]) == [-1024, -1023, -1022, 39, 40, 41, 350], "other values")
 out, result = run("raised_other", here("raised.nii"), "--modality", "other")
 expect("raised_other", result.returncode == 0, result.stderr)
 files.write_nifti(here("window.nii"), stored=[min(max(v - 1024, -200), 300) for v in ct])
@@ -261,6 +262,8 @@ refuse("word_pixels", here("word_pixels"), "PixelSpacing", "2 numbers")
 for turn in (6.0, 0.5):
     files.write_series(here("turned_%g" % turn), turned=(2, turn))
     refuse("turned_%g" % turn, here("turned_%g" % turn), "ImageOrientationPatient", "image_", "differs from that of")
+files.write_series(here("skewed"), turned=(2, 6.0), skewed=True)
+refuse("skewed", here("skewed"), "ImageOrientationPatient", "image_", "perpendicular")
 files.write_series(here("scaled_axes"), axis_scale=0.5)
 refuse("scaled_axes", here("scaled_axes"), "ImageOrientationPatient", "unit vectors")
 os.makedirs(here("empty"), exist_ok=True)

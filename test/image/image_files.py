@@ -96,16 +96,18 @@ def slice_file(k, origin, axes, series="1.2.3.4", without=(), size=SIZE, pixels=
 
 
 def write_series(folder, slices=None, shift=(0.0, 0.0, 0.0), series="1.2.3.4", without=(), heights=None, bits=16,
-                 spacing=None, turned=(-1, 0.0), axis_scale=1.0, instances=0, pixels=None):
+                 spacing=None, turned=(-1, 0.0), skewed=False, axis_scale=1.0, instances=0, pixels=None):
     """Folder of a series; the names of its files are not in the order of the slices. `shift`: of each slice [mm].
     `heights`: of the slices along their normal, in their regular distance. `turned`: number and angle [degrees] of a slice that
-    is turned in its plane. `axis_scale`: length of the vectors of the axes. `instances`: number of the first image."""
+    is turned in its plane; `skewed`: only its rows. `axis_scale`: length of the vectors of the axes. `instances`: number of the first image."""
     os.makedirs(folder, exist_ok=True)
     for n, k in enumerate(range(SIZE[2]) if slices is None else slices):
         axes = [[axis_scale * x for x in axis] for axis in rotation()]
         if n == turned[0]:
             c, s = math.cos(math.radians(turned[1])), math.sin(math.radians(turned[1]))
-            axes[:2] = [[c * a + s * b for a, b in zip(*axes[:2])], [c * b - s * a for a, b in zip(*axes[:2])]]
+            row, column = axes[:2]
+            axes[0] = [c * a + s * b for a, b in zip(row, column)]
+            axes[1] = column if skewed else [c * b - s * a for a, b in zip(row, column)]
         height = k if heights is None else heights[n]
         origin = [a + b * k for a, b in zip(position(0, 0, height), shift)]
         if bits == 8:
