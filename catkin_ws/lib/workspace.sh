@@ -112,12 +112,13 @@ source_hash() {
 }
 
 # CMake options of this run. Warnings are errors in continuous integration only (CI=true). Tests are configured where the
-# packages that they need are installed.
+# packages that they need are installed, volume_import where ITK is: CMake searches again after its installation.
 build_options() {
-  local werror=OFF testing=OFF
+  local werror=OFF testing=OFF itk=OFF
   [ "${CI:-}" = true ] && werror=ON
   [ -z "$(missing_packages packages-test.txt)" ] && testing=ON
-  printf '%s\n' "-DENDOVASCULAR_WERROR=$werror" "-DCATKIN_ENABLE_TESTING=$testing"
+  [ "$(dpkg-query -W -f='${db:Status-Status}' libinsighttoolkit5-dev 2>/dev/null)" = installed ] && itk=ON
+  printf '%s\n' "-DENDOVASCULAR_WERROR=$werror" "-DENDOVASCULAR_ITK=$itk" "-DCATKIN_ENABLE_TESTING=$testing"
 }
 
 # run_catkin_make ARGUMENT…: catkin_make with its steps on the terminal and everything in the log.

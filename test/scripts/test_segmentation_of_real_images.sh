@@ -10,7 +10,7 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 tested=no
 
-[ -x "$programs/volume_import" ] || { echo "skipped: built without ITK"; exit 77; }
+"$programs/volume_import" --help > /dev/null 2>&1 || { echo "skipped: built without ITK"; exit 77; }
 
 segment() { # segment NAME FILE CLICKS
   "$programs/vessel_segment" "$data/$2" --modality other --clicks "$repository/test/data/$3" --out "$1.obj" --quiet > "$1.log"

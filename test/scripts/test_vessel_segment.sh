@@ -21,7 +21,7 @@ ends() { # ends OPTION...: prints the number of open ends
 [ "$(ends --closed -0.02,0.005,0.09)" -eq 2 ]
 [ "$(ends --open largest --open left --closed trunk)" -eq 1 ]
 
-if [ -x "$programs/volume_import" ]; then
+if "$programs/volume_import" --help > /dev/null 2>&1; then
   # All outputs, with the terminal, of images whose files hold the patient's data.
   mkdir outputs
   /usr/bin/python3 "$repository/test/segmentation/volume_formats.py" fork.vol .

@@ -40,7 +40,7 @@ check 1 fork.vol none.yaml 'none.yaml.*give a file of clicks'
 check 1 fork.vol fork.yaml 'fork.vol: needs about 0.3. GB; raise --memory' --memory 0.1
 check 1 fork.vol fork.yaml '\-\-open nowhere: matches no end; .*trunk near' --open nowhere
 
-if [ -x "$programs/volume_import" ]; then
+if "$programs/volume_import" --help > /dev/null 2>&1; then
   /usr/bin/python3 "$repository/test/segmentation/altered_images.py" fork.vol .
   check 0 thick.mha fork.yaml 'warning: slices are 1.6.* mm apart: .*reconstruct slices of 1 mm or less' --modality ct
   check 0 metal.mha fork.yaml 'warning: trunk: metal at \(.*\) mm, .*streaks may displace the contour' --modality ct
