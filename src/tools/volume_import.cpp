@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "common/child_process.h"
 #include "common/error.h"
 #include "image/import/image_reader.h"
 #include "image/volume_file.h"
@@ -74,6 +75,11 @@ int import(const Options& options)
               << ": needs more memory than --memory permits; raise it, or export a part of the "
                  "volume\n";
   }
+  catch (const std::exception& error)
+  {
+    std::cerr << kName << ": " << options.input << ": cannot be read: " << error.what()
+              << "; export the images again\n";
+  }
   return 1;
 }
 
@@ -81,11 +87,13 @@ int import(const Options& options)
 int importWithLimits(const Options& options)
 {
   std::cout.flush();
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0)
     throw InputError(options.input, "", "no process can be started; close other programs");
   if (child == 0)
   {
+    endWithParent(parent);
     rlimit limit{};
     limit.rlim_cur = limit.rlim_max = static_cast<rlim_t>(options.memory * kGigabyte) + kProgram;
     setrlimit(RLIMIT_AS, &limit);

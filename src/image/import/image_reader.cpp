@@ -286,6 +286,7 @@ VolumeGrid gridOf(const ItkImage& image, const std::string& file)
 /** Reads NRRD and MetaImage. */
 void readByItk(const std::string& file, const ImportOptions& options, Volume& volume, ImageValues& read)
 {
+  MetaHeader(file).requireDimensions();
   ItkImage image(file, {ImageFormat::kNrrd, ImageFormat::kMetaImage});
   requireOneComponent(image, file);
   requireOrientation(image, file);

@@ -46,6 +46,12 @@ InputError damaged(const std::string& file, const itk::ExceptionObject& error)
   return InputError(file, "", std::string("cannot be read: ") + error.GetDescription() + "; export the images again");
 }
 
+InputError unusualType(const std::string& file)
+{
+  return InputError(file, "",
+                    "has values of an unusual type; store integers of 8, 16 or 32 bit, or floating point numbers");
+}
+
 template <typename Value>
 void append(const std::vector<char>& buffer, std::vector<float>& values)
 {
@@ -74,6 +80,8 @@ ItkImage::ItkImage(const std::string& file, const std::vector<ImageFormat>& form
         continue;
       io->SetFileName(file);
       io->ReadImageInformation();
+      if (io->GetComponentType() == itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE)
+        throw unusualType(file);
       format_ = format;
       io_->io = io;
       return;
@@ -169,8 +177,7 @@ void ItkImage::read(std::vector<float>& values)
     case itk::IOComponentEnum::DOUBLE:
       return append<double>(buffer, values);
     default:
-      throw InputError(file_, "",
-                       "has values of an unusual type; store integers of 8, 16 or 32 bit, or floating point numbers");
+      throw unusualType(file_);
   }
 }
 

@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr auto kDataFile = "ElementDataFile";
-constexpr std::size_t kMostFields = 1000;
+constexpr std::size_t kMostHeader = 1 << 22;  // bytes, with a list of files
 
 std::string trimmed(const std::string& text)
 {
@@ -96,9 +96,13 @@ std::uint64_t uncompressedBytes(std::ifstream& in, std::uint64_t packed_bytes, s
 
 MetaHeader::MetaHeader(const std::string& file) : file_(file)
 {
-  std::ifstream in(file, std::ios::binary);
+  std::string begin(kMostHeader, '\0');
+  std::ifstream content(file, std::ios::binary);
+  content.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(content.gcount()));
+  std::istringstream in(begin);
   std::string line;
-  while (!has(kDataFile) && fields_.size() < kMostFields && std::getline(in, line))
+  while (!has(kDataFile) && std::getline(in, line))
   {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos)
@@ -110,6 +114,15 @@ MetaHeader::MetaHeader(const std::string& file) : file_(file)
     while (std::getline(in, line))
       if (!trimmed(line).empty())
         list_.push_back(trimmed(line));
+}
+
+void MetaHeader::requireDimensions() const
+{
+  if (!has("NDims") || !has(kDataFile))
+    return;
+  const std::string text = value("NDims");
+  if (text.size() != 1 || text[0] < '1' || text[0] > '9')
+    throw InputError(file_, "NDims", "is '" + text + "'; must be 3; export the image again");
 }
 
 std::string MetaHeader::value(const std::string& key) const
