@@ -7,13 +7,12 @@
 #include "common/numerics/parallel_for.h"
 #include "segmentation/lumen/click_check.h"
 #include "segmentation/lumen/minimal_path.h"
+#include "segmentation/path_check.h"
 
 namespace endovascular_sim::segmentation
 {
 namespace
 {
-
-using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kWidestWithLimit = 0.01;  ///< radius up to which wide regions are closed to a path [m]
 constexpr double kWideShare = 0.75;        ///< of the largest radius: radius of a wide region
@@ -34,10 +33,12 @@ WideRegions wideRegions(const Scan& scan, const CheckedBranch& branch)
 }
 
 /** Path through all clicks of a branch. */
-Points pathOf(const Scan& scan, const ClickSet& clicks, const CheckedBranch& branch)
+ClickPath pathOf(const Scan& scan, const ClickSet& clicks, const CheckedBranch& branch)
 {
   const WideRegions wide = wideRegions(scan, branch);
-  Points points{branch.clicks.front().position};
+  ClickPath result;
+  result.points = {branch.clicks.front().position};
+  result.clicks = {0};
   for (std::size_t k = 0; k + 1 < branch.clicks.size(); ++k)
   {
     const MinimalPath path =
@@ -49,9 +50,11 @@ Points pathOf(const Scan& scan, const ClickSet& clicks, const CheckedBranch& bra
                            std::to_string(path.longest_gap * 1e3).substr(0, 4) + " mm at " +
                            locationText(scan.toPatient(path.gap_location)) +
                            "; correct a click, add one between them, or end the branch at an occlusion");
-    points.insert(points.end(), path.points.begin() + 1, path.points.end());
+    result.points.insert(result.points.end(), path.points.begin() + 1, path.points.end());
+    result.clicks.push_back(result.points.size() - 1);
   }
-  return points;
+  requireCourse(result, branch, clicks.branches.size() == 1, clicks.file);
+  return result;
 }
 
 /** A path of several times the distance of its clicks has probably taken another vessel. The loop of a right coronary
@@ -103,7 +106,8 @@ Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const Edg
                 LumenBranch& branch = result.branches[b];
                 branch.name = checked[b].name;
                 branch.largest_radius = checked[b].largest_radius;
-                branch.sections = fitLumen(scan, pathOf(scan, clicks, checked[b]), checked[b].largest_radius, settings);
+                branch.sections =
+                    fitLumen(scan, pathOf(scan, clicks, checked[b]).points, checked[b].largest_radius, settings);
               });
   for (std::size_t b = 0; b < checked.size(); ++b)
   {

@@ -23,7 +23,8 @@ struct Segmentation
 /** Segments every branch by its own clicks: minimal path, then cross-sections. Branches are independent of each other
  * here.
  *  @param threads 0: number of processors; the result does not depend on it
- *  @throws InputError for clicks that do not lie in a lumen, or in two vessels (click_check.h) */
+ *  @throws InputError for clicks that do not lie in a lumen, or in two vessels (click_check.h), and for those that are
+ * no course along a branch (path_check.h) */
 Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
                              const ProgressReport& progress = {});
 

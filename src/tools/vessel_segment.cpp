@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/child_process.h"
@@ -17,6 +18,7 @@
 #include "common/quantities.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
+#include "scene/mesh_trial.h"
 #include "segmentation/join_branches.h"
 #include "segmentation/lumen_centreline.h"
 #include "segmentation/metal_check.h"
@@ -49,6 +51,7 @@ struct Options
   std::vector<std::string> open;
   std::vector<std::string> closed;
   int series = 0;
+  double subtract = 0.0;
   double point_spread = 0.0;   // mm; 0: by modality
   double wall = -1.0;          // mm; < 0: by modality
   double max_distance = 2e-4;  // m
@@ -103,6 +106,8 @@ void import(const Options& options, const std::string& volume)
     command.insert(command.end(), {"--modality", options.modality});
   if (options.series > 0)
     command.insert(command.end(), {"--series", std::to_string(options.series)});
+  if (options.subtract != 0.0)
+    command.insert(command.end(), {"--subtract", std::to_string(options.subtract)});
   if (runProgram(command) != 0)
     throw InputError(options.images, "", "was rejected by volume_import for the reason above");
 }
@@ -243,6 +248,114 @@ int writePage(const Options& options)
   return 0;
 }
 
+/** Files of a vessel under their final names, and under names for the checks of the simulator. */
+struct VesselFiles
+{
+  std::string mesh;
+  std::string centreline;
+  std::string tried_mesh;
+  std::string tried_centreline;
+
+  explicit VesselFiles(const std::string& stem)
+    : mesh(stem + ".obj"),
+      centreline(stem + "_centreline.yaml"),
+      tried_mesh(stem + ".part.obj"),
+      tried_centreline(stem + ".part.yaml")
+  {
+  }
+  VesselFiles(const VesselFiles&) = delete;
+  VesselFiles& operator=(const VesselFiles&) = delete;
+  ~VesselFiles()
+  {
+    std::error_code code;
+    std::filesystem::remove(tried_mesh, code);
+    std::filesystem::remove(tried_centreline, code);
+  }
+
+  /** Gives the files their final names, in place of those of an earlier vessel. */
+  void keep() const
+  {
+    std::filesystem::rename(tried_mesh, mesh);
+    std::filesystem::rename(tried_centreline, centreline);
+  }
+
+  /** Message with the final names. */
+  std::string named(std::string message) const
+  {
+    for (const auto& [tried, name] : {std::pair(tried_mesh, mesh), std::pair(tried_centreline, centreline)})
+      for (std::size_t at = message.find(tried); at != std::string::npos; at = message.find(tried, at + name.size()))
+        message.replace(at, tried.size(), name);
+    return message;
+  }
+};
+
+/** Position [m] as an argument of --set, quoted for a shell. */
+std::string positionArgument(const Eigen::Vector3d& position)
+{
+  char text[96];
+  std::snprintf(text, sizeof text, "'[%.4f, %.4f, %.4f]'", position.x(), position.y(), position.z());
+  return text;
+}
+
+/** Error of a vessel that scenes would refuse. */
+InputError notWritten(const std::string& stem, const std::string& reason)
+{
+  return InputError(stem + ".obj", "",
+                    "is not written, because no scene can use the vessel (" + reason +
+                        "); look at the straightened views " + stem +
+                        "_BRANCH.png, and click at the ends of longer stretches of the vessel");
+}
+
+/** Writes mesh and centreline if a scene can use them.
+ *  @return arguments of `simulate` that use the vessel
+ *  @throws InputError with the reason of the simulator; an earlier vessel stays */
+std::string writeVessel(const segmentation::Scan& scan, const geometry::TriangleMesh& mesh,
+                        const vessel::CentrelineTree& tree, const std::string& stem, std::vector<std::string>& warnings)
+{
+  const VesselFiles files(stem);
+  vessel::writeObj(segmentation::toPatient(scan, mesh), files.tried_mesh);
+  vessel::writeCentreline(segmentation::toPatient(scan, tree), std::filesystem::path(stem).filename().string(),
+                          files.tried_centreline);
+  scene::MeshTrial trial;
+  try
+  {
+    trial = scene::tryMesh(std::filesystem::absolute(files.tried_mesh).string(),
+                           std::filesystem::absolute(files.tried_centreline).string());
+  }
+  catch (const InputError& error)
+  {
+    throw notWritten(stem, files.named(error.what()));
+  }
+  for (const std::string& warning : trial.warnings)
+    warnings.push_back(files.named(warning));
+  files.keep();
+  std::string arguments =
+      "config/scenes/mesh.yaml --set vessel.mesh=" + std::filesystem::absolute(files.mesh).string() +
+      " --set vessel.unit=1 --set vessel.centreline=" + std::filesystem::absolute(files.centreline).string();
+  if (trial.entry)
+    arguments += " --set entry.position=" + positionArgument(*trial.entry);
+  return arguments;
+}
+
+/** Mesh of a closed surface, by the stages of vessel_prepare. */
+vessel::PreparedVessel preparedFrom(const geometry::TriangleMesh& surface, const Options& options,
+                                    const std::string& stem, const StageClock& clock)
+{
+  vessel::PrepareOptions prepare;
+  prepare.max_distance = options.max_distance;
+  prepare.voxel = options.max_distance;  // the surface has no features below its lattice
+  prepare.smooth = true;
+  try
+  {
+    return vessel::prepareVessel(surface, options.images, prepare,
+                                 [&clock](const std::string& stage) { clock.begin(stage); });
+  }
+  catch (const InputError& error)
+  {
+    throw notWritten(stem, error.what());
+  }
+}
+
 int segment(const Options& options)
 {
   const StageClock clock(options.quiet);
@@ -266,16 +379,11 @@ int segment(const Options& options)
   clock.begin("uniting the branches");
   // All stages take place in the frame of the grid, so that they do not depend on the pose of the patient.
   const geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
-  vessel::PrepareOptions prepare;
-  prepare.max_distance = options.max_distance;
-  prepare.voxel = options.max_distance;  // the surface has no features below its lattice
-  prepare.smooth = true;
-  vessel::PreparedVessel prepared = vessel::prepareVessel(surface, options.images, prepare,
-                                                          [&clock](const std::string& stage) { clock.begin(stage); });
+  vessel::PreparedVessel prepared = preparedFrom(surface, options, stem, clock);
   clock.begin("opening the ends");
   const int open = openEnds(options, scan, tree, ends, prepared.mesh, warnings);
-  vessel::writeObj(segmentation::toPatient(scan, prepared.mesh), options.out);
-  vessel::writeCentreline(segmentation::toPatient(scan, tree), out.stem().string(), stem + "_centreline.yaml");
+  clock.begin("checking the vessel as scenes do");
+  const std::string arguments = writeVessel(scan, prepared.mesh, tree, stem, warnings);
   tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
   clock.begin("done");
   tools::printWarnings(kName, warnings);
@@ -285,9 +393,7 @@ int segment(const Options& options)
             << std::round(1e6 * prepared.report.result_to_input.largest) * 1e-3
             << " mm from the contours\nlook at the straightened views " << stem << "_BRANCH.png before use\nwrote "
             << options.out << ", " << stem << "_centreline.yaml, " << stem << "_report.json\n"
-            << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="
-            << std::filesystem::absolute(out).string() << " --set vessel.unit=1 --set vessel.centreline="
-            << std::filesystem::absolute(stem + "_centreline.yaml").string() << "\n";
+            << "to use the vessel: simulate " << arguments << "\n";
   return 0;
 }
 
@@ -322,6 +428,8 @@ int main(int argc, char** argv)
       ->check(CLI::IsMember({"ct", "other"}));
   line.option("--series", options.series, "N", "series of a DICOM folder, from 1; default: the only one")
       ->check(CLI::Range(1, 100000));
+  line.option("--subtract", options.subtract, "N", "number that volume_import subtracts from all values [0]")
+      ->check(CLI::Range(-1e6, 1e6));
   line.option("--point-spread", options.point_spread, "MM",
               "standard deviation of the scanner's point spread [CT 0.3 mm; else 0.55 voxels]; 20 % suffice")
       ->check(CLI::Range(0.01, 10.0));

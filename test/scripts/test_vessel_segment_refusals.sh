@@ -40,6 +40,25 @@ check 1 fork.vol none.yaml 'none.yaml.*give a file of clicks'
 check 1 fork.vol fork.yaml 'fork.vol: needs about 0.3. GB; raise --memory' --memory 0.1
 check 1 fork.vol fork.yaml '\-\-open nowhere: matches no end; .*trunk near' --open nowhere
 
+
+# clicks that are no course along a branch
+trunk() { # trunk FILE CLICK...: one branch
+  local IFS=,
+  printf 'branches: [{name: trunk, clicks: [%s]}]\n' "${*:2}" > "$1"
+}
+trunk same.yaml '[0, 2, 20]' '[0, 2, 20]'
+check 1 fork.vol same.yaml 'same.yaml: trunk: clicks 1 and 2 are at the same place; delete one'
+for z in 20.3 21 22 23 25 28 30; do
+  trunk close.yaml '[0, 2, 20]' "[0, 2, $z]"
+  check 1 fork.vol close.yaml 'close.yaml: trunk: its clicks are only [0-9.]* mm apart in a lumen of [78].[0-9] mm; click near each end'
+done
+[ "$(cat result.obj)" = kept ] || { echo "close clicks changed an earlier vessel"; failures=$((failures + 1)); }
+trunk ends.yaml '[0, 1, 5]' '[24, 0, 84]' '[-19, 5, 88]'
+check 1 fork.vol ends.yaml 'trunk: the path turns back at click 2, which is an end of a branch; .*one branch per end .*SlicerVMTK'
+trunk short.yaml '[12, 0, 70.2]' '[18.6, 0, 77.7]' # the wire of the scene needs 11 mm
+check 1 fork.vol short.yaml 'result.obj: is not written, because no scene can use the vessel \(.*longer stretches'
+ls ./*.part.* 2> /dev/null && { echo "a refusal left these files"; failures=$((failures + 1)); }
+
 if "$programs/volume_import" --help > /dev/null 2>&1; then
   /usr/bin/python3 "$repository/test/segmentation/altered_images.py" fork.vol .
   check 0 thick.mha fork.yaml 'warning: slices are 1.6.* mm apart: .*reconstruct slices of 1 mm or less' --modality ct

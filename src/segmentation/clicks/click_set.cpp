@@ -16,7 +16,8 @@ namespace
 {
 
 constexpr auto kRemedy = "give a file of clicks: .yaml, or markups of 3D Slicer (.mrk.json, .fcsv)";
-constexpr double kFarthest = 10.0;  ///< of a click from the origin [m]
+constexpr double kFarthest = 10.0;   ///< of a click from the origin [m]
+constexpr double kSamePlace = 1e-4;  ///< distance of two clicks that are one [m]
 
 std::string placeOf(const YAML::Node& node)
 {
@@ -129,6 +130,17 @@ bool isPlainName(const std::string& name)
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; });
 }
 
+/** Checks that the clicks of a branch lie at different places. */
+void requireDifferent(const BranchClicks& branch, const std::string& file)
+{
+  for (std::size_t k = 0; k < branch.clicks.size(); ++k)
+    for (std::size_t m = 0; m < k; ++m)
+      if ((branch.clicks[k].position - branch.clicks[m].position).norm() < kSamePlace)
+        throw InputError(file, branch.name,
+                         "clicks " + std::to_string(m + 1) + " and " + std::to_string(k + 1) +
+                             " are at the same place; delete one, and click once near each end of the branch");
+}
+
 void check(const ClickSet& set)
 {
   for (const BranchClicks& branch : set.branches)
@@ -143,6 +155,7 @@ void check(const ClickSet& set)
       if (!click.position.allFinite() || click.position.cwiseAbs().maxCoeff() > kFarthest)
         throw InputError(set.file, branch.name + ", " + click.where,
                          "is no position in a patient; check the numbers and the unit");
+    requireDifferent(branch, set.file);
   }
 }
 

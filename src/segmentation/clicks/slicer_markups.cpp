@@ -5,7 +5,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/file_name.h"
@@ -22,6 +21,9 @@ constexpr double kMillimetre = 1e-3;
 /** Labels that 3D Slicer gives by itself. */
 const std::set<std::string> kDefaultLabels = {
     "", "F", "C", "OC", "L", "CC", "N", "P", "Markups", "Node", "Line", "Curve", "A", "R", "MarkupsFiducial"};
+
+/** Types of markups without a course along a vessel, which are refused. */
+const std::set<std::string> kNoCourse = {"ClosedCurve", "Angle", "Plane", "ROI"};
 
 /** Sign of x and y that turns a coordinate system into LPS. Slicer writes names or, in early versions, numbers. */
 double signOf(const std::string& system, const std::string& file)
@@ -61,12 +63,21 @@ public:
       found = keys_.end() - 1;
     }
     branches_[static_cast<std::size_t>(found - keys_.begin())].clicks.push_back({position, where});
+    if (label.empty() && unlabelled_.count(list) == 0)
+      unlabelled_[list] = where;
+    else if (!label.empty())
+      labels_[list] = label;
   }
 
   ClickSet take()
   {
     if (branches_.empty())
       throw InputError(file_, "", std::string("holds no points; ") + kRemedy);
+    for (const auto& [list, where] : unlabelled_)
+      if (labels_.count(list) > 0)
+        throw InputError(file_, where,
+                         "has no label, others of its list have one; label it as those of its branch, e.g. " +
+                             stemOf(labels_.at(list)) + "-3, or delete it");
     std::string name = std::filesystem::path(file_).filename().string();
     name = name.substr(0, name.find('.'));
     for (std::size_t k = 0; k < branches_.size(); ++k)
@@ -87,7 +98,24 @@ private:
   std::string file_;
   std::vector<std::pair<int, std::string>> keys_;
   std::vector<BranchClicks> branches_;
+  std::map<int, std::string> unlabelled_;  ///< first point without a label of each list
+  std::map<int, std::string> labels_;      ///< a label of each list
 };
+
+/** Fields of a line that commas divide. Quotes enclose fields with commas. */
+std::vector<std::string> fieldsOf(const std::string& line)
+{
+  std::vector<std::string> fields(1);
+  bool is_quoted = false;
+  for (const char c : line)
+    if (c == '"')
+      is_quoted = !is_quoted;
+    else if (c == ',' && !is_quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
 
 }  // namespace
 
@@ -102,6 +130,10 @@ ClickSet readMarkupsJson(const std::string& file)
     for (const nlohmann::json& markup : root.at("markups"))
     {
       const std::string place = "markup " + std::to_string(++list);
+      const std::string type = markup.value("type", "");
+      if (kNoCourse.count(type) > 0)
+        throw InputError(file, place,
+                         "is a " + type + ", which has no two ends; give a point list, a line or an open curve");
       const nlohmann::json& system = markup.at("coordinateSystem");
       const double sign = signOf(system.is_string() ? system.get<std::string>() : system.dump(), file);
       if (markup.value("coordinateUnits", "mm") != "mm")
@@ -152,10 +184,7 @@ ClickSet readFiducialCsv(const std::string& file)
       }
       continue;
     }
-    std::vector<std::string> fields;
-    std::istringstream row(line);
-    for (std::string field; std::getline(row, field, ',');)
-      fields.push_back(field);
+    const std::vector<std::string> fields = fieldsOf(line);
     double p[3];
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -166,8 +195,10 @@ ClickSet readFiducialCsv(const std::string& file)
     }
     if (sign == 0.0)
       throw InputError(file, where, std::string("no line '# CoordinateSystem = LPS' before the points; ") + kRemedy);
-    grouping.add(fields.size() > label_column ? fields[label_column] : "",
-                 kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where, 0);
+    // A remark may follow the label: "LAD-1, ostium".
+    const std::string label = fields.size() > label_column ? fields[label_column] : "";
+    grouping.add(label.substr(0, label.find(',')), kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where,
+                 0);
   }
   return grouping.take();
 }

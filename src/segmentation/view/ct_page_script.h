@@ -117,6 +117,10 @@ function yaml() {
 }
 function add() {
   const name = document.getElementById("name").value.replace(/[^A-Za-z0-9_.-]/g, "_"), v = at(cross[0], cross[1], cross[2]);
+  if (clicks.some(c => c.name == name && c.voxel.join() == cross.join())) {  // the key was pressed twice
+    document.getElementById("place").textContent = "this click is already in the list: move the cross to the other end of the branch";
+    return;
+  }
   clicks.push({name: name, voxel: cross.slice(), position: position(),
                value: Math.round(grid.window[0] + v / 255 * (grid.window[1] - grid.window[0]))});
   yaml(); draw();

@@ -16,7 +16,7 @@ namespace
 constexpr std::size_t kProbes = 40;    ///< points of a branch that are checked, at most
 constexpr double kMostOutside = 0.05;  ///< share of them that may lie outside of the mesh
 /** Length at each end of a branch that is not checked, in radii: the mesh is cut before the end of its centreline. */
-constexpr double kUncheckedEnd = 0.5;
+constexpr double kUncheckedEnd = 1.0;
 
 /** Points of a branch at more than kUncheckedEnd radii from both of its ends, or its middle point if there are none. */
 std::vector<Eigen::Vector3d> pointsAwayFromEnds(const CentrelineBranch& branch)

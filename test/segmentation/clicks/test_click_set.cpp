@@ -99,6 +99,49 @@ TEST_F(Clicks, OfFiducialListsAreRead)
   EXPECT_TRUE(set.branches[0].clicks[1].position.isApprox(Eigen::Vector3d(-0.004, -0.005, 0.006)));
 }
 
+TEST_F(Clicks, AtOnePlaceAreRefusedByTheirNumbers)
+{
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, 3], [1, 2, 3.05]]\n")
+                .find("a: clicks 1 and 2 are at the same place"),
+            std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, 3], [7, 2, 3], [1, 2, 3]]\n")
+                .find("clicks 1 and 3 are at the same place"),
+            std::string::npos);
+}
+
+TEST_F(Clicks, OfMarkupsWithoutACourseAreRefusedByType)
+{
+  for (const std::string type : {"ClosedCurve", "ROI", "Plane", "Angle"})
+    EXPECT_NE(errorOf("a.mrk.json", R"({"markups": [{"type": ")" + type +
+                                        R"(", "coordinateSystem": "LPS", "controlPoints": [
+        {"label": "CC-1", "position": [1, 2, 3]}, {"label": "CC-2", "position": [4, 5, 6]}]}]})")
+                  .find("markup 1: is a " + type + ", which has no two ends"),
+              std::string::npos);
+  EXPECT_EQ(errorOf("a.mrk.json", R"({"markups": [{"type": "Curve", "coordinateSystem": "LPS", "controlPoints": [
+        {"label": "C-1", "position": [1, 2, 3]}, {"label": "C-2", "position": [4, 5, 6]}]}]})"),
+            "");
+}
+
+TEST_F(Clicks, WithoutALabelAmongLabelledOnesAreNamed)
+{
+  EXPECT_NE(errorOf("a.mrk.json", R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS", "controlPoints": [
+        {"label": "LAD", "position": [1, 2, 3]}, {"label": "LAD", "position": [4, 5, 6]},
+        {"label": "", "position": [7, 8, 9]}]}]})")
+                .find("markup 1, point 3: has no label, others of its list have one; label it as those of its branch, "
+                      "e.g. LAD-3"),
+            std::string::npos);
+}
+
+TEST_F(Clicks, OfFiducialListsMayHaveQuotedLabelsWithCommas)
+{
+  const ClickSet set = readClicks(file("a.fcsv",
+                                       "# CoordinateSystem = RAS\nvtk_1,1,2,3,0,0,0,1,1,1,0,\"LAD-1, ostium\",,v\n"
+                                       "vtk_2,4,5,6,0,0,0,1,1,1,0,\"LAD-2, apex\",,v\n"));
+  ASSERT_EQ(set.branches.size(), 1u);
+  EXPECT_EQ(set.branches[0].name, "LAD");
+  EXPECT_EQ(set.branches[0].clicks.size(), 2u);
+}
+
 TEST_F(Clicks, AreRefusedWithPlaceAndRemedy)
 {
   EXPECT_NE(errorOf("a.txt", "").find("3D Slicer"), std::string::npos);

@@ -28,5 +28,18 @@ TEST(CtPage, HoldsAtMost25MegabytesAndNoReferences)
   EXPECT_NE(page.find("\"size\":[320,160,320]"), std::string::npos);
 }
 
+TEST(CtPage, AddsNoClickTwice)
+{
+  image::Volume volume;
+  volume.grid.size = {4, 4, 4};
+  volume.grid.spacing = {1e-3, 1e-3, 1e-3};
+  volume.stored.assign(volume.grid.voxels(), 100);
+  const std::string page = ctPage(Scan(volume));
+  const std::size_t add = page.find("function add()");
+  const std::size_t comparison = page.find("clicks.some(c => c.name == name && c.voxel.join() == cross.join())", add);
+  ASSERT_NE(comparison, std::string::npos);
+  EXPECT_LT(comparison, page.find("clicks.push(", add));
+}
+
 }  // namespace
 }  // namespace endovascular_sim::segmentation

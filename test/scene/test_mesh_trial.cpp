@@ -1,0 +1,86 @@
+#include "scene/mesh_trial.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "vessel/anatomy/tube.h"
+#include "vessel/centreline/centreline_file.h"
+#include "vessel/io/mesh_reader.h"
+
+namespace endovascular_sim::scene
+{
+namespace
+{
+
+class MeshTrialOfATube : public ::testing::Test
+{
+protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /** Writes a tube with its centreline. @return the reason of a refusal */
+  std::string write(double length, double curvature)
+  {
+    vessel::TubeShape shape;
+    shape.radius = 3e-3;
+    shape.facet_length = 1e-3;
+    shape.pieces = {{length, curvature, 0.0}};
+    mesh_ = vessel::tubeMesh(shape);
+    tree_ = vessel::tubeCentreline(shape);
+    return refusal();
+  }
+
+  std::string refusal()
+  {
+    vessel::writeObj(mesh_, mesh_file_);
+    vessel::writeCentreline(tree_, "tube", centreline_file_);
+    try
+    {
+      trial_ = tryMesh(mesh_file_, centreline_file_);
+      return "";
+    }
+    catch (const InputError& error)
+    {
+      return error.what();
+    }
+  }
+
+  const std::string folder_ = ::testing::TempDir() + "/mesh trial's #1";
+  const std::string mesh_file_ = folder_ + "/a tube.obj";
+  const std::string centreline_file_ = folder_ + "/a tube.yaml";
+  geometry::TriangleMesh mesh_;
+  vessel::CentrelineTree tree_;
+  MeshTrial trial_;
+};
+
+TEST_F(MeshTrialOfATube, AcceptsALongOneWithTheEntryOfTheScene)
+{
+  EXPECT_EQ(write(0.1, 0.0), "");
+  EXPECT_FALSE(trial_.entry);
+}
+
+TEST_F(MeshTrialOfATube, RefusesOneThatIsShorterThanTheStartOfTheWire)
+{
+  EXPECT_NE(write(0.006, 0.0).find("no wire can start at any of its ends"), std::string::npos);
+}
+
+TEST_F(MeshTrialOfATube, RefusesAMeshWithoutTriangles)
+{
+  ASSERT_EQ(write(0.1, 0.0), "");
+  mesh_ = {};
+  EXPECT_NE(refusal(), "");
+}
+
+TEST_F(MeshTrialOfATube, RefusesACentrelineOutsideOfTheMesh)
+{
+  ASSERT_EQ(write(0.1, 0.0), "");
+  for (Eigen::Vector3d& point : tree_.branches[0].points)
+    point.x() += 0.02;
+  EXPECT_NE(refusal().find("outside"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::scene
