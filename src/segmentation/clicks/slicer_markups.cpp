@@ -35,6 +35,16 @@ double signOf(const std::string& system, const std::string& file)
   throw InputError(file, "coordinate system", "is '" + system + "'; must be LPS or RAS");
 }
 
+/** Metres per unit of a name of 3D Slicer. */
+double unitOf(const std::string& name, const std::string& file, const std::string& place)
+{
+  const std::map<std::string, double> units = {{"mm", kMillimetre}, {"cm", 1e-2}, {"m", 1.0}, {"um", 1e-6}};
+  const auto found = units.find(name);
+  if (found == units.end())
+    throw InputError(file, place, "its coordinateUnits are '" + name + "'; must be mm, cm, m or um");
+  return found->second;
+}
+
 /** Label without a number at its end. */
 std::string stemOf(std::string label)
 {
@@ -136,8 +146,7 @@ ClickSet readMarkupsJson(const std::string& file)
                          "is a " + type + ", which has no two ends; give a point list, a line or an open curve");
       const nlohmann::json& system = markup.at("coordinateSystem");
       const double sign = signOf(system.is_string() ? system.get<std::string>() : system.dump(), file);
-      if (markup.value("coordinateUnits", "mm") != "mm")
-        throw InputError(file, place, "its coordinateUnits must be mm");
+      const double unit = unitOf(markup.value("coordinateUnits", "mm"), file, place);
       int number = 0;
       for (const nlohmann::json& point : markup.at("controlPoints"))
       {
@@ -147,8 +156,7 @@ ClickSet readMarkupsJson(const std::string& file)
         const auto p = point.at("position").get<std::vector<double>>();
         if (p.size() != 3)
           throw InputError(file, where, "its position must have three numbers");
-        grouping.add(point.value("label", ""), kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where,
-                     list);
+        grouping.add(point.value("label", ""), unit * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where, list);
       }
     }
   }

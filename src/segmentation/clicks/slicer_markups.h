@@ -8,7 +8,7 @@ namespace endovascular_sim::segmentation
 {
 
 /** Reads a markups file of 3D Slicer in JSON (.mrk.json).
- *  @throws InputError for a file that is none, another unit than millimetres, an unknown coordinate system, a closed
+ *  @throws InputError for a file that is none, an unknown unit, an unknown coordinate system, a closed
  *          curve, an angle, a plane or a region, and a point without a label among labelled ones */
 ClickSet readMarkupsJson(const std::string& file);
 

@@ -122,6 +122,16 @@ TEST_F(Clicks, OfMarkupsWithoutACourseAreRefusedByType)
             "");
 }
 
+TEST_F(Clicks, OfMarkupsHaveTheUnitOfTheFile)
+{
+  const std::string rest = R"("coordinateSystem": "LPS", "controlPoints": [
+      {"label": "LAD-1", "position": [0.1, 0.2, 0.3]}, {"label": "LAD-2", "position": [0.1, 0.2, 0.4]}]}]})";
+  const ClickSet set = readClicks(file("a.mrk.json", R"({"markups": [{"coordinateUnits": "m", )" + rest));
+  EXPECT_TRUE(set.branches[0].clicks[0].position.isApprox(Eigen::Vector3d(0.1, 0.2, 0.3)));
+  EXPECT_NE(errorOf("a.mrk.json", R"({"markups": [{"coordinateUnits": "px", )" + rest).find("must be mm, cm, m or um"),
+            std::string::npos);
+}
+
 TEST_F(Clicks, WithoutALabelAmongLabelledOnesAreNamed)
 {
   EXPECT_NE(errorOf("a.mrk.json", R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS", "controlPoints": [
