@@ -2,6 +2,7 @@
 
 #include <tinyxml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -11,11 +12,14 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "robot/ros_package.h"
 
 namespace endovascular_sim::robot
 {
 namespace
 {
+
+constexpr std::size_t kMostLinks = 500;  // the checks of a tree take time quadratic in it
 
 std::string lineOf(const TiXmlElement& element)
 {
@@ -192,22 +196,53 @@ void checkLimits(const Joint& joint, const std::string& file)
                          "\" is negative; give the largest force or torque, which is positive in both directions");
 }
 
+/** Refuses elements and expressions of xacro. A namespace alone is left over from its expansion. */
+void refuseXacro(const TiXmlElement& element, const std::string& file)
+{
+  bool is_xacro = element.ValueStr().rfind("xacro:", 0) == 0;
+  for (const TiXmlAttribute* value = element.FirstAttribute(); value != nullptr; value = value->Next())
+    is_xacro = is_xacro || value->ValueStr().find("${") != std::string::npos;
+  if (is_xacro)
+    throw InputError(file, "<" + element.ValueStr() + "> " + lineOf(element),
+                     "is a xacro file; expand it where xacro is installed (xacro IN > OUT), and give the result");
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    refuseXacro(*child, file);
+}
+
+/** Warning of a mesh file that rviz cannot find; empty if it can, or where no ROS is set up. */
+std::string missingMesh(const std::string& mesh)
+{
+  std::error_code error;
+  if (mesh.rfind("package://", 0) == 0)
+  {
+    const std::string name = mesh.substr(10, mesh.find('/', 10) - 10);
+    const std::optional<std::filesystem::path> package = findRosPackage(name);
+    if (package && package->empty())
+      return "no package " + name + " for \"" + mesh +
+             "\", so that rviz will not show it; install the package, or "
+             "give file:///…";
+    const std::filesystem::path path = package ? *package / mesh.substr(std::min(mesh.size(), 11 + name.size())) : "";
+    return !package || std::filesystem::is_regular_file(path, error)
+               ? ""
+               : "there is no file " + path.string() + ", so that rviz will not show it; correct the path";
+  }
+  if (mesh.rfind("file://", 0) != 0)
+    return "\"" + mesh + "\" is no URL; rviz finds file:///… and package://NAME/…";
+  return std::filesystem::is_regular_file(mesh.substr(7), error)
+             ? ""
+             : "there is no file " + mesh.substr(7) + "; correct the path";
+}
+
 /** Adds the mesh files below an element that rviz cannot find. */
 void addMissingMeshes(const TiXmlElement& element, const std::string& file, std::vector<std::string>& warnings)
 {
   for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
   {
     addMissingMeshes(*child, file, warnings);
-    const std::string mesh = attribute(child, "filename");
-    if (child->ValueStr() != "mesh" || mesh.rfind("package://", 0) == 0)
+    if (child->ValueStr() != "mesh")
       continue;
-    std::error_code error;
-    if (mesh.rfind("file://", 0) != 0)
-      warnings.push_back(file + ": mesh " + lineOf(*child) + ": \"" + mesh +
-                         "\" is no URL; rviz finds file:///… and package://NAME/…");
-    else if (!std::filesystem::is_regular_file(mesh.substr(7), error))
-      warnings.push_back(file + ": mesh " + lineOf(*child) + ": there is no file " + mesh.substr(7) +
-                         "; correct the path");
+    if (const std::string missing = missingMesh(attribute(child, "filename")); !missing.empty())
+      warnings.push_back(file + ": mesh " + lineOf(*child) + ": " + missing);
   }
 }
 
@@ -226,9 +261,7 @@ void checkXml(const TiXmlDocument& document, const std::string& file)
   const TiXmlElement* root = document.RootElement();
   if (root == nullptr || root->ValueStr() != "robot")
     throw InputError(file, "", "has no element <robot>; give a URDF");
-  if (root->Attribute("xmlns:xacro") != nullptr)
-    throw InputError(file, lineOf(*root),
-                     "is a xacro file; expand it where xacro is installed (xacro IN > OUT), and give the result");
+  refuseXacro(*root, file);
   std::vector<std::string> links;
   std::set<std::string> known;
   for (const TiXmlElement* link = root->FirstChildElement("link"); link != nullptr;
@@ -239,6 +272,9 @@ void checkXml(const TiXmlDocument& document, const std::string& file)
       throw InputError(file, "link '" + name + "' " + lineOf(*link),
                        name.empty() ? "has no name; give it one" : "another link has this name; names must differ");
     links.push_back(name);
+    if (links.size() > kMostLinks)
+      throw InputError(file, "link '" + name + "' " + lineOf(*link),
+                       "is one of more than " + std::to_string(kMostLinks) + " links; give fewer");
   }
   checkTree(checkLinks(*root, known, file), links, file);
 }

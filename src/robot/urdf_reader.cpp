@@ -11,6 +11,7 @@
 
 #include "common/error.h"
 #include "common/input_file.h"
+#include "common/text/xml_depth.h"
 #include "robot/urdf_checks.h"
 
 namespace endovascular_sim::robot
@@ -96,6 +97,7 @@ RobotModel parseUrdf(const std::string& text, const std::string& file)
 {
   if (text.size() > kLargestFile)
     throw InputError(file, "", "has more than 16 MiB; a URDF refers to its meshes by file names");
+  requireShallowXml(text, file);
   TiXmlDocument document;
   document.Parse(text.c_str());
   checkXml(document, file);

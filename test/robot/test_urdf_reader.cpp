@@ -1,5 +1,8 @@
 #include "robot/urdf_reader.h"
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -129,7 +132,8 @@ TEST(UrdfReader, RefusesWrongFilesWithJointAndRemedy)
       {"<robot name=\"r\">\n<link name=\"base\">\n</robot>", "line ", "is no XML"},
       {"", "r.urdf", "; "},
       {"<sdf/>", "r.urdf", "has no element <robot>"},
-      {"<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\"/>", "(line 1)", "expand it"},
+      {urdfWith(kSlide, "<xacro:arm side=\"left\"/>"), "<xacro:arm> (line 5)", "expand it"},
+      {urdfWith(slide(kAxis + "<origin xyz=\"${x} 0 0\"/>" + kLimit)), "<origin> (line 4)", "expand it"},
       {"<robot name=\"r\"></robot>", "r.urdf", "is no valid URDF"},
       {"<robot><link name=\"base\"/></robot>", "r.urdf", "is no valid URDF"}};
   for (const Refusal& refusal : refusals)
@@ -158,10 +162,61 @@ TEST(UrdfReader, WarnsOfAMeshThatDoesNotExist)
   const std::string end = "\"/></geometry></visual></link>" + slide("", "j", "l", "fixed");
   const auto warningsOf = [&](const std::string& mesh)
   { return parseUrdf(urdfWith(kSlide, visual + mesh + end), "r.urdf").warnings; };
-  EXPECT_TRUE(warningsOf("package://some_robot/meshes/a.stl").empty()) << "only ROS resolves packages";
   ASSERT_EQ(warningsOf("file:///nowhere/a.stl").size(), 1U);
   EXPECT_NE(warningsOf("file:///nowhere/a.stl")[0].find("there is no file /nowhere/a.stl"), std::string::npos);
   EXPECT_NE(warningsOf("a.stl").at(0).find("is no URL"), std::string::npos);
+}
+
+TEST(UrdfReader, WarnsOfAMeshInAPackageThatRvizWillNotFind)
+{
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "packages";
+  std::filesystem::create_directories(folder / "src" / "my_robot" / "meshes");
+  std::ofstream(folder / "src" / "my_robot" / "package.xml") << "<package/>";
+  std::ofstream(folder / "src" / "my_robot" / "meshes" / "a.stl") << "solid";
+  const auto warningsOf = [&](const std::string& mesh)
+  {
+    return parseUrdf(urdfWith(kSlide, "<link name=\"l\"><visual><geometry><mesh filename=\"" + mesh +
+                                          "\"/></geometry></visual></link>" + slide("", "j", "l", "fixed")),
+                     "r.urdf")
+        .warnings;
+  };
+  const char* before = std::getenv("ROS_PACKAGE_PATH");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("ROS_PACKAGE_PATH", folder.c_str(), 1);
+  EXPECT_TRUE(warningsOf("package://my_robot/meshes/a.stl").empty());
+  EXPECT_NE(warningsOf("package://my_robot/meshes/b.stl").at(0).find("my_robot/meshes/b.stl, so that rviz"),
+            std::string::npos);
+  EXPECT_NE(
+      warningsOf("package://absent/meshes/a.stl").at(0).find("no package absent for \"package://absent/meshes/a.stl\""),
+      std::string::npos);
+  EXPECT_EQ(warningsOf("package://").size(), 1U);
+  ::unsetenv("ROS_PACKAGE_PATH");
+  EXPECT_TRUE(warningsOf("package://absent/meshes/a.stl").empty()) << "no ROS, no rviz";
+  if (before != nullptr)
+    ::setenv("ROS_PACKAGE_PATH", kept.c_str(), 1);
+}
+
+TEST(UrdfReader, AcceptsANamespaceThatXacroLeftBehind)
+{
+  std::string urdf = urdfWith(kSlide);
+  urdf.insert(std::string("<robot").size(), " xmlns:xacro=\"http://www.ros.org/wiki/xacro\"");
+  EXPECT_EQ(refusalOf(urdf), "");
+  EXPECT_EQ(refusalOf("\xEF\xBB\xBF<?xml version=\"1.0\"?>\r\n" + urdf), "");
+}
+
+TEST(UrdfReader, RefusesDeepElementsAndThousandsOfLinks)
+{
+  std::string deep;
+  for (int k = 0; k < 20000; ++k)
+    deep += "<a>";
+  EXPECT_NE(refusalOf(urdfWith(kSlide, deep)).find("nested deeper than 64 levels"), std::string::npos);
+  std::string chain = "<robot name=\"r\"><link name=\"l0\"/>";
+  for (int k = 1; k < 10000; ++k)
+    chain += "<link name=\"l" + std::to_string(k) + "\"/><joint name=\"j" + std::to_string(k) +
+             "\" type=\"fixed\"><parent link=\"l" + std::to_string(k - 1) + "\"/><child link=\"l" + std::to_string(k) +
+             "\"/></joint>";
+  const std::string text = refusalOf(chain + "</robot>");
+  EXPECT_NE(text.find("one of more than 500 links"), std::string::npos) << text;
 }
 
 TEST(UrdfReader, RefusesAMissingFile)

@@ -4,9 +4,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <iterator>
 
 #include "common/error.h"
+#include "common/input_file.h"
 #include "common/quantities.h"
+#include "common/text/yaml_text.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -77,14 +80,8 @@ Composition readComposition(const YAML::Node& node, const std::string& file, con
 
 YAML::Node parse(const std::string& file)
 {
-  try
-  {
-    return YAML::LoadFile(file);
-  }
-  catch (const YAML::Exception& error)
-  {
-    throw InputError(file, "", std::string("cannot be read as YAML: ") + error.what());
-  }
+  std::ifstream stream = openInputFile(file, "give a file of materials as config/xray/materials.yaml");
+  return parseYamlText({std::istreambuf_iterator<char>(stream), {}}, file);
 }
 
 }  // namespace

@@ -47,6 +47,13 @@ fs::path configAbove(const fs::path& file)
   return file.parent_path() / config;
 }
 
+/** Path with the home folder in place of a leading `~`, as shells replace it at the begin of a word. */
+std::string withHome(const std::string& path)
+{
+  const std::string home = environment("HOME");
+  return path.substr(0, 2) == "~/" && !home.empty() ? home + path.substr(1) : path;
+}
+
 }  // namespace
 
 std::string configFolder()
@@ -70,16 +77,18 @@ std::string findSceneFile(const SceneNode& node, const std::string& path, const 
   {
     if (folder.empty())
       continue;
-    const fs::path candidate = (folder / node.text).lexically_normal();  // an absolute text replaces the folder
+    const fs::path candidate =
+        (folder / withHome(node.text)).lexically_normal();  // an absolute text replaces the folder
     if (fs::is_regular_file(candidate, error))
       return candidate.string();
     if (tried.find(folder.string() + ",") == std::string::npos)
       tried += folder.string() + ", ";
   }
-  throw InputError(node.file, path + node.location(),
-                   "no such file \"" + node.text + "\"" +
-                       (fs::path(node.text).is_absolute() ? "" : "; searched in " + tried.substr(0, tried.size() - 2)) +
-                       "; give the path of an existing file");
+  throw InputError(
+      node.file, path + node.location(),
+      "no such file \"" + node.text + "\"" +
+          (fs::path(withHome(node.text)).is_absolute() ? "" : "; searched in " + tried.substr(0, tried.size() - 2)) +
+          "; give the path of an existing file");
 }
 
 std::string findAnatomy(const SceneNode& node, const std::string& path, const std::string& scene_file)

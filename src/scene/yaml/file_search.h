@@ -14,7 +14,7 @@ std::string configFolder();
 
 /** Finds a file that a scene names in @p node. Relative paths are searched beside the scene, in the package's config
  *  folder, in the current folder and in ENDOVASCULAR_DATA_DIR, in this order. Those of an override are searched in the
- *  current folder first.
+ *  current folder first. A leading `~/` is the home folder.
  *  @param node the value, with its position for errors
  *  @param path key path of the value
  *  @param scene_file the scene

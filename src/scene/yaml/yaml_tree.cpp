@@ -1,34 +1,30 @@
 #include "scene/yaml/yaml_tree.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "common/error.h"
+#include "common/text/yaml_text.h"
 
 namespace endovascular_sim::scene
 {
 namespace
 {
 
-constexpr int kMaxDepth = 32;
-
 std::string joined(const std::string& path, const std::string& key)
 {
   return path.empty() ? key : path + "." + key;
 }
 
-SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::string& path, int depth)
+SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::string& path)
 {
   SceneNode node;
   node.file = file;
   node.line = yaml.Mark().line + 1;
-  if (depth > kMaxDepth)
-    throw InputError(file, path.substr(0, path.find('.')) + node.location(),
-                     "nested too deeply; an anchor must not contain itself");
+  std::map<std::string, int> lines;  // of the keys of a map
   switch (yaml.Type())
   {
     case YAML::NodeType::Undefined:
@@ -41,7 +37,7 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
     case YAML::NodeType::Sequence:
       node.kind = SceneNode::Kind::kSequence;
       for (std::size_t i = 0; i < yaml.size(); ++i)
-        node.items.push_back(convert(yaml[i], file, joined(path, std::to_string(i)), depth + 1));
+        node.items.push_back(convert(yaml[i], file, joined(path, std::to_string(i))));
       break;
     case YAML::NodeType::Map:
       node.kind = SceneNode::Kind::kMap;
@@ -51,12 +47,11 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
           throw InputError(file, path + node.location(), "a key must be a plain word");
         const std::string& key = entry.first.Scalar();
         const int line = entry.first.Mark().line + 1;
-        for (const auto& earlier : node.fields)
-          if (earlier.first == key)
-            throw InputError(
-                file, joined(path, key) + " (line " + std::to_string(line) + ")",
-                "duplicate key, given first in line " + std::to_string(earlier.second.line) + "; keep one of the two");
-        node.fields.emplace_back(key, convert(entry.second, file, joined(path, key), depth + 1));
+        if (const auto [earlier, is_new] = lines.emplace(key, line); !is_new)
+          throw InputError(
+              file, joined(path, key) + " (line " + std::to_string(line) + ")",
+              "duplicate key, given first in line " + std::to_string(earlier->second) + "; keep one of the two");
+        node.fields.emplace_back(key, convert(entry.second, file, joined(path, key)));
         node.fields.back().second.line = line;
       }
       break;
@@ -64,17 +59,25 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
   return node;
 }
 
-YAML::Node parseYaml(const std::string& yaml, const std::string& origin, const std::string& where)
+/** True for the text of a plain scalar. All others begin with an indicator of YAML, or stand on several lines. */
+bool isPlainText(const std::string& text)
 {
-  try
-  {
-    return YAML::Load(yaml);
-  }
-  catch (const YAML::Exception& error)
-  {
-    const std::string location = where.empty() ? "line " + std::to_string(error.mark.line + 1) : where;
-    throw InputError(origin, location, "not valid YAML: " + error.msg + "; check indentation, colons and brackets");
-  }
+  const bool is_item = text == "-" || text.substr(0, 2) == "- " || text.substr(0, 2) == "? ";
+  return !text.empty() && !is_item && text.find_first_of("[]{}\"'&*!|>%@`#,\n") != 0 &&
+         text.find('\n') == std::string::npos;
+}
+
+/** Value of an override. A plain text is taken as a whole: in a path, ` #` begins no comment and `: ` no map. */
+SceneNode valueOf(const std::string& text, const std::string& origin, const std::string& where)
+{
+  const bool needs_quotes = text.find(": ") != std::string::npos || text.find(" #") != std::string::npos;
+  if (!isPlainText(text) || !needs_quotes)
+    return convert(parseYamlText(text, origin, where), origin, where);
+  SceneNode node;
+  node.file = origin;
+  node.kind = SceneNode::Kind::kScalar;
+  node.text = text;
+  return node;
 }
 
 void markAsOverride(SceneNode& node)
@@ -128,7 +131,7 @@ std::string SceneNode::location() const
 
 SceneNode parseSceneTree(const std::string& yaml, const std::string& origin)
 {
-  SceneNode root = convert(parseYaml(yaml, origin, ""), origin, "", 0);
+  SceneNode root = convert(parseYamlText(yaml, origin), origin, "");
   if (root.kind != SceneNode::Kind::kMap)
     throw InputError(origin, "line 1", "has no keys; expected `key: value` lines, see docs/SCENES.md");
   return root;
@@ -159,7 +162,7 @@ void overrideSceneTree(SceneNode& root, const std::string& override_text, const 
   std::istringstream path(override_text.substr(0, equals));
   for (std::string key; std::getline(path, key, '.');)
     node = &descend(*node, key, where, origin);
-  *node = convert(parseYaml(override_text.substr(equals + 1), origin, where), origin, where, 0);
+  *node = valueOf(override_text.substr(equals + 1), origin, where);
   markAsOverride(*node);
 }
 

@@ -34,7 +34,7 @@ struct SceneNode
 
 /** Parses YAML text whose root is a map.
  *  @param origin name of the text in errors
- *  @throws InputError for a syntax error, a duplicate key, or an anchor that contains itself */
+ *  @throws InputError as parseYamlText(), and for a duplicate key */
 SceneNode parseSceneTree(const std::string& yaml, const std::string& origin);
 
 /** Reads a YAML file whose root is a map.
@@ -42,7 +42,7 @@ SceneNode parseSceneTree(const std::string& yaml, const std::string& origin);
 SceneNode readSceneTree(const std::string& file);
 
 /** Applies an override `key.path=value`. The value is YAML, and a number in the path is a list index. Missing keys of
- *  the path are created.
+ *  the path are created. A plain value needs no quotes for ` #` and `: `, which paths of files may contain.
  *  @param origin name of the file in errors
  *  @throws InputError for a malformed override, a path through a scalar, or an index out of range */
 void overrideSceneTree(SceneNode& root, const std::string& override_text, const std::string& origin);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "common/error.h"
 #include "common/input_file.h"
+#include "common/text/yaml_text.h"
 #include "segmentation/clicks/slicer_markups.h"
 
 namespace endovascular_sim::segmentation
@@ -37,7 +39,7 @@ public:
     std::ifstream in = openInputFile(file_, kRemedy);
     try
     {
-      const YAML::Node root = YAML::Load(in);
+      const YAML::Node root = parseYamlText({std::istreambuf_iterator<char>(in), {}}, file_);
       allow(root, {"frame", "unit", "branches"});
       readFrame(root);
       if (!root["branches"] || !root["branches"].IsSequence() || root["branches"].size() == 0)
@@ -47,7 +49,7 @@ public:
     }
     catch (const YAML::Exception& error)
     {
-      throw InputError(file_, "line " + std::to_string(error.mark.line + 1), "is no valid YAML: " + error.msg);
+      throw InputError(file_, "line " + std::to_string(error.mark.line + 1), "is not valid YAML: " + error.msg);
     }
     return set;
   }

@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/quantities.h"
+#include "common/text/yaml_text.h"
 #include "vessel/anatomy/anatomy.h"
 
 namespace endovascular_sim::vessel
@@ -293,15 +294,7 @@ std::string readText(const std::string& file)
 Anatomy readAnatomy(const std::string& file)
 {
   const std::string text = readText(file);
-  YAML::Node root;
-  try
-  {
-    root = YAML::Load(text);
-  }
-  catch (const YAML::Exception& e)
-  {
-    throw InputError(file, "line " + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
-  }
+  const YAML::Node root = parseYamlText(text, file);
   if (!root.IsMap())
     throw InputError(file, "", "is not an anatomy; see config/anatomies/natural.yaml");
   Anatomy anatomy;

@@ -166,7 +166,7 @@ TEST_F(Clicks, AreRefusedWithPlaceAndRemedy)
             std::string::npos);
   EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, .nan], [4, 5, 6]]\n").find("no position"),
             std::string::npos);
-  EXPECT_NE(errorOf("a.yaml", "branches: [").find("no valid YAML"), std::string::npos);
+  EXPECT_NE(errorOf("a.yaml", "branches: [").find("not valid YAML"), std::string::npos);
   EXPECT_NE(errorOf("a.mrk.json", "{}").find("no markups file"), std::string::npos);
   EXPECT_NE(errorOf("a.fcsv", "1,1,2,3\n").find("CoordinateSystem"), std::string::npos);
   const std::string one = file("one.yaml", kYaml);
