@@ -86,6 +86,8 @@ std::string SamplingError::text() const
 {
   std::string text = "expected error of the hand force by the sampling:";
   char part[200];
+  if (free_length <= 0.0 && bend_radius <= 0.0)
+    text += " not known, because no bend is wider than the wire and the wire touches the wall where it begins";
   if (free_length > 0.0)
   {
     std::snprintf(part, sizeof part, " %.1f %% at the introducer (edges of %.2f mm, free length %.0f mm)",

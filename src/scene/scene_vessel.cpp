@@ -18,8 +18,10 @@
 #include "vessel/centreline/centreline_extraction.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/lesion/add_lesions.h"
+#include "vessel/repair/lumen_check.h"
 #include "vessel/repair/mesh_check.h"
 #include "vessel/repair/mesh_repair.h"
+#include "vessel/repair/mesh_size.h"
 
 namespace endovascular_sim::scene
 {
@@ -44,22 +46,28 @@ vessel::Vessel vesselFromMeshFile(const VesselScene& scene, const ProgressReport
 {
   vessel::Vessel vessel;
   vessel.source = scene.mesh;
-  vessel.mesh = vessel::readMesh(scene.mesh, scene.unit, progress);
+  vessel::MeshRemarks remarks;
+  vessel.mesh = vessel::readMesh(scene.mesh, scene.unit, progress, &remarks);
+  vessel.notes = std::move(remarks.notes);
+  vessel.warnings = std::move(remarks.warnings);
   reportProgress(progress, "check of the mesh");
   const vessel::MeshReport report = vessel::checkMesh(vessel.mesh);
-  vessel::requirePlausibleSize(report, scene.unit, scene.mesh);
+  vessel::requirePlausibleSize(vessel.mesh, report, scene.unit, scene.mesh);
+  if (const std::string warning = vessel::distanceWarning(report, scene.mesh); !warning.empty())
+    vessel.warnings.push_back(warning);
   if (!scene.repair)
     vessel::requireClean(report, scene.mesh);
   else if (!report.clean())
   {
     vessel::RepairedMesh repaired = vessel::repairMesh(std::move(vessel.mesh), scene.mesh, progress);
     vessel.mesh = std::move(repaired.mesh);
-    vessel.notes = std::move(repaired.notes);
+    vessel.notes.insert(vessel.notes.end(), repaired.notes.begin(), repaired.notes.end());
   }
+  vessel::requireLumen(vessel.mesh, scene.unit, scene.mesh);
   for (Eigen::Vector3d& v : vessel.mesh.vertices)
     v = scene.transform * v;
   if (!scene.centreline.empty())
-    vessel.centreline = vessel::readMeshCentreline(scene.centreline, scene.transform, vessel.mesh);
+    vessel.centreline = vessel::readMeshCentreline(scene.centreline, scene.unit, scene.transform, vessel.mesh);
   return vessel;
 }
 

@@ -18,6 +18,7 @@
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/mesh_check.h"
+#include "vessel/repair/mesh_size.h"
 
 namespace
 {
@@ -72,7 +73,7 @@ void addOptions(tools::CommandLine& line, Options& options)
 {
   const CLI::IsMember axes({"x", "-x", "y", "-y", "z", "-z"});
   line.option("--mesh", options.mesh, "FILE",
-              "closed triangle mesh of the vessel (OBJ, STL, PLY), oriented inwards or outwards")
+              "closed triangle mesh of the vessel (OBJ, STL, PLY, VTP, VTK), oriented inwards or outwards")
       ->required();
   line.option("--materials", options.materials, "FILE", "materials (config/xray/materials.yaml)")->required();
   line.option("--out", options.out, "FILE.png", "image to write")->required();
@@ -174,13 +175,16 @@ fluoroscopy::XRayWire makeWire(const Options& options, const fluoroscopy::Fluoro
 
 geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d& patient_from_mesh)
 {
-  geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit, progressOnErrorStream());
+  vessel::MeshRemarks remarks;
+  geometry::TriangleMesh mesh = vessel::readMesh(options.mesh, options.unit, progressOnErrorStream(), &remarks);
+  tools::printWarnings("fluoroscopy_frame", remarks.warnings);
+  tools::printNotes(options.mesh, remarks.notes);
   if (mesh.signedVolume() < 0.0)
     for (Eigen::Vector3i& triangle : mesh.triangles)
       std::swap(triangle[1], triangle[2]);
   // The check of the vessel server. Path lengths through an open or inconsistently oriented mesh have no meaning.
   const vessel::MeshReport report = vessel::checkMesh(mesh);
-  vessel::requirePlausibleSize(report, options.unit, options.mesh);
+  vessel::requirePlausibleSize(mesh, report, options.unit, options.mesh);
   vessel::requireClean(report, options.mesh);
   for (Eigen::Vector3d& vertex : mesh.vertices)
     vertex = patient_from_mesh * vertex;

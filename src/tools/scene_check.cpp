@@ -56,8 +56,7 @@ void checkVessel(const scene::Scene& scene)
   const vessel::Vessel vessel =
       scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progressOnErrorStream());
   tools::printWarnings("scene_check", vessel.warnings);
-  for (const std::string& note : vessel.notes)
-    std::cerr << vessel.source << ": " << note << "\n";
+  tools::printNotes(vessel.source, vessel.notes);
   if (scene.fluoroscopy)
     for (const std::string& note : simulation::loadPatient(scene, vessel, simulation::kStillResolution).notes)
       std::cerr << "patient: " << note << "\n";

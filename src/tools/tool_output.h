@@ -20,6 +20,13 @@ inline void printWarnings(const std::string& program, const std::vector<std::str
     std::cerr << program << ": warning: " << warning << "\n";
 }
 
+/** Prints notes on an input on the error stream, one per line. */
+inline void printNotes(const std::string& source, const std::vector<std::string>& notes)
+{
+  for (const std::string& note : notes)
+    std::cerr << source << ": " << note << "\n";
+}
+
 /** @throws InputError when the file cannot be opened */
 inline std::ofstream openFile(const std::filesystem::path& path)
 {

@@ -14,7 +14,9 @@
 #include "vessel/centreline/centreline_file.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/prepare/prepare.h"
+#include "vessel/repair/lumen_check.h"
 #include "vessel/repair/mesh_check.h"
+#include "vessel/repair/mesh_size.h"
 
 namespace
 {
@@ -66,7 +68,7 @@ void addOptions(tools::CommandLine& line, Options& options)
 {
   const CLI::Range count(0, 1000000);
   vessel::PrepareOptions& prepare = options.prepare;
-  line.argument("IN", options.in, "mesh to prepare: OBJ, STL or PLY");
+  line.argument("IN", options.in, "mesh to prepare: OBJ, STL, PLY, VTP or VTK");
   line.quantity("--unit", options.unit, "METRES", quantities::kMeshUnit,
                 "length of a unit of IN [m]: 0.001 for millimetres, 1 for metres")
       ->required()
@@ -116,8 +118,12 @@ int prepare(Options a)
 {
   for (const std::string& plug : a.plugs)
     a.prepare.plugs.push_back(plugOf(plug));
-  geometry::TriangleMesh input = vessel::readMesh(a.in, a.unit, a.quiet ? ProgressReport() : progressOnErrorStream());
-  vessel::requirePlausibleSize(vessel::checkMesh(input), a.unit, a.in);
+  vessel::MeshRemarks remarks;
+  geometry::TriangleMesh input =
+      vessel::readMesh(a.in, a.unit, a.quiet ? ProgressReport() : progressOnErrorStream(), &remarks);
+  tools::printWarnings("vessel_prepare", remarks.warnings);
+  tools::printNotes(a.in, remarks.notes);
+  vessel::requirePlausibleSize(input, vessel::checkMesh(input), a.unit, a.in);
   std::string source = a.in;
   for (const std::string& anatomy : a.joins)
   {
@@ -139,6 +145,8 @@ int prepare(Options a)
   vessel::writeObj(made.mesh, a.out);
   vessel::writeCentreline(made.centreline, out.stem().string(), stem + "_centreline.yaml");
   tools::writeFile(stem + "_report.json", made.report.json(made.centreline));
+  if (const vessel::ThickWall wall = vessel::findThickWall(made.mesh, vessel::checkMesh(made.mesh)); wall.found())
+    tools::printWarnings("vessel_prepare", {a.out + ": " + wall.text()});
   std::cout << made.report.text(made.centreline) << "wrote " << a.out << ", " << stem << "_centreline.yaml, " << stem
             << "_report.json\n"
             << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="

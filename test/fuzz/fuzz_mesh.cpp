@@ -5,12 +5,19 @@
 #include <utility>
 
 #include "common/error.h"
+#include "geometry/mesh_distance.h"
+#include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_builder.h"
 #include "vessel/io/obj_reader.h"
 #include "vessel/io/ply_reader.h"
 #include "vessel/io/stl_reader.h"
+#include "vessel/io/vtk_centreline.h"
+#include "vessel/io/vtk_legacy_reader.h"
+#include "vessel/io/vtp_reader.h"
+#include "vessel/repair/lumen_check.h"
 #include "vessel/repair/mesh_check.h"
 #include "vessel/repair/mesh_repair.h"
+#include "vessel/repair/mesh_size.h"
 
 // Mesh files of all formats, with the checks and repairs of a scene. The first byte of an input selects the format.
 
@@ -19,15 +26,42 @@ using namespace endovascular_sim;  // NOLINT: a program's main file
 namespace
 {
 
+/** Makes a centreline of the lines of a VTK file. */
+void readCentreline(const vessel::VtkPolyData& data)
+{
+  static const geometry::MeshDistance kWall(vessel::capsule(8, 4));
+  try
+  {
+    for (const vessel::CentrelineBranch& branch : vessel::vtkCentreline(data, 1e-3, kWall, "mesh").branches)
+      if (branch.points.size() < 2 || branch.points.size() != branch.radii.size())
+        std::abort();
+  }
+  catch (const InputError&)
+  {
+    return;
+  }
+}
+
 geometry::TriangleMesh read(std::uint8_t format, std::string_view bytes)
 {
   vessel::MeshBuilder builder("mesh", 1e-3, bytes.size());
-  if (format % 3U == 0)
-    vessel::readObj(bytes, "mesh", builder);
-  else if (format % 3U == 1)
-    vessel::readStl(bytes, "mesh", builder);
-  else
-    vessel::readPly(bytes, "mesh", builder);
+  switch (format % 5U)
+  {
+    case 0:
+      vessel::readObj(bytes, "mesh", builder);
+      break;
+    case 1:
+      vessel::readStl(bytes, "mesh", builder);
+      break;
+    case 2:
+      vessel::readPly(bytes, "mesh", builder);
+      break;
+    default:
+      const vessel::VtkPolyData data =
+          format % 5U == 3 ? vessel::readVtp(bytes, "mesh") : vessel::readLegacyVtk(bytes, "mesh");
+      readCentreline(data);
+      addSurface(data, builder);
+  }
   return builder.build();
 }
 
@@ -51,8 +85,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   {
     geometry::TriangleMesh mesh = read(data[0], {reinterpret_cast<const char*>(data + 1), size - 1});
     requireValid(mesh);
-    vessel::requirePlausibleSize(vessel::checkMesh(mesh), 1e-3, "mesh");
-    requireValid(vessel::repairMesh(std::move(mesh), "mesh").mesh);
+    vessel::requirePlausibleSize(mesh, vessel::checkMesh(mesh), 1e-3, "mesh");
+    mesh = vessel::repairMesh(std::move(mesh), "mesh").mesh;
+    requireValid(mesh);
+    vessel::requireLumen(mesh, 1e-3, "mesh");
   }
   catch (const InputError&)
   {

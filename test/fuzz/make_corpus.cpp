@@ -8,6 +8,7 @@
 #include "test/fuzz/small_session_bag.h"
 #include "test/haptics/host_fixture.h"
 #include "test/vessel/io/mesh_files.h"
+#include "test/vessel/io/vtk_files.h"
 
 // Writes the corpora of the fuzz targets: make_corpus FOLDER. Run it again when a format changes.
 
@@ -65,6 +66,14 @@ void writeMeshes()
     const char selector = extension == ".obj" ? '\0' : extension == ".stl" ? '\1' : '\2';
     write("mesh", vessel::nameOf(format), selector + vessel::meshFile(vessel::capsule(4, 2), format));
   }
+  vessel::VtkContent content = vessel::surfaceContent(vessel::capsule(4, 2));
+  content.lines = {{12, 13}, {12, 4}};
+  content.strips = {{0, 1, 4, 5}};
+  content.radii.assign(content.points.size(), 2.0);
+  content.space = "RAS";
+  for (const vessel::VtkStorage storage : vessel::kVtkStorages)
+    write("mesh", std::string("Vtk") + vessel::nameOf(storage),
+          (vessel::isLegacy(storage) ? '\4' : '\3') + vessel::vtkFile(content, storage));
 }
 
 void writeScenes()

@@ -6,6 +6,8 @@
 #include "common/error.h"
 #include "geometry/mesh_distance.h"
 #include "vessel/anatomy/anatomy.h"
+#include "vessel/io/mesh_reader.h"
+#include "vessel/io/vtk_centreline.h"
 #include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::vessel
@@ -55,13 +57,28 @@ void requireInside(const CentrelineBranch& branch, const geometry::TriangleMesh&
             " lies outside of the mesh; give the centreline of this mesh, in the same frame, with its unit");
 }
 
-}  // namespace
-
-CentrelineTree readMeshCentreline(const std::string& file, const Eigen::Isometry3d& transform,
-                                  const geometry::TriangleMesh& mesh)
+CentrelineTree readAnatomyTree(const std::string& file)
 {
   const Anatomy anatomy = readAnatomy(file);
-  CentrelineTree tree = anatomyCentreline(anatomy, sampleChains(anatomy));
+  return anatomyCentreline(anatomy, sampleChains(anatomy));
+}
+
+CentrelineTree readVtkTree(const std::string& file, double unit, const Eigen::Isometry3d& transform,
+                           geometry::TriangleMesh mesh)
+{
+  const Eigen::Isometry3d back = transform.inverse();
+  for (Eigen::Vector3d& v : mesh.vertices)
+    v = back * v;
+  const std::string bytes = readMeshFile(file);
+  return vtkCentreline(readVtkPolyData(bytes, file), unit, geometry::MeshDistance(mesh), file);
+}
+
+}  // namespace
+
+CentrelineTree readMeshCentreline(const std::string& file, double unit, const Eigen::Isometry3d& transform,
+                                  const geometry::TriangleMesh& mesh)
+{
+  CentrelineTree tree = isVtkFile(file) ? readVtkTree(file, unit, transform, mesh) : readAnatomyTree(file);
   for (CentrelineBranch& branch : tree.branches)
   {
     for (Eigen::Vector3d& p : branch.points)

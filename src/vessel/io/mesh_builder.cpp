@@ -3,56 +3,16 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "common/error.h"
+#include "geometry/polygon_triangulation.h"
 
 namespace endovascular_sim::vessel
 {
-namespace
-{
 
-/** Twice the signed area of a triangle projected along a direction. */
-double projectedArea(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                     const Eigen::Vector3d& direction)
+bool namesRasSpace(std::string_view header)
 {
-  return (b - a).cross(c - a).dot(direction);
+  return header.find("SPACE=RAS") != std::string_view::npos;
 }
-
-/** Newell's normal of a polygon: the sum of the vector areas about its first corner. */
-Eigen::Vector3d newellNormal(const std::vector<int>& ring, const std::vector<Eigen::Vector3d>& positions)
-{
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-    normal += (positions[ring[k]] - positions[ring[0]]).cross(positions[ring[k + 1]] - positions[ring[0]]);
-  return normal;
-}
-
-/** True when corner k of a polygon is convex and no other corner lies in its triangle. */
-bool isEar(const std::vector<int>& ring, std::size_t k, const std::vector<Eigen::Vector3d>& positions,
-           const Eigen::Vector3d& normal)
-{
-  const std::size_t n = ring.size();
-  const int before = ring[(k + n - 1) % n];
-  const int after = ring[(k + 1) % n];
-  const Eigen::Vector3d& a = positions[before];
-  const Eigen::Vector3d& b = positions[ring[k]];
-  const Eigen::Vector3d& c = positions[after];
-  if (projectedArea(a, b, c, normal) <= 0.0)
-    return false;
-  for (const int other : ring)
-  {
-    if (other == before || other == ring[k] || other == after)
-      continue;
-    const Eigen::Vector3d& p = positions[other];
-    if (projectedArea(a, b, p, normal) >= 0.0 && projectedArea(b, c, p, normal) >= 0.0 &&
-        projectedArea(c, a, p, normal) >= 0.0)
-      return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 void MeshBuilder::refuse(const char* kind, std::size_t index, std::size_t line, const std::string& reason) const
 {
@@ -99,7 +59,18 @@ geometry::TriangleMesh MeshBuilder::build()
   }
   if (mesh_.triangles.empty())
     throw InputError(path_, "", "has no triangles; export the vessel's surface, not points or lines");
+  if (is_ras_)
+    turnFromRas();
   return std::move(mesh_);
+}
+
+void MeshBuilder::turnFromRas()
+{
+  for (Eigen::Vector3d& v : mesh_.vertices)
+    v = Eigen::Vector3d(0.0 - v.x(), 0.0 - v.y(), v.z());
+  remarks_.notes.emplace_back(
+      "turned from RAS, which the file names (SPACE=RAS), to the patient frame (LPS); a rotation of the scene must not "
+      "do it again");
 }
 
 void MeshBuilder::triangulate(std::size_t first, std::size_t last)
@@ -107,25 +78,11 @@ void MeshBuilder::triangulate(std::size_t first, std::size_t last)
   ring_.clear();
   for (std::size_t k = first; k < last; ++k)
     ring_.push_back(static_cast<int>(corners_[k]));
-  const Eigen::Vector3d normal = newellNormal(ring_, positions_);
-  std::size_t k = 0;
-  std::size_t rejected = 0;
-  while (ring_.size() > 3)
-  {
-    const std::size_t n = ring_.size();
-    k %= n;
-    // A polygon without an ear is degenerate or intersects itself: its corners are cut off in their order.
-    if (rejected < n && !isEar(ring_, k, positions_, normal))
-    {
-      ++k;
-      ++rejected;
-      continue;
-    }
-    addTriangle(ring_[(k + n - 1) % n], ring_[k], ring_[(k + 1) % n]);
-    ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(k));
-    rejected = 0;
-  }
-  addTriangle(ring_[0], ring_[1], ring_[2]);
+  if (ring_.size() == 3)
+    addTriangle(ring_[0], ring_[1], ring_[2]);
+  else
+    for (const Eigen::Vector3i& t : geometry::triangulatePolygon(ring_, positions_))
+      addTriangle(t[0], t[1], t[2]);
 }
 
 void MeshBuilder::addTriangle(int a, int b, int c)

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,17 @@
 
 namespace endovascular_sim::vessel
 {
+
+/** Remarks of a reader on a file that it accepted. */
+struct MeshRemarks
+{
+  std::vector<std::string> notes;     ///< changes that the file itself asks for
+  std::vector<std::string> warnings;  ///< oddities that the user should check, each with the name of the file
+};
+
+/** True if a comment or header of a file has 3D Slicer's `SPACE=RAS`: x points right and y forward there, against left
+ *  and backward in the patient frame (LPS). */
+bool namesRasSpace(std::string_view header);
 
 /** Collects the vertices and polygons of a mesh file and makes a triangle mesh of them.
  *
@@ -54,7 +66,13 @@ public:
 
   std::size_t vertices() const { return positions_.size(); }
 
-  /** Makes the mesh, in metres.
+  /** Takes note of the coordinate system that a header or a comment of the file names (namesRasSpace). */
+  void readSpace(std::string_view header) { is_ras_ = is_ras_ || namesRasSpace(header); }
+
+  void warn(const std::string& warning) { remarks_.warnings.push_back(path_ + ": " + warning); }
+  const MeshRemarks& remarks() const { return remarks_; }
+
+  /** Makes the mesh, in metres. Coordinates of the space RAS are turned to the patient frame, with a note.
    *  @throws InputError for a vertex number out of range, or a file without triangles */
   geometry::TriangleMesh build();
 
@@ -70,6 +88,7 @@ private:
   };
 
   [[noreturn]] void refuse(const char* kind, std::size_t index, std::size_t line, const std::string& reason) const;
+  void turnFromRas();
   void triangulate(std::size_t first, std::size_t last);
   int meshVertex(int vertex);
   void addTriangle(int a, int b, int c);
@@ -82,6 +101,8 @@ private:
   std::vector<Eigen::Vector3d> positions_;  ///< vertices of the file [units of the file]
   std::vector<long long> corners_;          ///< vertex numbers of all faces
   std::vector<Face> faces_;
+  bool is_ras_ = false;  ///< true if the file names the space RAS
+  MeshRemarks remarks_;
   std::vector<int> ring_;                             ///< remaining corners of the polygon being triangulated
   std::vector<int> mesh_vertex_;                      ///< number in the mesh of every vertex of the file; −1: unused
   std::map<std::array<double, 3>, int> by_position_;  ///< mesh vertices by their coordinates [units of the file]

@@ -1,16 +1,16 @@
 #include "vessel/io/mesh_reader.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "common/error.h"
+#include "vessel/io/file_extension.h"
 #include "vessel/io/mesh_builder.h"
 #include "vessel/io/obj_reader.h"
 #include "vessel/io/ply_reader.h"
 #include "vessel/io/stl_reader.h"
+#include "vessel/io/vtk_poly_data.h"
 
 namespace endovascular_sim::vessel
 {
@@ -19,17 +19,9 @@ namespace
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{2} << 30;  // 2 GiB: about 20 million triangles
 
-std::string lowerCaseExtension(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+}  // namespace
 
-/** Content of a regular file.
- *  @throws InputError when it is missing, not a regular file, empty, too large or unreadable */
-std::string readFile(const std::string& path)
+std::string readMeshFile(const std::string& path)
 {
   std::error_code code;
   if (!std::filesystem::exists(path, code))
@@ -50,24 +42,29 @@ std::string readFile(const std::string& path)
   return bytes;
 }
 
-}  // namespace
-
-geometry::TriangleMesh readMesh(const std::string& path, double unit, const ProgressReport& progress)
+geometry::TriangleMesh readMesh(const std::string& path, double unit, const ProgressReport& progress,
+                                MeshRemarks* remarks)
 {
   if (!(unit > 0.0) || !std::isfinite(unit))
     throw InputError(path, "unit", "must be positive, e.g. 0.001 for a mesh in millimetres");
   const std::string extension = lowerCaseExtension(path);
-  if (extension != ".obj" && extension != ".stl" && extension != ".ply")
-    throw InputError(path, "", "unknown mesh format \"" + extension + "\"; give an .obj, .stl or .ply file");
-  const std::string bytes = readFile(path);
+  if (extension != ".obj" && extension != ".stl" && extension != ".ply" && !isVtkFile(path))
+    throw InputError(path, "",
+                     "unknown mesh format \"" + extension + "\"; give an .obj, .stl, .ply, .vtp or .vtk file");
+  const std::string bytes = readMeshFile(path);
   MeshBuilder builder(path, unit, bytes.size(), progress);
   if (extension == ".obj")
     readObj(bytes, path, builder);
   else if (extension == ".stl")
     readStl(bytes, path, builder);
-  else
+  else if (extension == ".ply")
     readPly(bytes, path, builder);
-  return builder.build();
+  else
+    addSurface(readVtkPolyData(bytes, path), builder);
+  geometry::TriangleMesh mesh = builder.build();
+  if (remarks != nullptr)
+    *remarks = builder.remarks();
+  return mesh;
 }
 
 void writeObj(const geometry::TriangleMesh& mesh, const std::string& path)

@@ -28,11 +28,14 @@ public:
   {
     while (text_.nextLine())
     {
+      const std::string_view line = text_.restOfLine();
       const std::string_view keyword = text_.word();
       if (keyword == "v")
         readVertex();
       else if (keyword == "f")
         readFace();
+      else if (!keyword.empty() && keyword.front() == '#')
+        mesh_.readSpace(line);
       else
         skipStatement(keyword);
       mesh_.reportRest(text_.restOfText().size());
@@ -58,10 +61,10 @@ private:
         "step",   "cstype",     "parm",      "trim",  "hole",     "scrv",     "sp",    "end",    "con",    "g",
         "s",      "mg",         "o",         "bevel", "c_interp", "d_interp", "lod",   "usemtl", "mtllib", "usemap",
         "maplib", "shadow_obj", "trace_obj", "ctech", "stech",    "call",     "csh"};
-    if (!keyword.empty() && keyword.front() != '#' && kKnown.count(keyword) == 0)
+    if (!keyword.empty() && kKnown.count(keyword) == 0)
       refuse(path_, text_.lineNumber(),
              "'" + std::string(keyword.substr(0, 20)) + "' is no statement of an OBJ file; the file is damaged");
-    if (keyword.empty() || keyword.front() == '#')
+    if (keyword.empty())
       return;
     while (!word().empty())  // to the end of continued lines
       continue;
@@ -107,7 +110,7 @@ private:
 
 void readObj(std::string_view text, const std::string& path, MeshBuilder& mesh)
 {
-  ObjReader(text, path, mesh).read();
+  ObjReader(withoutByteOrderMark(text), path, mesh).read();
 }
 
 }  // namespace endovascular_sim::vessel

@@ -106,7 +106,7 @@ std::size_t PlyElement::leastSize() const
 
 PlyHeader parsePlyHeader(std::string_view bytes, const std::string& path)
 {
-  TextCursor text(bytes);
+  TextCursor text(withoutByteOrderMark(bytes));
   PlyHeader header;
   if (!text.nextLine() || text.word() != "ply")
     throw InputError(path, "", "cannot be read as a mesh: a PLY file begins with the line 'ply'");

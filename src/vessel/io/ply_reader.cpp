@@ -247,6 +247,7 @@ void requireCoordinates(const PlyElement& element, const std::string& path)
 void readPly(std::string_view bytes, const std::string& path, MeshBuilder& mesh)
 {
   const PlyHeader header = parsePlyHeader(bytes, path);
+  mesh.readSpace(bytes.substr(0, bytes.size() - header.data.size()));
   PlyValues values(header, path);
   for (const PlyElement& element : header.elements)
   {

@@ -1,7 +1,10 @@
 #include "vessel/io/stl_reader.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "common/error.h"
@@ -12,8 +15,26 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr std::size_t kHeader = 80;  // bytes before the number of triangles
-constexpr std::size_t kFacet = 50;   // bytes of a triangle: normal, three corners, attribute
+constexpr std::size_t kHeader = 80;          // bytes before the number of triangles
+constexpr std::size_t kFacet = 50;           // bytes of a triangle: normal, three corners, attribute
+constexpr std::size_t kMostSurplus = 65536;  // bytes after the triangles: colours, a line end, a padded block
+
+std::string lowerCase(std::string_view word)
+{
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/** True for a text that begins with `solid`, in any case, after blanks. Binary headers may begin so too. */
+bool isAscii(std::string_view bytes)
+{
+  const std::string_view text = withoutByteOrderMark(bytes);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\v\f");
+  return begin != std::string_view::npos && lowerCase(text.substr(begin, 5)) == "solid" &&
+         text.find('\0') == std::string_view::npos;
+}
 
 template <typename Value>
 Value littleEndian(std::string_view bytes, std::size_t at)
@@ -45,6 +66,7 @@ void addFacet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
 void readBinary(std::string_view bytes, MeshBuilder& mesh)
 {
   const std::size_t facets = facetsByHeader(bytes);
+  mesh.readSpace(bytes.substr(0, kHeader));
   for (std::size_t f = 0; f < facets; ++f)
   {
     const std::size_t begin = kHeader + 4 + f * kFacet + 12;
@@ -69,7 +91,11 @@ public:
   {
     while (cursor_.nextLine())
     {
-      readStatement(cursor_.word());
+      const std::string_view line = cursor_.restOfLine();
+      const std::string keyword = lowerCase(cursor_.word());
+      if (keyword == "solid")
+        mesh_.readSpace(line);
+      readStatement(keyword);
       mesh_.reportRest(cursor_.restOfText().size());
     }
     if (in_loop_ || !ended_)
@@ -130,17 +156,31 @@ private:
 void readStl(std::string_view bytes, const std::string& path, MeshBuilder& mesh)
 {
   const std::size_t facets = facetsByHeader(bytes);
-  if (facets > 0 && bytes.size() == kHeader + 4 + facets * kFacet)
+  const std::size_t size = kHeader + 4 + facets * kFacet;
+  const bool has_facets = facets > 0 && bytes.size() >= size && bytes.size() - size <= kMostSurplus;
+  if (has_facets && bytes.size() == size)
     readBinary(bytes, mesh);
-  else if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos)
-    AsciiReader(bytes, path, mesh).read();
-  else if (bytes.size() >= kHeader + 4)
+  else if (isAscii(bytes))
+    AsciiReader(withoutByteOrderMark(bytes), path, mesh).read();
+  else if (has_facets)
+  {
+    readBinary(bytes, mesh);
+    mesh.warn("has " + std::to_string(bytes.size() - size) + (bytes.size() - size == 1 ? " byte" : " bytes") +
+              " after its " + std::to_string(facets) + " triangles; they are ignored");
+  }
+  else if (bytes.size() < kHeader + 4)
+    throw InputError(path, "", "cannot be read as a mesh: it is neither a binary nor an ASCII STL file");
+  else if (facets == 0)
+    throw InputError(path, "",
+                     "cannot be read as a mesh: the header says 0 facets, but " +
+                         std::to_string(bytes.size() - kHeader - 4) + " bytes follow, room for " +
+                         std::to_string((bytes.size() - kHeader - 4) / kFacet) +
+                         "; the program that wrote it did not fill in their number: export the mesh again");
+  else
     throw InputError(path, "",
                      "cannot be read as a mesh: a binary STL file of " + std::to_string(facets) + " triangles has " +
-                         std::to_string(kHeader + 4 + facets * kFacet) + " bytes, this file " +
-                         std::to_string(bytes.size()) + "; it is truncated or damaged");
-  else
-    throw InputError(path, "", "cannot be read as a mesh: it is neither a binary nor an ASCII STL file");
+                         std::to_string(size) + " bytes, this file " + std::to_string(bytes.size()) + "; it is " +
+                         (bytes.size() < size ? "truncated" : "damaged"));
 }
 
 }  // namespace endovascular_sim::vessel

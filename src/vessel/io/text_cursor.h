@@ -7,6 +7,12 @@
 namespace endovascular_sim::vessel
 {
 
+/** Text without the byte order mark of UTF-8 that some editors put in front. */
+inline std::string_view withoutByteOrderMark(std::string_view text)
+{
+  return text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
+}
+
 /** Reads a text line by line and word by word, independent of the locale. Lines end with LF, CR LF or CR. */
 class TextCursor
 {
@@ -45,6 +51,7 @@ public:
     return word;
   }
 
+  std::string_view restOfLine() const { return line_; }  ///< part of the line after the last word
   std::size_t lineNumber() const { return number_; }     ///< number of the present line, from 1
   std::string_view restOfText() const { return rest_; }  ///< text after the present line
 

@@ -21,7 +21,7 @@ struct ClosedHole
   Eigen::Vector3d location = Eigen::Vector3d::Zero();  ///< centre of the rim [m]
 };
 
-/** Mesh with closed holes. Triangles and centre vertices of the lids are last. */
+/** Mesh with closed holes. Triangles and centre vertices of the lids are last; a lid may have no centre. */
 struct ClosedMesh
 {
   geometry::TriangleMesh mesh;
@@ -30,7 +30,8 @@ struct ClosedMesh
 };
 
 /** Closes holes. Every connected rim (edges of one face only) receives a lid: a triangle fan about the rim's centre,
- *  oriented like the adjacent faces. A branching rim at non-manifold edges receives a fan as well. */
+ *  oriented like the adjacent faces. A planar rim that a fan does not fill, such as a C or a D, receives triangles
+ *  between its vertices. A branching rim at non-manifold edges receives a fan as well. */
 ClosedMesh closeHoles(geometry::TriangleMesh mesh);
 
 /** True if the hole is the planar end of a vessel: one loop of at least eight edges, planar within a thousandth of its

@@ -16,9 +16,6 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kSmallestVessel = 5e-3;  // [m]
-constexpr double kLargestVessel = 3.0;    // [m]
-
 const Eigen::Vector3d& corner(const geometry::TriangleMesh& mesh, int t, int k)
 {
   return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])];
@@ -134,16 +131,6 @@ void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geome
                    [](const MeshComponent& a, const MeshComponent& b) { return a.triangles > b.triangles; });
 }
 
-std::string formatLength(double metres)
-{
-  char text[32];
-  if (metres >= 0.5)
-    std::snprintf(text, sizeof text, "%.3g m", metres);
-  else
-    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
-  return text;
-}
-
 void append(std::string& text, const MeshDefect& defect, const std::string& what)
 {
   if (defect.count == 0)
@@ -211,28 +198,6 @@ MeshReport checkMesh(const geometry::TriangleMesh& mesh)
   const int euler = vertices - edges + static_cast<int>(mesh.triangles.size());
   report.genus = (2 * static_cast<int>(report.components.size()) - euler) / 2;
   return report;
-}
-
-void requirePlausibleSize(const MeshReport& report, double unit, const std::string& source)
-{
-  const double size = (report.upper - report.lower).maxCoeff();
-  if (size >= kSmallestVessel && size <= kLargestVessel)
-    return;
-  std::string remedy = "its bounding box is " + formatLength(size) + " long; the size of a vessel is between " +
-                       formatLength(kSmallestVessel) + " and " + formatLength(kLargestVessel);
-  const std::array<std::pair<double, const char*>, 5> units{
-      {{1.0, "metres"}, {1e-3, "millimetres"}, {1e-2, "centimetres"}, {0.0254, "inches"}, {1e-6, "micrometres"}}};
-  for (const auto& [factor, name] : units)
-  {
-    const double as_unit = size / unit * factor;
-    if (as_unit < 0.02 || as_unit > 1.5)
-      continue;
-    char number[32];
-    std::snprintf(number, sizeof number, "%g", factor);
-    remedy += std::string("; it looks like ") + name + ": set vessel.unit: " + number;
-    break;
-  }
-  throw InputError(source, "", remedy);
 }
 
 void requireClean(const MeshReport& report, const std::string& source)

@@ -60,11 +60,6 @@ struct MeshReport
 /** Checks a mesh. The cost is O(n log n) in the number of triangles. */
 MeshReport checkMesh(const geometry::TriangleMesh& mesh);
 
-/** Requires the longest side of the bounding box to be between 5 mm and 3 m.
- *  @param unit metres per unit with which the file was read
- *  @throws InputError naming @p source and the presumed unit */
-void requirePlausibleSize(const MeshReport& report, double unit, const std::string& source);
-
 /** Requires a clean mesh.
  *  @throws InputError naming @p source and all defects */
 void requireClean(const MeshReport& report, const std::string& source);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "test/vessel/io/vtk_files.h"
 #include "vessel/anatomy/tube.h"
 
 namespace endovascular_sim::vessel
@@ -40,7 +41,7 @@ TEST(MeshCentreline, MayPassTheOpenEndsOfAWideVesselByHalfARadius)
 {
   // Seven millimetres beyond each cap are 17 % of the centreline.
   const std::string file = writeCentreline(0.0, kStart - 0.007, kEnd + 0.007);
-  const CentrelineTree tree = readMeshCentreline(file, Eigen::Isometry3d::Identity(), wideTube());
+  const CentrelineTree tree = readMeshCentreline(file, 1.0, Eigen::Isometry3d::Identity(), wideTube());
   ASSERT_EQ(tree.branches.size(), 1U);
   EXPECT_EQ(tree.branches[0].name, "trunk");
 }
@@ -48,13 +49,34 @@ TEST(MeshCentreline, MayPassTheOpenEndsOfAWideVesselByHalfARadius)
 TEST(MeshCentreline, IsRejectedIfItPassesAnOpenEndByTwoRadii)
 {
   const std::string file = writeCentreline(0.0, kStart, kEnd + 2 * kRadius);
-  EXPECT_THROW(readMeshCentreline(file, Eigen::Isometry3d::Identity(), wideTube()), InputError);
+  EXPECT_THROW(readMeshCentreline(file, 1.0, Eigen::Isometry3d::Identity(), wideTube()), InputError);
 }
 
 TEST(MeshCentreline, IsRejectedBesideTheVesselAlsoIfTheBranchIsShort)
 {
   const std::string file = writeCentreline(2 * kRadius, -0.004, 0.004);
-  EXPECT_THROW(readMeshCentreline(file, Eigen::Isometry3d::Identity(), wideTube()), InputError);
+  EXPECT_THROW(readMeshCentreline(file, 1.0, Eigen::Isometry3d::Identity(), wideTube()), InputError);
+}
+
+TEST(MeshCentreline, OfVmtkIsReadInTheUnitAndTheFrameOfTheMesh)
+{
+  VtkContent content;
+  for (int k = 0; k <= 20; ++k)
+    content.points.emplace_back(0.0, 0.0, 1e3 * (kStart + (kEnd - kStart) * k / 20.0));
+  content.lines.emplace_back();
+  for (int k = 0; k <= 20; ++k)
+    content.lines.back().push_back(k);
+  const std::string file = testing::TempDir() + "/mesh_centreline.vtp";
+  std::ofstream(file, std::ios::binary) << vtkFile(content, VtkStorage::kRawZlib);
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.translation() = Eigen::Vector3d(0.1, 0.0, 0.0);
+  geometry::TriangleMesh moved = wideTube();
+  for (Eigen::Vector3d& v : moved.vertices)
+    v = transform * v;
+  const CentrelineTree tree = readMeshCentreline(file, 1e-3, transform, moved);
+  ASSERT_EQ(tree.branches.size(), 1U);
+  EXPECT_LT((tree.branches[0].points.back() - Eigen::Vector3d(0.1, 0.0, kEnd)).norm(), 1e-9);
+  EXPECT_NEAR(tree.branches[0].radii[tree.branches[0].radii.size() / 2], kRadius, 1e-3);
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 #include "test/common/random_damage.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_reader.h"
+#include "vessel/repair/lumen_check.h"
 #include "vessel/repair/mesh_check.h"
 #include "vessel/repair/mesh_repair.h"
+#include "vessel/repair/mesh_size.h"
 
 // Damaged mesh files: the reader returns a mesh with valid indices and finite coordinates, or throws InputError.
 
@@ -32,8 +34,8 @@ const std::vector<std::string> kNumbers = {"-1",  "4294967295", "2147483648",   
  *  @throws InputError where they reject it */
 void prepare(geometry::TriangleMesh mesh, const std::string& file)
 {
-  requirePlausibleSize(checkMesh(mesh), 1e-3, file);
-  repairMesh(std::move(mesh), file);
+  requirePlausibleSize(mesh, checkMesh(mesh), 1e-3, file);
+  requireLumen(repairMesh(std::move(mesh), file).mesh, 1e-3, file);
 }
 
 class DamagedMesh : public testing::TestWithParam<MeshFormat>

@@ -1,10 +1,14 @@
 #include "vessel/io/mesh_reader.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "common/error.h"
+#include "test/vessel/io/mesh_files.h"
 #include "vessel/repair/mesh_check.h"
 
 namespace endovascular_sim::vessel
@@ -43,6 +47,67 @@ TEST_P(EveryFormat, YieldsTheSameWatertightBoxInMetres)
 INSTANTIATE_TEST_SUITE_P(MeshReader, EveryFormat,
                          testing::Values("box_mm.obj", "box_ascii.stl", "box_binary.stl", "box.ply"));
 
+/** File of a format with a header or comment of its writer. */
+std::string withHeader(const geometry::TriangleMesh& mesh, MeshFormat format, const std::string& header)
+{
+  std::string bytes = meshFile(mesh, format);
+  switch (format)
+  {
+    case MeshFormat::kObj:
+    case MeshFormat::kRelativeObj:
+      return "# " + header + "\n" + bytes;
+    case MeshFormat::kAsciiStl:
+      return "solid " + header + bytes.substr(bytes.find('\n'));
+    case MeshFormat::kBinaryStl:
+      return bytes.replace(0, header.size(), header);
+    default:
+      return bytes.insert(bytes.find("element"), "comment " + header + "\n");
+  }
+}
+
+class EverySpace : public testing::TestWithParam<MeshFormat>
+{
+};
+
+TEST_P(EverySpace, OfSlicerIsTurnedToThePatientFrame)
+{
+  const geometry::TriangleMesh lps = capsule(16, 10);
+  geometry::TriangleMesh ras = lps;
+  for (Eigen::Vector3d& v : ras.vertices)
+    v.head<2>() *= -1.0;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("space_" + std::to_string(::getpid()) + extensionOf(GetParam()));
+  const auto read = [&](const geometry::TriangleMesh& mesh, const std::string& header, MeshRemarks& remarks)
+  {
+    std::ofstream(file, std::ios::binary) << withHeader(mesh, GetParam(), header);
+    return readMesh(file.string(), 1e-3, {}, &remarks).hash();
+  };
+  MeshRemarks of_lps;
+  MeshRemarks of_ras;
+  EXPECT_EQ(read(lps, "3D Slicer output. SPACE=LPS", of_lps), read(ras, "3D Slicer output. SPACE=RAS", of_ras));
+  EXPECT_TRUE(of_lps.notes.empty());
+  ASSERT_EQ(of_ras.notes.size(), 1U);
+  EXPECT_NE(of_ras.notes[0].find("SPACE=RAS"), std::string::npos);
+  std::filesystem::remove(file);
+}
+
+INSTANTIATE_TEST_SUITE_P(MeshReader, EverySpace,
+                         testing::Values(MeshFormat::kObj, MeshFormat::kAsciiStl, MeshFormat::kBinaryStl,
+                                         MeshFormat::kAsciiPly, MeshFormat::kBigEndianPly),
+                         [](const auto& info) { return std::string(nameOf(info.param)); });
+
+TEST(MeshReader, ReadsAnObjAndAPlyAfterAByteOrderMark)
+{
+  for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kAsciiPly})
+  {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("mark_" + std::to_string(::getpid()) + extensionOf(format));
+    std::ofstream(file, std::ios::binary) << "\xEF\xBB\xBF" << meshFile(capsule(16, 10), format);
+    EXPECT_EQ(errorMessage(file.string()), "");
+    std::filesystem::remove(file);
+  }
+}
+
 TEST(MeshReader, IsReproducibleBitForBit)
 {
   EXPECT_EQ(readMesh(kMeshes + "box_binary.stl", 1e-3).hash(), readMesh(kMeshes + "box_binary.stl", 1e-3).hash());
@@ -73,7 +138,7 @@ TEST_P(RejectedFile, IsReportedWithTheReason)
 
 INSTANTIATE_TEST_SUITE_P(MeshReader, RejectedFile,
                          testing::Values(FileError{"absent.obj", "no such file"}, FileError{"empty.obj", "is empty"},
-                                         FileError{"mesh.vtp", "unknown mesh format"},
+                                         FileError{"mesh.vtp", "holds no PolyData"},
                                          FileError{"garbage.stl", "cannot be read"},
                                          FileError{"points_only.obj", "no triangles"},
                                          FileError{"not_a_number.obj", "not a finite number"}));

@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/mesh_check.h"
+#include "vessel/repair/mesh_size.h"
 
 namespace endovascular_sim::vessel
 {
@@ -231,7 +232,8 @@ TEST(MeshCheck, SuggestsTheUnitOfAMeshOfImplausibleSize)
   {
     try
     {
-      requirePlausibleSize(checkMesh(readMesh(box, unit)), unit, box);
+      const geometry::TriangleMesh mesh = readMesh(box, unit);
+      requirePlausibleSize(mesh, checkMesh(mesh), unit, box);
     }
     catch (const InputError& error)
     {
