@@ -91,7 +91,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_broken_yaml.yaml", "line 13", "not valid YAML"},
     {"bad_empty_file.yaml", "line 1", "expected `key: value` lines"},
     {"bad_list_at_the_root.yaml", "line 1", "expected `key: value` lines"},
-    {"bad_anchor_in_itself.yaml", "loads (line 12)", "anchor"},
+    {"bad_anchor_in_itself.yaml", "loads (line 13)", "anchor"},
     {"bad_mesh_without_unit.yaml", "vessel.unit (line 12)", "metres per unit"},
     {"bad_missing_mesh.yaml", "vessel.mesh (line 13)", "give the path of an existing file"},
     {"bad_no_vessel_kind.yaml", "vessel (line 12)", "exactly one of mesh, anatomy, tube"},
