@@ -58,10 +58,10 @@ std::string FacetsAround::text(contact::WallShape wall) const
   std::string result = text;
   const bool smooth = wall == contact::WallShape::kSmooth;
   if (!smooth && fewest < kFewFacets)
-    result += "; warning: facets disturb force and torque at the hand below " + std::to_string(kFewFacets) +
-              "; set vessel.wall: smooth";
+    result += "; facets disturb force and torque at the hand below " + std::to_string(kFewFacets) +
+              ", which vessel.wall: smooth avoids";
   if (smooth && fewest < kFewFacetsSmooth)
-    result += "; warning: the shape between so few facets is a guess; the smooth wall is refined from them";
+    result += "; the shape between so few facets is a guess; the smooth wall is refined from them";
   return result;
 }
 

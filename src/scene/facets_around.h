@@ -14,7 +14,7 @@ struct FacetsAround
   int fewest = 0;  ///< in nine tenths of the lumen there are more; 0: unknown
   int median = 0;
 
-  /** Result as a line of text, with a warning where the facets disturb the force and the torque at the hand
+  /** Result as a line of text, with a remark where the facets disturb the force and the torque at the hand
    *  (docs/validation/facets_torque.csv). */
   std::string text(contact::WallShape wall) const;
 };

@@ -1,0 +1,38 @@
+#!/bin/bash
+# No scene of config/scenes gives a warning, with its vessel. Scenes whose mesh is not in ENDOVASCULAR_DATA_DIR are left out;
+# mesh.yaml has a tube for the user's mesh.
+set -eu
+repository=$(cd "$(dirname "$0")/../.." && pwd)
+programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+/usr/bin/python3 - "$folder/tube.obj" <<'PYTHON'
+import math, sys
+around, along = 24, 40
+with open(sys.argv[1], "w") as out:
+    for row in range(along + 1):
+        for k in range(around):
+            angle = 2 * math.pi * k / around
+            print("v", 4 * math.cos(angle), 4 * math.sin(angle), 160 * row / along, file=out)
+    for row in range(along):
+        for k in range(around):
+            a, b = row * around + k + 1, row * around + (k + 1) % around + 1
+            print("f", a, b, b + around, a + around, file=out)
+PYTHON
+failed=0
+for scene in "$repository"/config/scenes/*.yaml; do
+  arguments=()
+  mesh=$(sed -n 's/^  mesh: *\([^ ]*\).*/\1/p' "$scene")
+  case "$(basename "$scene")" in
+    mesh.yaml) arguments=(--set "vessel.mesh=$folder/tube.obj" --set vessel.unit=0.001) ;;
+    peer_wire.yaml) mesh=aortic_arch_tree.obj arguments=(--set vessel.mesh=aortic_arch_tree.obj) ;;
+  esac
+  if [ -n "$mesh" ] && [ ! -f "${ENDOVASCULAR_DATA_DIR:-/nonexistent}/$mesh" ]; then
+    echo "$(basename "$scene"): left out, ENDOVASCULAR_DATA_DIR has no $mesh"
+    continue
+  fi
+  message=$("$programs/scene_check" "$scene" --vessel --hash "${arguments[@]}" 2>&1) || { echo "$scene: refused"; failed=1; }
+  echo "$(basename "$scene"): $message"
+  ! grep -qi 'warning' <<< "$message" || failed=1
+done
+exit $failed
