@@ -13,6 +13,9 @@ namespace
 const std::vector<std::string> kSurfaces = {"hydrophilic", "ptfe", "bare"};
 constexpr std::array<double, 3> kSurfaceFriction = {0.035, 0.115, 0.25};
 
+/** A point that selects the nearest end may lie far away, e.g. below the patient for the lowest end. */
+constexpr Quantity kSelectingPoint{"points that select an end", "m", Dimension::kLength, 0.0, 20.0, 0.0, 20.0};
+
 const std::vector<std::string> kWallShapes = {"facets", "smooth"};  // order of contact::WallShape
 
 /** Rotation from the frame of the mesh to the patient frame, from the directions head and left in the mesh frame. */
@@ -232,7 +235,8 @@ void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<Vess
     fields.reject(fields.has("position") ? "direction" : "position",
                   "missing; give position and direction, or nearest_centreline_end: true, or centreline_end");
   const bool needs_point = real_vessel && entry.nearest_centreline_end;
-  fields.vector3("position", entry.position, quantities::kPosition, needs_point ? Need::kRequired : Need::kOptional);
+  fields.vector3("position", entry.position, needs_point ? kSelectingPoint : quantities::kPosition,
+                 needs_point ? Need::kRequired : Need::kOptional);
   if (fields.reading())
     readDirection(fields, entry);
   else
