@@ -123,11 +123,16 @@ private:
       std::vector<geometry::TriangleMesh> pieces = splitComponents(united.mesh);
       united_ = std::move(pieces.front());
       if (united_.signedVolume() < min_volume_)
-        throw InputError(source_, "--hollow", "finds no cavity inside the wall; close every opening with a --plug");
+        refuseHollow();
       pieces.erase(pieces.begin());
       if (!addBridges(pieces))
         return;
     }
+  }
+
+  [[noreturn]] void refuseHollow() const
+  {
+    throw InputError(source_, "--hollow", "finds no cavity inside the wall; close every opening with a --plug");
   }
 
   void appendDiscs()
@@ -142,6 +147,8 @@ private:
     begin("extracting the inner wall");
     const geometry::TriangleMesh outside = unite(soup_, voxel_).mesh;
     geometry::TriangleMesh walls = innerWall(soup_, outside, kHollowDepth * voxel_, discs_);
+    if (walls.triangles.empty())
+      refuseHollow();
     own_triangles_ = walls.triangles.size();
     min_volume_ = kCrumb * outside.signedVolume();
     soup_ = std::move(walls);

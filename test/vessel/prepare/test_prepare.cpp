@@ -255,8 +255,19 @@ TEST(Prepare, RejectsAnOpenCavityAndAPlugWithoutWalls)
 {
   PrepareOptions options;
   options.hollow = true;
-  options.plugs = {kPipePlugs[0]};
-  EXPECT_THROW(prepare(pipe(), options), InputError);
+  for (const std::vector<Plug>& plugs : {std::vector<Plug>{}, {kPipePlugs[0]}})
+  {
+    options.plugs = plugs;
+    try
+    {
+      prepare(pipe(), options);
+      ADD_FAILURE();
+    }
+    catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("close every opening with a --plug"), std::string::npos) << error.what();
+    }
+  }
   options.plugs = {{{0, 0, 0.008}, 1.5e-3}};
   EXPECT_THROW(prepare(pipe(), options), InputError);
 }
