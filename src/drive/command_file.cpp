@@ -76,7 +76,7 @@ TimedCommand commandOf(const Row& row, const std::vector<std::string>& fields)
   if (!is_state && !commandKind(command.word))
     row.reject("unknown command '" + command.word +
                "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, enable, disable, pause, resume, "
-               "home and unhome");
+               "home, unhome, hold and free");
   return command;
 }
 

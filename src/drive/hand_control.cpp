@@ -255,6 +255,8 @@ bool HandControl::stateCommand(const std::string& client, const std::string& wor
     last_refusal_ = word + " of " + client + ": " + driver_ + " drives the instrument";
     return false;
   }
+  if (word == "hold" || word == "free")
+    return holdOrFree(client, word);
   if (word == "enable" && state_.state == kDisabled)
     setState(kEnabled, "");
   else if (word == "disable")
@@ -280,10 +282,31 @@ bool HandControl::stateCommand(const std::string& client, const std::string& wor
   else if (word != "enable" && word != "pause" && word != "resume")
   {
     rejected_.add(CommandVerdict::kMalformed);
-    last_refusal_ =
-        "state_command of " + client + ": unknown word; known are enable, disable, pause, resume, home, unhome";
+    last_refusal_ = "state_command of " + client +
+                    ": unknown word; known are enable, disable, pause, resume, home, unhome, hold, free";
     return false;
   }
+  return true;
+}
+
+bool HandControl::holdOrFree(const std::string& client, const std::string& word)
+{
+  if (state_.state != kEnabled || is_homing_)
+  {
+    rejected_.add(CommandVerdict::kNotEnabled);
+    last_refusal_ = word + " of " + client + ": " + reasonOf(CommandVerdict::kNotEnabled);
+    return false;
+  }
+  stop();
+  if (word == "free")
+  {
+    insertion_.setEffort(0.0);
+    rotation_.setEffort(0.0);
+    mode_ = Mode::kFree;
+  }
+  ++accepted_;
+  driver_ = client;
+  driver_silence_ = silence_ = 0.0;
   return true;
 }
 

@@ -18,7 +18,7 @@ struct OperatingState
   std::string state;           ///< DISABLED, ENABLED or PAUSED
   bool is_homed = true;        ///< false after `unhome`, until the end of `home`
   bool is_busy = false;        ///< true during a move or homing
-  std::string reason;          ///< reason of a state other than ENABLED
+  std::string reason;          ///< reason of a state other than ENABLED, or a warning
   std::uint64_t revision = 0;  ///< incremented whenever the state is to be published, also without a change
 };
 
@@ -55,8 +55,9 @@ public:
    *  @param command empty for a malformed one */
   CommandVerdict command(const std::string& client, const std::optional<JointCommand>& command);
 
-  /** Executes enable, disable, pause, resume, home or unhome. Every client may enable, disable and pause; the others
-   *  are refused while another client drives.
+  /** Executes enable, disable, pause, resume, home, unhome, hold or free. Every client may enable, disable and pause;
+   * the others are refused while another client drives. `hold` brakes to rest. After `free` the instrument gives way to
+   * the wire's force, as if nothing held it, until the next command.
    *  @return false for another word or a refusal, with the reason in lastRefusal() */
   bool stateCommand(const std::string& client, const std::string& word);
 
@@ -94,6 +95,7 @@ private:
     kRate,    ///< velocity or force; at rest without a command
     kMove,
     kIncrements,  ///< differences of positions
+    kFree,        ///< effort 0 until the next command
   };
 
   bool isDrivenByAnother(const std::string& client) const;
@@ -109,6 +111,7 @@ private:
   void stop();
   void setState(const std::string& state, const std::string& reason);
   void home(const std::string& client);
+  bool holdOrFree(const std::string& client, const std::string& word);
   void endMove();
 
   HandMotion start_;

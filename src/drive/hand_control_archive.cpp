@@ -48,7 +48,7 @@ void CommandGate::archive(Archive& archive)
 void HandControl::archive(Archive& archive)
 {
   archive(gate_, insertion_, rotation_, mode_);
-  requireIndex(static_cast<int>(mode_), 0, static_cast<int>(Mode::kIncrements) + 1);
+  requireIndex(static_cast<int>(mode_), 0, static_cast<int>(Mode::kFree) + 1);
   archiveMotion(archive, setpoint_.motion);
   archiveMotion(archive, slipped_);
   archive(setpoint_.pressure, is_homing_, state_.is_homed, state_.is_busy, silence_, accepted_);

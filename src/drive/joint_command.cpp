@@ -65,7 +65,8 @@ std::optional<CommandKind> commandKind(const std::string& name)
 
 bool isStateCommand(const std::string& name)
 {
-  constexpr std::array<const char*, 6> kNames = {"enable", "disable", "pause", "resume", "home", "unhome"};
+  constexpr std::array<const char*, 8> kNames = {"enable", "disable", "pause", "resume",
+                                                 "home",   "unhome",  "hold",  "free"};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 

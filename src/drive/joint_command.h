@@ -24,7 +24,7 @@ const char* nameOf(CommandKind kind);
 /** Kind with a CRTK name; none for another text. */
 std::optional<CommandKind> commandKind(const std::string& name);
 
-/** True for enable, disable, pause, resume, home and unhome. */
+/** True for the commands without values: enable, disable, pause, resume, home, unhome, hold and free. */
 bool isStateCommand(const std::string& name);
 
 // Names of the joints of an instrument.

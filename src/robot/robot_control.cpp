@@ -319,7 +319,7 @@ std::string RobotControl::stateCommand(const std::string& client, const std::str
   if (!drive::isStateCommand(word))
   {
     rejected_.add(CommandVerdict::kMalformed);
-    reason = "unknown word; known are enable, disable, pause, resume, home, unhome";
+    reason = "unknown word; known are enable, disable, pause, resume, home, unhome, hold, free";
   }
   else if (!is_free && isDrivenByAnother(client, time))
   {
@@ -328,9 +328,25 @@ std::string RobotControl::stateCommand(const std::string& client, const std::str
   }
   else if (word == "disable")
     driver_.clear();
+  else if (word == "hold" || word == "free")
+    followInstruments(client, time);
   if (!reason.empty())
     last_refusal_ = "state_command of " + client + ": " + reason;
   return reason.empty() ? "" : last_refusal_;
+}
+
+/** Joints without a command of their own, which follow the instruments. */
+void RobotControl::followInstruments(const std::string& client, double time)
+{
+  for (Channel& channel : channels_)
+  {
+    channel.kind = CommandKind::kServoVelocity;
+    channel.commanded_at = time;
+    for (Axis& axis : channel.axes)
+      axis.rate = 0.0;
+  }
+  driver_ = client;
+  driver_time_ = time;
 }
 
 /** Velocities of an instrument whose joints use up their play first: zero for joints within it. */
@@ -384,7 +400,8 @@ drive::OperatingState RobotControl::state() const
     const drive::OperatingState& state = states_[k];
     worst.is_homed = worst.is_homed && state.is_homed;
     worst.is_busy = worst.is_busy || state.is_busy;
-    if (severity(state.state) <= severity(worst.state))
+    const bool is_warned = worst.reason.empty() && !state.reason.empty() && severity(worst.state) == 0;
+    if (severity(state.state) <= severity(worst.state) && !is_warned)
       continue;
     worst.state = state.state;
     worst.reason = instruments_[k].name + (state.reason.empty() ? " is " + state.state : ": " + state.reason);

@@ -67,7 +67,7 @@ public:
   RobotAnswer command(const std::string& client, drive::CommandKind kind, const std::vector<std::string>& names,
                       const std::vector<double>& values, double time);
 
-  /** Examines enable, disable, pause, resume, home or unhome, which go to all instruments.
+  /** Examines enable, disable, pause, resume, home, unhome, hold or free, which go to all instruments.
    *  @return reason of a refusal; empty if it is permitted */
   std::string stateCommand(const std::string& client, const std::string& word, double time);
 
@@ -141,6 +141,7 @@ private:
                                            Channel& channel) const;
   double convert(Axis& axis, drive::CommandKind kind, double value) const;
   double play(const Axis& axis) const { return axis.link ? links_[*axis.link].backlash : 0.0; }
+  void followInstruments(const std::string& client, double time);
   std::optional<InstrumentCommand> rates(std::size_t instrument) const;
   RobotAnswer reject(const std::string& client, drive::CommandKind kind, drive::CommandVerdict verdict,
                      const std::string& reason);

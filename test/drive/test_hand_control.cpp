@@ -220,6 +220,49 @@ TEST(HandControl, AnswersEveryStateCommandWithAState)
   EXPECT_EQ(bench.control.rejected().malformed, 1U);
 }
 
+TEST(HandControl, HoldEndsAnyMotionAndNeedsNoFurtherCommand)
+{
+  Bench bench;
+  bench.send(CommandKind::kMovePosition, 0.15, 0.0);
+  bench.run(0.5);
+  ASSERT_GT(bench.speed(), 0.01);
+  EXPECT_TRUE(bench.control.stateCommand("/a", "hold"));
+  EXPECT_FALSE(bench.control.state().is_busy);
+  bench.run(0.5);
+  EXPECT_EQ(bench.speed(), 0.0);
+  EXPECT_LT(bench.setpoint().insertion, 0.14);
+  EXPECT_EQ(bench.control.state().state, "ENABLED");
+  EXPECT_EQ(bench.send(CommandKind::kServoVelocity, 0.01), CommandVerdict::kAccepted);
+}
+
+TEST(HandControl, FreeGivesWayToTheForceUntilTheNextCommand)
+{
+  Bench bench;
+  bench.stiffness = 100.0;
+  bench.send(CommandKind::kMovePosition, 0.06, 0.2);
+  bench.run(2.0);
+  ASSERT_NEAR(bench.setpoint().insertion, 0.06, 1e-9);
+  EXPECT_TRUE(bench.control.stateCommand("/a", "free"));
+  bench.run(3.0);
+  EXPECT_NEAR(bench.setpoint().insertion, kStart.insertion, 1e-3) << "also long after the time-out";
+  EXPECT_TRUE(bench.control.stateCommand("/a", "hold"));
+  bench.stiffness = 0.0;
+  const double held = bench.setpoint().insertion;
+  bench.run(1.0);
+  EXPECT_NEAR(bench.setpoint().insertion, held, 1e-4);
+}
+
+TEST(HandControl, HoldAndFreeAreRefusedToOthersAndWhereNothingMoves)
+{
+  Bench bench;
+  bench.send(CommandKind::kServoVelocity, 0.01);
+  EXPECT_FALSE(bench.control.stateCommand("/b", "free"));
+  EXPECT_NE(bench.control.lastRefusal().find("/a drives"), std::string::npos);
+  bench.control.stateCommand("/a", "disable");
+  EXPECT_FALSE(bench.control.stateCommand("/a", "hold"));
+  EXPECT_EQ(bench.control.rejected().not_enabled, 1U);
+}
+
 TEST(HandControl, HomesByAMoveToTheStart)
 {
   Bench bench;

@@ -66,6 +66,11 @@ TEST(ASavedHandControl, ContinuesEveryModeBitForBit)
           steps);
 }
 
+TEST(ASavedHandControl, StaysFree)
+{
+  expectSameMotion([](HandControl& control) { EXPECT_TRUE(control.stateCommand("/a", "free")); }, 300);
+}
+
 TEST(ASavedHandControl, KeepsItsOperatingState)
 {
   expectSameMotion(

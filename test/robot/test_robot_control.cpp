@@ -309,6 +309,28 @@ TEST(RobotControl, HasTheWorstStateOfItsInstruments)
   EXPECT_NE(answer.reason.find("'catheter' is PAUSED"), std::string::npos);
 }
 
+TEST(RobotControl, PassesTheWarningOfAnEnabledInstrumentOn)
+{
+  RobotControl control = makeControl();
+  drive::OperatingState slipping;
+  slipping.state = "ENABLED";
+  slipping.reason = "the grip slips";
+  control.setState(1, slipping);
+  EXPECT_EQ(control.state().state, "ENABLED");
+  EXPECT_EQ(control.state().reason, "wire: the grip slips");
+}
+
+TEST(RobotControl, FollowsTheInstrumentsAfterHold)
+{
+  RobotControl control = makeControl();
+  EXPECT_EQ(send(control, CommandKind::kServoVelocity, {0.1}).verdict, CommandVerdict::kAccepted);
+  EXPECT_NE(control.stateCommand("other", "hold", 0.0), "") << "another client drives";
+  EXPECT_EQ(control.stateCommand("client", "hold", 0.0), "");
+  EXPECT_FALSE(control.follow(0, {0.02, 0.0, 0.0}, 0.01)) << "no velocity is given again";
+  const RobotAnswer answer = send(control, CommandKind::kServoRelative, {0.001}, 0.02);
+  EXPECT_EQ(answer.verdict, CommandVerdict::kAccepted);
+}
+
 TEST(RobotControl, IsDisabledBeforeTheFirstStates)
 {
   const RobotControl control(kModel, kLinks, {{"catheter"}, {"wire"}});
