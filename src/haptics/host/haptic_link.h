@@ -21,7 +21,7 @@ struct LinkOptions
 class HapticLink
 {
 public:
-  /** @throws InputError if the baud rate is not a standard one */
+  /** @throws InputError for a baud rate that no serial line has */
   explicit HapticLink(LinkOptions options);
 
   /** Performs all pending work: opens the line, reads, runs the watchdogs, writes. */

@@ -1,15 +1,14 @@
 #include "haptics/serial/serial_port.h"
 
+#include <asm/termbits.h>  // termios2; excludes <termios.h>
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
-#include <termios.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
-#include <iterator>
 
 #include "common/error.h"
 
@@ -19,23 +18,9 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-struct Speed
-{
-  int baud;
-  speed_t code;
-};
-
-constexpr Speed kSpeeds[] = {{9600, B9600},       {19200, B19200},    {38400, B38400},     {57600, B57600},
-                             {115200, B115200},   {230400, B230400},  {460800, B460800},   {500000, B500000},
-                             {576000, B576000},   {921600, B921600},  {1000000, B1000000}, {1152000, B1152000},
-                             {1500000, B1500000}, {2000000, B2000000}};
-
-const Speed* findSpeed(int baud)
-{
-  const auto* found =
-      std::find_if(std::begin(kSpeeds), std::end(kSpeeds), [baud](const Speed& speed) { return speed.baud == baud; });
-  return found == std::end(kSpeeds) ? nullptr : found;
-}
+constexpr int kSlowest = 1200;       // bit/s
+constexpr int kFastest = 12000000;   // bit/s, of high-speed USB adapters
+constexpr double kTolerance = 0.03;  // of the speed that the driver sets; a UART samples correctly up to it
 
 /** Requests low-latency mode from the driver of a USB adapter. An FTDI adapter buffers bytes for 16 ms otherwise. */
 void requestLowLatency(int descriptor)
@@ -51,12 +36,10 @@ void requestLowLatency(int descriptor)
 
 void SerialPort::checkBaud(int baud, const std::string& where)
 {
-  if (findSpeed(baud) != nullptr)
-    return;
-  std::string list;
-  for (const Speed& speed : kSpeeds)
-    list += (list.empty() ? "" : ", ") + std::to_string(speed.baud);
-  throw InputError(where, std::to_string(baud), "is not a standard baud rate; choose one of " + list + " [bit/s]");
+  if (baud < kSlowest || baud > kFastest)
+    throw InputError(where, std::to_string(baud),
+                     "is no speed of a serial line; must be between " + std::to_string(kSlowest) + " and " +
+                         std::to_string(kFastest) + " bit/s, as in the device's firmware");
 }
 
 bool SerialPort::open(const std::string& path, int baud)
@@ -70,33 +53,41 @@ bool SerialPort::open(const std::string& path, int baud)
   }
   if (configure(baud))
     return true;
-  error_ = path + ": " + std::strerror(errno);
+  error_ = path + ": " + error_;
   close();
   return false;
 }
 
+/** Sets any speed (BOTHER), not only those that POSIX names. */
 bool SerialPort::configure(int baud)
 {
-  const Speed* speed = findSpeed(baud);
-  termios settings = {};
-  if (speed == nullptr)
-  {
-    errno = EINVAL;
-    return false;
-  }
-  if (tcgetattr(descriptor_, &settings) != 0)
-    return false;
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
+  termios2 settings = {};
+  if (ioctl(descriptor_, TCGETS2, &settings) != 0)
+    return refuse(std::strerror(errno));
+  // Raw mode, as cfmakeraw().
+  settings.c_iflag &= ~static_cast<tcflag_t>(IGNBRK | BRKINT | PARMRK | ISTRIP | INLCR | IGNCR | ICRNL | IXON);
+  settings.c_oflag &= ~static_cast<tcflag_t>(OPOST);
+  settings.c_lflag &= ~static_cast<tcflag_t>(ECHO | ECHONL | ICANON | ISIG | IEXTEN);
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSIZE | PARENB | HUPCL | CSTOPB | CRTSCTS | CBAUD | (CBAUD << IBSHIFT));
+  settings.c_cflag |= CS8 | CLOCAL | CREAD | BOTHER | (BOTHER << IBSHIFT);
+  settings.c_ispeed = settings.c_ospeed = static_cast<speed_t>(baud);
   settings.c_cc[VMIN] = 1;  // a read of 0 bytes then indicates a hang-up, not an empty buffer
   settings.c_cc[VTIME] = 0;
-  if (cfsetspeed(&settings, speed->code) != 0 || tcsetattr(descriptor_, TCSANOW, &settings) != 0)
-    return false;
+  if (ioctl(descriptor_, TCSETS2, &settings) != 0 || ioctl(descriptor_, TCGETS2, &settings) != 0)
+    return refuse(std::strerror(errno));
+  if (std::abs(static_cast<double>(settings.c_ospeed) - baud) > kTolerance * baud)
+    return refuse("its driver sets " + std::to_string(settings.c_ospeed) + " bit/s in place of " +
+                  std::to_string(baud) + "; choose a speed that the adapter supports, in the firmware and here");
   ioctl(descriptor_, TIOCEXCL);
   requestLowLatency(descriptor_);
-  tcflush(descriptor_, TCIOFLUSH);
+  ioctl(descriptor_, TCFLSH, TCIOFLUSH);
   return true;
+}
+
+bool SerialPort::refuse(const std::string& reason)
+{
+  error_ = reason;
+  return false;
 }
 
 void SerialPort::close()

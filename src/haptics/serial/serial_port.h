@@ -18,11 +18,12 @@ public:
 
   /** Checks a baud rate.
    *  @param where name of the parameter, for the error message
-   *  @throws InputError for a baud rate that termios does not support */
+   *  @throws InputError for one that no serial line has */
   static void checkBaud(int baud, const std::string& where);
 
   /** Opens the line.
    *  @param path device file or symbolic link to it, e.g. /dev/serial/by-id/...
+   *  @param baud any speed; drivers of adapters may refuse some [bit/s]
    *  @return false on failure, with the reason in error() */
   bool open(const std::string& path, int baud);
   void close();
@@ -39,6 +40,7 @@ public:
 
 private:
   bool configure(int baud);
+  bool refuse(const std::string& reason);
   void markLost(const std::string& reason);
 
   int descriptor_ = -1;
