@@ -1,5 +1,7 @@
 #include "results/trajectory_csv.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -42,11 +44,16 @@ bool TrajectoryFile::flush()
   return isGood();
 }
 
-/** Saves the reason of the first failure. */
+/** Saves the reason of the first failure. An open file can be written after its removal too, but is lost. */
 bool TrajectoryFile::isGood()
 {
   if (!stream_ && error_.empty())
     error_ = writeError(file_).what();
+  if (error_.empty() && access(file_.c_str(), F_OK) != 0)
+    error_ = InputError(file_, "",
+                        "was removed or moved during the run, perhaps with its folder: the results are lost; begin "
+                        "again, and leave the folder until the end")
+                 .what();
   return error_.empty();
 }
 

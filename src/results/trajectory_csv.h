@@ -37,7 +37,8 @@ public:
    *  @throws InputError if the file cannot be written */
   TrajectoryFile(const std::string& file, double rate);
 
-  /** Writes a row if it is the first one in its time slot. @return false on failure */
+  /** Writes a row if it is the first one in its time slot.
+   *  @return false on failure, and when the file was removed meanwhile; errno is then the reason */
   bool add(const TrajectoryRow& row);
 
   /** Flushes the file to the operating system. @return false on failure */

@@ -1,6 +1,7 @@
 #include "results/trajectory_csv.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 #include <vector>
 
@@ -38,6 +39,19 @@ TEST(TrajectoryFile, WritesNumbersThatReadBackToTheSameBits)
   EXPECT_EQ(values[6], row.tip.y());
   EXPECT_EQ(values[7], row.tip.z());
   EXPECT_EQ(values[9], row.pressure);
+}
+
+TEST(TrajectoryFile, ReportsAtTheNextRowThatItsFolderWasRemoved)
+{
+  const std::string folder = testing::TempDir() + "endovascular_sim_removed";
+  std::filesystem::create_directories(folder);
+  TrajectoryFile trajectory(folder + "/trajectory.csv", 100.0);
+  TrajectoryRow row;
+  ASSERT_TRUE(trajectory.add(row));
+  std::filesystem::remove_all(folder);
+  row.time = 0.01;
+  EXPECT_FALSE(trajectory.add(row));
+  EXPECT_NE(trajectory.error().find("was removed"), std::string::npos) << trajectory.error();
 }
 
 TEST(TrajectoryFile, WritesOneRowPerSlotAtAnyInputRate)
