@@ -8,6 +8,7 @@
 #include "common/archive_checks.h"
 #include "common/error.h"
 #include "common/version.h"
+#include "simulation/saved_state.h"
 #include "simulation/simulation.h"
 #include "simulation/stepper_factory.h"
 
@@ -18,7 +19,6 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr std::array<char, 8> kMagic = {'E', 'V', 'S', 'S', 'T', 'A', 'T', 'E'};
 constexpr std::uint32_t kFormat = 7;       ///< incremented with every change of the saved data
 constexpr std::uint32_t kNamesWriter = 5;  ///< first format whose header names the version that wrote it
 
@@ -31,7 +31,7 @@ constexpr double kLargestDistalTurn = 20.0;  ///< between a saved distal end and
  *  from kNamesWriter on, so that every later version can name the writer of a state that it does not load. */
 struct Header
 {
-  std::array<char, 8> magic = kMagic;
+  std::array<char, 8> magic = kStateMagic;
   std::uint32_t format = kFormat;
   std::string writer = std::string(version()) + ", commit " + commit();
   int physics = kPhysicsNumber;
@@ -78,8 +78,7 @@ std::uint64_t hashOf(const char* data, std::size_t size)
 std::string checked(std::string bytes, const std::string& origin)
 {
   std::uint64_t stored = 0;
-  const bool magic = bytes.size() > kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
-  if (!magic || bytes.size() < kMagic.size() + sizeof stored)
+  if (!beginsAsState(bytes) || bytes.size() < kStateMagic.size() + sizeof stored)
     throw InputError(origin, "", "is not a saved state; save one with simulate --save-state");
   const std::size_t size = bytes.size() - sizeof stored;
   std::memcpy(&stored, bytes.data() + size, sizeof stored);

@@ -30,7 +30,7 @@
 #include "haptics/device/motion_script.h"
 #include "haptics/serial/serial_port.h"
 #include "nodes/haptic_device/haptic_topics.h"
-#include "nodes/runtime/processor_claim.h"
+#include "nodes/runtime/processor/processor_claim.h"
 #include "nodes/runtime/real_time.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"

@@ -21,6 +21,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/Empty.h>
 
 #include "contact/detector.h"
 #include "endovascular_sim/DriveApplied.h"
@@ -72,6 +73,8 @@ public:
   {
     for (const char* input : {"servo_jp", "servo_jr", "servo_jv", "servo_jf", "move_jp", "move_jr"})
       inputs_[input] = node_.advertise<Joints>(kWire + std::string(input), 10);
+    for (const char* topic : {"hold", "free"})
+      words_[topic] = node_.advertise<std_msgs::Empty>(kWire + std::string(topic), 10);
     command_ = node_.advertise<crtk_msgs::StringStamped>(kWire + std::string("state_command"), 10, true);
     listen<crtk_msgs::OperatingState>("operating_state", [this](const auto& state) { receive(state); });
     listen<crtk_msgs::StringStamped>("state_reason", [this](const auto& reason) { reason_ = reason.string; });
@@ -89,6 +92,9 @@ public:
 
   /** Publishes a command. */
   void send(const std::string& input, const Joints& joints) { inputs_.at(input).publish(joints); }
+
+  /** Publishes a command without values to its own topic. */
+  void word(const std::string& topic) { words_.at(topic).publish(std_msgs::Empty()); }
 
   void command(const std::string& word)
   {
@@ -171,6 +177,7 @@ private:
 
   ros::NodeHandle node_;
   std::map<std::string, ros::Publisher> inputs_;
+  std::map<std::string, ros::Publisher> words_;
   ros::Publisher command_;
   crtk_msgs::OperatingState state_;
   std::uint64_t busy_states_ = 0;
@@ -295,6 +302,43 @@ TEST_F(Crtk, MeasuredIsTheInstrumentAtAStopAndAtTheEndOfTheWire)
   EXPECT_LT(client_->insertion(), 0.29) << "the end of the wire, or the fingers slip";
   EXPECT_NEAR(client_->setpoint().position.at(0), 0.3, 1e-9);
   EXPECT_GT(std::abs(client_->wallForce().wrench.force.x) + std::abs(client_->wallForce().wrench.force.y), 0.0);
+}
+
+TEST_F(Crtk, HoldEndsAMove)
+{
+  client_->send("move_jp", positions({0.2}));
+  ASSERT_TRUE(client_->run(0.5));
+  client_->word("hold");
+  ASSERT_TRUE(waitUntil(10.0, [] { return !client_->state().is_busy; }));
+  ASSERT_TRUE(client_->run(0.5));
+  const double held = client_->setpoint().position.at(0);
+  EXPECT_LT(held, 0.15);
+  ASSERT_TRUE(client_->run(0.5));
+  EXPECT_EQ(client_->setpoint().position.at(0), held);
+  EXPECT_EQ(client_->state().state, "ENABLED");
+}
+
+TEST_F(Crtk, FreeLetsTheWireRelax)
+{
+  client_->send("move_jp", positions({client_->setpoint().position.at(0) + 0.12}));
+  ASSERT_TRUE(client_->run(2.5));
+  const double force = client_->measured().effort.at(0);
+  ASSERT_GT(force, 0.02) << "friction in the bend";
+  client_->word("free");
+  ASSERT_TRUE(client_->run(2.0));
+  EXPECT_LT(std::abs(client_->measured().effort.at(0)), 0.2 * force);
+  client_->word("hold");
+}
+
+TEST_F(Crtk, AGripThatSlipsForASecondIsAWarningWithItsReason)
+{
+  EXPECT_EQ(client_->reason(), "");
+  ASSERT_TRUE(client_->run(4.0, [] { client_->send("servo_jv", velocities({0.1})); }));
+  EXPECT_NE(client_->reason().find("the grip slips in the insertion"), std::string::npos) << client_->reason();
+  EXPECT_EQ(client_->state().state, "ENABLED");
+  EXPECT_TRUE(waitUntil(10.0, [] { return client_->diagnostics().find("the grip slips") != std::string::npos; }));
+  ASSERT_TRUE(client_->run(1.5, [] { client_->send("servo_jv", velocities({-0.02})); }));
+  EXPECT_EQ(client_->reason(), "") << "the instrument moves again";
 }
 
 TEST_F(Crtk, ACommandedPauseEndsByResumeOnly)

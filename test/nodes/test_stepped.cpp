@@ -204,6 +204,8 @@ TEST_F(Stepped, E_SimulatedTimeStandsStillBetweenCalls)
   const StepSimulation::Response response = client_->step(3);
   EXPECT_TRUE(waitUntil(10.0, [&] { return std::abs(clock - response.time) < 1e-9; })) << clock;
   EXPECT_TRUE(waitUntil(10.0, [&] { return std::abs(ros::Time::now().toSec() - response.time) < 1e-9; }));
+  EXPECT_NEAR(response.instruments.at(0).measured.header.stamp.toSec(), response.time, 1e-9)
+      << "a stamp of 0 is invalid data";
 }
 
 TEST_F(Stepped, F_ADeadClientLeavesNoForceAndTheNextOneContinues)

@@ -7,7 +7,10 @@
 #include "common/error.h"
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_vessel.h"
@@ -19,6 +22,7 @@ namespace
 
 constexpr int kQueue = 4;
 constexpr int kDisplacementQueue = 1000;  ///< none may be lost
+constexpr double kLargestMargin = 10.0;   ///< of a query, in contact margins of the scene; the solver asks for up to 3
 constexpr int kVesselPatience = 5;        ///< wait for the vessel of a connected vessel server [s]
 
 }  // namespace
@@ -33,6 +37,7 @@ ContactNode::ContactNode(const ros::NodeHandle& node, const scene::Scene& scene,
     return;
   }
   law_ = scene::wallLaw(*scene.vessel);
+  largest_margin_ = kLargestMargin * scene.solver.stepper.contact_margin;
   subscribe();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("contact", this, &ContactNode::diagnose);
@@ -42,7 +47,7 @@ ContactNode::ContactNode(const ros::NodeHandle& node, const scene::Scene& scene,
 void ContactNode::onTimer()
 {
   // By the steady clock: simulated time may stand still.
-  diagnostics_.force_update();
+  publishDiagnostics(diagnostics_);
   // roscpp can lose a latched message to a subscriber that connects while it is published.
   const bool is_missing = !detector_ && vessel_subscriber_.getNumPublishers() > 0;
   seconds_without_vessel_ = is_missing ? seconds_without_vessel_ + 1 : 0;
@@ -50,19 +55,37 @@ void ContactNode::onTimer()
   if (seconds_without_vessel_ <= kVesselPatience || !ros::service::call(node_.resolveName(names::kGetVessel), vessel))
     return;
   ROS_WARN("the vessel has not arrived as a message; using that of the service");
-  receiveVessel(boost::make_shared<VesselMesh>(vessel.response.mesh));
+  try
+  {
+    receiveVessel(boost::make_shared<VesselMesh>(vessel.response.mesh));
+  }
+  catch (const InputError& error)
+  {
+    IgnoredMessages::ofProcess().add(names::kGetVessel, error.what());
+  }
 }
 
 void ContactNode::subscribe()
 {
   publisher_ = node_.advertise<StampedContactSet>(names::kContactSet, kQueue);
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  ros::NodeHandle direct(node_);
-  direct.setCallbackQueue(&queue_);
-  vessel_subscriber_ = node_.subscribe(names::kVesselMesh, 1, &ContactNode::receiveVessel, this, hints);
-  displacement_subscriber_ =
-      direct.subscribe(names::kWallDisplacement, kDisplacementQueue, &ContactNode::receiveDisplacement, this, hints);
-  state_subscriber_ = direct.subscribe(names::kRodState, kQueue, &ContactNode::receiveState, this, hints);
+  vessel_subscriber_ = subscribeGuarded<VesselMesh>(node_, names::kVesselMesh, 1,
+                                                    [this](const VesselMeshConstPtr& mesh) { receiveVessel(mesh); });
+  displacement_subscriber_ = subscribeGuarded<WallDisplacement>(
+      node_, names::kWallDisplacement, kDisplacementQueue,
+      [this](const ros::MessageEvent<WallDisplacement const>& event)
+      {
+        displacement_source_.require(event.getPublisherName());
+        receiveDisplacement(event.getConstMessage());
+      },
+      &queue_);
+  state_subscriber_ = subscribeGuarded<RodState>(
+      node_, names::kRodState, kQueue,
+      [this](const ros::MessageEvent<RodState const>& event)
+      {
+        state_source_.require(event.getPublisherName());
+        receiveState(event.getConstMessage());
+      },
+      &queue_);
 }
 
 /** Adopts the first mesh, and the first mesh of a restarted vessel server; displacements keep it up to date. */
@@ -90,6 +113,10 @@ void ContactNode::receiveVessel(const VesselMeshConstPtr& message)
 void ContactNode::receiveDisplacement(const WallDisplacementConstPtr& message)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (detector_)
+    fromMessage(*message, detector_->wall().vertices.size());  // throws for an invalid one
+  if (pending_.size() >= kDisplacementQueue)
+    throw InputError(names::kWallDisplacement, "", "more wait than any simulation leaves; is another node publishing?");
   pending_.push_back(message);
   if (!deferred_)
     return;
@@ -101,8 +128,9 @@ void ContactNode::receiveDisplacement(const WallDisplacementConstPtr& message)
 void ContactNode::receiveState(const RodStateConstPtr& message)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  requireUsable(*message, largest_margin_);
   deferred_.reset();
-  if (detector_ && message->radius.size() == message->nodes.size() && message->margin.size() == message->nodes.size())
+  if (detector_)
     respond(message);
 }
 
@@ -171,6 +199,7 @@ void ContactNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("triangles", triangles_.load());
   status.add("vessel version", version_.load());
   status.add("responses deferred until a wall displacement", deferrals_.load());
+  IgnoredMessages::ofProcess().diagnose(status);
 }
 
 }  // namespace endovascular_sim::nodes

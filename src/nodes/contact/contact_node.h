@@ -16,6 +16,7 @@
 #include "endovascular_sim/WallDisplacement.h"
 #include "nodes/conversions/contact_set_serializer.h"
 #include "nodes/runtime/direct_callback_queue.h"
+#include "nodes/runtime/one_source.h"
 #include "nodes/runtime/real_time.h"
 #include "scene/model/scene.h"
 
@@ -50,11 +51,13 @@ private:
   std::function<SchedulingGrant()> request_;  ///< empty once it was called
   SchedulingGrant grant_;                     ///< used by the thread of vessels and diagnostics only
   contact::WallLaw law_;
+  double largest_margin_ = 0.0;                   ///< of a query [m]
   std::mutex mutex_;                              ///< guards the next three: vessels arrive in another thread
   std::unique_ptr<contact::Detector> detector_;   ///< null before the first vessel
   std::deque<WallDisplacementConstPtr> pending_;  ///< displacements that no rod state has requested yet
   RodStateConstPtr deferred_;                     ///< rod state that waits for its version of the wall
   int seconds_without_vessel_ = 0;                ///< with a connected vessel server [s]
+  OneSource state_source_, displacement_source_;  ///< used by the thread of states and displacements only
   contact::Query query_;
   StampedContactSet response_;
   // Counters for /diagnostics, which another thread publishes.

@@ -12,6 +12,8 @@ void diagnoseCommands(const CommandReport& report, diagnostic_updater::Diagnosti
   const std::string& name = report.instrument;
   if (!report.has_publisher)
     status.mergeSummary(DiagnosticStatus::WARN, "no publisher of commands to " + name);
+  if (!report.warning.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, name + ": " + report.warning);
   if (rejected > 0)
     status.mergeSummary(DiagnosticStatus::WARN, std::to_string(rejected) + " rejected commands to " + name);
   status.add(name + ": driver", report.driver);

@@ -17,6 +17,7 @@ struct CommandReport
   bool has_publisher = false;
   std::string driver;        ///< client that drives; empty without one
   std::string last_refusal;  ///< empty without one
+  std::string warning;       ///< of the grip; empty without one
   std::uint64_t accepted = 0;
   drive::RejectedCommands rejected;
   double silence = 0.0;  ///< simulated time since the last accepted command [s]

@@ -7,6 +7,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "drive/joint_command.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -25,6 +26,15 @@ constexpr CommandTopic kCommandTopics[] = {
     {names::kServoJv, drive::CommandKind::kServoVelocity}, {names::kServoJf, drive::CommandKind::kServoForce},
     {names::kMoveJp, drive::CommandKind::kMovePosition},   {names::kMoveJr, drive::CommandKind::kMoveRelative}};
 
+/** Topic of a command without values. */
+struct WordTopic
+{
+  const char* name;
+  const char* word;  ///< name of the command
+};
+
+constexpr WordTopic kWordTopics[] = {{names::kHold, "hold"}, {names::kFree, "free"}};
+
 /** Values that a kind of command uses. */
 inline const std::vector<double>& valuesOf(const sensor_msgs::JointState& message, drive::CommandKind kind)
 {
@@ -41,19 +51,15 @@ inline std::vector<double>& valuesOf(sensor_msgs::JointState& message, drive::Co
   return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
 }
 
-/** Subscribes to commands, without Nagle's delay.
+/** Subscribes to commands.
  *  @param queue of the callback; null: that of the node handle
  *  @param callback called with a message event, which has the name of the sender */
 template <typename Message, typename Callback>
-ros::Subscriber subscribeToCommands(ros::NodeHandle& node, const std::string& topic, ros::CallbackQueueInterface* queue,
-                                    const Callback& callback)
+ros::Subscriber subscribeToCommands(const ros::NodeHandle& node, const std::string& topic,
+                                    ros::CallbackQueueInterface* queue, const Callback& callback)
 {
   constexpr int kQueue = 10;
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(topic, kQueue, callback);
-  options.callback_queue = queue;
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  return node.subscribe(options);
+  return subscribeGuarded<Message>(node, topic, kQueue, callback, queue);
 }
 
 }  // namespace endovascular_sim::nodes

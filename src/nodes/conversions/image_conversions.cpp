@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "fluoroscopy/gantry/view.h"
+#include "nodes/conversions/message_checks.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -153,37 +154,11 @@ CArm toMessage(const fluoroscopy::CArmPose& pose)
   return message;
 }
 
-geometry::TriangleMesh toMesh(const VesselMesh& message)
-{
-  geometry::TriangleMesh mesh;
-  mesh.vertices.reserve(message.mesh.vertices.size());
-  for (const geometry_msgs::Point& vertex : message.mesh.vertices)
-  {
-    mesh.vertices.push_back(toEigen(vertex));
-    if (!mesh.vertices.back().allFinite())
-      throw InputError(names::kVesselMesh, "vertex " + std::to_string(mesh.vertices.size() - 1), "must be finite");
-  }
-  mesh.triangles.reserve(message.mesh.triangles.size());
-  for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles)
-  {
-    for (const std::uint32_t index : triangle.vertex_indices)
-      if (index >= mesh.vertices.size())
-        throw InputError(names::kVesselMesh, "triangle " + std::to_string(mesh.triangles.size()),
-                         "vertex " + std::to_string(index) + " does not exist: the mesh has " +
-                             std::to_string(mesh.vertices.size()));
-    mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
-                                static_cast<int>(triangle.vertex_indices[1]),
-                                static_cast<int>(triangle.vertex_indices[2]));
-  }
-  return mesh;
-}
-
 std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
                                                const std::vector<fluoroscopy::XRayInstrument>& instruments,
                                                const fluoroscopy::LocalFluids& fluids)
 {
-  if (state.insertion.size() != instruments.size())
-    throw InputError(names::kRodStateVisual, "insertion", "must have one value for each instrument of the scene");
+  requireUsable(state, instruments.size());
   std::vector<Eigen::Vector3d> nodes;
   nodes.reserve(state.nodes.size());
   for (const geometry_msgs::Point& node : state.nodes)

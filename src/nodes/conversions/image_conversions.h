@@ -9,7 +9,6 @@
 
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
-#include "endovascular_sim/VesselMesh.h"
 #include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/projection/x_ray_instrument.h"
@@ -51,12 +50,8 @@ fluoroscopy::CArmPose toPose(const CArm& message, const fluoroscopy::CArmPose& p
 /** Command that moves the C-arm to a pose, without a header. */
 CArm toMessage(const fluoroscopy::CArmPose& pose);
 
-/** Mesh of a vessel message [m].
- *  @throws InputError when a vertex index is invalid or a coordinate is not finite */
-geometry::TriangleMesh toMesh(const VesselMesh& message);
-
 /** X-ray model of all instruments. The nodes of the message end at the tip of the instrument that reaches farthest.
- *  @throws InputError when the message has not one insertion per instrument */
+ *  @throws InputError when lists have wrong lengths, or a number is not finite */
 std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
                                                const std::vector<fluoroscopy::XRayInstrument>& instruments,
                                                const fluoroscopy::LocalFluids& fluids);

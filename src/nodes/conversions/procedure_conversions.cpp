@@ -1,12 +1,21 @@
 #include "nodes/conversions/procedure_conversions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "common/error.h"
+#include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
 {
 
 procedure::StepRecord fromMessage(const ProcedureStep& message)
 {
+  if (message.outcome > static_cast<std::uint8_t>(procedure::Progress::kSupportLost))
+    throw InputError(names::kProcedureStep, "outcome", "must be one of those of ProcedureStep");
+  if (!std::isfinite(message.begin) || !std::isfinite(message.time))
+    throw InputError(names::kProcedureStep, "begin, time", "must be finite");
   procedure::StepRecord record;
   record.name = message.name;
   record.phase = message.phase;

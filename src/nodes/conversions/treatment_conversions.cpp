@@ -4,6 +4,7 @@
 #include "fluoroscopy/projection/x_ray_treatment.h"
 #include "intervention/stent_placement.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/message_checks.h"
 #include "nodes/runtime/ros_names.h"
 #include "results/treatment_report.h"
 
@@ -58,11 +59,9 @@ intervention::RoundBody fromMessage(const TreatmentBody& body)
 {
   if (body.axis.size() != body.radius.size() || body.axis.size() < 2)
     throw InputError(names::kTreatmentVisual, "axis, radius", "must have the same length, at least two points");
-  intervention::RoundBody result;
-  for (const geometry_msgs::Point& point : body.axis)
-    result.axis.push_back(fromMessage(point));
-  result.radii = body.radius;
-  return result;
+  if (!(body.thickness >= 0.0 && body.thickness < 0.1))
+    throw InputError(names::kTreatmentVisual, "thickness", "must be finite, at least 0 and less than 0.1 m");
+  return roundBody(body.axis, body.radius, names::kTreatmentVisual);
 }
 
 std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message,

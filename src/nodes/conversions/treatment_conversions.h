@@ -13,7 +13,7 @@ namespace endovascular_sim::nodes
 /** Converts balloons, stents and events; the caller sets the header, the step and the time. */
 void toMessage(const simulation::Simulation& simulation, TreatmentVisual& message);
 
-/** @throws InputError when axis and radius differ in length */
+/** @throws InputError when axis and radius differ in length or are not finite */
 intervention::RoundBody fromMessage(const TreatmentBody& body);
 
 /** X-ray wires of balloons and stents.

@@ -1,7 +1,10 @@
 #include "nodes/conversions/vessel_conversions.h"
 
+#include <cmath>
+
 #include "common/error.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/message_checks.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -16,13 +19,19 @@ void toMessage(const geometry::TriangleMesh& mesh, VesselMesh& message)
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int corner = 0; corner < 3; ++corner)
       message.mesh.triangles[t].vertex_indices[corner] = static_cast<std::uint32_t>(mesh.triangles[t][corner]);
+  message.content_hash = mesh.hash();
 }
 
 geometry::TriangleMesh fromMessage(const VesselMesh& message)
 {
   geometry::TriangleMesh mesh;
+  mesh.vertices.reserve(message.mesh.vertices.size());
+  mesh.triangles.reserve(message.mesh.triangles.size());
   for (const geometry_msgs::Point& vertex : message.mesh.vertices)
+  {
+    requirePosition(vertex, names::kVesselMesh, "vertices");
     mesh.vertices.push_back(fromMessage(vertex));
+  }
   for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles)
   {
     for (std::uint32_t index : triangle.vertex_indices)
@@ -32,6 +41,10 @@ geometry::TriangleMesh fromMessage(const VesselMesh& message)
                                 static_cast<int>(triangle.vertex_indices[1]),
                                 static_cast<int>(triangle.vertex_indices[2]));
   }
+  if (mesh.triangles.empty())
+    throw InputError(names::kVesselMesh, message.source, "must have triangles");
+  if (mesh.hash() != message.content_hash)
+    throw InputError(names::kVesselMesh, "content_hash", "does not match the mesh: the message is damaged");
   return mesh;
 }
 
@@ -73,6 +86,9 @@ std::vector<vessel::PlacedLesion> lesionsFromMessage(const VesselCentreline& mes
   {
     if (from.branch >= message.branches.size())
       throw InputError(names::kVesselCentreline, "lesions", "a lesion is on a branch that does not exist");
+    for (const double value : {from.begin, from.middle, from.end, from.healthy_diameter, from.narrowed_diameter})
+      if (!(std::abs(value) <= kFarthest))
+        throw InputError(names::kVesselCentreline, "lesions", "must have finite lengths and diameters");
     vessel::PlacedLesion lesion;
     lesion.branch = static_cast<int>(from.branch);
     lesion.begin = from.begin;
@@ -97,6 +113,10 @@ void requireTree(const VesselCentreline& message)
     if (branch.points.size() < 2 || branch.points.size() != branch.radii.size())
       throw InputError(names::kVesselCentreline, branch.name,
                        "must have at least two points, and one radius for each of them");
+    for (const geometry_msgs::Point& point : branch.points)
+      requirePosition(point, names::kVesselCentreline, branch.name);
+    for (const double radius : branch.radii)
+      requireRadius(radius, names::kVesselCentreline, branch.name);
     std::int64_t parent = branch.parent;
     for (std::int64_t k = 0; k <= size && parent >= 0; ++k)
     {
@@ -144,11 +164,7 @@ intervention::RoundBody bodyFromMessage(const std::vector<geometry_msgs::Point>&
 {
   if (axis.size() != radius.size() || axis.size() == 1)
     throw InputError(names::kBalloonLoad, "axis, radius", "must have the same length, other than one point");
-  intervention::RoundBody body;
-  for (const geometry_msgs::Point& point : axis)
-    body.axis.push_back(fromMessage(point));
-  body.radii = radius;
-  return body;
+  return roundBody(axis, radius, names::kBalloonLoad);
 }
 
 }  // namespace
@@ -164,6 +180,8 @@ intervention::BalloonLoad loadFromMessage(const BalloonLoad& message)
 {
   intervention::BalloonLoad load;
   load.pressure = message.pressure;
+  if (!std::isfinite(load.pressure))
+    throw InputError(names::kBalloonLoad, "pressure", "must be finite");
   load.balloon = bodyFromMessage(message.axis, message.radius);
   if (!message.stent_axis.empty())
     load.sleeve = bodyFromMessage(message.stent_axis, message.stent_radius);
@@ -190,9 +208,8 @@ intervention::WallDisplacement fromMessage(const WallDisplacement& message, std:
   displacement.indices.assign(message.index.begin(), message.index.end());
   for (const geometry_msgs::Point& position : message.position)
   {
+    requirePosition(position, names::kWallDisplacement, "position");
     displacement.positions.push_back(fromMessage(position));
-    if (!displacement.positions.back().allFinite())
-      throw InputError(names::kWallDisplacement, "position", "must be finite");
   }
   return displacement;
 }

@@ -10,6 +10,8 @@
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "simulation/x_ray_patient.h"
 
@@ -19,6 +21,7 @@ namespace
 {
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+constexpr double kWarningPeriod = 1.0;      ///< between two warnings of the same place [s]
 constexpr double kRestPeriod = 0.5;  ///< of the pose on /tf while neither the C-arm moves nor frames are drawn [s]
 
 /** Material library of the private parameter `materials`; by default that of the package. */
@@ -42,7 +45,7 @@ void FluoroscopyNode::processInput(const Work& work)
   }
   catch (const InputError& error)
   {
-    ROS_WARN_THROTTLE(1.0, "%s", error.what());
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, error.what());
     new_error_ = last_error_ = error.what();
   }
 }
@@ -65,15 +68,17 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
                  node.advertise<sensor_msgs::Image>(names::kSourceViewImage, 2),
                  node.advertise<sensor_msgs::CameraInfo>(names::kSourceViewCameraInfo, 2)}
 {
-  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
-  mesh_subscriber_ = node.subscribe(names::kVesselMesh, 1, &FluoroscopyNode::receiveMesh, this, no_delay);
+  mesh_subscriber_ = subscribeGuarded<VesselMesh>(node, names::kVesselMesh, 1,
+                                                  [this](const VesselMesh& message) { receiveMesh(message); });
   if (needs_patient_)
-    centreline_subscriber_ =
-        node.subscribe(names::kVesselCentreline, 1, &FluoroscopyNode::receiveCentreline, this, no_delay);
-  rod_subscriber_ = node.subscribe(names::kRodStateVisual, 1, &FluoroscopyNode::receiveRod, this, no_delay);
-  treatment_subscriber_ =
-      node.subscribe(names::kTreatmentVisual, 1, &FluoroscopyNode::receiveTreatment, this, no_delay);
-  c_arm_subscriber_ = node.subscribe(names::kCArmCommand, 1, &FluoroscopyNode::receiveCommand, this, no_delay);
+    centreline_subscriber_ = subscribeGuarded<VesselCentreline>(
+        node, names::kVesselCentreline, 1, [this](const VesselCentreline& message) { receiveCentreline(message); });
+  rod_subscriber_ = subscribeGuarded<RodStateVisual>(node, names::kRodStateVisual, 1,
+                                                     [this](const RodStateVisual& message) { receiveRod(message); });
+  treatment_subscriber_ = subscribeGuarded<TreatmentVisual>(
+      node, names::kTreatmentVisual, 1, [this](const TreatmentVisual& message) { receiveTreatment(message); });
+  c_arm_subscriber_ =
+      subscribeGuarded<CArm>(node, names::kCArmCommand, 1, [this](const CArm& message) { receiveCommand(message); });
   updater_.setHardwareID("simulated C-arm");
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
   static_broadcaster_.sendTransform(sourceViewTransform(ros::Time::now()));
@@ -92,7 +97,7 @@ void FluoroscopyNode::receiveMesh(const VesselMesh& message)
   processInput(
       [&]
       {
-        geometry::TriangleMesh mesh = toMesh(message);
+        geometry::TriangleMesh mesh = fromMessage(message);
         if (!isocentre_known_ && !mesh.vertices.empty())
         {
           Eigen::AlignedBox3d box;
@@ -145,11 +150,16 @@ void FluoroscopyNode::loadPatient()
 
 void FluoroscopyNode::receiveRod(const RodStateVisual& message)
 {
-  processInput([&] { wires_ = toXRayWires(message, system_.instruments(), system_.fluids()); });
-  if (!message.nodes.empty())
-    tip_ = toEigen(message.nodes.back());
-  if (!scene_.vessel && !isocentre_known_ && !message.nodes.empty())
-    processInput([&] { placePatient(toEigen(message.nodes[message.nodes.size() / 2])); });
+  processInput(
+      [&]
+      {
+        wires_ = toXRayWires(message, system_.instruments(), system_.fluids());
+        if (message.nodes.empty())
+          return;
+        tip_ = toEigen(message.nodes.back());
+        if (!scene_.vessel && !isocentre_known_)
+          placePatient(toEigen(message.nodes[message.nodes.size() / 2]));
+      });
 }
 
 void FluoroscopyNode::receiveTreatment(const TreatmentVisual& message)
@@ -189,7 +199,7 @@ void FluoroscopyNode::advanceGantry()
   const ros::Time ros_now = ros::Time::now();
   double duration = (now - gantry_time_).toSec();
   if (!gantry_ros_time_.isZero())
-    duration = std::max(duration, (ros_now - gantry_ros_time_).toSec());
+    duration = std::max(duration, ros_now.toSec() - gantry_ros_time_.toSec());  // any two times have a difference
   gantry_time_ = now;
   gantry_ros_time_ = ros_now;
   if (settings_.follow_tip && tip_ && isocentre_known_)
@@ -217,8 +227,13 @@ void FluoroscopyNode::applyPose()
   }
 }
 
+/** Publishes the pose on /tf. Simulated time may stand still, e.g. in a paused replay: a second pose of the same time
+ *  would be refused by every listener. */
 void FluoroscopyNode::broadcastPose(const ros::Time& stamp)
 {
+  if (stamp == broadcast_stamp_)
+    return;
+  broadcast_stamp_ = stamp;
   broadcaster_.sendTransform(toTransform(stamp, fluoroscope_.geometry()));
   broadcast_time_ = ros::SteadyTime::now();
 }
@@ -270,7 +285,7 @@ void FluoroscopyNode::publishFrame(const ros::Time& stamp)
 
 void FluoroscopyNode::onDiagnostics(const ros::SteadyTimerEvent& /*event*/)
 {
-  updater_.force_update();
+  publishDiagnostics(updater_);
 }
 
 void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
@@ -305,6 +320,7 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("secondary angle, cranial positive [rad]", pose.secondary_angle);
   status.add("scheduling", grant_.describe());
   status.add("last error", last_error_);
+  IgnoredMessages::ofProcess().diagnose(status);
   render_times_.clear();
   new_error_.clear();
 }

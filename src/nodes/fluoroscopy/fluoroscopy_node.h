@@ -72,6 +72,7 @@ private:
   ros::SteadyTime gantry_time_;     ///< time up to which the gantry has moved
   ros::Time gantry_ros_time_;       ///< the same
   ros::SteadyTime broadcast_time_;  ///< of the last pose on /tf
+  ros::Time broadcast_stamp_;       ///< stamp of the same
 
   SchedulingRequest request_;
   SchedulingGrant grant_;

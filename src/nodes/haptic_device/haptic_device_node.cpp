@@ -13,6 +13,8 @@
 
 #include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/haptic_device/haptic_parameters.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 
@@ -83,31 +85,30 @@ HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeH
   state_publisher_ = handle.advertise<crtk_msgs::OperatingState>(channel + names::kOperatingState, 10, true);
   reason_publisher_ = handle.advertise<crtk_msgs::StringStamped>(channel + names::kStateReason, 10, true);
 
-  ros::NodeHandle force_handle(node);
-  force_handle.setCallbackQueue(&force_queue_);
-  force_subscriber_ = force_handle.subscribe(instrument + names::kSetpointJs, 1, &HapticDeviceNode::receiveForce, this,
-                                             ros::TransportHints().tcpNoDelay());
-  reason_subscriber_ = force_handle.subscribe<crtk_msgs::StringStamped>(
-      instrument + names::kStateReason, 10,
-      [this](const crtk_msgs::StringStampedConstPtr& reason)
+  force_subscriber_ = subscribeGuarded<sensor_msgs::JointState>(
+      node, instrument + names::kSetpointJs, 1, [this](const sensor_msgs::JointState& state) { receiveForce(state); },
+      &force_queue_);
+  reason_subscriber_ = subscribeGuarded<crtk_msgs::StringStamped>(
+      node, instrument + names::kStateReason, 10,
+      [this](const crtk_msgs::StringStamped& reason)
       {
-        simulation_reason_ = reason->string;
+        simulation_reason_ = reason.string;
         updateSimulationState();
       },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
-  simulation_subscriber_ = force_handle.subscribe<crtk_msgs::OperatingState>(
-      instrument + names::kOperatingState, 10,
-      [this](const crtk_msgs::OperatingStateConstPtr& state)
+      &force_queue_);
+  simulation_subscriber_ = subscribeGuarded<crtk_msgs::OperatingState>(
+      node, instrument + names::kOperatingState, 10,
+      [this](const crtk_msgs::OperatingState& state)
       {
-        simulation_state_ = state->state;
+        simulation_state_ = state.state;
         updateSimulationState();
       },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+      &force_queue_);
 
   diagnostics_.setHardwareID(link_.portName());
   diagnostics_.add("haptic device", this, &HapticDeviceNode::diagnose);
   diagnostics_timer_ = handle.createWallTimer(ros::WallDuration(1.0),
-                                              [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+                                              [this](const ros::WallTimerEvent&) { publishDiagnostics(diagnostics_); });
   force_spinner_.start();
   thread_ = std::thread(&HapticDeviceNode::servePort, this);
 }
@@ -319,6 +320,7 @@ void HapticDeviceNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("torque [N m]", host.renderedForce().torque);
   addPassivity("insertion", host.shaper().insertion(), status);
   addPassivity("rotation", host.shaper().rotation(), status);
+  IgnoredMessages::ofProcess().diagnose(status);
   status.add("refused topics", host.topics().refused().size());
   for (const auto& [id, refused] : host.topics().refused())
     status.add("refused " + refused.topic.name, refused.reason);

@@ -4,11 +4,14 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
+#include <std_msgs/Empty.h>
 
 #include "common/error.h"
 #include "nodes/conversions/command_diagnostics.h"
 #include "nodes/conversions/command_topics.h"
 #include "nodes/conversions/robot_conversions.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -54,7 +57,7 @@ RobotNode::RobotNode(const ros::NodeHandle& node, const scene::Scene& scene)
   updater_.setHardwareID(control_.model().name);
   updater_.add("Robot", this, &RobotNode::diagnose);
   diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
-                                               [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
+                                               [this](const ros::SteadyTimerEvent&) { publishDiagnostics(updater_); });
 }
 
 void RobotNode::advertise()
@@ -85,21 +88,20 @@ void RobotNode::connectInstruments()
     instrument.name = names::kInstruments + control_.instruments()[k].name;
     for (const CommandTopic& topic : kCommandTopics)
       instrument.commands[topic.kind] = node_.advertise<sensor_msgs::JointState>(instrument.name + topic.name, 10);
+    for (const WordTopic& topic : kWordTopics)
+      instrument.words[topic.word] = node_.advertise<std_msgs::Empty>(instrument.name + topic.name, 10);
     instrument.state_command = node_.advertise<crtk_msgs::StringStamped>(instrument.name + names::kStateCommand, 10);
     instruments_.push_back(instrument);
   }
-  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   for (std::size_t k = 0; k < instruments_.size(); ++k)
   {
     const std::string& name = instruments_[k].name;
-    subscribers_.push_back(node_.subscribe<crtk_msgs::StringStamped>(
-        name + names::kStateReason, 10,
-        [this, k](const crtk_msgs::StringStampedConstPtr& reason) { receiveReason(k, reason->string); },
-        ros::VoidConstPtr(), no_delay));
-    subscribers_.push_back(node_.subscribe<crtk_msgs::OperatingState>(
-        name + names::kOperatingState, 10,
-        [this, k](const crtk_msgs::OperatingStateConstPtr& state) { receiveState(k, *state); }, ros::VoidConstPtr(),
-        no_delay));
+    subscribers_.push_back(subscribeGuarded<crtk_msgs::StringStamped>(node_, name + names::kStateReason, 10,
+                                                                      [this, k](const crtk_msgs::StringStamped& reason)
+                                                                      { receiveReason(k, reason.string); }));
+    subscribers_.push_back(subscribeGuarded<crtk_msgs::OperatingState>(node_, name + names::kOperatingState, 10,
+                                                                       [this, k](const crtk_msgs::OperatingState& state)
+                                                                       { receiveState(k, state); }));
   }
   updateSubscriptions();
 }
@@ -108,12 +110,20 @@ void RobotNode::connectClients()
 {
   for (const CommandTopic& topic : kCommandTopics)
     subscribers_.insert(subscribers_.begin(),
-                        subscribeToCommands<sensor_msgs::JointState>(node_, kName + topic.name, nullptr,
-                                                                     [this, kind = topic.kind](const auto& event)
-                                                                     { receive(kind, event); }));
-  clients_ = std::size(kCommandTopics);
+                        subscribeToCommands<sensor_msgs::JointState>(
+                            node_, kName + topic.name, nullptr,
+                            [this, kind = topic.kind](const ros::MessageEvent<sensor_msgs::JointState const>& event)
+                            { receive(kind, event); }));
+  for (const WordTopic& topic : kWordTopics)
+    subscribers_.insert(subscribers_.begin(),
+                        subscribeToCommands<std_msgs::Empty>(node_, kName + topic.name, nullptr,
+                                                             [this, word = topic.word](const auto& event)
+                                                             { receiveWord(event.getPublisherName(), word); }));
+  clients_ = std::size(kCommandTopics) + std::size(kWordTopics);
   subscribers_.push_back(subscribeToCommands<crtk_msgs::StringStamped>(
-      node_, kName + names::kStateCommand, nullptr, [this](const auto& event) { receiveState(event); }));
+      node_, kName + names::kStateCommand, nullptr,
+      [this](const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+      { receiveWord(event.getPublisherName(), event.getConstMessage()->string); }));
 }
 
 void RobotNode::subscribe(JointStream& stream, bool wanted)
@@ -122,10 +132,9 @@ void RobotNode::subscribe(JointStream& stream, bool wanted)
     return;
   stream.subscribers.clear();
   for (std::size_t k = 0; wanted && k < instruments_.size(); ++k)
-    stream.subscribers.push_back(node_.subscribe<sensor_msgs::JointState>(
-        instruments_[k].name + stream.topic, kQueue,
-        [this, &stream, k](const sensor_msgs::JointStateConstPtr& joints) { receiveJoints(stream, k, *joints); },
-        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+    stream.subscribers.push_back(subscribeGuarded<sensor_msgs::JointState>(
+        node_, instruments_[k].name + stream.topic, kQueue,
+        [this, &stream, k](const sensor_msgs::JointState& joints) { receiveJoints(stream, k, joints); }));
 }
 
 /** Passes a topic of the first instrument on, while it has a subscriber. */
@@ -139,10 +148,9 @@ void RobotNode::relay(const char* topic, const ros::Publisher& publisher, ros::S
   if (!wanted)
     return;
   const std::string& name = instruments_[control_.instrumentOf(0)].name;
-  subscriber = node_.subscribe<Message>(
-      name + topic, kQueue,
-      [publisher](const boost::shared_ptr<Message const>& message) { publisher.publish(message); }, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
+  subscriber = subscribeGuarded<Message>(node_, name + topic, kQueue,
+                                         [publisher](const boost::shared_ptr<Message const>& message)
+                                         { publisher.publish(message); });
 }
 
 void RobotNode::updateSubscriptions()
@@ -187,10 +195,10 @@ void RobotNode::give(const robot::InstrumentCommand& command)
   instruments_[command.instrument].commands.at(command.joints.kind).publish(message);
 }
 
-void RobotNode::receiveState(const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+/** Passes a command without values on to all instruments. */
+void RobotNode::receiveWord(const std::string& client, const std::string& word)
 {
-  const std::string& word = event.getConstMessage()->string;
-  const std::string refusal = control_.stateCommand(event.getPublisherName(), word, time_);
+  const std::string refusal = control_.stateCommand(client, word, time_);
   if (!refusal.empty())
   {
     ROS_WARN_THROTTLE(5.0, "rejected a %s", refusal.c_str());
@@ -201,7 +209,10 @@ void RobotNode::receiveState(const ros::MessageEvent<crtk_msgs::StringStamped co
   message.header.stamp = ros::Time::now();
   message.string = word;
   for (const Instrument& instrument : instruments_)
-    instrument.state_command.publish(message);
+    if (const auto topic = instrument.words.find(word); topic != instrument.words.end())
+      topic->second.publish(std_msgs::Empty());
+    else
+      instrument.state_command.publish(message);
 }
 
 void RobotNode::receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state)
@@ -276,8 +287,8 @@ void RobotNode::receiveJoints(JointStream& stream, std::size_t instrument, const
 
 void RobotNode::publishAllJoints(const sensor_msgs::JointState& linked)
 {
-  const ros::Duration since = linked.header.stamp - joint_states_at_;
-  if (since >= ros::Duration(0.0) && since < ros::Duration(kJointStatesPeriod) && !joint_states_at_.isZero())
+  const double since = linked.header.stamp.toSec() - joint_states_at_.toSec();  // any two times have a difference
+  if (since >= 0.0 && since < kJointStatesPeriod && !joint_states_at_.isZero())
     return;
   joint_states_at_ = linked.header.stamp;
   sensor_msgs::JointState all;
@@ -301,6 +312,7 @@ void RobotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   report.rejected = control_.rejected();
   report.silence = control_.silence(time_);
   diagnoseCommands(report, status);
+  IgnoredMessages::ofProcess().diagnose(status);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -47,6 +47,7 @@ private:
   {
     std::string name;
     std::map<drive::CommandKind, ros::Publisher> commands;
+    std::map<std::string, ros::Publisher> words;  ///< commands with a topic of their own
     ros::Publisher state_command;
     drive::OperatingState state;  ///< from the newest operating_state and state_reason; without a name before the first
   };
@@ -60,7 +61,7 @@ private:
   void relay(const char* topic, const ros::Publisher& publisher, ros::Subscriber& subscriber);
 
   void receive(drive::CommandKind kind, const ros::MessageEvent<sensor_msgs::JointState const>& event);
-  void receiveState(const ros::MessageEvent<crtk_msgs::StringStamped const>& event);
+  void receiveWord(const std::string& client, const std::string& word);
   void receiveJoints(JointStream& stream, std::size_t instrument, const sensor_msgs::JointState& joints);
   void receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state);
   void receiveReason(std::size_t instrument, const std::string& reason);

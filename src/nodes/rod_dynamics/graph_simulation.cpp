@@ -24,12 +24,13 @@ namespace
 constexpr double kContactTimeout = 3e-3;   ///< longest wait for one contact set in real time [s]
 constexpr double kContactPatience = 10.0;  ///< the same in the other paces, which wait also for a restart [s]
 
-/** Newest version of the wall, which may have moved since the latched message. */
-std::uint64_t newestVersion(const VesselMesh& mesh, ros::NodeHandle& node)
+/** Newest version of the wall, which may have moved since the latched message.
+ *  @param latched version of this message */
+std::uint64_t newestVersion(std::uint64_t latched, ros::NodeHandle& node)
 {
   GetVessel vessel;
   if (!ros::service::call(node.resolveName(names::kGetVessel), vessel))
-    return mesh.version;
+    return latched;
   return vessel.response.mesh.version + vessel.response.moved.size();
 }
 
@@ -55,20 +56,25 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
 bool GraphSimulation::waitForVessel()
 {
   ROS_INFO("waiting for the vessel");
-  const auto mesh = waitForLatched<VesselMesh>(node_, names::kVesselMesh);
-  const auto centreline = waitForLatched<VesselCentreline>(node_, names::kVesselCentreline);
-  if (!centreline)
+  std::uint64_t version = 0;
+  const auto takeMesh = [this, &version](const VesselMesh& mesh)
+  {
+    vessel_.mesh = fromMessage(mesh);
+    vessel_.source = mesh.source;
+    vessel_hash_ = mesh.content_hash;
+    version = mesh.version;
+  };
+  const auto takeCentreline = [this](const VesselCentreline& centreline)
+  { vessel_.centreline = fromMessage(centreline); };
+  if (!waitForLatched<VesselMesh>(node_, names::kVesselMesh, takeMesh) ||
+      !waitForLatched<VesselCentreline>(node_, names::kVesselCentreline, takeCentreline))
     return false;
-  vessel_.mesh = fromMessage(*mesh);
-  vessel_.centreline = fromMessage(*centreline);
-  vessel_.source = mesh->source;
-  vessel_hash_ = mesh->content_hash;
   server_ = std::make_unique<VesselServerMonitor>(node_);
   entry_ = scene::resolveStart(scene_, vessel_);
-  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel_, mesh->content_hash);
+  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel_, vessel_hash_);
   if (!simulation::hasBalloon(scene_))
     return true;
-  wall_ = std::make_unique<RemoteDeformableWall>(node_, newestVersion(*mesh, node_));
+  wall_ = std::make_unique<RemoteDeformableWall>(node_, newestVersion(version, node_));
   initial_wall_ = wall_->version();
   return true;
 }

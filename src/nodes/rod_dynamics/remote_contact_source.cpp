@@ -7,6 +7,7 @@
 
 #include "contact/contract/contact_set_validation.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
 
@@ -23,14 +24,11 @@ constexpr double kRepeat = 0.2;  ///< interval of a query without a response, wh
 
 RemoteContactSource::RemoteContactSource(const ros::NodeHandle& node, double timeout) : node_(node), timeout_(timeout)
 {
-  node_.setCallbackQueue(&queue_);
   publisher_ = node_.advertise<RodState>(names::kRodState, kQueue);
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const boost::shared_ptr<StampedContactSet>&>(
-      names::kContactSet, kQueue, [this](const boost::shared_ptr<StampedContactSet>& message) { receive(message); },
+  subscriber_ = subscribeGuardedAs<const boost::shared_ptr<StampedContactSet>&>(
+      node_, names::kContactSet, kQueue,
+      [this](const boost::shared_ptr<StampedContactSet>& message) { receive(message); }, &queue_,
       [this] { return emptyMessage(); });
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  subscriber_ = node_.subscribe(options);
   query_.header.frame_id = names::kPatientFrame;
 }
 

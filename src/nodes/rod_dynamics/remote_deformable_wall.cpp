@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -18,11 +19,9 @@ RemoteDeformableWall::RemoteDeformableWall(ros::NodeHandle node, std::uint64_t v
 {
   publisher_ = node.advertise<BalloonLoad>(names::kBalloonLoad, kQueue);
   message_.header.frame_id = names::kPatientFrame;
-  node.setCallbackQueue(&queue_);
-  const boost::function<void(const WallDisplacementConstPtr&)> receive = [this](const WallDisplacementConstPtr& message)
-  { at_risk_ = message->at_risk; };
-  subscriber_ = node.subscribe<WallDisplacement>(names::kWallDisplacement, kQueue, receive, ros::VoidConstPtr(),
-                                                 ros::TransportHints().tcpNoDelay());
+  subscriber_ = subscribeGuarded<WallDisplacement>(
+      node, names::kWallDisplacement, kQueue,
+      [this](const WallDisplacement& displacement) { at_risk_ = displacement.at_risk; }, &queue_);
 }
 
 bool RemoteDeformableWall::waitForServer() const

@@ -11,6 +11,8 @@
 
 #include "endovascular_sim/SimulationRun.h"
 #include "nodes/rod_dynamics/instruments/unread_topics.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/ignored_messages.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
@@ -55,10 +57,10 @@ private:
     updater.add("simulation", diagnose);
     while (!stop_ && ros::ok())
     {
-      updater.force_update();
+      publishDiagnostics(updater);
       ros::WallDuration(kDiagnosticsPeriod).sleep();
     }
-    updater.force_update();
+    publishDiagnostics(updater);
   }
 
   std::atomic<bool> stop_{false};
@@ -109,12 +111,14 @@ bool RodDynamicsNode::run()
           diagnoseUnread(unreadTopics(simulation_.scene(), node_.resolveName(names::kInstruments) + "/",
                                       publishedTopics(), ros::this_node::getName()),
                          status);
+          IgnoredMessages::ofProcess().diagnose(status);
         });
     observer_ = std::make_unique<StepObserver>(simulation_.scene(), simulation_.vessel().centreline);
     simulation_.setState("ENABLED", "");
     announceRun("", 0);
     waitForRecorder();
-    services_ = std::make_unique<SimulationServices>(node_, operations());
+    services_ =
+        std::make_unique<SimulationServices>(node_, operations(), parameters_.param<std::string>("state_folder", ""));
     ROS_INFO("running, pace %s", nameOf(pace_));
     runSteps();
     services_.reset();

@@ -68,8 +68,7 @@ private:
   std::string pauseByClient();
   std::string resumeByClient();
   std::string reset();
-  std::string saveState(const std::string& file);
-  std::string loadState(const std::string& file);
+  std::string continueFrom(const std::string& state, const std::string& origin);
   void stepByClient(const StepSimulation::Request& request, StepSimulation::Response& response);
   std::string refusalOf(const StepSimulation::Request& request) const;
   std::string takeSteps(std::uint32_t steps);

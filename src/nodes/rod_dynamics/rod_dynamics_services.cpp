@@ -2,7 +2,6 @@
 
 #include "common/error.h"
 #include "endovascular_sim/SimulationRun.h"
-#include "nodes/rod_dynamics/control/state_file.h"
 #include "nodes/rod_dynamics/rod_dynamics_node.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/ros_names.h"
@@ -25,8 +24,8 @@ SimulationServices::Operations RodDynamicsNode::operations()
   return {[this] { return pauseByClient(); },
           [this] { return resumeByClient(); },
           [this] { return reset(); },
-          [this](const std::string& file) { return saveState(file); },
-          [this](const std::string& file) { return loadState(file); },
+          [this] { return simulation_.save(); },
+          [this](const std::string& state, const std::string& origin) { return continueFrom(state, origin); },
           [this](const StepSimulation::Request& request, StepSimulation::Response& response)
           { stepByClient(request, response); }};
 }
@@ -50,16 +49,10 @@ std::string RodDynamicsNode::reset()
   return beginRun("", previous_steps);
 }
 
-std::string RodDynamicsNode::saveState(const std::string& file)
-{
-  return writeStateFile(file, simulation_.save());
-}
-
-std::string RodDynamicsNode::loadState(const std::string& file)
+std::string RodDynamicsNode::continueFrom(const std::string& state, const std::string& origin)
 {
   const std::uint64_t previous_steps = simulation_.simulation().steps();
-  const std::string state = readStateFile(file);
-  simulation_.load(state, file);
+  simulation_.load(state, origin);
   return beginRun(state, previous_steps);
 }
 
@@ -104,7 +97,8 @@ void RodDynamicsNode::stepByClient(const StepSimulation::Request& request, StepS
     response.message = takeSteps(request.steps);
   response.success = response.message.empty() ? 1 : 0;
   simulation_.clock().publish(simulation_.simulation().steps());
-  observer_->report(simulation_.simulation(), simulation_.instruments(), simulation_.drives(), response);
+  observer_->report(simulation_.simulation(), simulation_.instruments(), simulation_.drives(),
+                    simulation_.clock().stamp(simulation_.simulation().steps()), response);
 }
 
 /** Reason for which a call cannot be executed at all; empty without one. */

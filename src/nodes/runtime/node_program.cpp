@@ -4,10 +4,15 @@
 #include <csignal>
 #include <exception>
 #include <memory>
+#include <string>
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include "nodes/runtime/processor_claim.h"
+#include "common/error.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/processor/processor_claim.h"
 #include "nodes/runtime/progress_watchdog.h"
 
 namespace endovascular_sim::nodes
@@ -104,6 +109,11 @@ private:
       ROS_WARN("scheduling: %s", grant.message.c_str());
     else if (program_.scheduling != NodeScheduling::kDefault)
       ROS_INFO("scheduling: %s", grant.message.c_str());
+    if (pinned_ && !claim_.isVisible())
+      ROS_WARN(
+          "scheduling: no claim on processor %d, because the files in %s are held or unreadable; another session "
+          "may choose it too; remedy: end the process that holds them (fuser %s/*)",
+          claim_.choice().processor, kClaimFolder, kClaimFolder);
     if (pinned_ && claim_.choice().other_sessions > 0)
       ROS_WARN(
           "scheduling: %zu other session(s) use processor %d too, because every processor is in use; steps may be "
@@ -116,6 +126,21 @@ private:
   bool pinned_ = false;
   std::unique_ptr<ProgressWatchdog> watchdog_;
 };
+
+/** Reports a refused parameter or scene at 1 Hz until ROS ends: a restarted node would refuse it again. */
+void reportRefusal(const std::string& reason)
+{
+  diagnostic_updater::Updater diagnostics;
+  diagnostics.setHardwareID("none");
+  diagnostics.add("start", [&reason](diagnostic_updater::DiagnosticStatusWrapper& status)
+                  { status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, "not started: " + reason); });
+  const ros::WallDuration period(1.0);
+  while (ros::ok() && !stop_requested)
+  {
+    publishDiagnostics(diagnostics);
+    ros::getGlobalCallbackQueue()->callAvailable(period);
+  }
+}
 
 }  // namespace
 
@@ -141,6 +166,14 @@ int runNode(int argc, char** argv, const NodeProgram& program,
     const bool succeeded = run(node, [&scheduling] { return scheduling.request(); });
     scheduling.leave();
     return succeeded ? 0 : 1;
+  }
+  catch (const InputError& error)
+  {
+    scheduling.leave();
+    ROS_FATAL("%s", error.what());
+    if (ros::param::param("~stay_after_refusal", false))
+      reportRefusal(error.what());
+    return 1;
   }
   catch (const std::exception& error)
   {

@@ -3,45 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include <ros/message_traits.h>
-#include <ros/serialization.h>
 #include <boost/make_shared.hpp>
+
+#include "nodes/runtime/checked_stream.h"
 
 namespace endovascular_sim::nodes
 {
-
-/** Input stream that checks the length of every array before it reserves memory: damaged bytes never exhaust it. */
-class CheckedStream : public ros::serialization::IStream
-{
-public:
-  CheckedStream(const std::uint8_t* data, std::uint32_t size)
-    : IStream(const_cast<std::uint8_t*>(data), size)  // NOLINT: the base class only reads
-  {
-  }
-
-  template <typename T>
-  void next(T& value)
-  {
-    ros::serialization::deserialize(*this, value);
-  }
-
-  template <typename T, typename Allocator>
-  void next(std::vector<T, Allocator>& values)
-  {
-    std::uint32_t size = 0;
-    next(size);
-    if (size > getLength())  // every element takes at least one byte
-      ros::serialization::throwStreamOverrun();
-    values.clear();
-    for (std::uint32_t k = 0; k < size; ++k)
-    {
-      values.emplace_back();
-      next(values.back());
-    }
-  }
-};
 
 /** Serialised message of a bag. */
 struct BagMessage
@@ -63,10 +32,7 @@ struct BagMessage
   boost::shared_ptr<Message> read() const
   {
     auto message = boost::make_shared<Message>();
-    CheckedStream stream(data, size);
-    stream.next(*message);
-    if (stream.getLength() > 0)
-      ros::serialization::throwStreamOverrun();
+    CheckedStream(data, size).readAll(*message);
     return message;
   }
 };

@@ -24,14 +24,18 @@ vessel::Vessel recordedVessel(const SessionBag& recording, const std::string& fi
       throw InputError(file, topic,
                        "missing, but the scene has a vessel; use a bag that holds the session from its start" +
                            (recording.damage.empty() ? std::string() : "; the bag is damaged: " + recording.damage));
-  vessel::Vessel vessel;
-  vessel.mesh = fromMessage(*recording.mesh);
-  vessel.centreline = fromMessage(*recording.centreline);
-  vessel.lesions = lesionsFromMessage(*recording.centreline);
-  if (vessel.mesh.hash() != recording.mesh->content_hash)
-    throw InputError(file, names::kVesselMesh,
-                     "does not match its content hash: the bag is damaged; use a copy that is intact");
-  return vessel;
+  try
+  {
+    vessel::Vessel vessel;
+    vessel.mesh = fromMessage(*recording.mesh);
+    vessel.centreline = fromMessage(*recording.centreline);
+    vessel.lesions = lesionsFromMessage(*recording.centreline);
+    return vessel;
+  }
+  catch (const InputError& error)
+  {
+    throw InputError(file, "", std::string(error.what()) + ": the bag is damaged; use a copy that is intact");
+  }
 }
 
 bool areFinite(const std::vector<double>& values)

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <crtk_msgs/OperatingState.h>
@@ -23,6 +24,10 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/conversions/message_checks.h"
+#include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -100,12 +105,7 @@ template <typename Message>
 void SessionRecorder::listen(const std::string& topic, std::uint32_t queue,
                              std::function<void(const ros::MessageEvent<Message const>&)> callback)
 {
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(
-      topic, queue,
-      [callback = std::move(callback)](const ros::MessageEvent<Message const>& event) { callback(event); });
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  subscribers_.push_back(node_.subscribe(options));
+  subscribers_.push_back(subscribeGuarded<Message>(node_, topic, queue, std::move(callback)));
 }
 
 template <typename Message>
@@ -134,16 +134,19 @@ void SessionRecorder::recordLatched(const std::string& topic, std::uint32_t queu
                   });
 }
 
+/** Refuses a message that is further ahead of drive/applied than its queue is long, or whose time is not that of its
+ * step. */
 template <typename Message>
-void SessionRecorder::addToMetrics(Recording& recording, const Message& message)
+void SessionRecorder::requireKnown(const Message& message, const std::string& topic) const
 {
-  try
+  if (message.step > handled_ + kStepQueue)
+    throw InputError(topic, "step", "is " + std::to_string(message.step) + ", far ahead of the simulation");
+  if constexpr (std::is_same_v<Message, RodStateVisual> || std::is_same_v<Message, SessionSample> ||
+                std::is_same_v<Message, TreatmentVisual>)
   {
-    recording.results.metrics().add(message);
-  }
-  catch (const InputError& error)
-  {
-    ROS_WARN_THROTTLE(10.0, "omitted from the metrics: %s", error.what());
+    const double dt = scene_.solver.time_step;
+    if (!(std::abs(message.time - static_cast<double>(message.step + 1) * dt) < dt))
+      throw InputError(topic, "time", "is not that of its step");
   }
 }
 
@@ -156,8 +159,9 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
                   {
                     if (!isRecording())
                       return;
+                    requireKnown(*event.getMessage(), resolved);
+                    recording_->results.metrics().add(*event.getMessage());  // throws for an invalid one
                     recording_->bag.write(resolved, event);
-                    addToMetrics(*recording_, *event.getMessage());
                   });
 }
 
@@ -212,9 +216,21 @@ void SessionRecorder::publishInfo()
     recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
 }
 
+/** True for the step after the last one, and for the second step after a gap. A stray message has no effect. */
+bool SessionRecorder::isNext(std::uint64_t step)
+{
+  const bool is_next = step == handled_ || step == after_gap_;
+  after_gap_ = step + 1;
+  return is_next;
+}
+
 void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)
 {
   const DriveApplied& drive = *event.getMessage();
+  requireUsable(drive, scene_.instruments.size());
+  if (!isNext(drive.step))
+    throw InputError(names::kDriveApplied, "step",
+                     "does not follow the step before: a message was lost, or is another's");
   handled_ = drive.step + 1;
   if (!isRecording() || durationIsOver())
     return;
@@ -263,6 +279,8 @@ void SessionRecorder::onRod(const ros::MessageEvent<RodStateVisual const>& event
   if (!isRecording())
     return;
   const RodStateVisual& rod = *event.getMessage();
+  requireKnown(rod, names::kRodStateVisual);
+  requireUsable(rod, scene_.instruments.size());
   recording_->results.add(rod);
   if (recording_->error.empty())
     recording_->error = recording_->results.trajectoryError();
@@ -276,6 +294,8 @@ void SessionRecorder::onContacts(const ros::MessageEvent<ContactForces const>& e
   if (!isRecording())
     return;
   const ContactForces& forces = *event.getMessage();
+  requireKnown(forces, names::kContactForces);
+  requireUsable(forces);
   if (recording_->contacts.passes(static_cast<double>(forces.step) * scene_.solver.time_step))
     recording_->bag.write(node_.resolveName(names::kContactForces), event);
 }
@@ -284,6 +304,8 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 {
   if (!isRecording())
     return;
+  requireKnown(*event.getConstMessage(), names::kContactForceMap);
+  requireUsable(*event.getConstMessage());
   recording_->results.add(event.getConstMessage());
   recording_->bag.write(node_.resolveName(names::kContactForceMap), event);
 }
@@ -291,7 +313,8 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   if (info_published_)
-    return;  // later meshes are in vessel/moved already
+    return;                               // later meshes are in vessel/moved already
+  fromMessage(*event.getConstMessage());  // throws for an invalid one
   info_.mesh_hash = event.getConstMessage()->content_hash;
   publishInfo();
   const std::string topic = node_.resolveName(names::kVesselMesh);
@@ -307,10 +330,12 @@ void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 
 void SessionRecorder::onCentreline(const ros::MessageEvent<VesselCentreline const>& event)
 {
+  fromMessage(*event.getConstMessage());  // throws for an invalid one
+  lesionsFromMessage(*event.getConstMessage());
   const std::string topic = node_.resolveName(names::kVesselCentreline);
   auto& begin = latched_["2 " + topic] = [topic, event](Recording& recording)
   {
-    addToMetrics(recording, *event.getConstMessage());
+    recording.results.add(*event.getConstMessage());
     recording.bag.write(topic, ros::Time::now(), event);
   };
   if (isRecording())
@@ -321,6 +346,7 @@ void SessionRecorder::onImage(const ros::MessageEvent<sensor_msgs::Image const>&
 {
   if (!isRecording())
     return;
+  requireUsable(*event.getConstMessage());
   recording_->results.report().addFluoroscopyFrame();
   if (scene_.record.x_ray_frames)
     recording_->bag.write(node_.resolveName(names::kFluoroscopyImage), event);
@@ -371,7 +397,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
   if ((ros::SteadyTime::now() - diagnosed_).toSec() >= kDiagnosticsPeriod)
   {
     diagnosed_ = ros::SteadyTime::now();
-    diagnostics_.force_update();
+    publishDiagnostics(diagnostics_);
   }
   if (!isRecording())
     return;
@@ -427,6 +453,7 @@ void SessionRecorder::fillDiagnostics(diagnostic_updater::DiagnosticStatusWrappe
   status.add("messages recorded", recording_->bag.messages());
   status.add("messages dropped", recording_->bag.dropped());
   status.add("recording [bytes]", recording_->bag.bytes());
+  IgnoredMessages::ofProcess().diagnose(status);
 }
 
 bool SessionRecorder::finish()
@@ -477,6 +504,8 @@ void SessionRecorder::onRun(const ros::MessageEvent<SimulationRun const>& event)
   const SimulationRunConstPtr run = event.getConstMessage();
   if (run_ != 0 && run->run <= run_)
     return;
+  if (run->run == 0 || (run_ != 0 && run->run > run_ + 1))
+    throw InputError(names::kSimulationRun, "run", "must be 1, or follow run " + std::to_string(run_));
   next_ = run;
   next_since_ = ros::SteadyTime::now();
 }

@@ -73,12 +73,13 @@ private:
   /** As record(); the newest message of each publisher also begins every further recording. */
   template <typename Message>
   void recordLatched(const std::string& topic, std::uint32_t queue);
-  /** As record(); also adds the messages to the metrics. */
+  /** As record(); also adds the messages to the metrics, which may refuse them. */
   template <typename Message>
   void measure(const std::string& topic, std::uint32_t queue);
-  template <typename Message>
-  static void addToMetrics(Recording& recording, const Message& message);
 
+  bool isNext(std::uint64_t step);
+  template <typename Message>
+  void requireKnown(const Message& message, const std::string& topic) const;
   void onDrive(const ros::MessageEvent<DriveApplied const>& event);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
   void recordSetpoints(const DriveApplied& drive, ros::Time time);
@@ -113,10 +114,11 @@ private:
   RecorderSettings settings_;
   SessionInfo info_;
   std::unique_ptr<Recording> recording_;
-  std::uint32_t run_ = 0;       ///< run of the recording; 0 before the first message about it
-  std::uint64_t handled_ = 0;   ///< number of steps, up to the last one that has arrived
-  SimulationRunConstPtr next_;  ///< run that is to be recorded; null without one
-  ros::SteadyTime next_since_;  ///< arrival of next_
+  std::uint32_t run_ = 0;        ///< run of the recording; 0 before the first message about it
+  std::uint64_t handled_ = 0;    ///< number of steps, up to the last one that has arrived
+  std::uint64_t after_gap_ = 0;  ///< step after the last one that has arrived, whether or not it followed
+  SimulationRunConstPtr next_;   ///< run that is to be recorded; null without one
+  ros::SteadyTime next_since_;   ///< arrival of next_
   /** Messages that begin every recording, by their topic and publisher. */
   std::map<std::string, std::function<void(Recording&)>> latched_;
   bool info_published_ = false;

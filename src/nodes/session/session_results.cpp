@@ -42,13 +42,13 @@ std::string nodeOf(const std::string& status_name)
   return !node.empty() && node.front() == '/' ? node.substr(1) : node;
 }
 
-/** Calls a function that writes files, and logs its error. @return true without an error */
-template <typename Write>
-bool tryToWrite(Write write)
+/** Calls a function and logs its error. @return true without an error */
+template <typename Work>
+bool tryTo(const Work& work)
 {
   try
   {
-    write();
+    work();
     return true;
   }
   catch (const InputError& error)
@@ -113,10 +113,15 @@ void SessionResults::add(const ContactForceMapConstPtr& map)
 void SessionResults::add(const VesselMeshConstPtr& vessel)
 {
   vessel_ = vessel;
-  metrics_.add(*vessel_);
+  tryTo([this] { metrics_.add(*vessel_); });
   report_.setMeshHash(vessel_->content_hash);
   for (const geometry_msgs::Point& vertex : vessel_->mesh.vertices)
     report_.addVesselPoint({vertex.x, vertex.y, vertex.z});
+}
+
+void SessionResults::add(const VesselCentreline& centreline)
+{
+  tryTo([this, &centreline] { metrics_.add(centreline); });
 }
 
 void SessionResults::add(const diagnostic_msgs::DiagnosticArray& diagnostics)
@@ -162,9 +167,9 @@ bool SessionResults::write(const results::RecordingOutcome& recording, const std
   results::WallForceSummary forces;
   if (force_map_)
     forces = summaryFromMessage(*force_map_);
-  const bool report = tryToWrite([&] { writeTextFile(path("report.json"), report_.json(recording, error)); });
-  const bool metrics = tryToWrite([&] { metrics_.write(folder_, force_map_ ? &forces : nullptr); });
-  const bool map = tryToWrite([&] { writeWallForces(); });
+  const bool report = tryTo([&] { writeTextFile(path("report.json"), report_.json(recording, error)); });
+  const bool metrics = tryTo([&] { metrics_.write(folder_, force_map_ ? &forces : nullptr); });
+  const bool map = tryTo([&] { writeWallForces(); });
   return rows_written && report && metrics && map;
 }
 

@@ -33,6 +33,7 @@ public:
   void add(const ContactForceMapConstPtr& map);
   /** @param vessel initial vessel */
   void add(const VesselMeshConstPtr& vessel);
+  void add(const VesselCentreline& centreline);
   void add(const diagnostic_msgs::DiagnosticArray& diagnostics);
 
   MetricsRecorder& metrics() { return metrics_; }

@@ -2,11 +2,12 @@
 
 #include <Eigen/Geometry>
 
-#include "common/error.h"
 #include "common/hash.h"
 #include "common/progress.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/diagnostics_publication.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/real_time.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/vessel_server/clicked_end.h"
@@ -61,14 +62,16 @@ VesselServerNode::VesselServerNode(const ros::NodeHandle& node, const scene::Sce
   publishVessel(vessel);
   scene_ = *scene.vessel;
   tree_ = vessel.centreline;
-  click_subscriber_ = node_.subscribe(names::kClickedPoint, kQueue, &VesselServerNode::nameEnd, this);
+  click_subscriber_ = subscribeGuarded<geometry_msgs::PointStamped>(
+      node_, names::kClickedPoint, kQueue,
+      [this](const geometry_msgs::PointStampedConstPtr& click) { nameEnd(click); });
   if (simulation::hasBalloon(scene))
     serveWall(vessel);
   service_ = node_.advertiseService(names::kGetVessel, &VesselServerNode::get, this);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("vessel", this, &VesselServerNode::diagnose);
   diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+                                             [this](const ros::WallTimerEvent&) { publishDiagnostics(diagnostics_); });
   ROS_INFO("%s, %zu triangles, %zu branches", vessel.source.c_str(), vessel.mesh.triangles.size(),
            vessel.centreline.branches.size());
 }
@@ -78,9 +81,9 @@ void VesselServerNode::publishVessel(const vessel::Vessel& vessel)
   mesh_.header.stamp = centreline_.header.stamp = ros::Time::now();
   mesh_.header.frame_id = centreline_.header.frame_id = names::kPatientFrame;
   mesh_.version = centreline_.version = 1;
-  mesh_.content_hash = centreline_.content_hash = vessel.mesh.hash();
   mesh_.source = vessel.source;
   toMessage(vessel.mesh, mesh_);
+  centreline_.content_hash = mesh_.content_hash;
   toMessage(vessel.centreline, centreline_);
   toMessage(vessel.lesions, centreline_);
   mesh_publisher_ = node_.advertise<VesselMesh>(names::kVesselMesh, 1, true);
@@ -130,10 +133,14 @@ void VesselServerNode::serveWall(const vessel::Vessel& vessel)
   wall_ = std::make_unique<WallDeformationServer>(vessel);
   displacement_.header.frame_id = names::kPatientFrame;
   displacement_publisher_ = node_.advertise<WallDisplacement>(names::kWallDisplacement, kQueue);
-  ros::NodeHandle direct(node_);
-  direct.setCallbackQueue(&queue_);
-  load_subscriber_ = direct.subscribe(names::kBalloonLoad, kQueue, &VesselServerNode::receiveLoad, this,
-                                      ros::TransportHints().tcpNoDelay());
+  load_subscriber_ = subscribeGuarded<BalloonLoad>(
+      node_, names::kBalloonLoad, kQueue,
+      [this](const ros::MessageEvent<BalloonLoad const>& event)
+      {
+        load_source_.require(event.getPublisherName());
+        receiveLoad(event.getConstMessage());
+      },
+      &queue_);
   republish_timer_ =
       node_.createWallTimer(ros::WallDuration(kRepublishPeriod), [this](const ros::WallTimerEvent&) { republish(); });
 }
@@ -151,15 +158,7 @@ void VesselServerNode::requestRealTime()
 void VesselServerNode::receiveLoad(const BalloonLoadConstPtr& message)
 {
   requestRealTime();
-  try
-  {
-    out_of_step_ = !wall_->press(*message, displacement_);
-  }
-  catch (const InputError& error)
-  {
-    ROS_WARN_THROTTLE(1.0, "%s", error.what());
-    return;
-  }
+  out_of_step_ = !wall_->press(*message, displacement_);
   if (out_of_step_)
   {
     ROS_ERROR_THROTTLE(5.0,
@@ -185,7 +184,6 @@ void VesselServerNode::republish()
       now.mesh.vertices[displacement.index[k]] = fromMessage(displacement.position[k]);
   mesh_.header.stamp = ros::Time::now();
   mesh_.version = now.version + now.displacements.size();
-  mesh_.content_hash = now.mesh.hash();
   toMessage(now.mesh, mesh_);
   visualization_msgs::Marker marker;
   if (marker_is_due)
@@ -210,7 +208,6 @@ bool VesselServerNode::get(GetVessel::Request&, GetVessel::Response& response)
     const WallDeformationServer::Snapshot now = wall_->snapshot();
     toMessage(now.mesh, response.mesh);
     response.mesh.version = now.version;
-    response.mesh.content_hash = now.mesh.hash();
     response.moved = now.displacements;
   }
   response.centreline = centreline_;
@@ -230,6 +227,7 @@ void VesselServerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("branches", centreline_.branches.size());
   for (std::size_t n = 0; n < notes_.size(); ++n)
     status.add("note " + std::to_string(n + 1), notes_[n]);
+  IgnoredMessages::ofProcess().diagnose(status);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -18,6 +18,7 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "nodes/runtime/direct_callback_queue.h"
+#include "nodes/runtime/one_source.h"
 #include "nodes/vessel_server/wall_deformation_server.h"
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
@@ -60,6 +61,7 @@ private:
   bool requested_real_time_ = false;  ///< used by the thread of receiveLoad() only
   std::atomic<bool> out_of_step_{false};
   ros::Publisher displacement_publisher_;
+  OneSource load_source_;  ///< used by the thread of the loads only
   DirectCallbackQueue queue_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.

@@ -6,10 +6,11 @@
 #include <regex>
 #include <sstream>
 
-#include "common/error.h"
 #include "intervention/stent_placement.h"
+#include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
 #include "visualization/tube_mesh.h"
@@ -104,17 +105,19 @@ VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle
   }
   if (parameters.param("draw_vessel", false))
     vessel_publisher_ = node.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
-  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
-  rod_subscriber_ = node.subscribe(names::kRodStateVisual, 2, &VisualizationNode::drawWire, this, no_delay);
-  vessel_subscriber_ = node.subscribe(names::kVesselMesh, 1, &VisualizationNode::receiveVessel, this, no_delay);
-  treatment_subscriber_ =
-      node.subscribe(names::kTreatmentVisual, 2, &VisualizationNode::receiveTreatment, this, no_delay);
-  force_map_subscriber_ =
-      node.subscribe(names::kContactForceMap, 1, &VisualizationNode::receiveForceMap, this, no_delay);
+  rod_subscriber_ = subscribeGuarded<RodStateVisual>(node, names::kRodStateVisual, 2,
+                                                     [this](const RodStateVisual& state) { drawWire(state); });
+  vessel_subscriber_ = subscribeGuarded<VesselMesh>(node, names::kVesselMesh, 1,
+                                                    [this](const VesselMesh& vessel) { receiveVessel(vessel); });
+  treatment_subscriber_ = subscribeGuarded<TreatmentVisual>(
+      node, names::kTreatmentVisual, 2, [this](const TreatmentVisual& message) { receiveTreatment(message); });
+  force_map_subscriber_ = subscribeGuarded<ContactForceMap>(
+      node, names::kContactForceMap, 1, [this](const ContactForceMapConstPtr& map) { receiveForceMap(map); });
 }
 
 void VisualizationNode::drawWire(const RodStateVisual& state)
 {
+  requireUsable(state);
   if (state.time < last_time_)
   {
     // The session or the replay was restarted.
@@ -125,7 +128,7 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
     return;
   last_time_ = state.time;
-  if (state.nodes.empty() || state.radius.size() != state.nodes.size())
+  if (state.nodes.empty())
     return;
 
   std::vector<Eigen::Vector3d> nodes(state.nodes.size());
@@ -228,16 +231,9 @@ void VisualizationNode::receiveTreatment(const TreatmentVisual& message)
 {
   if (std::abs(message.time - last_treatment_) < 1.0 / kMarkerRate - 1e-4)
     return;
+  drawBalloons(message);
+  drawStents(message);
   last_treatment_ = message.time;
-  try
-  {
-    drawBalloons(message);
-    drawStents(message);
-  }
-  catch (const InputError& error)
-  {
-    ROS_WARN_THROTTLE(1.0, "%s", error.what());
-  }
 }
 
 void VisualizationNode::drawBalloons(const TreatmentVisual& message)
@@ -274,6 +270,7 @@ void VisualizationNode::drawStents(const TreatmentVisual& message)
 
 void VisualizationNode::receiveForceMap(const ContactForceMapConstPtr& map)
 {
+  requireUsable(*map);
   newest_map_ = map;
   if (heat_)
     drawHeatMap(*map);

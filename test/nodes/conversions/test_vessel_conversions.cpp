@@ -29,6 +29,22 @@ TEST(VesselConversions, RestoreAMeshWithTheSameHash)
   EXPECT_EQ(fromMessage(message).hash(), mesh.hash());
 }
 
+TEST(VesselConversions, RejectADamagedMesh)
+{
+  VesselMesh valid;
+  toMessage(vessel::tubeMesh(tube()), valid);
+  VesselMesh message = valid;
+  message.mesh.vertices[5].x += 1e-9;
+  EXPECT_THROW(fromMessage(message), InputError) << "another content hash";
+  message = valid;
+  message.mesh.vertices[5].x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(fromMessage(message), InputError);
+  message = valid;
+  message.mesh.triangles[3].vertex_indices[1] = 0xffffffffU;
+  EXPECT_THROW(fromMessage(message), InputError);
+  EXPECT_THROW(fromMessage(VesselMesh()), InputError) << "without triangles";
+}
+
 TEST(VesselConversions, RestoreACentrelineBitForBit)
 {
   const vessel::CentrelineTree tree = vessel::tubeCentreline(tube());

@@ -7,6 +7,7 @@
 
 #include "endovascular_sim/SessionProgress.h"
 #include "nodes/runtime/direct_callback_queue.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -17,11 +18,10 @@ namespace endovascular_sim::nodes
 class RecorderProgress
 {
 public:
-  explicit RecorderProgress(ros::NodeHandle node)
+  explicit RecorderProgress(const ros::NodeHandle& node)
   {
-    node.setCallbackQueue(&queue_);
-    subscriber_ = node.subscribe(names::kSessionProgress, 10, &RecorderProgress::receive, this,
-                                 ros::TransportHints().tcpNoDelay());
+    subscriber_ = subscribeGuarded<SessionProgress>(
+        node, names::kSessionProgress, 10, [this](const SessionProgress& message) { receive(message); }, &queue_);
   }
 
   bool isPresent() const { return subscriber_.getNumPublishers() > 0; }
@@ -45,10 +45,10 @@ public:
   }
 
 private:
-  void receive(const SessionProgressConstPtr& message)
+  void receive(const SessionProgress& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    newest_ = *message;
+    newest_ = message;
   }
 
   DirectCallbackQueue queue_;

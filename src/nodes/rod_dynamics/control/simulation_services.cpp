@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "common/error.h"
+#include "nodes/rod_dynamics/control/state_file.h"
+#include "nodes/runtime/real_time.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -30,15 +32,26 @@ bool answer(const char* name, Response& response, const Operation& operation)
 
 }  // namespace
 
-SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations operations)
-  : node_(node), operations_(std::move(operations))
+SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations operations, std::string state_folder)
+  : node_(node), operations_(std::move(operations)), state_folder_(std::move(state_folder))
 {
   node_.setCallbackQueue(&queue_);
   addTrigger(names::kSimulationPause, operations_.pause);
   addTrigger(names::kSimulationResume, operations_.resume);
   addTrigger(names::kSimulationReset, operations_.reset);
-  addFile(names::kSimulationSave, operations_.save_state);
-  addFile(names::kSimulationLoad, operations_.load_state);
+  addFile(names::kSimulationSave,
+          [this](const std::string& file)
+          {
+            const std::string state = inSimulation(std::packaged_task<std::string()>(operations_.state));
+            return writeStateFile(file, state, state_folder_);
+          });
+  addFile(
+      names::kSimulationLoad,
+      [this](const std::string& file)
+      {
+        const std::string state = readStateFile(file, state_folder_);
+        return inSimulation(std::packaged_task<std::string()>([&] { return operations_.continue_from(state, file); }));
+      });
   const boost::function<bool(StepSimulation::Request&, StepSimulation::Response&)> step =
       [this](StepSimulation::Request& request, StepSimulation::Response& response)
   {
@@ -46,6 +59,17 @@ SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations o
     return true;
   };
   servers_.push_back(node_.advertiseService(names::kSimulationStep, step));
+  file_spinner_.start();
+}
+
+SimulationServices::~SimulationServices()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_ended_ = true;
+    tasks_.clear();
+  }
+  file_spinner_.stop();
 }
 
 void SimulationServices::addTrigger(const char* name, const std::function<std::string()>& operation)
@@ -57,16 +81,59 @@ void SimulationServices::addTrigger(const char* name, const std::function<std::s
   servers_.push_back(node_.advertiseService(name, call));
 }
 
+/** @param operation executed in the thread of files, with ordinary scheduling */
 void SimulationServices::addFile(const char* name, const std::function<std::string(const std::string&)>& operation)
 {
   const boost::function<bool(StateFile::Request&, StateFile::Response&)> call =
-      [name, &operation](StateFile::Request& request, StateFile::Response& response)
-  { return answer(name, response, [&] { return operation(request.file); }); };
-  servers_.push_back(node_.advertiseService(name, call));
+      [name, operation](StateFile::Request& request, StateFile::Response& response)
+  {
+    leaveRealTime();
+    return answer(name, response, [&] { return operation(request.file); });
+  };
+  ros::AdvertiseServiceOptions options;
+  options.init<StateFile::Request, StateFile::Response>(name, call);
+  options.callback_queue = &file_queue_;
+  servers_.push_back(node_.advertiseService(options));
+}
+
+/** Executes work between two steps, and waits for it. @throws InputError as the work, and when the simulation ends */
+std::string SimulationServices::inSimulation(std::packaged_task<std::string()> work)
+{
+  std::future<std::string> result = work.get_future();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!has_ended_)
+      tasks_.push_back(std::move(work));
+    else
+      work = {};  // breaks its promise
+  }
+  try
+  {
+    return result.get();
+  }
+  catch (const std::future_error&)
+  {
+    throw InputError("rod_dynamics", "", "the simulation ends");
+  }
+}
+
+/** Executes the work of the thread of files. */
+void SimulationServices::work()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!tasks_.empty())
+  {
+    std::packaged_task<std::string()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
 }
 
 void SimulationServices::serve(double seconds)
 {
+  work();
   queue_.callAvailable(ros::WallDuration(seconds));
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <future>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,7 +17,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Services below simulation/, executed in the thread of the simulation, between two steps. */
+/** Services below simulation/, executed in the thread of the simulation, between two steps. Files are read and written
+ *  in a thread of their own: steps do not wait for a disk. */
 class SimulationServices
 {
 public:
@@ -22,12 +26,18 @@ public:
   struct Operations
   {
     std::function<std::string()> pause, resume, reset;
-    std::function<std::string(const std::string&file)> save_state, load_state;
+    std::function<std::string()> state;  ///< present state of the simulation
+    /** Continues from a state. @param origin its file, for messages */
+    std::function<std::string(const std::string& state, const std::string& origin)> continue_from;
     /** Fills the response, also for a refusal. */
     std::function<void(const StepSimulation::Request&, StepSimulation::Response&)> step;
   };
 
-  SimulationServices(const ros::NodeHandle& node, Operations operations);
+  /** @param state_folder folder of all states; empty: any */
+  SimulationServices(const ros::NodeHandle& node, Operations operations, std::string state_folder = "");
+  ~SimulationServices();
+  SimulationServices(const SimulationServices&) = delete;
+  SimulationServices& operator=(const SimulationServices&) = delete;
 
   /** Executes all calls that wait, the first of which may arrive within a time [s]. */
   void serve(double seconds);
@@ -35,10 +45,17 @@ public:
 private:
   void addTrigger(const char* name, const std::function<std::string()>& operation);
   void addFile(const char* name, const std::function<std::string(const std::string&)>& operation);
+  std::string inSimulation(std::packaged_task<std::string()> work);
+  void work();
 
   ros::NodeHandle node_;
-  ros::CallbackQueue queue_;
+  ros::CallbackQueue queue_, file_queue_;
   Operations operations_;
+  std::string state_folder_;
+  std::mutex mutex_;                                     ///< guards the next two
+  std::deque<std::packaged_task<std::string()>> tasks_;  ///< of the thread of files for that of the simulation
+  bool has_ended_ = false;
+  ros::AsyncSpinner file_spinner_{1, &file_queue_};
   std::vector<ros::ServiceServer> servers_;  ///< last, so that they end before the members that their callbacks use
 };
 

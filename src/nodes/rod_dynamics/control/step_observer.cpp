@@ -32,7 +32,7 @@ void StepObserver::addStep(const simulation::Simulation& simulation)
 }
 
 void StepObserver::report(const simulation::Simulation& simulation, const InstrumentPublisher& instruments,
-                          DriveCommands& drives, StepSimulation::Response& response) const
+                          DriveCommands& drives, ros::Time stamp, StepSimulation::Response& response) const
 {
   response.step = simulation.steps();
   response.time = simulation.time();
@@ -43,6 +43,7 @@ void StepObserver::report(const simulation::Simulation& simulation, const Instru
   {
     InstrumentStatus& status = response.instruments[k];
     status.name = scene_.instruments[k].instrument.name;
+    status.measured.header.stamp = stamp;
     status.measured.header.frame_id = names::kIntroducerFrame;
     instruments.measure(simulation, k, status.measured);
     status.tip = tipPose(simulation, k);

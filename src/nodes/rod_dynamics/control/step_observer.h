@@ -27,9 +27,10 @@ public:
   /** Adds a step of the call. */
   void addStep(const simulation::Simulation& simulation);
 
-  /** Writes the state after the call. */
+  /** Writes the state after the call.
+   *  @param stamp of the last step */
   void report(const simulation::Simulation& simulation, const InstrumentPublisher& instruments, DriveCommands& drives,
-              StepSimulation::Response& response) const;
+              ros::Time stamp, StepSimulation::Response& response) const;
 
 private:
   const scene::Scene& scene_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <std_msgs/Empty.h>
+
 #include "common/archive.h"
 #include "common/error.h"
 #include "nodes/conversions/command_topics.h"
@@ -31,10 +33,17 @@ void DriveCommands::subscribe(ros::NodeHandle& node, std::size_t instrument)
   for (const CommandTopic& topic : kCommandTopics)
     subscribers_[instrument].push_back(subscribeToCommands<sensor_msgs::JointState>(
         node, name + topic.name, &queue_,
-        [this, instrument, kind = topic.kind](const auto& event) { receive(instrument, kind, event); }));
+        [this, instrument, kind = topic.kind](const ros::MessageEvent<sensor_msgs::JointState const>& event)
+        { receive(instrument, kind, event); }));
+  for (const WordTopic& topic : kWordTopics)
+    subscribers_[instrument].push_back(
+        subscribeToCommands<std_msgs::Empty>(node, name + topic.name, &queue_,
+                                             [this, instrument, word = topic.word](const auto& event)
+                                             { receiveWord(instrument, event.getPublisherName(), word); }));
   subscribers_[instrument].push_back(subscribeToCommands<crtk_msgs::StringStamped>(
       node, name + names::kStateCommand, &queue_,
-      [this, instrument](const auto& event) { receiveState(instrument, event); }));
+      [this, instrument](const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+      { receiveWord(instrument, event.getPublisherName(), event.getConstMessage()->string); }));
 }
 
 void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,
@@ -50,15 +59,14 @@ void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,
   updateRevision();
 }
 
-void DriveCommands::receiveState(std::size_t instrument, const ros::MessageEvent<crtk_msgs::StringStamped const>& event)
+/** Executes a command without values. */
+void DriveCommands::receiveWord(std::size_t instrument, const std::string& client, const std::string& word)
 {
-  const std::string& word = event.getConstMessage()->string;
   const std::lock_guard<std::mutex> lock(mutex_);
   drive::HandControl& control = *hands_->control(instrument);
   const std::string& name = scene_.instruments[instrument].instrument.name;
-  if (control.stateCommand(event.getPublisherName(), word))
-    ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), event.getPublisherName().c_str(),
-             control.state().state.c_str());
+  if (control.stateCommand(client, word))
+    ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), client.c_str(), control.state().state.c_str());
   else
     ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", name.c_str(), control.lastRefusal().c_str());
   updateRevision();
@@ -92,7 +100,7 @@ std::string DriveCommands::giveOne(const std::string& client, const InstrumentCo
     if (!kind && !drive::isStateCommand(command.command))
       return where + ": unknown command '" + command.command +
              "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, enable, disable, pause, resume, "
-             "home and unhome";
+             "home, unhome, hold and free";
     const bool accepted = kind ? control.command(client, drive::jointCommand(*kind, command.joints.name,
                                                                              valuesOf(command.joints, *kind))) ==
                                      drive::CommandVerdict::kAccepted
@@ -109,6 +117,7 @@ void DriveCommands::reset()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   hands_.emplace(scene_);
+  grips_.assign(scene_.instruments.size(), {});
   player_ = file_;
   updateRevision();
 }
@@ -117,6 +126,7 @@ void DriveCommands::restAt(const simulation::Simulation& simulation)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   hands_->restAt(simulation);
+  grips_.assign(scene_.instruments.size(), {});
   updateRevision();
 }
 
@@ -162,7 +172,7 @@ void DriveCommands::updateRevision()
   std::uint64_t revision = 0;
   for (std::size_t k = 0; k < subscribers_.size(); ++k)
     if (const drive::HandControl* control = hands_->control(k))
-      revision += control->state().revision;
+      revision += control->state().revision + grips_[k].changes();
   revision_ = revision;
 }
 
@@ -173,8 +183,24 @@ const std::vector<simulation::HandCommand>& DriveCommands::next(const simulation
   if (player_)
     playFile(simulation.time());
   const std::vector<simulation::HandCommand>& commands = hands_->next(simulation, scripted);
+  watchGrips(simulation);
   updateRevision();
   return commands;
+}
+
+/** Follows the grip of every hand that clients drive. */
+void DriveCommands::watchGrips(const simulation::Simulation& simulation)
+{
+  for (std::size_t k = 0; k < grips_.size(); ++k)
+  {
+    if (hands_->control(k) == nullptr)
+      continue;
+    const simulation::HandState hand = simulation.hand(static_cast<int>(k));
+    const drive::HandMotion reached = simulation.reached(static_cast<int>(k));
+    const scene::DriveScene& drive = scene_.instruments[k].drive;
+    grips_[k].addStep({reached.insertion - hand.insertion, reached.rotation - hand.rotation},
+                      {hand.force / drive.force_limit, hand.torque / drive.torque_limit}, scene_.solver.time_step);
+  }
 }
 
 std::vector<drive::OperatingState> DriveCommands::states()
@@ -183,7 +209,11 @@ std::vector<drive::OperatingState> DriveCommands::states()
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t k = 0; k < states.size(); ++k)
     if (const drive::HandControl* control = hands_->control(k))
+    {
       states[k] = control->state();
+      if (states[k].reason.empty())
+        states[k].reason = grips_[k].warning();
+    }
     else
       states[k].state = "ENABLED";
   return states;
@@ -218,6 +248,7 @@ std::vector<CommandReport> DriveCommands::reports()
     const drive::HandControl& control = *hands_->control(k);
     report.driver = control.silence() < scene_.instruments[k].drive.limits.time_out ? control.driver() : "";
     report.last_refusal = control.lastRefusal();
+    report.warning = grips_[k].warning();
     report.accepted = control.accepted();
     report.rejected = control.rejected();
     report.silence = control.silence();

@@ -13,6 +13,7 @@
 
 #include "endovascular_sim/InstrumentCommand.h"
 #include "nodes/conversions/command_diagnostics.h"
+#include "nodes/rod_dynamics/instruments/grip_watch.h"
 #include "nodes/runtime/direct_callback_queue.h"
 #include "scene/model/scene.h"
 #include "simulation/driven_hands.h"
@@ -73,16 +74,18 @@ private:
   void subscribe(ros::NodeHandle& node, std::size_t instrument);
   void receive(std::size_t instrument, drive::CommandKind kind,
                const ros::MessageEvent<sensor_msgs::JointState const>& event);
-  void receiveState(std::size_t instrument, const ros::MessageEvent<crtk_msgs::StringStamped const>& event);
+  void receiveWord(std::size_t instrument, const std::string& client, const std::string& word);
   void updateRevision();
 
+  void watchGrips(const simulation::Simulation& simulation);
   std::string giveOne(const std::string& client, const InstrumentCommand& command, std::size_t n);
   void playFile(double time);
 
   const scene::Scene& scene_;
   std::optional<simulation::CommandPlayer> file_;  ///< commands of a file, before the first step
-  std::mutex mutex_;                               ///< guards the next two
+  std::mutex mutex_;                               ///< guards the next three
   std::optional<simulation::DrivenHands> hands_;
+  std::vector<GripWatch> grips_;                     ///< one per instrument
   std::optional<simulation::CommandPlayer> player_;  ///< commands of a file
   std::atomic<std::uint64_t> revision_{0};
   DirectCallbackQueue queue_;

@@ -16,8 +16,8 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-const std::vector<std::string> kInputs = {"servo_jp", "servo_jr", "servo_jv",     "servo_jf",
-                                          "move_jp",  "move_jr",  "state_command"};
+const std::vector<std::string> kInputs = {"servo_jp", "servo_jr", "servo_jv", "servo_jf",     "move_jp",
+                                          "move_jr",  "hold",     "free",     "state_command"};
 
 /** Reason for which a topic is not read; empty if it is. */
 std::string remedyFor(const scene::Scene& scene, const std::string& prefix, const std::string& instrument,

@@ -1,4 +1,4 @@
-#include "nodes/runtime/processor_claim.h"
+#include "nodes/runtime/processor/processor_claim.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <optional>
+#include <thread>
 
 namespace endovascular_sim::nodes
 {
@@ -19,7 +22,31 @@ namespace
 
 constexpr mode_t kFolderMode = 01777;  // every account of the machine may add a claim, none may remove another's
 constexpr mode_t kFileMode = 0644;
+constexpr std::chrono::milliseconds kPatience{1000};  ///< longest wait for a lock
+constexpr std::chrono::milliseconds kPoll{5};
 constexpr char kGuard[] = "/guard";
+
+/** Opens a file of the folder, or creates it. Any account may have put something else there, e.g. a pipe without a
+ *  writer: nothing is followed or waited for. @return −1 on failure */
+int openClaim(const std::string& path)
+{
+  constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  const int file = open(path.c_str(), kFlags);
+  return file >= 0 ? file : open(path.c_str(), kFlags | O_CREAT, kFileMode);
+}
+
+/** Locks a file, which any account of the machine may hold, within kPatience. @return false without the lock */
+bool lockSoon(int file, int operation)
+{
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (flock(file, operation | LOCK_NB) != 0)
+  {
+    if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() > end)
+      return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
 
 /** Exclusive lock on the folder of claims, for the duration of a choice. */
 class FolderLock
@@ -29,12 +56,8 @@ public:
   {
     if (mkdir(folder.c_str(), kFolderMode) == 0)
       chmod(folder.c_str(), kFolderMode);  // not reduced by the umask
-    const std::string path = folder + kGuard;
-    file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file_ < 0)
-      file_ = open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, kFileMode);
-    if (file_ >= 0)
-      flock(file_, LOCK_EX);
+    file_ = openClaim(folder + kGuard);
+    is_held_ = file_ >= 0 && lockSoon(file_, LOCK_EX);
   }
   ~FolderLock()
   {
@@ -44,10 +67,11 @@ public:
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  bool isHeld() const { return file_ >= 0; }
+  bool isHeld() const { return is_held_; }
 
 private:
   int file_ = -1;
+  bool is_held_ = false;
 };
 
 /** Claim read from a file name `PROCESSOR-SESSION`. */
@@ -67,21 +91,23 @@ std::optional<NamedClaim> parse(const std::string& name)
   return NamedClaim{std::atoi(name.substr(0, dash).c_str()), name.substr(dash + 1)};
 }
 
-/** True if a living process holds the claim. Removes a file that none holds. */
-bool isAlive(const std::string& path)
+/** True if a living process holds the claim.
+ *  @param removes_dead true: removes a file that none holds */
+bool isAlive(const std::string& path, bool removes_dead)
 {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0)
     return false;
   const bool dead = flock(file, LOCK_EX | LOCK_NB) == 0;
-  if (dead)
+  if (dead && removes_dead)
     unlink(path.c_str());
   close(file);
   return !dead;
 }
 
-/** Claims of living processes. The folder must be locked. */
-std::vector<NamedClaim> livingClaims(const std::string& folder)
+/** Claims of living processes.
+ *  @param is_locked true: the folder is locked, so that files which no process holds are removed */
+std::vector<NamedClaim> livingClaims(const std::string& folder, bool is_locked)
 {
   std::vector<NamedClaim> claims;
   DIR* const directory = opendir(folder.c_str());
@@ -89,7 +115,7 @@ std::vector<NamedClaim> livingClaims(const std::string& folder)
     return claims;
   while (const dirent* const entry = readdir(directory))
     if (const std::optional<NamedClaim> claim = parse(entry->d_name))
-      if (isAlive(folder + "/" + entry->d_name))
+      if (isAlive(folder + "/" + entry->d_name, is_locked))
         claims.push_back(*claim);
   closedir(directory);
   return claims;
@@ -119,7 +145,7 @@ ProcessorClaim::ProcessorClaim(const std::string& session, const std::vector<int
   const FolderLock lock(folder_);
   std::vector<int> held;
   bool joined = false;
-  for (const NamedClaim& claim : livingClaims(folder_))
+  for (const NamedClaim& claim : livingClaims(folder_, lock.isHeld()))
   {
     if (claim.session != session_)
       held.push_back(claim.processor);
@@ -136,11 +162,12 @@ ProcessorClaim::ProcessorClaim(const std::string& session, const std::vector<int
   if (!lock.isHeld() || choice_.processor < 0)
     return;
   const std::string path = folder_ + "/" + std::to_string(choice_.processor) + "-" + session_;
-  file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file_ < 0)
-    file_ = open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, kFileMode);
-  if (file_ >= 0)
-    flock(file_, LOCK_SH);
+  file_ = openClaim(path);
+  if (file_ >= 0 && !lockSoon(file_, LOCK_SH))
+  {
+    close(file_);
+    file_ = -1;
+  }
 }
 
 ProcessorClaim::~ProcessorClaim()
@@ -151,9 +178,8 @@ ProcessorClaim::~ProcessorClaim()
 
 std::size_t ProcessorClaim::otherSessions() const
 {
-  const FolderLock lock(folder_);
   std::size_t others = 0;
-  for (const NamedClaim& claim : livingClaims(folder_))
+  for (const NamedClaim& claim : livingClaims(folder_, false))
     others += claim.processor == choice_.processor && claim.session != session_ ? 1 : 0;
   return others;
 }

@@ -1,4 +1,4 @@
-#include "nodes/runtime/processor_choice.h"
+#include "nodes/runtime/processor/processor_choice.h"
 
 #include <numeric>
 

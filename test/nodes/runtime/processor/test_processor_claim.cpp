@@ -1,6 +1,9 @@
-#include "nodes/runtime/processor_claim.h"
+#include "nodes/runtime/processor/processor_claim.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -72,6 +75,35 @@ TEST_F(ProcessorClaimTest, IsReleasedWhenItsProcessIsKilled)
   EXPECT_EQ(ProcessorClaim("afterwards", {0, 1}, folder_).choice().processor, 1);
   close(ready[0]);
   close(ready[1]);
+}
+
+TEST_F(ProcessorClaimTest, RunsWithoutAClaimWhileAnotherAccountHoldsTheLock)
+{
+  std::filesystem::create_directories(folder_);
+  const int guard = open((folder_ + "/guard").c_str(), O_RDONLY | O_CREAT, 0644);
+  ASSERT_GE(guard, 0);
+  ASSERT_EQ(flock(guard, LOCK_EX), 0);
+  {
+    const ProcessorClaim claim("a", {0, 1}, folder_);  // would wait for ever
+    EXPECT_EQ(claim.choice().processor, 1);
+    EXPECT_FALSE(claim.isVisible());
+    EXPECT_EQ(claim.otherSessions(), 0U);
+  }
+  close(guard);
+  EXPECT_TRUE(ProcessorClaim("a", {0, 1}, folder_).isVisible());
+}
+
+TEST_F(ProcessorClaimTest, RunsWithoutAClaimWhereItsFileIsHeldOrAPipe)
+{
+  std::filesystem::create_directories(folder_);
+  const int held = open((folder_ + "/1-a").c_str(), O_RDONLY | O_CREAT, 0644);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);
+  EXPECT_FALSE(ProcessorClaim("a", {1}, folder_).isVisible());
+  close(held);
+  std::filesystem::remove(folder_ + "/guard");
+  ASSERT_EQ(mkfifo((folder_ + "/guard").c_str(), 0644), 0);
+  const ProcessorClaim claim("b", {1}, folder_);  // opening a pipe without a writer would wait for ever
+  EXPECT_EQ(claim.choice().processor, 1);
 }
 
 TEST_F(ProcessorClaimTest, ChoosesWithoutAFolderThatItMayWrite)
