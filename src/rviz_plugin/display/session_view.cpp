@@ -11,6 +11,7 @@
 #include <rviz/viewport_mouse_event.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -69,18 +70,18 @@ void SessionView::onInitialize()
   try
   {
     node_.setCallbackQueue(context_->getUpdateQueue());
-    centreline_subscriber_ = node_.subscribe<VesselCentreline>(nodes::names::kVesselCentreline, 1,
-                                                               [this](const VesselCentrelineConstPtr& message)
+    centreline_subscriber_ = nodes::subscribeGuarded<VesselCentreline>(node_, nodes::names::kVesselCentreline, 1,
+                                                                       [this](const VesselCentrelineConstPtr& message)
+                                                                       {
+                                                                         frame_ = message->header.frame_id;
+                                                                         guide_.setVessel(*message);
+                                                                       });
+    wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(node_, nodes::names::kRodStateVisual, 1,
+                                                               [this](const RodStateVisualConstPtr& message)
                                                                {
                                                                  frame_ = message->header.frame_id;
-                                                                 guide_.setVessel(*message);
+                                                                 guide_.setWire(*message);
                                                                });
-    wire_subscriber_ = node_.subscribe<RodStateVisual>(nodes::names::kRodStateVisual, 1,
-                                                       [this](const RodStateVisualConstPtr& message)
-                                                       {
-                                                         frame_ = message->header.frame_id;
-                                                         guide_.setWire(*message);
-                                                       });
     near_clip_property_->setFloat(kNearClip);
   }
   catch (const std::exception& error)  // rviz would end

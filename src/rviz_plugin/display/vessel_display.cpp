@@ -18,6 +18,7 @@
 #include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
@@ -158,31 +159,32 @@ void VesselDisplay::subscribe()
 {
   if (!isEnabled())
     return;
-  guarded(
-      *this,
-      [this]
-      {
-        mesh_subscriber_ = update_nh_.subscribe<VesselMesh>(mesh_topic_->getTopicStd(), 1,
-                                                            [this](const VesselMeshConstPtr& message)
-                                                            {
-                                                              mesh_message_ = message;
-                                                              is_mesh_new_ = is_heat_new_ = true;
-                                                            });
-        centreline_subscriber_ = update_nh_.subscribe<VesselCentreline>(centreline_topic_->getTopicStd(), 1,
-                                                                        [this](const VesselCentrelineConstPtr& message)
-                                                                        {
-                                                                          centreline_message_ = message;
-                                                                          are_names_new_ = true;
-                                                                        });
-        force_subscriber_ = update_nh_.subscribe<ContactForceMap>(force_topic_->getTopicStd(), 1,
-                                                                  [this](const ContactForceMapConstPtr& message)
-                                                                  {
-                                                                    force_message_ = message;
-                                                                    is_heat_new_ = true;
-                                                                  });
-        wire_subscriber_ = update_nh_.subscribe<RodStateVisual>(
-            wire_topic_->getTopicStd(), 1, [this](const RodStateVisualConstPtr& message) { receiveWire(*message); });
-      });
+  guarded(*this,
+          [this]
+          {
+            mesh_subscriber_ = nodes::subscribeGuarded<VesselMesh>(update_nh_, mesh_topic_->getTopicStd(), 1,
+                                                                   [this](const VesselMeshConstPtr& message)
+                                                                   {
+                                                                     mesh_message_ = message;
+                                                                     is_mesh_new_ = is_heat_new_ = true;
+                                                                   });
+            centreline_subscriber_ =
+                nodes::subscribeGuarded<VesselCentreline>(update_nh_, centreline_topic_->getTopicStd(), 1,
+                                                          [this](const VesselCentrelineConstPtr& message)
+                                                          {
+                                                            centreline_message_ = message;
+                                                            are_names_new_ = true;
+                                                          });
+            force_subscriber_ = nodes::subscribeGuarded<ContactForceMap>(update_nh_, force_topic_->getTopicStd(), 1,
+                                                                         [this](const ContactForceMapConstPtr& message)
+                                                                         {
+                                                                           force_message_ = message;
+                                                                           is_heat_new_ = true;
+                                                                         });
+            wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(update_nh_, wire_topic_->getTopicStd(), 1,
+                                                                       [this](const RodStateVisualConstPtr& message)
+                                                                       { receiveWire(*message); });
+          });
 }
 
 void VesselDisplay::receiveWire(const RodStateVisual& message)

@@ -16,6 +16,7 @@
 #include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
@@ -139,20 +140,22 @@ void WireDisplay::subscribe()
           [this]
           {
             // Queues of one message: between two frames of a slow display only the newest one is of use.
-            wire_subscriber_ = update_nh_.subscribe<RodStateVisual>(wire_topic_->getTopicStd(), 1,
-                                                                    [this](const RodStateVisualConstPtr& message)
-                                                                    {
-                                                                      wire_message_ = message;
-                                                                      is_wire_new_ = true;
-                                                                    });
-            treatment_subscriber_ = update_nh_.subscribe<TreatmentVisual>(treatment_topic_->getTopicStd(), 1,
-                                                                          [this](const TreatmentVisualConstPtr& message)
-                                                                          {
-                                                                            treatment_message_ = message;
-                                                                            is_treatment_new_ = true;
-                                                                          });
-            scene_subscriber_ = update_nh_.subscribe<SessionInfo>(
-                scene_topic_->getTopicStd(), 1, [this](const SessionInfoConstPtr& info) { receiveScene(info); });
+            wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(update_nh_, wire_topic_->getTopicStd(), 1,
+                                                                       [this](const RodStateVisualConstPtr& message)
+                                                                       {
+                                                                         wire_message_ = message;
+                                                                         is_wire_new_ = true;
+                                                                       });
+            treatment_subscriber_ =
+                nodes::subscribeGuarded<TreatmentVisual>(update_nh_, treatment_topic_->getTopicStd(), 1,
+                                                         [this](const TreatmentVisualConstPtr& message)
+                                                         {
+                                                           treatment_message_ = message;
+                                                           is_treatment_new_ = true;
+                                                         });
+            scene_subscriber_ =
+                nodes::subscribeGuarded<SessionInfo>(update_nh_, scene_topic_->getTopicStd(), 1,
+                                                     [this](const SessionInfoConstPtr& info) { receiveScene(info); });
           });
 }
 

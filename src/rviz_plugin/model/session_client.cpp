@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <thread>
 
 #include <sensor_msgs/JointState.h>
 #include <std_srvs/Trigger.h>
 
 #include "endovascular_sim/CArm.h"
+#include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/model/message_points.h"
 
@@ -73,33 +73,34 @@ SessionClient::~SessionClient()
 void SessionClient::subscribe()
 {
   c_arm_ = node_.advertise<CArm>(names::kCArmCommand, 4);
-  subscribers_.push_back(node_.subscribe<SessionInfo>(names::kSessionInfo, 1,
-                                                      [this](const SessionInfoConstPtr& info) { receiveScene(info); }));
-  subscribers_.push_back(node_.subscribe<RodStateVisual>(
-      names::kRodStateVisual, 1, [this](const RodStateVisualConstPtr& message) { receiveWire(message); }));
-  subscribers_.push_back(node_.subscribe<VesselCentreline>(names::kVesselCentreline, 1,
-                                                           [this](const VesselCentrelineConstPtr& message)
-                                                           {
-                                                             const BranchFinder branches(*message);
-                                                             const std::lock_guard<std::mutex> lock(mutex_);
-                                                             branches_ = branches;
-                                                           }));
-  subscribers_.push_back(node_.subscribe<ProcedureStep>(names::kProcedureStep, 4,
-                                                        [this](const ProcedureStepConstPtr& message)
-                                                        {
-                                                          const std::lock_guard<std::mutex> lock(mutex_);
-                                                          state_.step = *message;
-                                                          state_.has_step = true;
-                                                        }));
-  subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
-      names::kDiagnostics, 10,
+  subscribers_.push_back(nodes::subscribeGuarded<SessionInfo>(
+      node_, names::kSessionInfo, 1, [this](const SessionInfoConstPtr& info) { receiveScene(info); }));
+  subscribers_.push_back(nodes::subscribeGuarded<RodStateVisual>(
+      node_, names::kRodStateVisual, 1, [this](const RodStateVisualConstPtr& message) { receiveWire(message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<VesselCentreline>(node_, names::kVesselCentreline, 1,
+                                                                   [this](const VesselCentrelineConstPtr& message)
+                                                                   {
+                                                                     const BranchFinder branches(*message);
+                                                                     const std::lock_guard<std::mutex> lock(mutex_);
+                                                                     branches_ = branches;
+                                                                   }));
+  subscribers_.push_back(nodes::subscribeGuarded<ProcedureStep>(node_, names::kProcedureStep, 4,
+                                                                [this](const ProcedureStepConstPtr& message)
+                                                                {
+                                                                  const std::lock_guard<std::mutex> lock(mutex_);
+                                                                  state_.step = *message;
+                                                                  state_.has_step = true;
+                                                                }));
+  subscribers_.push_back(nodes::subscribeGuarded<diagnostic_msgs::DiagnosticArray>(
+      node_, names::kDiagnostics, 10,
       [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { receiveDiagnostics(message); }));
-  subscribers_.push_back(node_.subscribe<SessionProgress>(names::kSessionProgress, 1,
-                                                          [this](const SessionProgressConstPtr& message)
-                                                          {
-                                                            const std::lock_guard<std::mutex> lock(calls_->mutex);
-                                                            calls_->run = message->run;
-                                                          }));
+  subscribers_.push_back(nodes::subscribeGuarded<SessionProgress>(node_, names::kSessionProgress, 1,
+                                                                  [this](const SessionProgressConstPtr& message)
+                                                                  {
+                                                                    const std::lock_guard<std::mutex> lock(
+                                                                        recording_->mutex);
+                                                                    recording_->run = message->run;
+                                                                  }));
   search_ = node_.createWallTimer(ros::WallDuration(kSearchPeriod),
                                   [this](const ros::WallTimerEvent& /*event*/) { searchInstruments(); });
 }
@@ -119,11 +120,11 @@ SessionState SessionClient::state() const
         (diagnosis.is_error ? state.errors : state.warnings).push_back(diagnosis.text);
   }
   state.dead_man_stops = commander_->timeOuts();
-  const std::lock_guard<std::mutex> lock(calls_->mutex);
-  state.answer = calls_->answer;
-  state.is_busy = calls_->is_busy;
-  state.run = calls_->run;
-  state.is_recording = calls_->run > 0 && calls_->run != calls_->stopped_run;
+  state.answer = calls_.answer();
+  state.waiting = calls_.waiting();
+  const std::lock_guard<std::mutex> lock(recording_->mutex);
+  state.run = recording_->run;
+  state.is_recording = recording_->run > 0 && recording_->run != recording_->stopped_run;
   return state;
 }
 
@@ -141,8 +142,8 @@ void SessionClient::receiveScene(const SessionInfoConstPtr& info)
     return;
   }
   {
-    const std::lock_guard<std::mutex> lock(calls_->mutex);
-    calls_->run = std::max(calls_->run, 1U);
+    const std::lock_guard<std::mutex> lock(recording_->mutex);
+    recording_->run = std::max(recording_->run, 1U);
   }
   connectInstruments(scene);
 }
@@ -161,20 +162,20 @@ void SessionClient::connectInstruments(const SceneSummary& scene)
       topics->servo_jr = node_.advertise<sensor_msgs::JointState>(prefix + names::kServoJr, 4);
     }
     Topics* target = topics.get();  // its subscribers end before it
-    topics->operating_state =
-        node_.subscribe<crtk_msgs::OperatingState>(prefix + names::kOperatingState, 2,
-                                                   [this, target](const crtk_msgs::OperatingStateConstPtr& message)
-                                                   {
-                                                     const std::lock_guard<std::mutex> lock(mutex_);
-                                                     target->state = message->state;
-                                                   });
-    topics->state_reason =
-        node_.subscribe<crtk_msgs::StringStamped>(prefix + names::kStateReason, 2,
-                                                  [this, target](const crtk_msgs::StringStampedConstPtr& message)
-                                                  {
-                                                    const std::lock_guard<std::mutex> lock(mutex_);
-                                                    target->reason = message->string;
-                                                  });
+    topics->operating_state = nodes::subscribeGuarded<crtk_msgs::OperatingState>(
+        node_, prefix + names::kOperatingState, 2,
+        [this, target](const crtk_msgs::OperatingStateConstPtr& message)
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          target->state = message->state;
+        });
+    topics->state_reason = nodes::subscribeGuarded<crtk_msgs::StringStamped>(
+        node_, prefix + names::kStateReason, 2,
+        [this, target](const crtk_msgs::StringStampedConstPtr& message)
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          target->reason = message->string;
+        });
     instruments[name] = topics;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -285,44 +286,22 @@ void SessionClient::moveCArm(const std::string& view)
 
 void SessionClient::request(Request request)
 {
-  {
-    const std::lock_guard<std::mutex> lock(calls_->mutex);
-    if (calls_->is_busy)
-      return;
-    calls_->is_busy = true;
-    calls_->answer.clear();
-  }
-  // A thread of its own: a service that does not respond must neither block the GUI nor the end of rviz.
   const std::string service = node_.resolveName(serviceOf(request));
-  std::thread(
-      [calls = calls_, service, request]
-      {
-        std::string answer;
-        bool is_success = false;
-        try
-        {
-          std_srvs::Trigger trigger;
-          if (!ros::service::exists(service, false))
-            answer = service + " is not available";
-          else if (!ros::service::call(service, trigger))
-            answer = service + " does not respond";
-          else
-          {
-            is_success = trigger.response.success;
-            answer = trigger.response.message;
-          }
-        }
-        catch (const std::exception& error)
-        {
-          answer = error.what();
-        }
-        const std::lock_guard<std::mutex> lock(calls->mutex);
-        if (is_success && request == Request::kStopRecording)
-          calls->stopped_run = calls->run;
-        calls->answer = answer;
-        calls->is_busy = false;
-      })
-      .detach();
+  const auto call = [recording = recording_, service, request]() -> CallOutcome
+  {
+    std_srvs::Trigger trigger;
+    if (!ros::service::exists(service, false))
+      return {false, service + " is not available"};
+    if (!ros::service::call(service, trigger))
+      return {false, service + " does not respond"};
+    if (trigger.response.success && request == Request::kStopRecording)
+    {
+      const std::lock_guard<std::mutex> lock(recording->mutex);
+      recording->stopped_run = recording->run;
+    }
+    return {static_cast<bool>(trigger.response.success), trigger.response.message};
+  };
+  calls_.begin(request, serviceOf(request), call);
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -16,13 +16,14 @@
 
 #include "endovascular_sim/SessionProgress.h"
 #include "rviz_plugin/model/branch_finder.h"
+#include "rviz_plugin/model/pending_calls.h"
 #include "rviz_plugin/model/session_port.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 
 /** Connection to a session by its topics and services. Messages are received in a thread of its own, velocities sent in
- * a second one, and services called in a third one. */
+ * a second one, and services called in further ones (PendingCalls). */
 class SessionClient : public SessionPort
 {
 public:
@@ -39,12 +40,10 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  /** Outcome of the service calls; outlives the client while a call does not return. */
-  struct Calls
+  /** Run of the recording; outlives the client while a call does not return. */
+  struct RecordedRun
   {
     std::mutex mutex;
-    bool is_busy = false;
-    std::string answer;
     unsigned run = 0;          ///< of the recording
     unsigned stopped_run = 0;  ///< run whose recording was stopped
   };
@@ -82,7 +81,8 @@ private:
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;
 
-  std::shared_ptr<Calls> calls_ = std::make_shared<Calls>();
+  std::shared_ptr<RecordedRun> recording_ = std::make_shared<RecordedRun>();
+  PendingCalls calls_;
   ros::Publisher c_arm_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer search_;

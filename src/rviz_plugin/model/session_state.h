@@ -29,7 +29,7 @@ struct SessionState
   unsigned run = 0;                  ///< number of the run
   std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()
   std::string answer;                ///< to the last request
-  bool is_busy = false;              ///< true: a request is on its way
+  std::vector<std::string> waiting;  ///< services that have not answered yet, with the time since the call
 
   bool isProcedureDone() const
   {

@@ -423,7 +423,12 @@ void SessionWidget::refresh()
   labels_.keys->setText(!canDrive()   ? QString("driven by the scene")
                         : takesKeys() ? QString("Keys: arrows, space")
                                       : QString("Click here for the keys"));
-  labels_.answer->setText(QString::fromStdString(state_.answer));
+  QStringList answers;
+  for (const std::string& service : state_.waiting)
+    answers.append("waiting for " + QString::fromStdString(service));
+  if (!state_.answer.empty())
+    answers.append(QString::fromStdString(state_.answer));
+  labels_.answer->setText(answers.join("\n"));
   QStringList errors = firstTexts(state_.errors);
   if (state_.dead_man_stops > 0)
     errors.prepend(QString("the window was too slow: motions stopped %1 times").arg(state_.dead_man_stops));

@@ -217,12 +217,13 @@ TEST_F(SessionWidgetTest, MovesTheCArmToAPresetView)
 TEST_F(SessionWidgetTest, ShowsForceStateAndErrors)
 {
   session.present.answer = "refused";
+  session.present.waiting = {"session/stop (3 s)"};
   session.present.errors = {"contact: no vessel"};
   session.present.warnings = {"late", "slow", "paused", "full"};
   widget->refresh();
   EXPECT_EQ(child<QProgressBar>("gauge")->value(), 50);
   EXPECT_EQ(child<QLabel>("insertion")->text(), "100.0 mm");
-  EXPECT_EQ(child<QLabel>("answer")->text(), "refused");
+  EXPECT_EQ(child<QLabel>("answer")->text(), "waiting for session/stop (3 s)\nrefused");
   EXPECT_EQ(child<QLabel>("errors")->text(), "contact: no vessel");
   EXPECT_EQ(child<QLabel>("warnings")->text(), "late\nslow\npaused\nand 1 more");
 }
