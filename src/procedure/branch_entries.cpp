@@ -70,8 +70,9 @@ BranchEntries::BranchEntries(const scene::Scene& scene, const BranchLocator& loc
 
 const std::vector<bool>& BranchEntries::permitted(std::size_t instrument, int step) const
 {
-  if (step >= 0 && moved_[static_cast<std::size_t>(step)] == static_cast<int>(instrument))
-    return of_step_[static_cast<std::size_t>(step)];
+  const auto k = static_cast<std::size_t>(std::max(step, 0));
+  if (step >= 0 && k < moved_.size() && moved_[k] == static_cast<int>(instrument))
+    return of_step_[k];
   return of_instrument_[instrument];
 }
 

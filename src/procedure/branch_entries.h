@@ -36,7 +36,7 @@ public:
   BranchEntries(const scene::Scene& scene, const BranchLocator& locator, int entered);
 
   /** Adds an observation with the branches of the tips.
-   *  @param step index in expandedSteps(); −1: between the steps */
+   *  @param step index in expandedSteps(); others: between the steps */
   void add(const Observation& observation, int step);
 
   /** True if the tip of an instrument entered a wrong branch at the last observation. */
