@@ -7,8 +7,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Publisher that a subscription follows, for topics in lock-step: the first one, until it has been silent for kSilence.
- *  A message of another node at the wrong moment would stop the simulation, however valid it is. */
+/** Publisher that a subscription follows, for topics in lock-step: the first one, until it has been silent for
+ * kSilence. A message of another node at the wrong moment would stop the simulation, however valid it is. */
 class OneSource
 {
 public:
