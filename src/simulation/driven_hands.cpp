@@ -130,7 +130,7 @@ const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
 
 CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
                              std::vector<drive::TimedCommand> commands)
-  : scene_(scene), file_(file)
+  : scene_(&scene), file_(file)
 {
   for (drive::TimedCommand& command : commands)
   {
@@ -143,7 +143,7 @@ CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
 /** Doubt about the pauses between the rates of an instrument; empty without one. */
 std::string CommandPlayer::pausesOf(std::size_t instrument) const
 {
-  const double time_out = scene_.instruments[instrument].drive.limits.time_out;
+  const double time_out = scene_->instruments[instrument].drive.limits.time_out;
   int pauses = 0;
   double lost = 0.0;
   double longest = 0.0;
@@ -158,12 +158,12 @@ std::string CommandPlayer::pausesOf(std::size_t instrument) const
     const bool moves =
         by_rate && std::any_of(before->values.begin(), before->values.end(), [](double v) { return v != 0.0; });
     const double pause = before != nullptr ? entry.command.time - before->time : 0.0;
-    if (moves && pause > time_out - 0.5 * scene_.solver.time_step)
+    if (moves && pause > time_out - 0.5 * scene_->solver.time_step)
     {
       ++pauses;
       longest = std::max(longest, pause);
       lost +=
-          by_velocity ? std::abs(before->values.front()) * std::max(scene_.solver.time_step, pause - time_out) : 0.0;
+          by_velocity ? std::abs(before->values.front()) * std::max(scene_->solver.time_step, pause - time_out) : 0.0;
     }
     before = &entry.command;
   }
@@ -175,7 +175,7 @@ std::string CommandPlayer::pausesOf(std::size_t instrument) const
       "%s: no command follows %d of the velocities and forces within drive.limits.time_out (%.3g s; pauses of up "
       "to %.3g s), so that the instrument stops; about %.1f mm of the commanded travel are lost; repeat "
       "commands faster, or raise the time-out",
-      scene_.instruments[instrument].instrument.name.c_str(), pauses, time_out, longest, 1e3 * lost);
+      scene_->instruments[instrument].instrument.name.c_str(), pauses, time_out, longest, 1e3 * lost);
   return file_ + ": " + text;
 }
 
@@ -191,7 +191,7 @@ std::vector<std::string> CommandPlayer::warnings(double end) const
                   late->command.line, entries_.end() - late - 1, end);
     warnings.push_back(file_ + ": " + text);
   }
-  for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
+  for (std::size_t k = 0; k < scene_->instruments.size(); ++k)
     if (const std::string text = pausesOf(k); !text.empty())
       warnings.push_back(text);
   return warnings;

@@ -97,7 +97,7 @@ private:
 
   std::string pausesOf(std::size_t instrument) const;
 
-  const scene::Scene& scene_;
+  const scene::Scene* scene_;
   std::string file_;
   std::vector<Entry> entries_;
   std::size_t next_ = 0;
