@@ -192,6 +192,7 @@ std::vector<vessel::CentrelineEnd> wantedEnds(const Options& options, const segm
   for (const std::size_t closed : vessel::matchingEnds(tree, in_patient, options.closed, "--closed", options.images))
     open.erase(std::remove(open.begin(), open.end(), closed), open.end());
   std::vector<vessel::CentrelineEnd> wanted;
+  wanted.reserve(open.size());
   for (const std::size_t k : open)
     wanted.push_back(ends[k]);
   return wanted;
@@ -300,10 +301,11 @@ std::string positionArgument(const Eigen::Vector3d& position)
 /** Error of a vessel that scenes would refuse. */
 InputError notWritten(const std::string& stem, const std::string& reason)
 {
-  return InputError(stem + ".obj", "",
-                    "is not written, because no scene can use the vessel (" + reason +
-                        "); look at the straightened views " + stem +
-                        "_BRANCH.png, and click at the ends of longer stretches of the vessel");
+  return InputError(
+      stem + ".obj", "",
+      "is not written, because no scene can use the vessel (" + reason + "); look at the straightened views " + stem +
+          "_BRANCH.png, then move clicks, e.g. to the ends of a longer stretch, or leave an end closed by "
+          "--closed");
 }
 
 /** Writes mesh and centreline if a scene can use them.
