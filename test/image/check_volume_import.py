@@ -100,6 +100,16 @@ accept("nifti_no_scaling", here("no_scaling.nii"))
 files.write_nifti(here("4d_of_one.nii"), dimensions=(*files.SIZE, 1))
 accept("nifti_4d_of_one", here("4d_of_one.nii"))
 
+# units of the other formats, which ITK ignores
+files.write_nrrd(here("mm.nrrd"), units="mm")
+accept("nrrd_mm", here("mm.nrrd"))
+files.write_nrrd(here("cm.nrrd"), units="cm")
+refuse("nrrd_cm", here("cm.nrrd"), "space units", '"cm"', "millimetres")
+files.write_mha(here("mm.mha"), {"DistanceUnits": "mm"})
+accept("meta_mm", here("mm.mha"))
+files.write_mha(here("cm.mha"), {"DistanceUnits": "cm"})
+refuse("meta_cm", here("cm.mha"), "DistanceUnits", "cm", "millimetres")
+
 # NIfTI whose place in the patient is wrong or unknown
 files.write_nifti(here("shear.nii"), rows=files.nifti_rows(shear=0.4), qform=in_ras)
 refuse("shear", here("shear.nii"), "sform", "gantry tilt or shear of 17.7", "resample")

@@ -140,7 +140,7 @@ def write_mha(path, header=None, data=None, data_file="LOCAL", equals=" = "):
     write(path, text.encode(), data)
 
 
-def write_nrrd(path, space="left-posterior-superior", data=None, kind="short"):
+def write_nrrd(path, space="left-posterior-superior", data=None, kind="short", units=None):
     signs = {"left-posterior-superior": (1, 1, 1), "right-anterior-superior": (-1, -1, 1), None: (1, 1, 1)}[space]
 
     def vector(numbers):
@@ -154,6 +154,7 @@ def write_nrrd(path, space="left-posterior-superior", data=None, kind="short"):
             "space directions: " + " ".join(vector([n * SPACING[c] for n in axes[c]]) for c in range(3)),
             "space origin: " + vector(ORIGIN),
         ]
+        lines += ["space units: " + " ".join('"%s"' % units for _ in range(3))] if units else []
     else:
         lines.append("spacings: %g %g %g" % SPACING)
     data = struct.pack("<%dh" % len(values()), *values()) if data is None else data

@@ -261,6 +261,25 @@ void requireOrientation(const ItkImage& image, const std::string& file)
                      "spacing and orientation");
 }
 
+/** Checks the unit of lengths in an NRRD file, which ITK ignores. @throws InputError for another one than millimetres
+ */
+void requireMillimetres(const std::string& file)
+{
+  constexpr int kMostLines = 1000;
+  const std::string key = "space units:";
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  for (int k = 0; k < kMostLines && std::getline(in, line) && !line.empty() && line != "\r"; ++k)
+  {
+    if (line.compare(0, key.size(), key) != 0)
+      continue;
+    std::istringstream units(line.substr(key.size()));
+    for (std::string unit; units >> unit;)
+      if (unit != "\"mm\"" && unit != "\"\"")
+        throw InputError(file, "space units", "are " + unit + "; export the image in millimetres");
+  }
+}
+
 VolumeGrid gridOf(const ItkImage& image, const std::string& file)
 {
   const std::vector<std::uint64_t> size = image.size();
@@ -286,10 +305,12 @@ VolumeGrid gridOf(const ItkImage& image, const std::string& file)
 /** Reads NRRD and MetaImage. */
 void readByItk(const std::string& file, const ImportOptions& options, Volume& volume, ImageValues& read)
 {
-  MetaHeader(file).requireDimensions();
+  MetaHeader(file).requireReadable();
   ItkImage image(file, {ImageFormat::kNrrd, ImageFormat::kMetaImage});
   requireOneComponent(image, file);
   requireOrientation(image, file);
+  if (image.format() == ImageFormat::kNrrd)
+    requireMillimetres(file);
   volume.grid = gridOf(image, file);
   const std::uint64_t voxels = volume.grid.voxels();
   requireMemory(voxels * (image.valueBytes() + sizeof(float) + sizeof(std::int16_t)), options, file);

@@ -116,13 +116,16 @@ MetaHeader::MetaHeader(const std::string& file) : file_(file)
         list_.push_back(trimmed(line));
 }
 
-void MetaHeader::requireDimensions() const
+void MetaHeader::requireReadable() const
 {
   if (!has("NDims") || !has(kDataFile))
     return;
   const std::string text = value("NDims");
   if (text.size() != 1 || text[0] < '1' || text[0] > '9')
     throw InputError(file_, "NDims", "is '" + text + "'; must be 3; export the image again");
+  const std::string unit = value("DistanceUnits");
+  if (!unit.empty() && unit != "mm" && unit != "?")
+    throw InputError(file_, "DistanceUnits", "are '" + unit + "'; export the image in millimetres");
 }
 
 std::string MetaHeader::value(const std::string& key) const

@@ -18,9 +18,9 @@ public:
   /** @return true for a field with this name */
   bool has(const std::string& key) const { return fields_.count(key) > 0; }
 
-  /** Checks the number of dimensions, for which MetaIO takes memory unseen.
-   *  @throws InputError for a MetaImage with an implausible number */
-  void requireDimensions() const;
+  /** Checks the number of dimensions, for which MetaIO takes memory unseen, and the unit, which ITK ignores.
+   *  @throws InputError for a MetaImage with an implausible number, or another unit than millimetres */
+  void requireReadable() const;
 
   /** Checks that the files of the image hold all values: the file itself, another one, a list or a numbered pattern.
    *  @param values number of them
