@@ -24,7 +24,7 @@ fs::path findBelow(const fs::path& folder, const std::string& name, int levels)
     return {};
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.is_directory(error) && entry.path().filename().string().front() != '.')
-      if (const fs::path found = findBelow(entry.path(), name, levels - 1); !found.empty())
+      if (fs::path found = findBelow(entry.path(), name, levels - 1); !found.empty())
         return found;
   return {};
 }
@@ -39,7 +39,7 @@ std::optional<fs::path> findRosPackage(const std::string& name)
   std::istringstream list(folders);
   for (std::string folder; !name.empty() && std::getline(list, folder, ':');)
     if (!folder.empty())
-      if (const fs::path found = findBelow(folder, name, kLevels); !found.empty())
+      if (fs::path found = findBelow(folder, name, kLevels); !found.empty())
         return found;
   return fs::path();
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "common/error.h"
 #include "robot/ros_package.h"
@@ -209,8 +210,8 @@ void refuseXacro(const TiXmlElement& element, const std::string& file)
     refuseXacro(*child, file);
 }
 
-/** Warning of a mesh file that rviz cannot find; empty if it can, or where no ROS is set up. */
-std::string missingMesh(const std::string& mesh)
+/** Reason why rviz cannot find a mesh file; empty if it can, or where no ROS is set up. */
+std::string reasonOfMissingMesh(const std::string& mesh)
 {
   std::error_code error;
   if (mesh.rfind("package://", 0) == 0)
@@ -233,6 +234,12 @@ std::string missingMesh(const std::string& mesh)
              : "there is no file " + mesh.substr(7) + "; correct the path";
 }
 
+std::string meshWarning(const TiXmlElement& mesh, const std::string& file)
+{
+  const std::string reason = reasonOfMissingMesh(attribute(&mesh, "filename"));
+  return reason.empty() ? "" : file + ": mesh " + lineOf(mesh) + ": " + reason;
+}
+
 /** Adds the mesh files below an element that rviz cannot find. */
 void addMissingMeshes(const TiXmlElement& element, const std::string& file, std::vector<std::string>& warnings)
 {
@@ -241,8 +248,8 @@ void addMissingMeshes(const TiXmlElement& element, const std::string& file, std:
     addMissingMeshes(*child, file, warnings);
     if (child->ValueStr() != "mesh")
       continue;
-    if (const std::string missing = missingMesh(attribute(child, "filename")); !missing.empty())
-      warnings.push_back(file + ": mesh " + lineOf(*child) + ": " + missing);
+    if (std::string warning = meshWarning(*child, file); !warning.empty())
+      warnings.push_back(std::move(warning));
   }
 }
 

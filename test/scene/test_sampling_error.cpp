@@ -47,4 +47,9 @@ TEST(SamplingError, CoversTheMeasuredErrorOfAJWireInAStraightTube)
   EXPECT_NEAR(errorOf("tube.yaml", fine).atMouth(), 0.07, 0.03);
 }
 
+TEST(SamplingError, SaysThatItIsNotKnown)
+{
+  EXPECT_NE(SamplingError().text().find("not known"), std::string::npos);
+}
+
 }  // namespace endovascular_sim::scene

@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
 #include "geometry/mesh_distance.h"
+#include "test/vessel/repair/swept_meshes.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/mesh_check.h"
 
@@ -55,6 +57,45 @@ std::string refusal(Action action)
     return error.what();
   }
   return "";
+}
+
+/** Scene of a mesh in metres that is written to a file. */
+VesselScene writtenScene(const geometry::TriangleMesh& mesh, const std::string& comment = "")
+{
+  VesselScene scene;
+  scene.mesh = testing::TempDir() + "/written.obj";
+  scene.unit = 1.0;
+  vessel::writeObj(mesh, scene.mesh);
+  if (!comment.empty())
+    std::ofstream(scene.mesh, std::ios::app) << "# " << comment << "\n";
+  return scene;
+}
+
+TEST(SceneVessel, RefusesAWallWithAThickness)
+{
+  const VesselScene scene = writtenScene(vessel::thickWall(vessel::straightLine(0.06), 4e-3, 5.5e-3));
+  EXPECT_NE(refusal([&] { buildVessel(scene, {}, "s"); }).find("vessel_prepare --hollow"), std::string::npos);
+}
+
+TEST(SceneVessel, RefusesALumenOfAWrongUnit)
+{
+  VesselScene scene = writtenScene(vessel::sweep(vessel::straightLine(16.0), vessel::circle(0.4)));
+  scene.unit = 1e-3;  // of centimetres
+  EXPECT_NE(refusal([&] { buildVessel(scene, {}, "s"); }).find("looks like centimetres"), std::string::npos)
+      << refusal([&] { buildVessel(scene, {}, "s"); });
+}
+
+TEST(SceneVessel, NotesThatAMeshWasTurnedAndWarnsOfOneFarAway)
+{
+  geometry::TriangleMesh mesh = vessel::sweep(vessel::straightLine(0.06), vessel::circle(4e-3));
+  for (Eigen::Vector3d& v : mesh.vertices)
+    v += Eigen::Vector3d(0.01, 0.02, 100.0);
+  const vessel::Vessel vessel = buildVessel(writtenScene(mesh, "SPACE=RAS"), {}, "s");
+  ASSERT_EQ(vessel.notes.size(), 2U);
+  EXPECT_NE(vessel.notes[0].find("turned from RAS"), std::string::npos);
+  EXPECT_LT(vessel::checkMesh(vessel.mesh).upper.x(), 0.0);
+  ASSERT_EQ(vessel.warnings.size(), 1U);
+  EXPECT_NE(vessel.warnings[0].find("from the origin"), std::string::npos);
 }
 
 TEST(SceneVessel, PlacesATubeAtTheEntryPose)

@@ -99,7 +99,7 @@ private:
       refuse(line, "names point " + std::to_string(index) + ", but the file has " +
                        std::to_string(data_.points.size()) + " (from 0); the file is damaged");
     const Eigen::Vector3d& p = data_.points[static_cast<std::size_t>(index)];
-    const Eigen::Vector3d metres = unit_ * Eigen::Vector3d(sign_ * p.x(), sign_ * p.y(), p.z());
+    Eigen::Vector3d metres = unit_ * Eigen::Vector3d(sign_ * p.x(), sign_ * p.y(), p.z());
     if (!(metres.cwiseAbs().maxCoeff() < 1e6))
       refuse(line, "has a coordinate that is no number of a vessel; check vessel.unit");
     return metres;

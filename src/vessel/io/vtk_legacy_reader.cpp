@@ -69,7 +69,7 @@ public:
       line();
       if (rest_.size() / type.size < count)
         refuse("ends before its values; the file is truncated");
-      const std::vector<double> values = vtkValues(rest_.substr(0, count * type.size), type, true);
+      std::vector<double> values = vtkValues(rest_.substr(0, count * type.size), type, true);
       rest_.remove_prefix(count * type.size);
       return values;
     }
