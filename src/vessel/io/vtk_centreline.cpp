@@ -11,10 +11,11 @@ namespace endovascular_sim::vessel
 namespace
 {
 
-constexpr double kSpacing = 0.2;            // least distance of the points of a line, in radii
-constexpr double kShared = 0.25;            // distance to an earlier line within which points are shared, in radii
-constexpr double kEarlier = 0.1;            // advantage of earlier branches, which fork later ones, in radii
-constexpr double kShortest = 0.5;           // length of a branch, in radii of its parent
+constexpr double kSpacing = 0.2;   // least distance of the points of a line, in radii
+constexpr double kShared = 0.25;   // distance to an earlier line within which points are shared, in radii
+constexpr double kEarlier = 0.1;   // advantage of earlier branches, which fork later ones, in radii
+constexpr double kShortest = 0.5;  // length of a branch, in radii of its parent
+constexpr std::size_t kMostLines = 500;
 constexpr std::size_t kMostPoints = 20000;  // of all lines after thinning: the time is quadratic in it
 
 /** Line of the file [m]. */
@@ -71,6 +72,10 @@ public:
 
   std::vector<Line> read()
   {
+    if (data_.lines.size() > kMostLines)
+      throw InputError(path_, "",
+                       "has " + std::to_string(data_.lines.size()) + " lines; a centreline has at most " +
+                           std::to_string(kMostLines) + ", each from one end or fork to another");
     std::vector<Line> lines;
     std::size_t points = 0;
     for (std::size_t k = 0; k < data_.lines.size(); ++k)

@@ -16,7 +16,7 @@ namespace endovascular_sim::vessel
  *  @param unit metres per unit of the file
  *  @param distance wall in the frame of the file; gives the radii where the file has none
  *  @param path names the file in errors
- *  @throws InputError for a file without lines, with too many points, or with lines that do not meet */
+ *  @throws InputError for a file without lines, with too many lines or points, or with lines that do not meet */
 CentrelineTree vtkCentreline(const VtkPolyData& data, double unit, const geometry::MeshDistance& distance,
                              const std::string& path);
 

@@ -139,9 +139,24 @@ TEST(VtkCentreline, RefusesLinesThatDoNotMeetAndFilesWithoutLines)
   EXPECT_NE(refusalOf(dataOf({kTrunk, segment({50, 0, 0}, {50, 0, 40})}, 2.0)).find("do not meet the others"),
             std::string::npos);
   EXPECT_NE(refusalOf(VtkPolyData()).find("has no lines"), std::string::npos);
+  std::vector<Points> chain;
+  for (int k = 0; k < 501; ++k)
+    chain.push_back({{0, 0, 1.0 * k}, {0, 0, k + 1.0}});
+  EXPECT_NE(refusalOf(dataOf(chain, 2.0)).find("has 501 lines"), std::string::npos);
   VtkPolyData data = dataOf({kTrunk}, 2.0);
   data.lines.points.back() = 5000;
   EXPECT_NE(refusalOf(data).find("names point 5000"), std::string::npos);
+}
+
+TEST(VtkCentreline, ManyPiecesInReverseOrderBecomeAChain)
+{
+  std::vector<Points> chain;
+  for (int k = 0; k < 500; ++k)
+    chain.push_back({{0, 0, 5.0 * k}, {0, 0, 5.0 * k + 5.0}});
+  std::reverse(chain.begin(), chain.end());
+  VtkPolyData data = dataOf(chain, 2.0);
+  data.radii[data.radii.size() - 2] = 3.0;  // the free end of the last piece is the root
+  EXPECT_EQ(treeOf(data).branches.size(), 500U);
 }
 
 TEST(VtkCentreline, EveryStorageGivesTheSameTree)
