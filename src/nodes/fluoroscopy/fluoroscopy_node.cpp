@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+constexpr int kPoseQueue = 100;             ///< of /tf, as that of tf2_ros
 constexpr double kWarningPeriod = 1.0;      ///< between two warnings of the same place [s]
 constexpr double kRestPeriod = 0.5;  ///< of the pose on /tf while neither the C-arm moves nor frames are drawn [s]
 
@@ -81,6 +82,12 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
       subscribeGuarded<CArm>(node, names::kCArmCommand, 1, [this](const CArm& message) { receiveCommand(message); });
   updater_.setHardwareID("simulated C-arm");
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
+  const ros::SubscriberStatusCallback sendPose = [this](const ros::SingleSubscriberPublisher& listener)
+  {
+    if (!pose_.transforms.empty())
+      listener.publish(pose_);
+  };
+  pose_publisher_ = node.advertise<tf2_msgs::TFMessage>("/tf", kPoseQueue, sendPose);
   static_broadcaster_.sendTransform(sourceViewTransform(ros::Time::now()));
   broadcastPose(ros::Time::now());
   if (!needs_patient_)
@@ -228,13 +235,14 @@ void FluoroscopyNode::applyPose()
 }
 
 /** Publishes the pose on /tf. Simulated time may stand still, e.g. in a paused replay: a second pose of the same time
- *  would be refused by every listener. */
+ *  would be refused by every listener. A new listener gets the newest pose. */
 void FluoroscopyNode::broadcastPose(const ros::Time& stamp)
 {
   if (stamp == broadcast_stamp_)
     return;
   broadcast_stamp_ = stamp;
-  broadcaster_.sendTransform(toTransform(stamp, fluoroscope_.geometry()));
+  pose_.transforms = {toTransform(stamp, fluoroscope_.geometry())};
+  pose_publisher_.publish(pose_);
   broadcast_time_ = ros::SteadyTime::now();
 }
 

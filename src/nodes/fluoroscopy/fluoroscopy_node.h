@@ -6,8 +6,8 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
@@ -92,7 +92,8 @@ private:
     }
   };
   View radiograph_, source_view_;
-  tf2_ros::TransformBroadcaster broadcaster_;
+  tf2_msgs::TFMessage pose_;  ///< newest pose on /tf
+  ros::Publisher pose_publisher_;
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   diagnostic_updater::Updater updater_;
   // Last, so that they end before the members that their callbacks use.

@@ -45,7 +45,8 @@ public:
     if (!message)
       return false;
     ros::SubscriptionCallbackHelperCallParams call;
-    call.event = ros::MessageEvent<void const>(message, ros::Time(1.0));
+    call.event = ros::MessageEvent<void const>(message, boost::make_shared<ros::M_string>(), ros::Time(1.0), false,
+                                               [] { return boost::shared_ptr<void>(); });
     callback_.call(call);
     return true;
   }
