@@ -105,8 +105,8 @@ void requireUsable(const RodState& state, double largest_margin)
 {
   const std::size_t nodes = state.nodes.size();
   requireSizes({state.radius.size(), state.margin.size()}, nodes, names::kRodState, "radius, margin", "nodes");
-  if (nodes < 2 || state.first_node > kMostNodes)
-    throw InputError(names::kRodState, "nodes, first_node", "must be at least two nodes of a wire");
+  if (state.first_node > kMostNodes)
+    throw InputError(names::kRodState, "first_node", "must be at most " + std::to_string(kMostNodes));
   requireNodes(state.nodes, names::kRodState);
   requireWithin(state.radius, 0.0, kLargestRadius, names::kRodState, "radius");
   requireWithin(state.margin, 0.0, largest_margin, names::kRodState, "margin");

@@ -35,7 +35,8 @@ intervention::RoundBody roundBody(const std::vector<geometry_msgs::Point>& axis,
 // Checks of messages from other processes. They throw InputError for lists of wrong lengths, for numbers that are not
 // finite, and for numbers beyond every use.
 
-/** @param largest_margin [m] */
+/** A wire outside of the introducer has no nodes.
+ *  @param largest_margin [m] */
 void requireUsable(const RodState& state, double largest_margin);
 /** Without a check of the lists of instruments. */
 void requireUsable(const RodStateVisual& state);

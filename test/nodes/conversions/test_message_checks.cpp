@@ -64,11 +64,15 @@ TEST(MessageChecks, RefuseAQueryThatNoSolverAsks)
   expectRefused<RodState>(
       query(), [](const RodState& state) { requireUsable(state, kMargin); },
       {[](RodState& state) { state.radius.pop_back(); }, [](RodState& state) { state.margin.clear(); },
-       [](RodState& state) { state = RodState(); }, [](RodState& state) { state.nodes[1].y = kNan; },
-       [](RodState& state) { state.nodes[2].z = 1e300; }, [](RodState& state) { state.radius[0] = -1.0; },
-       [](RodState& state) { state.margin[0] = 1.0; }, [](RodState& state) { state.margin[2] = kNan; },
-       [](RodState& state) { state.wanted_free_distance = kNan; },
+       [](RodState& state) { state.nodes[1].y = kNan; }, [](RodState& state) { state.nodes[2].z = 1e300; },
+       [](RodState& state) { state.radius[0] = -1.0; }, [](RodState& state) { state.margin[0] = 1.0; },
+       [](RodState& state) { state.margin[2] = kNan; }, [](RodState& state) { state.wanted_free_distance = kNan; },
        [](RodState& state) { state.first_node = 0xffffffffU; }});
+}
+
+TEST(MessageChecks, AcceptAQueryOfAWireThatIsPulledOut)
+{
+  EXPECT_NO_THROW(requireUsable(RodState(), kMargin));
 }
 
 TEST(MessageChecks, RefuseAnIncompleteStateOfTheWire)
