@@ -1,4 +1,5 @@
-"""Runs the first command of pages of the documentation literally, but for the placeholders that a page explains.
+"""Runs the first command of pages of the documentation literally, but for the placeholders that a page explains. An
+installation of packages is simulated by apt-get.
 
 Arguments: REPOSITORY PAGE...; exit code 1 when a command fails, or prints a warning.
 """
@@ -78,11 +79,8 @@ def check(folder, page):
     command = first_command(page)
     for word, value in PLACEHOLDERS.items():
         command = command.replace(word, value)
-    if command.startswith("sudo "):
-        if os.geteuid() != 0:
-            print("%s: skipped: installs packages, which needs root" % page.name, flush=True)
-            return
-        command = command[len("sudo "):]
+    # The packages are there; a test changes no package of the machine.
+    command = command.replace("sudo apt-get install", "apt-get install --simulate")
     print("%s: %s" % (page.name, command), flush=True)
     program = command.split()[0]
     output = observe(folder, command, STARTED[program]) if program in STARTED else run(folder, command)
