@@ -323,21 +323,22 @@ TEST_F(Crtk, FreeLetsTheWireRelax)
   client_->send("move_jp", positions({client_->setpoint().position.at(0) + 0.12}));
   ASSERT_TRUE(client_->run(2.5));
   const double force = client_->measured().effort.at(0);
-  ASSERT_GT(force, 0.02) << "friction in the bend";
+  ASSERT_GT(force, 0.005) << "friction in the bend";
   client_->word("free");
   ASSERT_TRUE(client_->run(2.0));
-  EXPECT_LT(std::abs(client_->measured().effort.at(0)), 0.2 * force);
+  EXPECT_LT(std::abs(client_->measured().effort.at(0)), 0.5 * force);
   client_->word("hold");
 }
 
 TEST_F(Crtk, AGripThatSlipsForASecondIsAWarningWithItsReason)
 {
   EXPECT_EQ(client_->reason(), "");
-  ASSERT_TRUE(client_->run(4.0, [] { client_->send("servo_jv", velocities({0.1})); }));
+  ASSERT_TRUE(client_->run(2.0, [] { client_->send("servo_jv", velocities({-0.1})); }))
+      << "at the introducer after 0.3 s";
   EXPECT_NE(client_->reason().find("the grip slips in the insertion"), std::string::npos) << client_->reason();
   EXPECT_EQ(client_->state().state, "ENABLED");
   EXPECT_TRUE(waitUntil(10.0, [] { return client_->diagnostics().find("the grip slips") != std::string::npos; }));
-  ASSERT_TRUE(client_->run(1.5, [] { client_->send("servo_jv", velocities({-0.02})); }));
+  ASSERT_TRUE(client_->run(1.8, [] { client_->send("servo_jv", velocities({0.02})); }));
   EXPECT_EQ(client_->reason(), "") << "the instrument moves again";
 }
 
