@@ -69,6 +69,8 @@ void AxisControl::integrate(double dt, const AxisFeedback& feedback)
   const double low = feedback.stops.nearest(range.low);
   const double up = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, high - position_));
   const double down = std::sqrt(2.0 * limits_.acceleration * std::max(0.0, position_ - low));
+  const double wanted = wantedVelocity(feedback.effort);
+  is_stopped_ = (wanted > 0.0 && position_ > high - kSlack) || (wanted < 0.0 && position_ < low + kSlack);
   velocity_ = std::clamp(velocity_, -down, up);
   position_ += dt * velocity_;
   const double lead = kLead * std::abs(velocity_) + kSlack;
@@ -87,6 +89,7 @@ double AxisControl::next(double dt, const AxisFeedback& feedback)
   const bool is_over = move_time_ >= move_.duration() && move_time_ > 0.0;
   move_time_ += dt;
   position_ = permitted(move_.position(move_time_), feedback);
+  is_stopped_ = position_ != move_.position(move_time_);
   velocity_ = move_.velocity(move_time_);
   if (is_over)
     follow(permitted(move_.goal(), feedback));

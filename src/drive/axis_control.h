@@ -57,6 +57,7 @@ public:
   double velocity() const { return velocity_; }  ///< its velocity
   double goal() const { return mode_ == Mode::kMove ? move_.goal() : position_; }
   bool isMoving() const { return mode_ == Mode::kMove; }  ///< true during a move
+  bool isStopped() const { return is_stopped_; }  ///< true if a stop or the end of the range holds the last step back
 
   /** Saves or loads all data that change. @throws ArchiveError for invalid ones */
   void archive(Archive& archive);
@@ -78,6 +79,7 @@ private:
   double target_ = 0.0;  ///< commanded velocity or effort
   double position_;
   double velocity_ = 0.0;
+  bool is_stopped_ = false;
   TrapezoidalMove move_;
   double move_time_ = 0.0;  ///< since the start of the move [s]
 };

@@ -332,6 +332,7 @@ const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
   silence_ += dt;
   driver_silence_ += dt;
   slipped_ = {feedback.insertion.slipped, feedback.rotation.slipped};
+  is_stopped_ = mode_ == Mode::kIncrements && !feedback.insertion.stops.contains(gate_.target().insertion);
   if (mode_ == Mode::kIncrements)
     gate_.stopAt(feedback.insertion.stops);
   if (mode_ == Mode::kStream || mode_ == Mode::kIncrements)
@@ -342,6 +343,7 @@ const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
   if (mode_ == Mode::kRate && silence_ > limits_.time_out)
     stop();
   setpoint_.motion = {insertion_.next(dt, feedback.insertion), rotation_.next(dt, feedback.rotation)};
+  is_stopped_ = insertion_.isStopped();
   gate_.follow(setpoint_.motion, dt);
   if (mode_ != Mode::kMove)
     return setpoint_;

@@ -64,6 +64,9 @@ public:
   /** Advances by a step. @return setpoint of the step */
   const HandSetpoint& next(double dt, const HandFeedback& feedback);
 
+  /** True if a stop of the instrument, or the end of its range, held the last step of an insertion back. */
+  bool isStopped() const { return is_stopped_; }
+
   const HandSetpoint& setpoint() const { return setpoint_; }
   HandMotion goal() const;  ///< goal of a move, else the last commanded position
 
@@ -121,6 +124,7 @@ private:
   AxisControl rotation_;
   Mode mode_ = Mode::kStream;
   HandSetpoint setpoint_;
+  bool is_stopped_ = false;
   HandMotion slipped_;  ///< scale of the commands minus position of the instrument, at the last step
   bool is_homing_ = false;
   OperatingState state_;

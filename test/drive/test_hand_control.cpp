@@ -346,6 +346,7 @@ TEST(HandControl, KeepsTheSetpointBetweenTheStopsOfTheInstrument)
     Bench bench;
     bench.stops = {0.0, 0.1};
     bench.run(4.0, [&] { bench.control.command("/a", push); });
+    EXPECT_TRUE(bench.control.isStopped());
     bench.run(1.0);
     EXPECT_EQ(bench.setpoint().insertion, 0.1);
   }

@@ -330,14 +330,14 @@ TEST_F(Crtk, FreeLetsTheWireRelax)
   client_->word("hold");
 }
 
-TEST_F(Crtk, AGripThatSlipsForASecondIsAWarningWithItsReason)
+TEST_F(Crtk, AnInstrumentThatWaitsAtAStopForASecondIsAWarningWithItsReason)
 {
   EXPECT_EQ(client_->reason(), "");
   ASSERT_TRUE(client_->run(2.0, [] { client_->send("servo_jv", velocities({-0.1})); }))
       << "at the introducer after 0.3 s";
-  EXPECT_NE(client_->reason().find("the grip slips in the insertion"), std::string::npos) << client_->reason();
+  EXPECT_NE(client_->reason().find("waits at a stop"), std::string::npos) << client_->reason();
   EXPECT_EQ(client_->state().state, "ENABLED");
-  EXPECT_TRUE(waitUntil(10.0, [] { return client_->diagnostics().find("the grip slips") != std::string::npos; }));
+  EXPECT_TRUE(waitUntil(10.0, [] { return client_->diagnostics().find("waits at a stop") != std::string::npos; }));
   ASSERT_TRUE(client_->run(1.8, [] { client_->send("servo_jv", velocities({0.02})); }));
   EXPECT_EQ(client_->reason(), "") << "the instrument moves again";
 }

@@ -19,6 +19,8 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "geometry/triangle_mesh.h"
+#include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/model/scene.h"
@@ -51,6 +53,12 @@ VesselMesh boxVessel()
     std::copy(face, face + 3, triangle.vertex_indices.begin());
     message.mesh.triangles.push_back(triangle);
   }
+  geometry::TriangleMesh mesh;
+  for (const geometry_msgs::Point& corner : message.mesh.vertices)
+    mesh.vertices.push_back(fromMessage(corner));
+  for (const auto& face : faces)
+    mesh.triangles.emplace_back(static_cast<int>(face[0]), static_cast<int>(face[1]), static_cast<int>(face[2]));
+  message.content_hash = mesh.hash();
   return message;
 }
 
@@ -67,7 +75,9 @@ RodStateVisual rod()
     state.nodes.push_back(node);
     state.radius.push_back(0.9e-3);
   }
+  state.contact_force.resize(state.nodes.size());
   state.insertion = {0.04};
+  state.rotation = state.hand_force = state.hand_torque = state.pressure = {0.0};
   return state;
 }
 

@@ -36,7 +36,8 @@ geometry::TriangleMesh fromMessage(const VesselMesh& message)
   {
     for (std::uint32_t index : triangle.vertex_indices)
       if (index >= mesh.vertices.size())
-        throw InputError(names::kVesselMesh, message.source, "a triangle has a vertex that does not exist");
+        throw InputError(names::kVesselMesh, message.source,
+                         "triangle " + std::to_string(mesh.triangles.size()) + " has a vertex that does not exist");
     mesh.triangles.emplace_back(static_cast<int>(triangle.vertex_indices[0]),
                                 static_cast<int>(triangle.vertex_indices[1]),
                                 static_cast<int>(triangle.vertex_indices[2]));

@@ -199,7 +199,8 @@ void DriveCommands::watchGrips(const simulation::Simulation& simulation)
     const drive::HandMotion reached = simulation.reached(static_cast<int>(k));
     const scene::DriveScene& drive = scene_.instruments[k].drive;
     grips_[k].addStep({reached.insertion - hand.insertion, reached.rotation - hand.rotation},
-                      {hand.force / drive.force_limit, hand.torque / drive.torque_limit}, scene_.solver.time_step);
+                      {hand.force / drive.force_limit, hand.torque / drive.torque_limit}, scene_.solver.time_step,
+                      hands_->control(k)->isStopped());
   }
 }
 

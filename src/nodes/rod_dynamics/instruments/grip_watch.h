@@ -8,8 +8,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Watch of a hand's grip on an instrument. It warns when the fingers slip, or a chuck stands at its force limit, for a
- *  second of simulated time: the commands then have no effect. */
+/** Watch of a hand's grip on an instrument. It warns when the fingers slip, a chuck stands at its force limit, or the
+ *  instrument waits at a stop, for a second of simulated time: the commands then have no effect. */
 class GripWatch
 {
 public:
@@ -19,19 +19,21 @@ public:
    *  @param slipped total slip of insertion and rotation: position that the commands have reached minus that of the
    *         instrument [m], [rad]
    *  @param load force and torque relative to their limits [1]
-   *  @param dt duration of the step [s] */
-  void addStep(const std::array<double, 2>& slipped, const std::array<double, 2>& load, double dt)
+   *  @param dt duration of the step [s]
+   *  @param waits true if a stop holds the insertion back (drive::HandControl::isStopped()) */
+  void addStep(const std::array<double, 2>& slipped, const std::array<double, 2>& load, double dt, bool waits = false)
   {
     std::string warning;
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       const bool slips = has_last_ && std::abs(slipped[axis] - last_[axis]) > kLeastSlip[axis] * dt;
       Axis& watched = axes_[axis];
-      watched.since_slip = slips || std::abs(load[axis]) > kLimit ? 0.0 : watched.since_slip + dt;
+      const bool is_held = slips || std::abs(load[axis]) > kLimit || (axis == 0 && waits);
+      watched.since_slip = is_held ? 0.0 : watched.since_slip + dt;
       watched.duration = watched.since_slip < kGap ? watched.duration + dt : 0.0;
       watched.is_warned = watched.duration >= kPatience || (watched.is_warned && watched.since_slip < kPatience);
       if (watched.is_warned && warning.empty())
-        warning = kWarnings[axis];
+        warning = axis == 0 && waits ? kWaits : kWarnings[axis];
     }
     last_ = slipped;
     has_last_ = true;
@@ -56,6 +58,9 @@ private:
   static constexpr std::array<const char*, 2> kWarnings = {
       "the grip slips in the insertion: the instrument is held with drive.force_limit, jammed or at a stop; pull back",
       "the grip slips in the rotation: the instrument is held with drive.torque_limit; turn back"};
+
+  static constexpr auto kWaits =
+      "waits at a stop: the introducer, an end of the instrument or of its range, or another instrument in its way";
 
   std::array<Axis, 2> axes_;
   std::array<double, 2> last_{};

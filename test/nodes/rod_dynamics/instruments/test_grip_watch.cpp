@@ -37,6 +37,14 @@ TEST(GripWatch, WarnsOfASlipOfASecondOnly)
   EXPECT_EQ(bench.watch.changes(), 1U);
 }
 
+TEST(GripWatch, WarnsOfAnInstrumentThatWaitsAtAStop)
+{
+  GripWatch watch;
+  for (int k = 0; k < 1100; ++k)
+    watch.addStep({0.0, 0.0}, {0.0, 0.0}, kStep, true);
+  EXPECT_NE(watch.warning().find("waits at a stop"), std::string::npos);
+}
+
 TEST(GripWatch, WarnsWhereAChuckStandsAtItsForceLimit)
 {
   Bench bench;
