@@ -121,6 +121,43 @@ Query crossingWire(const Wall& wall, std::mt19937& random)
   return query;
 }
 
+/** A smooth wall is nowhere farther from its facets than its deviation, so that beyond it both have the same sides. */
+void expectSidesOfFacets(const geometry::TriangleMesh& mesh, int points)
+{
+  const Detector facets(mesh, WallLaw());
+  const Detector smooth(mesh, smoothLaw());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> offset(-3e-3, 3e-3);
+  int compared = 0;
+  for (int trial = 0; trial < points; ++trial)
+  {
+    const Eigen::Vector3i& corners = mesh.triangles[random() % mesh.triangles.size()];
+    Eigen::Vector3d point = (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0;
+    for (int k = 0; k < 3; ++k)
+      point[k] += offset(random);
+    const double distance = facets.signedDistance(point);
+    if (std::abs(distance) <= smooth.model()->deviation())
+      continue;
+    ++compared;
+    ASSERT_GT(smooth.signedDistance(point) * distance, 0.0) << "at " << point.transpose() << ", " << distance;
+  }
+  EXPECT_GT(compared, points / 2);
+}
+
+TEST(SmoothDetector, HasTheSidesOfItsFacetsBeyondItsDeviation)
+{
+  for (const double bumps : {0.05, 0.15, 0.3})
+    expectSidesOfFacets(bumpy(geometry::midpointSubdivision(bentTube(), 1), bumps), 20000);
+}
+
+TEST(SmoothDetector, HasTheSidesOfItsFacetsInARealAorta)
+{
+  const std::string file = dataFile("aortic_arch_tree.obj");
+  if (file.empty())
+    GTEST_SKIP() << "set ENDOVASCULAR_DATA_DIR to the folder of aortic_arch_tree.obj";
+  expectSidesOfFacets(refinedForSmoothWall(realMesh(file)), 100000);
+}
+
 TEST(SmoothDetector, FindsTheWallAlongEveryEdgeOfTheWireInACreasedMesh)
 {
   const geometry::TriangleMesh mesh = bumpy(geometry::midpointSubdivision(bentTube(), 1), 0.15);

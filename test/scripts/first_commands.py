@@ -40,8 +40,13 @@ def prepare(folder, repository):
         (folder / name).symlink_to(repository / name)
     run(folder, "rosrun endovascular_sim simulate config/scenes/tube.yaml --seconds 0.01 --record nodes --no-plots --quiet "
                 "--out made")
-    for name in ("tube.obj", "vessel.obj"):
-        shutil.copy(folder / "made/vessel.obj", folder / name)
+    shutil.copy(folder / "made/vessel.obj", folder / "tube.obj")
+    with open(folder / "tube.obj") as metres, open(folder / "vessel.obj", "w") as millimetres:
+        for line in metres:
+            words = line.split()
+            if words and words[0] == "v":
+                line = "v %s\n" % " ".join(repr(1e3 * float(word)) for word in words[1:])
+            millimetres.write(line)
     run(folder, "rosrun endovascular_sim synthetic_ct --out heart.vol --clicks clicks.yaml --spacing 1.5 "
                 "--branch ascending_aorta")
 
