@@ -296,11 +296,12 @@ TEST_F(Crtk, MeasuredIsTheInstrumentAtAStopAndAtTheEndOfTheWire)
   client_->send("move_jp", positions({commanded}));
   ASSERT_TRUE(client_->run(1.5));
   EXPECT_NEAR(client_->insertion(), 0.0, 1e-6) << "at the introducer";
-  EXPECT_NEAR(client_->setpoint().position.at(0), commanded, 1e-3);
+  EXPECT_NEAR(client_->setpoint().position.at(0), 0.0, 1e-6) << "the setpoint waits there";
   client_->send("move_jp", positions({0.3}));
   ASSERT_TRUE(client_->run(4.5));
   EXPECT_LT(client_->insertion(), 0.29) << "the end of the wire, or the fingers slip";
-  EXPECT_NEAR(client_->setpoint().position.at(0), 0.3, 1e-9);
+  EXPECT_LE(client_->setpoint().position.at(0), 0.3);
+  EXPECT_GE(client_->setpoint().position.at(0), client_->insertion() - 1e-6);
   EXPECT_GT(std::abs(client_->wallForce().wrench.force.x) + std::abs(client_->wallForce().wrench.force.y), 0.0);
 }
 
