@@ -71,7 +71,6 @@ void SessionMetrics::add(Sample sample)
   followExchanges(sample);
   followForces(sample);
   samples_.push_back(std::move(sample));
-  trusted_.push_back(time >= untrusted_until_);
 }
 
 void SessionMetrics::followFaults(const Sample& sample)
@@ -98,6 +97,13 @@ void SessionMetrics::addFault(const char* kind, double time, std::uint64_t steps
   }
   fault->end = time;
   fault->steps += steps;
+}
+
+void SessionMetrics::addTail(const Peaks& peaks)
+{
+  const bool is_over = !steps_.empty() && steps_.back().outcome != procedure::Progress::kRunning;
+  if (!is_over && !samples_.empty())
+    samples_.back().peaks.addHands(peaks.hand_force, peaks.hand_torque);
 }
 
 void SessionMetrics::setSteps(std::vector<procedure::StepRecord> steps, std::string failure)
@@ -159,9 +165,8 @@ std::vector<WrongBranch> SessionMetrics::wrongBranches() const
 double SessionMetrics::peakHandForce(std::size_t instrument) const
 {
   double peak = 0.0;
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (trusted_[i])
-      peak = std::max(peak, std::abs(samples_[i].peaks.hand_force[instrument]));
+  for (const Sample& sample : samples_)
+    peak = std::max(peak, std::abs(sample.peaks.hand_force[instrument]));
   return peak;
 }
 

@@ -67,6 +67,11 @@ public:
   /** Adds a sample and locates its tips. Only the first sample of a sampling interval is used. */
   void add(Sample sample);
 
+  /** Merges the hands' forces and torques of the steps after the last sample into it. Steps after the end of the
+   *  procedure do not count.
+   *  @pre the records of the operator are set */
+  void addTail(const Peaks& peaks);
+
   /** Sets the records of the scripted operator. */
   void setSteps(std::vector<procedure::StepRecord> steps, std::string failure);
   void setWallForces(WallForceSummary forces) { wall_forces_ = std::move(forces); }
@@ -108,7 +113,6 @@ private:
   procedure::BranchLocator locator_;
   procedure::BranchEntries branch_entries_;  ///< before the first sample
   std::vector<Sample> samples_;
-  std::vector<bool> trusted_;   ///< for each sample: true if no fault affects its forces
   std::int64_t interval_ = -1;  ///< sampling interval of the newest sample
   double sampled_until_ = 0.0;  ///< time of the newest sample, a rejected one included [s]
   std::vector<SimulatorFault> faults_;

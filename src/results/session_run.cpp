@@ -36,6 +36,7 @@ void SessionRun::finish(const simulation::Simulation& simulation, const geometry
 {
   if (operator_)
     metrics_.setSteps(operator_->records(), operator_->failure());
+  metrics_.addTail(sampler_.pending());
   for (const simulation::TimedEvent& event : simulation.events())
     metrics_.addEvent(simulation::nameOf(event.event), event.instrument, event.time);
   metrics_.setLesions(lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, openedStents(simulation)));

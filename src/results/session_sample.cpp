@@ -47,11 +47,24 @@ void WallLoad::add(const Eigen::Vector3d& position, double force, const Eigen::V
     at_tip += force;
 }
 
+void Peaks::addHands(const std::vector<double>& forces, const std::vector<double>& torques)
+{
+  const auto take = [](std::vector<double>& peaks, const std::vector<double>& values)
+  {
+    peaks.resize(std::max(peaks.size(), values.size()), 0.0);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      peaks[k] = std::abs(values[k]) > std::abs(peaks[k]) ? values[k] : peaks[k];
+  };
+  take(hand_force, forces);
+  take(hand_torque, torques);
+}
+
 void Peaks::add(const simulation::Simulation& simulation, const WallLoad& load)
 {
-  hand_force.resize(static_cast<std::size_t>(simulation.instruments()), 0.0);
-  hand_torque.resize(hand_force.size(), 0.0);
-  for (std::size_t k = 0; k < hand_force.size(); ++k)
+  const auto hands = static_cast<std::size_t>(simulation.instruments());
+  hand_force.resize(hands, 0.0);
+  hand_torque.resize(hands, 0.0);
+  for (std::size_t k = 0; k < hands; ++k)
   {
     const simulation::HandState hand = simulation.hand(static_cast<int>(k));
     hand_force[k] = std::abs(hand.force) > std::abs(hand_force[k]) ? hand.force : hand_force[k];

@@ -58,6 +58,8 @@ struct Peaks
 
   /** Takes a step into account. */
   void add(const simulation::Simulation& simulation, const WallLoad& load);
+  /** Takes the forces [N] and torques [N·m] on the hands in a step into account. */
+  void addHands(const std::vector<double>& forces, const std::vector<double>& torques);
 };
 
 /** Sample of a session at one time. */
@@ -93,6 +95,9 @@ public:
 
   /** Newest sample, without the branches of the tips (procedure::locate()). */
   const Sample& sample() const { return sample_; }
+
+  /** Peaks of the steps since the newest sample. */
+  const Peaks& pending() const { return peaks_; }
 
 private:
   std::int64_t interval_ = -1;  ///< interval of the newest sample

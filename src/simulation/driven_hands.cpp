@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double kSameTime = 1e-9;  ///< tolerance of the time of a command [s]
+constexpr double kCalendar = 1e8;   ///< least time that is taken for a stamp of the calendar [s]
 
 drive::HandFeedback feedbackOf(const Simulation& simulation, int instrument)
 {
@@ -141,32 +142,35 @@ CommandPlayer::CommandPlayer(const scene::Scene& scene, const std::string& file,
 }
 
 /** Doubt about the pauses between the rates of an instrument; empty without one. */
-std::string CommandPlayer::pausesOf(std::size_t instrument) const
+std::string CommandPlayer::pausesOf(std::size_t instrument, double end) const
 {
   const double time_out = scene_->instruments[instrument].drive.limits.time_out;
   int pauses = 0;
   double lost = 0.0;
   double longest = 0.0;
   const drive::TimedCommand* before = nullptr;
-  for (const Entry& entry : entries_)
+  const auto judge = [&](double next)
   {
-    if (entry.instrument != instrument)
-      continue;
     const bool by_velocity = before != nullptr && before->word == drive::nameOf(drive::CommandKind::kServoVelocity);
     const bool by_rate =
         by_velocity || (before != nullptr && before->word == drive::nameOf(drive::CommandKind::kServoForce));
     const bool moves =
         by_rate && std::any_of(before->values.begin(), before->values.end(), [](double v) { return v != 0.0; });
-    const double pause = before != nullptr ? entry.command.time - before->time : 0.0;
-    if (moves && pause > time_out - 0.5 * scene_->solver.time_step)
-    {
-      ++pauses;
-      longest = std::max(longest, pause);
-      lost +=
-          by_velocity ? std::abs(before->values.front()) * std::max(scene_->solver.time_step, pause - time_out) : 0.0;
-    }
+    const double pause = before != nullptr ? std::min(next, end) - before->time : 0.0;
+    if (!moves || !std::isfinite(pause) || pause <= time_out - 0.5 * scene_->solver.time_step)
+      return;
+    ++pauses;
+    longest = std::max(longest, pause);
+    lost += by_velocity ? std::abs(before->values.front()) * std::max(scene_->solver.time_step, pause - time_out) : 0.0;
+  };
+  for (const Entry& entry : entries_)
+  {
+    if (entry.instrument != instrument || entry.command.time >= end)
+      continue;
+    judge(entry.command.time);
     before = &entry.command;
   }
+  judge(end);
   if (pauses == 0)
     return "";
   char text[280];
@@ -192,7 +196,7 @@ std::vector<std::string> CommandPlayer::warnings(double end) const
     warnings.push_back(file_ + ": " + text);
   }
   for (std::size_t k = 0; k < scene_->instruments.size(); ++k)
-    if (const std::string text = pausesOf(k); !text.empty())
+    if (const std::string text = pausesOf(k, end); !text.empty())
       warnings.push_back(text);
   return warnings;
 }
@@ -201,13 +205,14 @@ void CommandPlayer::requireCommandsBefore(double end) const
 {
   if (entries_.empty())
     throw InputError(file_, "", "holds no command; give rows of time,instrument,command,values");
-  if (entries_.front().command.time < end - kSameTime)
+  if (entries_.front().command.time < std::min(end - kSameTime, kCalendar))
     return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the first command acts at %.10g s, after the end of the run at %g s; times are simulated seconds from "
-                "the start of the scene: subtract that of the first row",
-                entries_.front().command.time, end);
+  const bool is_calendar = entries_.front().command.time > kCalendar;
+  char text[240];
+  std::snprintf(text, sizeof text, "the first command acts at %.10g s, after the end of the run at %g s; %s",
+                entries_.front().command.time, end,
+                is_calendar ? "times are simulated seconds from the start of the scene: subtract that of the first row"
+                            : "run longer");
   throw InputError(file_, "line " + std::to_string(entries_.front().command.line), text);
 }
 

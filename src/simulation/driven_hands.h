@@ -74,7 +74,7 @@ public:
    *  @param end simulated time of the end [s] */
   std::vector<std::string> warnings(double end) const;
 
-  /** @param end simulated time of the end of the run [s]
+  /** @param end simulated time of the end of the run; infinite: until it is stopped [s]
    *  @throws InputError if no command acts before the end, e.g. for stamps of the calendar */
   void requireCommandsBefore(double end) const;
 
@@ -95,7 +95,7 @@ private:
     std::size_t instrument = 0;
   };
 
-  std::string pausesOf(std::size_t instrument) const;
+  std::string pausesOf(std::size_t instrument, double end) const;
 
   const scene::Scene* scene_;
   std::string file_;

@@ -147,6 +147,21 @@ TEST(SessionMetrics, OfAHandAreThoseOfEveryStep)
   EXPECT_NE(instrumentsCsv(session.metrics).find(",-4.5,"), std::string::npos);
 }
 
+TEST(SessionMetrics, HoldTheForcesAfterTheLastSampleUnlessTheProcedureIsOver)
+{
+  Peaks tail;
+  tail.addHands({-3.0, 0.0}, {0.0, 0.0});
+  for (const procedure::Progress outcome : {procedure::Progress::kRunning, procedure::Progress::kDone})
+  {
+    Session session;
+    session.peak_hand_force = 1.0;
+    session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1});
+    session.metrics.setSteps({recordOf(0, 0.0, 1.0, outcome)}, "");
+    session.metrics.addTail(tail);
+    EXPECT_EQ(session.metrics.peakHandForce(0), outcome == procedure::Progress::kRunning ? 3.0 : 1.0);
+  }
+}
+
 TEST(SessionMetrics, IgnoresTheBranchOfACoveredTip)
 {
   Session session;

@@ -279,7 +279,7 @@ TEST(CommandPlayer, TellsWhichVelocitiesTheTimeOutEnds)
     for (int k = 0; k < 10; ++k)
       commands.push_back(timed(k * period, "servo_jv", 0.02));
     commands.push_back(timed(10 * period, "servo_jv", 0.0));
-    commands.push_back(timed(10 * period + 5.0, "servo_jv", 0.02));
+    commands.push_back(timed(10 * period + 5.0, "servo_jv", 0.0));
     return CommandPlayer(bench.scene, "log.csv", commands).warnings(60.0);
   };
   EXPECT_TRUE(everySeconds(0.1).empty()) << "nothing is lost while the instrument rests";
@@ -287,6 +287,9 @@ TEST(CommandPlayer, TellsWhichVelocitiesTheTimeOutEnds)
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("log.csv: wire: no command follows 10 of"), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[0].find("about 10.0 mm"), std::string::npos) << warnings[0];
+  const CommandPlayer one(bench.scene, "log.csv", {timed(0.5, "servo_jv", 0.02), timed(70.0, "servo_jv", 0.02)});
+  ASSERT_EQ(one.warnings(1.7).size(), 2U) << "the second row lies after the end";
+  EXPECT_NE(one.warnings(1.7)[1].find("about 20.0 mm"), std::string::npos) << one.warnings(1.7)[1];
 }
 
 TEST(CommandPlayer, RefusesCommandsThatAllActAfterTheEnd)

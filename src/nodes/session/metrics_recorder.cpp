@@ -16,6 +16,12 @@
 
 namespace endovascular_sim::nodes
 {
+namespace
+{
+
+constexpr std::size_t kMostSteps = 100000;  // between two samples; more are those of a session without samples
+
+}  // namespace
 
 void MetricsRecorder::add(const VesselMesh& mesh)
 {
@@ -52,10 +58,21 @@ void MetricsRecorder::add(const SessionSample& message)
   if (message.step >= steps_)
     return;
   results::Sample sample = fromMessage(message, scene_.instruments.size());
+  sampled_steps_ = std::max(sampled_steps_, message.step + 1);
+  since_sample_.erase(since_sample_.begin(), since_sample_.lower_bound(sampled_steps_));
   if (metrics_)
     metrics_->add(std::move(sample));
   else
     early_samples_.push_back(std::move(sample));
+}
+
+void MetricsRecorder::add(const DriveApplied& drive)
+{
+  if (drive.step < sampled_steps_ || drive.step >= steps_ || since_sample_.size() >= kMostSteps)
+    return;
+  results::Peaks peaks;
+  peaks.addHands(drive.hand_force, drive.hand_torque);
+  since_sample_[drive.step] = std::move(peaks);
 }
 
 void MetricsRecorder::add(const ProcedureStep& step)
@@ -127,6 +144,8 @@ void MetricsRecorder::write(const std::string& folder, const results::WallForceS
   if (!metrics_)
     return;
   metrics_->setSteps(procedure_steps_, failure_);
+  for (const auto& [step, peaks] : since_sample_)
+    metrics_->addTail(peaks);
   for (const std::vector<Event>* events : {&events_, &risks_})
     for (const Event& event : *events)
       metrics_->addEvent(event.kind, event.instrument, event.time);

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -35,6 +37,8 @@ public:
   /** @throws InputError when a list does not match the instruments of the scene */
   void add(const SessionSample& sample);
   void add(const ProcedureStep& step);
+  /** Adds the forces on the hands in a step without a fault. Those after the last sample belong to the metrics too. */
+  void add(const DriveApplied& drive);
   /** Displacements before the vessel are ignored.
    *  @throws InputError for an invalid displacement */
   void add(const WallDisplacement& moved);
@@ -63,14 +67,16 @@ private:
 
   scene::Scene scene_;
   std::uint64_t steps_;
-  vessel::Vessel vessel_;                             ///< initial vessel
-  geometry::TriangleMesh wall_;                       ///< current wall
-  std::vector<intervention::RoundBody> stents_;       ///< opened stents
-  std::vector<Event> events_;                         ///< events of balloons and stents, without those of the wall
-  std::vector<Event> risks_;                          ///< events of the wall
-  bool at_risk_ = false;                              ///< risk of the wall at its newest displacement
-  std::unique_ptr<results::SessionMetrics> metrics_;  ///< null before the vessel
-  std::vector<results::Sample> early_samples_;        ///< samples before the vessel
+  vessel::Vessel vessel_;                                 ///< initial vessel
+  geometry::TriangleMesh wall_;                           ///< current wall
+  std::vector<intervention::RoundBody> stents_;           ///< opened stents
+  std::vector<Event> events_;                             ///< events of balloons and stents, without those of the wall
+  std::vector<Event> risks_;                              ///< events of the wall
+  bool at_risk_ = false;                                  ///< risk of the wall at its newest displacement
+  std::unique_ptr<results::SessionMetrics> metrics_;      ///< null before the vessel
+  std::vector<results::Sample> early_samples_;            ///< samples before the vessel
+  std::uint64_t sampled_steps_ = 0;                       ///< number of steps up to the newest sample
+  std::map<std::uint64_t, results::Peaks> since_sample_;  ///< for each step since then: forces on the hands
   std::vector<procedure::StepRecord> procedure_steps_;
   std::string failure_;
 };

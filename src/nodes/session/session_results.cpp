@@ -76,7 +76,10 @@ void SessionResults::add(const DriveApplied& drive)
   // Simulated time says nothing about the elapsed one.
   const double now = ros::Time::isSimTime() ? ros::WallTime::now().toSec() : drive.header.stamp.toSec();
   report_.addStep(drive.step, now, drive.first_stale_pass != contact::kNoStalePass, drive.state_hash);
+  if (drive.first_stale_pass != contact::kNoStalePass)
+    return;  // the forces of a step with a fault are left out, as in the metrics
   report_.addHands(drive.hand_force, drive.hand_torque);
+  metrics_.add(drive);
 }
 
 void SessionResults::add(const RodStateVisual& rod)

@@ -17,7 +17,7 @@ namespace endovascular_sim::vessel
  *  @param transform from the frame of the file to that of the mesh
  *  @param mesh wall of the vessel [m]
  *  @throws InputError if the file is invalid, or belongs to another vessel: more than one point in twenty of a branch
- * lies outside of the mesh. Points within half a radius of an end are not judged: the mesh is cut there */
+ * lies outside of the mesh. Points within a radius of an end are not judged: the mesh is cut there */
 CentrelineTree readMeshCentreline(const std::string& file, double unit, const Eigen::Isometry3d& transform,
                                   const geometry::TriangleMesh& mesh);
 

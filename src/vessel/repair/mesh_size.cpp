@@ -17,6 +17,8 @@ constexpr double kSmallestVessel = 5e-3;  // [m]
 constexpr double kLargestVessel = 3.0;    // [m]
 constexpr double kNarrowest = 1e-3;       // width of a lumen [m]
 constexpr double kWidest = 0.12;          // [m]
+constexpr double kNarrowPhantom = 3e-4;   // width of the narrowest lumen for a wire [m]
+constexpr double kLongestOfNarrow = 0.5;  // length of a mesh whose narrow lumen is a mistake of the unit [m]
 constexpr double kUsualWidth = 8e-3;      // [m]
 constexpr double kFarthest = 10.0;        // of a vertex from the origin [m]
 constexpr double kSinglePrecision = 5.96e-8;
@@ -103,6 +105,12 @@ void requirePlausibleWidth(double width, const MeshReport& report, double unit, 
 {
   if (width <= 0.0 || (width >= kNarrowest && width <= kWidest))
     return;
+  const std::vector<Unit> others = likelyUnits(sizeOf(report) / unit, width / unit);
+  const bool is_mistake =
+      std::any_of(others.begin(), others.end(),
+                  [&](const Unit& other) { return sizeOf(report) / unit * other.metres <= kLongestOfNarrow; });
+  if (width < kNarrowest && width >= kNarrowPhantom && !is_mistake)
+    return;  // e.g. a phantom for microcatheters
   throw InputError(source, "",
                    "its lumen is " + lengthText(width) + " wide and its bounding box " + lengthText(sizeOf(report)) +
                        " long; a lumen for instruments is between " + lengthText(kNarrowest) + " and " +

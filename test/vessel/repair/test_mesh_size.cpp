@@ -37,6 +37,15 @@ TEST(MeshSize, ProposesTheUnitThatGivesAUsualLumen)
   EXPECT_NE(inches.find("looks like inches: set vessel.unit: 0.0254"), std::string::npos) << inches;
 }
 
+TEST(MeshSize, RefusesANarrowLumenOnlyWhereAnotherUnitGivesAVesselOfUsualLength)
+{
+  const MeshReport aorta_in_cm = checkMesh(sweep(straightLine(0.016), circle(0.4e-3)));
+  EXPECT_THROW(requirePlausibleWidth(0.8e-3, aorta_in_cm, 1e-3, "cm.stl"), InputError);
+  const MeshReport phantom = checkMesh(sweep(straightLine(0.06), circle(0.45e-3)));
+  EXPECT_NO_THROW(requirePlausibleWidth(0.9e-3, phantom, 1e-3, "phantom.stl"));
+  EXPECT_THROW(requirePlausibleWidth(0.2e-3, phantom, 1e-3, "hair.stl"), InputError);
+}
+
 TEST(MeshSize, WarnsOfAMeshFarFromTheOrigin)
 {
   geometry::TriangleMesh mesh = sweep(straightLine(0.16), circle(4e-3));

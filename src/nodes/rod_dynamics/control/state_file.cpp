@@ -44,15 +44,15 @@ private:
   int value_;
 };
 
-/** Complete path of a file, which must lie below a folder. */
-std::string pathBelow(const std::string& file, const std::string& folder, const char* service)
+/** @throws std::filesystem::filesystem_error for a path that cannot be resolved */
+std::string resolvedBelow(const std::string& file, const std::string& folder, const char* service)
 {
   namespace fs = std::filesystem;
   if (file.empty())
     throw InputError(service, "file", std::string("is empty; ") + kRemedy);
   if (folder.empty())
     return fs::absolute(file).string();
-  const fs::path allowed = fs::weakly_canonical(folder);
+  const fs::path allowed = fs::weakly_canonical(fs::absolute(folder));
   const fs::path path = allowed / file;  // an absolute file replaces the folder
   const fs::path parent = fs::weakly_canonical(path.parent_path());
   const fs::path below = parent.lexically_relative(allowed);
@@ -60,6 +60,19 @@ std::string pathBelow(const std::string& file, const std::string& folder, const 
     throw InputError(service, "file",
                      file + " is not below ~state_folder, " + allowed.string() + "; give a file there");
   return (parent / path.filename()).string();
+}
+
+/** Complete path of a file, which must lie below a folder. */
+std::string pathBelow(const std::string& file, const std::string& folder, const char* service)
+{
+  try
+  {
+    return resolvedBelow(file, folder, service);
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    throw InputError(service, "file", file + " cannot be resolved (" + error.code().message() + ")");
+  }
 }
 
 /** Reads the first bytes of an open file. */

@@ -1,6 +1,7 @@
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <std_msgs/Empty.h>
 
@@ -17,7 +18,9 @@ DriveCommands::DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, c
   if (!file.empty())
   {
     file_.emplace(scene, file, drive::readCommandFile(file));
-    for (const std::string& warning : file_->warnings(scene.duration))
+    const double end = std::numeric_limits<double>::infinity();  // the graph runs until it is stopped
+    file_->requireCommandsBefore(end);
+    for (const std::string& warning : file_->warnings(end))
       ROS_WARN("%s", warning.c_str());
   }
   reset();
