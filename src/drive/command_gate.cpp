@@ -38,8 +38,8 @@ CommandVerdict CommandGate::examine(HandMotion& command, const HandMotion& slipp
 {
   if (!isFinite(command))
     return CommandVerdict::kNotFinite;
-  const HandMotion within{limits_.insertion->shifted(slipped.insertion).nearest(command.insertion),
-                          limits_.rotation.shifted(slipped.rotation).nearest(command.rotation)};
+  const HandMotion within{commandRange(*limits_.insertion, slipped.insertion).nearest(command.insertion),
+                          commandRange(limits_.rotation, slipped.rotation).nearest(command.rotation)};
   const bool in_range = within.insertion == command.insertion && within.rotation == command.rotation;
   if (!in_range && limits_.beyond == BeyondLimit::kRefuse)
     return CommandVerdict::kOutOfRange;

@@ -42,6 +42,16 @@ struct RejectedCommands
   std::uint64_t total() const { return malformed + not_finite + out_of_range + jumps + foreign + not_enabled; }
 };
 
+/** Range of the commands to an instrument whose scale has slipped. A slip is a sum of many steps, whose rounding must
+ * not exclude the ends of the range.
+ *  @param range of the instrument's positions
+ *  @param slipped scale of the commands minus position of the instrument */
+inline Interval commandRange(const Interval& range, double slipped)
+{
+  constexpr double kRounding = 1e-6;  // [m] or [rad]
+  return slipped == 0.0 ? range : Interval{range.low + slipped - kRounding, range.high + slipped + kRounding};
+}
+
 /** Filter between a stream of positions and the motion of an instrument.
  *
  *  A rejected command has no effect. A jump is measured from the last accepted command, so that one wrong number in a

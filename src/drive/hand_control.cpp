@@ -199,8 +199,8 @@ CommandVerdict HandControl::move(const JointCommand& command)
   goal.rotation =
       is_relative ? goal.rotation + command.rotation.value_or(0.0) : command.rotation.value_or(goal.rotation);
   bool clamped = false;
-  if (!isPermitted(goal.insertion, limits_.insertion->shifted(slipped_.insertion), clamped) ||
-      !isPermitted(goal.rotation, limits_.rotation.shifted(slipped_.rotation), clamped))
+  if (!isPermitted(goal.insertion, commandRange(*limits_.insertion, slipped_.insertion), clamped) ||
+      !isPermitted(goal.rotation, commandRange(limits_.rotation, slipped_.rotation), clamped))
     return CommandVerdict::kOutOfRange;
   rejected_.clamped += clamped;
   enterRate();

@@ -363,6 +363,15 @@ TEST(HandControl, JudgesPositionsByThatOfTheInstrumentAfterASlip)
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 1.05, 1e4), CommandVerdict::kAccepted);
 }
 
+TEST(HandControl, AcceptsTheEndOfTheRangeDespiteTheRoundingOfASlip)
+{
+  Bench bench;
+  bench.slipped = {-1e-12, 1e-12};
+  bench.run(kStep);
+  EXPECT_EQ(bench.send(CommandKind::kMovePosition, 0.6), CommandVerdict::kAccepted);
+  EXPECT_EQ(bench.send(CommandKind::kMovePosition, 0.601), CommandVerdict::kOutOfRange);
+}
+
 TEST(HandControl, LeavesAStopByTheNextVelocity)
 {
   Bench bench;
