@@ -8,7 +8,7 @@ namespace
 {
 
 constexpr auto kHead =
-    "# Tables of the validation\n\nWritten by `rosrun endovascular_sim benchmark STUDY --out DIR`, never by hand. "
+    "# Tables of the validation\n\nWritten by `rosrun endovascular_sim benchmark STUDY --out DIR`. "
     "Times are "
     "medians on one core of the machine of the run; ratios are comparable.\n\n";
 const std::string kChapter = "## ";

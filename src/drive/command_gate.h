@@ -67,7 +67,7 @@ public:
   CommandGate(const HandMotion& start, const DriveLimits& limits) : target_(start), position_(start), limits_(limits) {}
 
   /** Examines a command and takes it over if it is accepted.
-   *  @param slipped scale of the commands minus position of the instrument, by which the ranges shift */
+   *  @param slipped slipped motion of the handle [m], [rad]; it shifts the permitted range of the commands */
   CommandVerdict offer(HandMotion command, const HandMotion& slipped = {});
 
   /** Replaces a target beyond a stop by the stop.
