@@ -340,7 +340,7 @@ void Operator::act(const Observation& observation)
   if (step().action == StepAction::kInflate)
     return;
   if (observation.time - begin_time_ > step().time_limit)
-    return fail(&view, formatted("not done within %.0f s", step().time_limit));
+    return fail(&view, formatted("not done within %.4g s", step().time_limit));
   if (mode_ == Mode::kRecoverSupport)
     return recoverSupport(observation);
   if (hasLostSupport(observation))
