@@ -190,7 +190,7 @@ class Runner:
         elif status == test_results.SKIPPED:
             case.skipped = True
         elif status != 0:
-            case.failed, case.message = True, "exit code %d" % status
+            case.failed, case.message = True, "exit code %d: %s" % (status, reason_in(case.text))
         return [case]
 
     def run_gtest(self, run, log, environment):
@@ -267,6 +267,13 @@ class Runner:
 
 def processors():
     return len(os.sched_getaffinity(0))
+
+
+def reason_in(text):
+    """The last line of an output that names a failure, else its last line."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    named = [line for line in lines if re.search(r"FAILED|[Ee]rror|missed|differs", line)]
+    return (named or lines or ["no output"])[-1][:300]
 
 
 def first_line(lines):
