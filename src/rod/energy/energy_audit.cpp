@@ -27,6 +27,19 @@ void addAngles(const State& from, const State& to, double factor, State& state)
   }
 }
 
+/** Adds a multiple of an angle per edge to the angles of a state. */
+void addAngles(const std::vector<double>& angle, double factor, State& state)
+{
+  const auto add = [&angle, factor](std::vector<double>& twist)
+  {
+    for (std::size_t j = 0; j < angle.size(); ++j)
+      twist[j] += factor * angle[j];
+  };
+  add(state.twist_angle);
+  for (LayerState& layer : state.layers)
+    add(layer.twist_angle);
+}
+
 void copyAngles(const State& from, State& state)
 {
   state.twist_angle = from.twist_angle;
@@ -168,7 +181,9 @@ void EnergyAudit::addMotion(const AuditedPart& part)
   }
 }
 
-/** Potentials: their change, and the work of their forces at the end along the motion of positions and angles. */
+/** Potentials: their change, and the work of their forces at the end along the motion of positions and angles. Along
+ *  the positions, the material follows the edges without turning about them; the rest of its turn is that of the
+ *  angles. */
 void EnergyAudit::addPotentials(const AuditedPart& part)
 {
   const State begin = completed(part.before, part.boundary, part.conditions);
@@ -186,6 +201,8 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
         moved.position[i] = end.position[i] + share * (end.position[i] - begin.position[i]);
       else
         moved.position[i] = end.position[i];
+    copyAngles(end, moved);
+    addAngles(part.frame_turns, -share, moved);
     return part.potential(moved, from);
   };
   addResidual(part, ((0.5 / kShare) * (alongPositions(kShare, true) - alongPositions(-kShare, true))).sum());
@@ -197,6 +214,7 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   {
     moved = end;
     addAngles(begin, end, share, moved);
+    addAngles(part.frame_turns, share, moved);
     return part.potential(moved, from);
   };
   const PotentialEnergy by_angles = (0.5 / kShare) * (alongAngles(kShare) - alongAngles(-kShare));
@@ -213,7 +231,7 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   // The energy of the twist refers to angles alone; that of the hold is singular where it passes the middle of an edge.
   pending_.positions += by_positions.sum() - (last - at_begin).sum();
   pending_.twisting +=
-      by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist - (last - first).twist;
+      by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist - (at_begin - first).twist;
   const double by_insertion = (with_insertion - first).sum() - (with_insertion - first).twist;
   pending_.configurational += by_insertion;
   pending_.insertion += part.insertion_work - by_insertion;

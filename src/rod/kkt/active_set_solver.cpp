@@ -22,8 +22,12 @@ template <class Layout>
 bool ActiveSetSolver<Layout>::solve(const State& state, double dt, ContactSolver& contacts, WallFriction& friction,
                                     const SurfaceTwist* twist, ContactSolver::Motion& motion, StepReport& report)
 {
+  bool coupled = false;
   if constexpr (Layout::kTurns)
-    buildBase(*twist, dt);
+  {
+    coupled = !twist->mixed.empty();
+    buildBase(*twist, dt, coupled);
+  }
   twist_ = twist;
   state_ = &state;
   double shift = 0.0;
@@ -31,7 +35,8 @@ bool ActiveSetSolver<Layout>::solve(const State& state, double dt, ContactSolver
   int changed = system_.first;  // first node whose terms differ from those of the last pass
   for (int active_pass = 0; active_pass < kMaxActiveSetPasses; ++active_pass)
   {
-    const int keep = shift > 0.0 || !canRewind(state) ? 0 : row(changed);
+    // The turn of the edge before a node lies one block before the node's rows.
+    const int keep = shift > 0.0 || !canRewind(state) ? 0 : row(changed) - (Layout::kTurns ? Layout::kPeriod : 0);
     if constexpr (Layout::kTurns)
     {
       fresh_ = matrix_.rewind(base_, keep);
@@ -45,9 +50,15 @@ bool ActiveSetSolver<Layout>::solve(const State& state, double dt, ContactSolver
     addTerms(contacts, friction, shift, dt);
     if (!factoriseAndSolve(state, report))
     {
-      if (shift > 0.0)
+      if (coupled)
+      {
+        coupled = false;
+        buildBase(*twist, dt, false);
+      }
+      else if (shift > 0.0)
         return false;
-      shift = kShift;
+      else
+        shift = kShift;
       same_rest = false;
       changed = system_.first;
       continue;
@@ -73,8 +84,8 @@ void ActiveSetSolver<Layout>::addTerms(const ContactSolver& contacts, const Wall
     if (!contacts.spring(c).active)
       continue;
     addContact(contacts.feature(c), contacts.spring(c), dt);
-    if ((Layout::kTurns || model_.settings.curved_wall) && contacts.spring(c).weight1 <= 0.0)
-      addCurvature(contacts.feature(c), contacts.spring(c).node, dt);
+    if (Layout::kTurns || model_.settings.curved_wall)
+      addCurvature(contacts.feature(c), contacts.spring(c), dt);
   }
   for (std::size_t k = 0; k < friction.count(); ++k)
     addFriction(friction.term(k), dt);
@@ -124,12 +135,63 @@ bool ActiveSetSolver<Layout>::updateFriction(WallFriction& friction, const Conta
   return friction.update(motion, pass);
 }
 
-/** Builds the system with turns: that of the positions, and the twist. */
+/** Builds the system with turns: that of the positions, and the twist.
+ *  @param coupled with the mixed derivatives; their exact Hessian is indefinite beyond a snap-through */
 template <class Layout>
-void ActiveSetSolver<Layout>::buildBase(const SurfaceTwist& twist, double dt)
+void ActiveSetSolver<Layout>::buildBase(const SurfaceTwist& twist, double dt, bool coupled)
 {
   spreadSystem();
   addTwist(twist, dt);
+  if (!coupled)
+    return;
+  addMixedDerivatives(twist, dt);
+  addEdgeStiffness(twist, dt);
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::addMixedDerivatives(const SurfaceTwist& twist, double dt)
+{
+  const int n = model_.rod.nodes();
+  for (int j = system_.first; j + 1 < n; ++j)
+    for (int place = 0; twist.unknown[j] != 0 && place < 4; ++place)
+    {
+      const int node = j - 1 + place;
+      if (node < system_.first || node >= n)
+        continue;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int r = row(node) + axis;
+        base_.at(std::max(r, turnRow(j)), std::min(r, turnRow(j))) += dt * dt * twist.mixed[j][place][axis];
+      }
+    }
+}
+
+template <class Layout>
+void ActiveSetSolver<Layout>::addEdgeStiffness(const SurfaceTwist& twist, double dt)
+{
+  for (int i = system_.first + 1; i + 1 < model_.rod.nodes(); ++i)
+  {
+    const Eigen::Matrix3d before = dt * dt * twist.stiffness[i].before;
+    const Eigen::Matrix3d after = dt * dt * twist.stiffness[i].after;
+    const Eigen::Matrix3d across = dt * dt * twist.stiffness[i].across.transpose();
+    addBlock(i - 1, i - 1, before);
+    addBlock(i, i - 1, across - before);
+    addBlock(i + 1, i - 1, -across);
+    addBlock(i, i, before - across - across.transpose() + after);
+    addBlock(i + 1, i, across - after);
+    addBlock(i + 1, i + 1, after);
+  }
+}
+
+/** Adds a block of two nodes' positions; of a diagonal block, the lower triangle. */
+template <class Layout>
+void ActiveSetSolver<Layout>::addBlock(int row_node, int column_node, const Eigen::Matrix3d& block)
+{
+  const int r = row(row_node);
+  const int c = row(column_node);
+  for (int col = 0; col < 3; ++col)
+    for (int line = row_node == column_node ? col : 0; line < 3; ++line)
+      base_.at(r + line, c + col) += block(line, col);
 }
 
 /** Copies the system of positions and multipliers into the layout with turns. */
@@ -157,7 +219,7 @@ template <class Layout>
 void ActiveSetSolver<Layout>::addTwist(const SurfaceTwist& twist, double dt)
 {
   const int n = model_.rod.nodes();
-  base_.at(turnRow(system_.first - 1), turnRow(system_.first - 1)) = system_.scale;  // idle
+  base_.at(turnRow(n - 1), turnRow(n - 1)) = system_.scale;  // idle
   for (int j = system_.first; j + 1 < n; ++j)
   {
     const int r = turnRow(j);
@@ -236,21 +298,34 @@ void ActiveSetSolver<Layout>::addContact(const contact::Feature& feature, const 
   }
 }
 
-/** Adds the turn of the normal with the motion of a node across the wire, for the last wall force. */
+/** Adds the turn of the normal with the motion of the wire across itself: at a node for the last wall force, between
+ *  nodes for the present force of the spring. */
 template <class Layout>
-void ActiveSetSolver<Layout>::addCurvature(const contact::Feature& feature, int node, double dt)
+void ActiveSetSolver<Layout>::addCurvature(const contact::Feature& feature, const ContactSolver::Spring& contact,
+                                           double dt)
 {
-  const int r = row(node);
-  const double force = feature.normal.dot(state_->wall_force[node]);
-  if (r < fresh_ || force <= 0.0 || !(feature.clearance_radius > 0.0))
+  if (!(feature.clearance_radius > 0.0))  // the wall is not concave
+    return;
+  const bool at_second = contact.weight0 <= 0.0;
+  const bool between = !at_second && contact.weight1 > 0.0;
+  if (between && !Layout::kTurns)
+    return;
+  const int node = contact.node + (at_second ? 1 : 0);
+  const double force =
+      between ? -contact.stiffness * contact.gap : feature.normal.dot(state_->wall_force[node]);
+  if (force <= 0.0)
     return;
   const int before = std::max(node - 1, system_.first);
   const int after = std::min(node + 1, model_.rod.nodes() - 1);
   const Eigen::Vector3d across = feature.normal.cross(state_->position[after] - state_->position[before]).normalized();
-  const double stiffness = dt * dt * force / feature.clearance_radius;  // 0 where the wall is not concave
-  for (int col = 0; col < 3; ++col)
-    for (int line = col; line < 3; ++line)
-      matrix_.at(r + line, r + col) += stiffness * across[line] * across[col];
+  const double stiffness = dt * dt * force / feature.clearance_radius;
+  const std::array<double, 2> weight = {between ? contact.weight0 : 1.0, between ? contact.weight1 : 0.0};
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b <= a; ++b)
+      for (int col = 0; col < 3 && weight[a] * weight[b] != 0.0; ++col)
+        for (int line = a == b ? col : 0; line < 3; ++line)
+          addEntry(row(node + a) + line, row(node + b) + col,
+                   stiffness * weight[a] * weight[b] * across[line] * across[col]);
 }
 
 template <class Layout>
@@ -281,14 +356,20 @@ void ActiveSetSolver<Layout>::addFrictionAboutAxis(const WallFriction::Term& ter
     if (weight[side] == 0.0)
       continue;
     rhs_[turn_row[side]] -= dt * dt * weight[side] * term.around.dot(term.pull);
-    if (r < fresh_)
-      continue;
     for (int axis = 0; axis < 3; ++axis)
-      matrix_.at(turn_row[side], r + axis) += weight[side] * across[axis];
-    matrix_.at(turn_row[side], turn_row[side]) += weight[side] * weight[side] * about;
+      addEntry(turn_row[side], r + axis, weight[side] * across[axis]);
+    addEntry(turn_row[side], turn_row[side], weight[side] * weight[side] * about);
   }
-  if (r >= fresh_ && weight[0] != 0.0 && weight[1] != 0.0)
-    matrix_.at(turn_row[1], turn_row[0]) += weight[0] * weight[1] * about;
+  if (weight[0] != 0.0 && weight[1] != 0.0)
+    addEntry(turn_row[1], turn_row[0], weight[0] * weight[1] * about);
+}
+
+/** Adds to an entry of the matrix, unless its column still holds valid factors. */
+template <class Layout>
+void ActiveSetSolver<Layout>::addEntry(int a, int b, double value)
+{
+  if (std::min(a, b) >= fresh_)
+    matrix_.at(std::max(a, b), std::min(a, b)) += value;
 }
 
 template <class Layout>

@@ -22,8 +22,9 @@ struct PositionLayout
   static constexpr int kPeriod = 4;  ///< rows of a node
 };
 
-/** Layout with the turns of the edges as further unknowns, for friction about the axis: x0, –, –, x1, λ0, ψ0, x2, λ1,
- *  ψ1, …. The turn ψ of an edge follows both its nodes, and its block is positive definite: LDLᵀ needs no pivoting. */
+/** Layout with the turns of the edges as further unknowns: x0, –, ψ0, x1, λ0, ψ1, x2, λ1, ψ2, …. The turn ψ of an edge
+ *  couples with the positions of its own nodes and of one further node on both sides. The block of positions and turns
+ *  is positive definite: LDLᵀ needs no pivoting. */
 struct TurnLayout
 {
   static constexpr bool kTurns = true;
@@ -70,20 +71,24 @@ private:
 
   int row(int node) const { return Layout::kPeriod * (node - system_.first); }
   int multiplierRow(int edge) const { return row(edge + 1) + 3; }
-  int turnRow(int edge) const { return row(edge + 1) + 4; }
+  int turnRow(int edge) const { return row(edge) + 4; }
 
-  void buildBase(const SurfaceTwist& twist, double dt);
+  void buildBase(const SurfaceTwist& twist, double dt, bool coupled);
   void spreadSystem();
   void addTwist(const SurfaceTwist& twist, double dt);
+  void addMixedDerivatives(const SurfaceTwist& twist, double dt);
+  void addEdgeStiffness(const SurfaceTwist& twist, double dt);
+  void addBlock(int row_node, int column_node, const Eigen::Matrix3d& block);
   bool updateFriction(WallFriction& friction, const ContactSolver::Motion& motion, int pass);
   bool factoriseAndSolve(const State& state, StepReport& report);
   void solveWithFactors(std::vector<double>& rhs);
   void prescribeNodes(const State& state);
   void addTerms(const ContactSolver& contacts, const WallFriction& friction, double shift, double dt);
   void addContact(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt);
-  void addCurvature(const contact::Feature& feature, int node, double dt);
+  void addCurvature(const contact::Feature& feature, const ContactSolver::Spring& contact, double dt);
   void addFriction(const WallFriction::Term& term, double dt);
   void addFrictionAboutAxis(const WallFriction::Term& term, double dt);
+  void addEntry(int a, int b, double value);
   bool canRewind(const State& state) const;
   bool isSmall() const;
   void readMotion(ContactSolver::Motion& motion);

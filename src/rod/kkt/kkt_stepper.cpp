@@ -188,7 +188,7 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
 void KktStepper::relaxTwist(State& state, const StepInput& input, bool first_solve)
 {
   const std::vector<TwistFriction>& friction = friction_.aboutAxis();
-  with_turns_ = turned_ && !friction.empty();
+  with_turns_ = turned_ && (!friction.empty() || layers_->isCurved());
   if (!with_turns_)
   {
     twist_ = layers_->relaxTwist(state, input, friction, *timer_);
@@ -328,6 +328,7 @@ void KktStepper::accept(State& state, double dt)
 
 void KktStepper::finish(State& state, double dt)
 {
+  layers_->initialSurfaceAngles(state, surface_begin_);
   layers_->surfaceAngles(state, surface_angle_);
   const SurfaceMotion surface = surfaceMotion();
   friction_.finish(state, begin_, &surface);
@@ -391,7 +392,7 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   const LayerFrictionWork layers = layers_->frictionWork(before, after);
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
   audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
-                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_, spring_energy_,
+                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_, layers_->frameTurns(after), spring_energy_,
                    layers.push, layers.turn, layers_->insertionWork(before, after)});
   layers_->restore(after);
 }

@@ -89,6 +89,9 @@ public:
   virtual TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                                    bool first_solve, PhaseTimer& timer) = 0;
 
+  /** True where rest curvature acts on the centreline. */
+  virtual bool isCurved() const = 0;
+
   /** Linearises the twist that predictTwist() left. */
   virtual void lineariseTwist(const State& state, SurfaceTwist& twist) = 0;
 
@@ -104,8 +107,12 @@ public:
   /** Angle of the outer surface at every node [rad]. */
   virtual void surfaceAngles(const State& state, std::vector<double>& angle) const = 0;
 
-  /** Angle of the outer surface at every node at the beginning of the step [rad]. */
+  /** Angle that the outer surface would have at every node of the present state if it had followed the edges since the
+   *  beginning of the step without turning about them [rad]. */
   virtual void initialSurfaceAngles(const State& state, std::vector<double>& angle) const = 0;
+
+  /** Turns of the Bishop frame of every edge since the beginning of the step [rad]; empty: neglected (FrameTurns). */
+  virtual const std::vector<double>& frameTurns(const State& state) const = 0;
 
   /** Force that the rest curvature exerts along the wire where it begins to act, at the introducer's mouth, on the part
    *  inside the introducer: the derivative of the bending energy by the insertion of all layers at fixed nodes [N]. */

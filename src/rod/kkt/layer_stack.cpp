@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "rod/boundary/boundary_conditions.h"
+#include "rod/twist/turn_coupling.h"
 
 namespace endovascular_sim::rod
 {
@@ -188,6 +189,10 @@ bool LayerStack::advance(State& state, const StepInput& input, double dt)
     motion_[k].gained = motion_[k].travel - dt * state.layers[k].speed;
   }
   place(state);  // at the positions of the last step, which another stepper may have done
+  if (turned && isCurved())
+    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, twists_.firstCurved());
+  else
+    frame_turns_.neglect();
   updateSlides(state);
   friction_.drag(state, input);
   for (int k = 0; k < stack_.count(); ++k)
@@ -280,19 +285,45 @@ TwistAction LayerStack::predictTwist(State& state, const StepInput& input, const
   return twists_.combine(stack_, model_.rod, state);
 }
 
-/** An edge belongs to the layer on the surface at its distal node. A node at whose distal edge another layer begins
- * turns with its proximal edge. */
+bool LayerStack::isCurved() const
+{
+  for (int k = 0; k < stack_.count(); ++k)
+    if (stack_.profile(k).rod().first_curved < stack_.profile(k).rod().nodes())
+      return true;
+  return false;
+}
+
+/** Layer whose turn is the unknown of an edge: that on the surface at the edge's distal node, or a curved layer inside
+ *  it whose handle turns while that of the surface rests. */
+int LayerStack::turningLayer(int edge) const
+{
+  const int surface = stack_.surfaceLayer(edge + 1);
+  for (int k = 0; turn_[surface] == 0.0 && k < surface; ++k)
+    if (turn_[k] != 0.0 && edge + 1 < stack_.profile(k).rod().nodes() &&
+        edge + 1 >= stack_.profile(k).rod().first_curved)
+      return k;
+  return surface;
+}
+
+/** A node at whose distal edge another layer begins turns with its proximal edge. */
 void LayerStack::lineariseTwist(const State& state, SurfaceTwist& twist)
 {
   const int n = model_.rod.nodes();
   twist.reset(static_cast<std::size_t>(n - 1));
   edge_layer_.assign(static_cast<std::size_t>(n - 1), 0);
   for (int j = state.first_node; j + 1 < n; ++j)
-    edge_layer_[j] = stack_.surfaceLayer(j + 1);
+    edge_layer_[j] = turningLayer(j);
   relaxed_ = state;
   for (int k = 0; k < stack_.count(); ++k)
     twists_.linearise(k, stack_.profile(k).rod(), layerBoundary(k, boundary_, state, input_, *wall_friction_), relaxed_,
                       edge_layer_, twist);
+  if (isCurved())
+  {
+    TurnCoupling coupling(model_.rod, state, twists_.firstCurved(), twists_.restBinormals(), twist);
+    for (int k = 0; k < stack_.count(); ++k)
+      if (twists_.isActive(k))
+        coupling.addLayer(stack_.profile(k).rod(), twists_.of(k), k, &edge_layer_);
+  }
   for (int i = state.first_node; i < n; ++i)
   {
     const int before = std::max(i - 1, state.first_node);
@@ -353,6 +384,14 @@ void LayerStack::initialSurfaceAngles(const State& state, std::vector<double>& a
   angle.assign(state.position.size(), 0.0);
   for (int i = state.first_node; i < model_.rod.nodes(); ++i)
     angle[i] = nodeAngle(initial_twist_[stack_.surfaceLayer(i)], i, state.first_node);
+  const std::vector<double>& turn = frameTurns(state);
+  for (int i = state.first_node; !turn.empty() && i < model_.rod.nodes(); ++i)
+    angle[i] -= nodeAngle(turn, i, state.first_node);
+}
+
+const std::vector<double>& LayerStack::frameTurns(const State& state) const
+{
+  return frame_turns_.since(model_.rod, model_.conditions.twistBoundary(state, 0.0), state);
 }
 
 /** Updates the forces on the handles of a state whose twist has been relaxed. That of the reference is the remainder of

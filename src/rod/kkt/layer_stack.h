@@ -8,6 +8,7 @@
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_model.h"
 #include "rod/kkt/layer_twists.h"
+#include "rod/twist/bishop_frames.h"
 
 namespace endovascular_sim::rod
 {
@@ -38,12 +39,14 @@ public:
                          PhaseTimer& timer) override;
   TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                            bool first_solve, PhaseTimer& timer) override;
+  bool isCurved() const override;
   void lineariseTwist(const State& state, SurfaceTwist& twist) override;
   void turnSurface(State& state, const std::vector<double>& turns, double share) override;
   void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                      PhaseTimer& timer) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
+  const std::vector<double>& frameTurns(const State& state) const override;
   double restForce(const State& state) const override;
   const LayerSlides* slides() const override { return sliding_ ? &slides_ : nullptr; }
   void finish(State& state, double dt) override;
@@ -69,6 +72,7 @@ private:
   TwistBoundary layerBoundary(int k, const TwistBoundary& boundary, const State& state, const StepInput& input,
                               const std::vector<TwistFriction>& friction);
   void sumTwists(State& state) const;
+  int turningLayer(int edge) const;
   bool setEdgeTorque(int k, const State& state, const StepInput& input);
   void updateHandForces(State& state, double dt) const;
 
@@ -88,7 +92,8 @@ private:
   std::vector<double> turn_;                                   ///< rotation of every handle in the step [rad]
   TwistBoundary boundary_;                                     ///< of the reference, at the last predictTwist()
   const std::vector<TwistFriction>* wall_friction_ = nullptr;  ///< of the last predictTwist()
-  std::vector<int> edge_layer_;                                ///< layer of every edge of the surface
+  std::vector<int> edge_layer_;                                ///< layer whose turn is the unknown of every edge
+  mutable FrameTurns frame_turns_;
   State relaxed_;                                              ///< state for the computation of torques
 };
 

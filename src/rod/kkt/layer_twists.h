@@ -55,6 +55,9 @@ public:
   /** Combined rest curvature binormal of a node from firstCurved() on [1]. */
   const Eigen::Vector3d& restBinormal(int node) const { return rest_binormal_[node]; }
 
+  /** Combined rest curvature binormals of all nodes from firstCurved() on [1]. */
+  const std::vector<Eigen::Vector3d>& restBinormals() const { return rest_binormal_; }
+
 private:
   std::vector<QuasiStaticTwist> twist_;
   std::vector<char> active_;

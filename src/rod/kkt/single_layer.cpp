@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "rod/twist/turn_coupling.h"
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -35,7 +37,12 @@ bool SingleLayer::advance(State& state, const StepInput& input, double /*dt*/)
   initial_twist_ = state.twist_angle;
   std::fill_n(initial_twist_.begin(), state.first_node, state.rotation);  // nodes that this step may bring in
   rotation_before_ = state.rotation;
-  return state.rotation != input.rotation;
+  const bool turned = state.rotation != input.rotation;
+  if (turned && isCurved())
+    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, model_.rod.first_curved);
+  else
+    frame_turns_.neglect();
+  return turned;
 }
 
 TwistAction SingleLayer::relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
@@ -83,6 +90,9 @@ void SingleLayer::lineariseTwist(const State& state, SurfaceTwist& twist)
     twist.diagonal[j] = model.diagonal[j];
     twist.upper[j] = j + 2 < n ? model.upper[j] : 0.0;
   }
+  if (isCurved())
+    TurnCoupling(model_.rod, state, twist_.firstCurved(), twist_.restCurvatureBinormals(), twist)
+        .addLayer(model_.rod, twist_, 0, nullptr);
   // A node turns by the mean of its edges.
   for (int i = state.first_node; i < n; ++i)
   {
@@ -117,7 +127,16 @@ void SingleLayer::surfaceAngles(const State& state, std::vector<double>& angle) 
 
 void SingleLayer::initialSurfaceAngles(const State& state, std::vector<double>& angle) const
 {
-  nodeAngles(initial_twist_, state.first_node, angle);
+  followed_twist_ = initial_twist_;
+  const std::vector<double>& turn = frameTurns(state);
+  for (std::size_t j = 0; j < turn.size(); ++j)
+    followed_twist_[j] -= turn[j];
+  nodeAngles(followed_twist_, state.first_node, angle);
+}
+
+const std::vector<double>& SingleLayer::frameTurns(const State& state) const
+{
+  return frame_turns_.since(model_.rod, model_.conditions.twistBoundary(state, 0.0), state);
 }
 
 double SingleLayer::restForce(const State& state) const

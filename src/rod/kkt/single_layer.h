@@ -4,6 +4,7 @@
 
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_model.h"
+#include "rod/twist/bishop_frames.h"
 #include "rod/twist/twist.h"
 
 namespace endovascular_sim::rod
@@ -30,12 +31,14 @@ public:
                          PhaseTimer& timer) override;
   TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                            bool first_solve, PhaseTimer& timer) override;
+  bool isCurved() const override { return model_.rod.first_curved < model_.rod.nodes(); }
   void lineariseTwist(const State& state, SurfaceTwist& twist) override;
   void turnSurface(State& state, const std::vector<double>& turns, double share) override;
   void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                      PhaseTimer& timer) override;
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
+  const std::vector<double>& frameTurns(const State& state) const override;
   double restForce(const State& state) const override;
   double insertionWork(const State& before, const State& after) const override;
   const LayerSlides* slides() const override { return nullptr; }
@@ -51,6 +54,8 @@ private:
   QuasiStaticTwist twist_;
   std::vector<double> initial_twist_;  ///< twist angles at the beginning of the step [rad]
   std::vector<double> saved_twist_;
+  mutable FrameTurns frame_turns_;
+  mutable std::vector<double> followed_twist_;  ///< initial twist angles less the turns of the frames [rad]
   TwistBoundary boundary_;        ///< that of the last predictTwist()
   double rotation_before_ = 0.0;  ///< of the handle at the beginning of the step [rad]
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rod/model/node_curvature.h"
+#include "rod/twist/bishop_frames.h"
 
 namespace endovascular_sim::rod
 {
@@ -92,7 +93,21 @@ void QuasiStaticTwist::turn(const Discretisation& rod, const TwistBoundary& boun
 {
   for (int j = first_own_ - 1; j + 1 < rod.nodes(); ++j)
     state.twist_angle[j] += share * turns[j];
+  if (first_curved_ < rod.nodes())
+    followFrames(rod, boundary, state);
   evaluate(rod, boundary, state);
+}
+
+/** Transports the frame on a centreline that has moved, and subtracts its own turns from the twist angles: the material
+ *  has followed the edges without them. */
+void QuasiStaticTwist::followFrames(const Discretisation& rod, const TwistBoundary& boundary, State& state)
+{
+  bishop_before_ = bishop_;
+  bishop_normal_before_ = bishop_normal_;
+  transportBishopFrame(rod, boundary, state);
+  for (int j = std::max(first_curved_ - 1, first_edge_); j + 1 < rod.nodes(); ++j)
+    state.twist_angle[j] -=
+        frameTurn(bishop_before_[j], bishop_normal_before_[j], bishop_[j], bishop_normal_[j]);
 }
 
 /** Sizes the vectors, finds the edges with angles of their own, and transports the frame. */
@@ -425,6 +440,14 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
     for (int j = firstFrame(i); j <= i; ++j)
       rest_binormal_[i] += share * binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
   }
+}
+
+Eigen::Vector3d QuasiStaticTwist::restCurvatureOnEdge(const Discretisation& rod, int node, int edge) const
+{
+  if (edge < firstFrame(node) || edge > node)
+    return Eigen::Vector3d::Zero();
+  const double share = firstFrame(node) == node ? 2.0 * restShare(node) : 1.0;
+  return share * binormalOnEdge(rod.rest_curvature[node], edge, cosine_[edge], sine_[edge]);
 }
 
 double QuasiStaticTwist::holdForce(const Discretisation& rod, const State& state) const

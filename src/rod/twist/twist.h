@@ -77,8 +77,9 @@ public:
   /** First edge with an angle of its own; n−1 without. */
   int firstUnknown() const { return first_own_ - 1; }
 
-  /** Adds turns to the angles of the edges from firstUnknown() on, and updates the torques.
-   *  @param share factor on the turns */
+  /** Turns the edges from firstUnknown() on about their tangents, and updates the torques.
+   *  @param share factor on the turns
+   *  @param state after the motion: its centreline may differ from that of the last solution */
   void turn(const Discretisation& rod, const TwistBoundary& boundary, const std::vector<double>& turns, double share,
             State& state);
 
@@ -95,6 +96,10 @@ public:
   /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁, times the part
    *  of the node's cell beyond the hold [1]. */
   const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
+
+  /** Part of restCurvatureBinormal() in the material frame of one of the node's two edges [1]; zero on an edge before
+   *  the hold. */
+  Eigen::Vector3d restCurvatureOnEdge(const Discretisation& rod, int node, int edge) const;
 
   /** Rest curvature binormals of all nodes from firstCurved() on [1]. */
   const std::vector<Eigen::Vector3d>& restCurvatureBinormals() const { return rest_binormal_; }
@@ -115,6 +120,7 @@ public:
 
 private:
   void prepare(const Discretisation& rod, const TwistBoundary& boundary, State& state, bool same_centreline);
+  void followFrames(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void transportBishopFrame(const Discretisation& rod, const TwistBoundary& boundary, const State& state);
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
@@ -146,7 +152,8 @@ private:
   std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
   std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
   Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both directors of the last edge
-  std::vector<Eigen::Vector3d> binormal_;       ///< κb per curved node
+  std::vector<Eigen::Vector3d> bishop_before_, bishop_normal_before_;  ///< both on the last centreline
+  std::vector<Eigen::Vector3d> binormal_;                              ///< κb per curved node
   std::vector<double> cosine_, sine_;           ///< cosine and sine of the twist angles of the curved tip's edges
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
