@@ -188,7 +188,7 @@ Energy elasticEnergy(const Discretisation& rod, const State& state, const QuasiS
     double strain = kb.squaredNorm();
     if (twist && i >= twist->firstCurved())
       strain +=
-          twist->restShare(i) * rod.rest_curvature[i].squaredNorm() - 2.0 * kb.dot(twist->restCurvatureBinormal(i));
+          twist->restCurvature(rod, i).squaredNorm() - 2.0 * kb.dot(twist->restCurvatureBinormal(i));
     energy.bending += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;
   }
   for (int j = state.first_node; j + 1 < rod.nodes(); ++j)

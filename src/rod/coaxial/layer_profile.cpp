@@ -211,6 +211,21 @@ void LayerProfile::slideTo(double tip, std::vector<int>& changed)
   placed_ = true;
   findRange();
   findSlidingNodes();
+  findCurvedParts();
+}
+
+/** Finds the parts with rest curvature along the nodes; the first section reaches back to the first node. */
+void LayerProfile::findCurvedParts()
+{
+  rod_.curved_parts.clear();
+  double begin = position_.front();
+  for (std::size_t m = 0; m < wire_.sections.size(); ++m)
+  {
+    const double end = sectionEnd(m);
+    if (end > begin && !wire_.sections[m].rest_curvature.isZero(0.0))
+      rod_.curved_parts.push_back({begin, end, wire_.sections[m].rest_curvature, wire_.sections[m].bending_stiffness});
+    begin = std::max(begin, end);
+  }
 }
 
 void LayerProfile::takeWhole()

@@ -68,6 +68,7 @@ private:
   void findRange();
   void setNodesBetween(double begin, double end, std::vector<int>& changed);
   void findSlidingNodes();
+  void findCurvedParts();
 
   Wire wire_;
   double length_ = 0.0;

@@ -66,34 +66,44 @@ struct Bishop
   }
 };
 
+/** First edge with a material frame that rest curvature needs. The nodes of the edge with the hold of an introducer
+ *  have edges before the hold.
+ *  @param first first edge beyond the hold; 0: the hold is a clamp */
+int firstFrame(const Discretisation& rod, const TwistBoundary& hold, int first)
+{
+  const int mouth = hold.position < rod.position[first] ? first - 1 : first;
+  return std::clamp(std::max(rod.first_curved, mouth) - 1, 0, first);
+}
+
+/** Strain energy, counted from the rest shape. Before the hold of an introducer, the wire is held straight. */
 double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int first, const State& state,
                      const std::vector<double>& angle)
 {
-  double energy = 0.0;
-  Bishop frame{hold.tangent, hold.director};  // of the edge before the node, from the first twisted edge on
+  const bool has_mouth = first > 0;
+  double energy = has_mouth ? straightEnergy(rod.curved_parts, hold.position) : 0.0;
+  const int begin = firstFrame(rod, hold, first);
+  Bishop before{hold.tangent, hold.director};
   const auto direction = [&state](int edge) { return (state.position[edge + 1] - state.position[edge]).normalized(); };
-  if (first == 0)
-    frame.moveTo(direction(0));
+  if (begin == 0)
+    before.moveTo(direction(0));
   for (int i = 1; i + 1 < rod.nodes(); ++i)
   {
-    const Eigen::Vector3d kb = binormalAt(rod, state, i).value - state.curvature_offset[i];
-    double strain = kb.squaredNorm();
-    if (i == first)
-    {
-      frame.moveTo(direction(first));
-      if (i >= rod.first_curved)
-        strain -= 4.0 * rod.shareBeyond(i, hold.position) * kb.dot(frame.halfBinormal(rod.rest_curvature[i], angle[i]));
-    }
-    else if (i > first)
-    {
-      Bishop after = frame;
+    const Eigen::Vector3d strain = binormalAt(rod, state, i).value - state.curvature_offset[i];
+    Bishop after = before;
+    if (i >= begin)
       after.moveTo(direction(i));
-      if (i >= rod.first_curved)
-        strain -= 2.0 * kb.dot(frame.halfBinormal(rod.rest_curvature[i], angle[i - 1]) +
-                               after.halfBinormal(rod.rest_curvature[i], angle[i]));
-      frame = after;
+    double from_rest = 0.0;  // change of the square by the rest curvature
+    if (i > begin && i >= rod.first_curved)
+    {
+      const Eigen::Vector2d rest =
+          has_mouth && rod.position[i - 1] < hold.position ? rod.restBeyond(i, hold.position).curvature
+                                                           : rod.rest_curvature[i];
+      from_rest = rest.squaredNorm();
+      const Eigen::Vector3d binormal = before.halfBinormal(rest, angle[i - 1]) + after.halfBinormal(rest, angle[i]);
+      from_rest -= 2.0 * strain.dot(binormal);
     }
-    energy += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;
+    energy += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * (strain.squaredNorm() + from_rest);
+    before = after;
   }
   return energy;
 }

@@ -106,7 +106,7 @@ double InsertionForces::restShare(const Location& at, const State& state) const
     return 1.0;
   const double mouth = model_.rod.length() - state.inserted_length;
   const int last = model_.rod.nodes() - 2;
-  const auto share = [&](int node) { return model_.rod.shareBeyond(std::clamp(node, 1, last), mouth); };
+  const auto share = [&](int node) { return model_.rod.hatShareBeyond(std::clamp(node, 1, last), mouth); };
   return (1.0 - at.parameter) * share(at.node) + at.parameter * share(at.node + 1);
 }
 

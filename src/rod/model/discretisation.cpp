@@ -15,7 +15,6 @@ struct StretchIntegrals
   double torsional_compliance = 0.0;
   double axial_compliance = 0.0;
   double mass = 0.0;
-  Eigen::Vector2d rest_angle = Eigen::Vector2d::Zero();
 };
 
 StretchIntegrals integrate(const Wire& wire, double begin, double end)
@@ -32,11 +31,24 @@ StretchIntegrals integrate(const Wire& wire, double begin, double end)
       sum.torsional_compliance += overlap / section.torsional_stiffness;
       sum.axial_compliance += overlap / section.axial_stiffness;
       sum.mass += overlap * section.density * M_PI * section.radius * section.radius;
-      sum.rest_angle += overlap * section.rest_curvature;
     }
     section_begin = section_end;
   }
   return sum;
+}
+
+std::vector<CurvedPart> curvedPartsOf(const Wire& wire)
+{
+  std::vector<CurvedPart> parts;
+  double begin = 0.0;
+  for (const Section& section : wire.sections)
+  {
+    const double end = begin + section.length;
+    if (!section.rest_curvature.isZero(0.0))
+      parts.push_back({begin, end, section.rest_curvature, section.bending_stiffness});
+    begin = end;
+  }
+  return parts;
 }
 
 const Section& sectionAt(const Wire& wire, double position)
@@ -53,11 +65,17 @@ const Section& sectionAt(const Wire& wire, double position)
 
 }  // namespace
 
-Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle)
+RestBeyond Discretisation::restBeyond(int node, double arc_length) const
 {
-  const double magnitude = angle.norm();
-  return magnitude > 0.0 ? Eigen::Vector2d(angle * (2.0 * std::tan(0.5 * magnitude) / magnitude))
-                         : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  // Of a node that a layer covers in part, the rest curvature is that of a cell as curved as the covered part.
+  const double whole = restAngle(curved_parts, position, node).norm();
+  const double scale = whole > 0.0 ? turningAngle(rest_curvature[node]).norm() / whole : 1.0;
+  RestBeyond rest;
+  rest.curvature = integratedCurvature(scale * restAngle(curved_parts, position, node, arc_length));
+  // The derivative of 2 tan(|φ|/2) along φ. Rest curvature that changes its direction within a node is rare.
+  rest.slope = (scale * (1.0 + 0.25 * rest.curvature.squaredNorm()) * hatOf(position, node, arc_length)) *
+               restCurvatureAt(curved_parts, arc_length);
+  return rest;
 }
 
 void discretise(const Wire& wire, const std::vector<double>& position, Discretisation& d)
@@ -65,6 +83,7 @@ void discretise(const Wire& wire, const std::vector<double>& position, Discretis
   const int n = static_cast<int>(position.size());
   const std::size_t nodes = position.size();
   d.position = position;
+  d.curved_parts = curvedPartsOf(wire);
   d.first_curved = n;
   d.rest_length.resize(nodes - 1);
   d.axial_stiffness.resize(nodes - 1);
@@ -92,8 +111,9 @@ void discretise(const Wire& wire, const std::vector<double>& position, Discretis
     d.mass[i] = cell.mass;
     d.radius[i] = section.radius;
     d.friction[i] = section.friction;
-    d.rest_curvature[i] = integratedCurvature(cell.rest_angle);
-    if (d.first_curved == n && cell.rest_angle.squaredNorm() > 0.0)
+    const Eigen::Vector2d rest_angle = restAngle(d.curved_parts, position, i);
+    d.rest_curvature[i] = integratedCurvature(rest_angle);
+    if (d.first_curved == n && !rest_angle.isZero(0.0))
       d.first_curved = i;
   }
 }

@@ -6,10 +6,18 @@
 
 #include <Eigen/Core>
 
+#include "rod/model/curved_parts.h"
 #include "rod/model/wire.h"
 
 namespace endovascular_sim::rod
 {
+
+/** Rest curvature of the part of a node beyond an arc length. */
+struct RestBeyond
+{
+  Eigen::Vector2d curvature;  ///< as Discretisation::rest_curvature [1]
+  Eigen::Vector2d slope;      ///< minus its derivative by the arc length [1/m]
+};
 
 /** Discrete rod: the wire's properties per node and per edge. Constant between changes of the nodes.
  *
@@ -27,8 +35,9 @@ struct Discretisation
   std::vector<double> radius;                   ///< outer radius [m], n
   std::vector<double> friction;                 ///< Coulomb coefficient; NaN: the wall's coefficient [1], n
   std::vector<double> friction_share;           ///< part of the surface with that coefficient; empty: all [1], n
-  std::vector<Eigen::Vector2d> rest_curvature;  ///< integral over the cell, 2 tan(angle/2) [1], n
+  std::vector<Eigen::Vector2d> rest_curvature;  ///< 2 tan(angle/2) of restAngle() [1], n
   int first_curved = 0;                         ///< first node with rest curvature, n when there is none
+  std::vector<CurvedPart> curved_parts;         ///< ascending
 
   int nodes() const { return static_cast<int>(position.size()); }
   double length() const { return position.back(); }
@@ -40,6 +49,15 @@ struct Discretisation
     return std::max(0.0, std::min(1.0, 1.0 - (arc_length - begin) / cell_length[node]));
   }
 
+  /** Part of a node's hat function that lies beyond an arc length [m], 0 to 1; see hatOf(). */
+  double hatShareBeyond(int node, double arc_length) const
+  {
+    return hatBeyond(position, node, arc_length) / cell_length[node];
+  }
+
+  /** Rest curvature of the part of a node beyond an arc length [m]. */
+  RestBeyond restBeyond(int node, double arc_length) const;
+
   /** Coulomb coefficient between a node and a wall whose coefficient is @p wall. */
   double frictionOn(double wall, int node) const
   {
@@ -48,9 +66,6 @@ struct Discretisation
     return friction_share.empty() ? friction[node] : wall + friction_share[node] * (friction[node] - wall);
   }
 };
-
-/** Integrated curvature, 2 tan(angle/2), of a turning angle [1]. */
-Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle);
 
 /** Discretises a wire at the given arc lengths.
  *  @param position strictly increasing, from 0 to the wire's length, at least 3 */

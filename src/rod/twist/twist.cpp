@@ -118,18 +118,20 @@ void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& b
   first_edge_ = state.first_node;
   while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
     ++first_edge_;
-  // The node before the first edge beyond the hold has the angle of that edge; its own edge turns with the handle.
+  // Rest curvature acts at both nodes of the edge with the hold; edges before the hold turn with the handle.
   const bool has_mouth = first_edge_ > state.first_node;
-  mouth_share_ = has_mouth ? rod.shareBeyond(first_edge_, boundary.position) : 0.0;
-  first_curved_ = std::max(rod.first_curved, has_mouth ? first_edge_ : first_edge_ + 1);
+  mouth_edge_ = -1;
+  if (has_mouth)
+    mouth_edge_ = boundary.position < rod.position[first_edge_] ? first_edge_ - 1 : first_edge_;
+  first_curved_ = std::max(rod.first_curved, has_mouth ? std::max(mouth_edge_, state.first_node + 1) : first_edge_ + 1);
   if (first_curved_ > n - 2)
     first_curved_ = n;
   first_own_ = first_curved_ < n ? std::max(first_curved_, first_edge_ + 1) : n;
   if (first_own_ > n - 2)
-    first_own_ = first_curved_ = n;
+    first_own_ = n;
   if (boundary.hasFriction() && first_edge_ + 1 <= n - 2)
     first_own_ = std::min(first_own_, std::clamp(boundary.friction->front().node, first_edge_ + 1, n - 2));
-  held_friction_ = 0.0;
+  held_friction_ = held_rest_ = 0.0;
   last_body_ = std::min(first_own_ - 1, n - 2);
   bishop_.resize(n);
   bishop_normal_.resize(n);
@@ -145,10 +147,28 @@ void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& b
   pivot_.resize(n);
   step_.resize(n);
   prepareBody(rod, boundary);
+  prepareMouth(rod, boundary);
   if (!same_centreline && (first_curved_ < n || boundary.tip_held))
     transportBishopFrame(rod, boundary, state);
   if (boundary.tip_held)
     placeTip(rod, boundary, state);
+}
+
+/** Prepares the rest curvature at both nodes of the edge with the hold. */
+void QuasiStaticTwist::prepareMouth(const Discretisation& rod, const TwistBoundary& boundary)
+{
+  mouth_ = boundary.position;
+  for (int side = 0; side < 2 && mouth_edge_ >= 0; ++side)
+  {
+    const int node = mouth_edge_ + side;
+    mouth_rest_[side].setZero();
+    mouth_slope_[side].setZero();
+    if (node < rod.first_curved || node + 1 >= rod.nodes())
+      continue;
+    const RestBeyond rest = rod.restBeyond(node, mouth_);
+    mouth_rest_[side] = rest.curvature;
+    mouth_slope_[side] = rest.slope;
+  }
 }
 
 /** Prepares the straight body: a torsion spring between the hold and its last edge, loaded by the torques along it. */
@@ -194,7 +214,7 @@ void QuasiStaticTwist::transportBishopFrame(const Discretisation& rod, const Twi
 {
   Eigen::Vector3d tangent = boundary.tangent;
   Eigen::Vector3d director = boundary.director;
-  for (int j = first_edge_; j + 1 < rod.nodes(); ++j)
+  for (int j = std::clamp(first_curved_ - 1, state.first_node, first_edge_); j + 1 < rod.nodes(); ++j)
   {
     const Eigen::Vector3d next = (state.position[j + 1] - state.position[j]).normalized();
     // Parallel transport: the rotation about tangent × next that takes one to the other.
@@ -222,7 +242,7 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
   const int first = first_own_ - 1;
   for (int j = first; j + 1 < n; ++j)
     gradient_[j] = diagonal_[j] = upper_[j] = concave_[j] = 0.0;
-  turnFrames(state);
+  turnFrames(boundary, state);
   gradient_[first] = bodyTorque(boundary, state.twist_angle[first]);
   for (int j = first; boundary.hasEdgeTorque() && j + 1 < n; ++j)
     gradient_[j] -= boundary.edgeTorque(j);
@@ -256,29 +276,30 @@ double QuasiStaticTwist::assemble(const Discretisation& rod, const TwistBoundary
 }
 
 /** Computes sines and cosines of the curved tip's edges, which two nodes each need. */
-void QuasiStaticTwist::turnFrames(const State& state)
+void QuasiStaticTwist::turnFrames(const TwistBoundary& boundary, const State& state)
 {
-  for (int j = firstFrame(first_curved_); j + 1 < static_cast<int>(cosine_.size()); ++j)
+  for (int j = first_curved_ - 1; j + 1 < static_cast<int>(cosine_.size()); ++j)
   {
-    cosine_[j] = std::cos(state.twist_angle[j]);
-    sine_[j] = std::sin(state.twist_angle[j]);
+    const double angle = edgeAngle(boundary, state, j);
+    cosine_[j] = std::cos(angle);
+    sine_[j] = std::sin(angle);
   }
 }
 
 /** Adds the bending of a node of the curved tip. */
 void QuasiStaticTwist::addRestCurvature(const Discretisation& rod, int node)
 {
-  double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
-  if (firstFrame(node) == node)
-    b *= 2.0 * restShare(node);
-  const Eigen::Vector2d& rest = rod.rest_curvature[node];
-  for (int j = firstFrame(node); j <= node; ++j)
+  const double b = 0.5 * rod.bending_stiffness[node] / rod.cell_length[node];
+  const Eigen::Vector2d& rest = restCurvature(rod, node);
+  for (int j = node - 1; j <= node; ++j)
   {
     const double c = cosine_[j];
     const double s = sine_[j];
     const double along1 = binormal_[node].dot(bishop_[j]);
     const double along2 = binormal_[node].dot(bishop_normal_[j]);
     const Eigen::Vector2d omega(c * along2 - s * along1, -(c * along1 + s * along2));
+    if (j < first_own_ - 1)
+      continue;  // turns with the handle
     gradient_[j] += b * (rest.y() * omega.x() - rest.x() * omega.y());
     diagonal_[j] += b * rest.dot(omega);
     concave_[j] += b * std::max(0.0, -rest.dot(omega));
@@ -379,7 +400,9 @@ void QuasiStaticTwist::evaluate(const Discretisation& rod, const TwistBoundary& 
 {
   energy_ = 0.0;
   evaluateBody(rod, boundary, state);
-  evaluateTip(rod, state);
+  evaluateTip(rod, boundary, state);
+  if (boundary.held)
+    state.hand_torque += held_rest_;
   state.distal_torque = 0.0;
   if (!boundary.tip_held)
     return;
@@ -422,10 +445,12 @@ void QuasiStaticTwist::evaluateBody(const Discretisation& rod, const TwistBounda
 }
 
 /** Computes torques, energy and rest curvature beyond the body. */
-void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
+void QuasiStaticTwist::evaluateTip(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
   const int n = rod.nodes();
-  turnFrames(state);
+  const int free = first_own_ < n ? first_own_ - 1 : n;  // first edge that does not turn with the handle
+  held_rest_ = 0.0;
+  turnFrames(boundary, state);
   for (int i = first_own_; i + 1 < n; ++i)
   {
     const double m = state.twist_angle[i] - state.twist_angle[i - 1];
@@ -435,29 +460,38 @@ void QuasiStaticTwist::evaluateTip(const Discretisation& rod, State& state)
   }
   for (int i = first_curved_; i + 1 < n; ++i)
   {
-    const double share = firstFrame(i) == i ? 2.0 * restShare(i) : 1.0;
     rest_binormal_[i].setZero();
-    for (int j = firstFrame(i); j <= i; ++j)
-      rest_binormal_[i] += share * binormalOnEdge(rod.rest_curvature[i], j, cosine_[j], sine_[j]);
+    for (int j = i - 1; j <= i; ++j)
+    {
+      const Eigen::Vector3d rest = binormalOnEdge(restCurvature(rod, i), j, cosine_[j], sine_[j]);
+      rest_binormal_[i] += rest;
+      if (j < free)
+        held_rest_ -= rod.bending_stiffness[i] / rod.cell_length[i] * binormal_[i].dot(edgeTangent(j).cross(rest));
+    }
   }
 }
 
 Eigen::Vector3d QuasiStaticTwist::restCurvatureOnEdge(const Discretisation& rod, int node, int edge) const
 {
-  if (edge < firstFrame(node) || edge > node)
-    return Eigen::Vector3d::Zero();
-  const double share = firstFrame(node) == node ? 2.0 * restShare(node) : 1.0;
-  return share * binormalOnEdge(rod.rest_curvature[node], edge, cosine_[edge], sine_[edge]);
+  return binormalOnEdge(restCurvature(rod, node), edge, cosine_[edge], sine_[edge]);
 }
 
 double QuasiStaticTwist::holdForce(const Discretisation& rod, const State& state) const
 {
-  const int i = first_edge_;
-  if (first_curved_ != i || mouth_share_ <= 0.0 || mouth_share_ >= 1.0)
+  if (mouth_edge_ < 0 || rod.curved_parts.empty())
     return 0.0;
-  const Eigen::Vector3d rest = 2.0 * binormalOnEdge(rod.rest_curvature[i], i, cosine_[i], sine_[i]);
-  return rod.bending_stiffness[i] / (rod.cell_length[i] * rod.cell_length[i]) *
-         binormalAt(rod, state, i).value.dot(rest);
+  double force = straightEnergyPerLength(rod.curved_parts, mouth_);
+  for (int side = 0; side < 2; ++side)
+  {
+    const int i = mouth_edge_ + side;
+    if (i < first_curved_ || i + 1 >= rod.nodes())
+      continue;
+    const Eigen::Vector3d strain = binormalAt(rod, state, i).value - state.curvature_offset[i] - rest_binormal_[i];
+    for (int j = i - 1; j <= i; ++j)
+      force += rod.bending_stiffness[i] / rod.cell_length[i] *
+               strain.dot(binormalOnEdge(mouth_slope_[side], j, cosine_[j], sine_[j]));
+  }
+  return force;
 }
 
 /** Half of a node's rest curvature binormal in the material frame of one of its two edges. */
@@ -473,9 +507,8 @@ Eigen::Vector3d QuasiStaticTwist::binormalOf(const Eigen::Vector2d& rest_curvatu
                                              const std::vector<double>& twist_angle) const
 {
   Eigen::Vector3d binormal = Eigen::Vector3d::Zero();
-  const double share = firstFrame(node) == node ? 2.0 : 1.0;
-  for (int j = firstFrame(node); j <= node; ++j)
-    binormal += share * binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
+  for (int j = node - 1; j <= node; ++j)
+    binormal += binormalOnEdge(rest_curvature, j, std::cos(twist_angle[j]), std::sin(twist_angle[j]));
   return binormal;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "rod/model/state.h"
 #include "rod/twist/twist_friction.h"
@@ -86,15 +88,21 @@ public:
   /** First node at which rest curvature acts: on the curved tip, with a part of its cell beyond the hold. */
   int firstCurved() const { return first_curved_; }
 
-  /** Part of a curved node's cell beyond the hold, 0 to 1: the part on which its rest curvature acts. */
-  double restShare(int node) const { return node == first_edge_ ? mouth_share_ : 1.0; }
+  /** Rest curvature that acts at a curved node, in the material frame: that of the part beyond the hold, weighted with
+   *  the node's hat function [1]. */
+  const Eigen::Vector2d& restCurvature(const Discretisation& rod, int node) const
+  {
+    return isAtMouth(node) ? mouth_rest_[node - mouth_edge_] : rod.rest_curvature[node];
+  }
 
-  /** Derivative of the bending energy by the arc length of the hold, at fixed positions and angles [N]: the rest
-   *  curvature acts on the part of the wire beyond the hold. */
+  /** Derivative of the bending energy by the arc length of the hold, at fixed positions and angles [N]. Beyond the hold
+   *  the wire bends from its rest curvature κ̄. Before it, the wire is held straight and has the energy ½ EI |κ̄|² per
+   *  length. With the moment M of both nodes of the hold's edge, interpolated by their hat functions, the force is
+   *  ½ EI |κ̄|² + κ̄·M. */
   double holdForce(const Discretisation& rod, const State& state) const;
 
-  /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁, times the part
-   *  of the node's cell beyond the hold [1]. */
+  /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁, with the rest
+   *  curvature that acts [1]. */
   const Eigen::Vector3d& restCurvatureBinormal(int node) const { return rest_binormal_[node]; }
 
   /** Part of restCurvatureBinormal() in the material frame of one of the node's two edges [1]; zero on an edge before
@@ -125,28 +133,38 @@ private:
   void relax(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void placeTip(const Discretisation& rod, const TwistBoundary& boundary, State& state) const;
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state, bool secants);
-  void turnFrames(const State& state);
+  void turnFrames(const TwistBoundary& boundary, const State& state);
   Eigen::Vector3d binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine, double sine) const;
-  int firstFrame(int node) const { return std::max(node - 1, first_edge_); }
+  bool isAtMouth(int node) const { return mouth_edge_ >= 0 && (node == mouth_edge_ || node == mouth_edge_ + 1); }
+  double edgeAngle(const TwistBoundary& boundary, const State& state, int edge) const
+  {
+    return edge < first_edge_ ? boundary.rotation : state.twist_angle[edge];
+  }
+  Eigen::Vector3d edgeTangent(int edge) const { return bishop_[edge].cross(bishop_normal_[edge]); }
+  void prepareMouth(const Discretisation& rod, const TwistBoundary& boundary);
   void addRestCurvature(const Discretisation& rod, int node);
   void addFriction(const TwistBoundary& boundary, const State& state, bool secants);
   double balanced(const TwistBoundary& boundary) const;
   double solveForStep(int first, int last, double omitted);
   void evaluate(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void evaluateBody(const Discretisation& rod, const TwistBoundary& boundary, State& state);
-  void evaluateTip(const Discretisation& rod, State& state);
+  void evaluateTip(const Discretisation& rod, const TwistBoundary& boundary, State& state);
   void prepareBody(const Discretisation& rod, const TwistBoundary& boundary);
   double bodyTorque(const TwistBoundary& boundary, double angle) const;
 
   int first_edge_ = 0;        ///< first edge beyond the hold
   int first_curved_ = 0;      ///< first curved node with a part of its cell beyond the hold; n without
   int first_own_ = 0;         ///< first node with angles of their own on both sides; n without
-  double mouth_share_ = 1.0;  ///< part beyond the hold of the cell of the node before the first edge beyond it
+  int mouth_edge_ = -1;       ///< edge with the hold of an introducer; -1 without
+  double mouth_ = 0.0;        ///< arc length of the hold [m]
+  std::array<Eigen::Vector2d, 2> mouth_rest_;   ///< rest curvature that acts at both its nodes [1]
+  std::array<Eigen::Vector2d, 2> mouth_slope_;  ///< minus its derivative by the arc length of the hold [1/m]
   int last_body_ = 0;         ///< last edge of the straight body
   double body_stiffness_ = 0.0;
   double body_load_ = 0.0;        ///< external torque on the body before its last edge [N·m]
   double body_load_angle_ = 0.0;  ///< rotation of the body's last edge by that torque [rad]
   double held_friction_ = 0.0;    ///< torque of friction on edges that turn with the handle [N·m]
+  double held_rest_ = 0.0;        ///< torque of rest curvature on them [N·m]
   double tip_gradient_ = 0.0;     ///< gradient of the potential energy by the last edge's angle [N·m]
   double energy_ = 0.0;
   std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
