@@ -2,6 +2,7 @@
 
 #include "benchmark/coaxial/coaxial_study.h"
 #include "benchmark/facets/facets_study.h"
+#include "benchmark/mouth/mouth_study.h"
 #include "benchmark/reversal/reversal_study.h"
 #include "benchmark/sleeve/sleeve_study.h"
 #include "benchmark/studies/accuracy.h"
@@ -32,6 +33,8 @@ const std::vector<Study>& studies()
        reversalStudy},
       {"facets", "Facets around the lumen", "torque of a J tip over the facets, facetted and smooth wall",
        facetsTables(), facetsStudy},
+      {"mouth", "Introducer's mouth", "force at the hand of curved instruments against quasi-static equilibria",
+       mouthTables(), mouthStudy},
       {"sleeve", "Rod through a sleeve", "force at the hand against the exact elastica", sleeveTables(), sleeveStudy},
       {"x_ray", "X-ray frames", "processor time over pixels and triangles, at rest and after a movement", xRayTables(),
        xRayStudy},

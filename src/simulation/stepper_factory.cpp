@@ -35,7 +35,13 @@ double longestEdge(const scene::Scene& scene)
   return longestWire(scene).length() / (scene.sampling.nodes - 1);
 }
 
-/** Boundary of the scene's wire. The introducer is narrower than the vessel around it. */
+std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
+{
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds / scene.solver.time_step)));
+}
+
+}  // namespace
+
 rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entry)
 {
   rod::Boundary boundary;
@@ -55,13 +61,6 @@ rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entr
   boundary.distal_twist_held = scene.distal.twist_held;
   return boundary;
 }
-
-std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
-{
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds / scene.solver.time_step)));
-}
-
-}  // namespace
 
 std::uint64_t samplingInterval(const scene::Scene& scene)
 {

@@ -12,6 +12,9 @@
 namespace endovascular_sim::simulation
 {
 
+/** Boundary of a scene's wires. The introducer is narrower than the vessel around it. */
+rod::Boundary boundaryOf(const scene::Scene& scene, const scene::EntryPose& entry);
+
 /** Steps between two updates of adaptive sampling. */
 std::uint64_t samplingInterval(const scene::Scene& scene);
 

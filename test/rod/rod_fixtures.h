@@ -119,4 +119,16 @@ inline bool relaxToEquilibrium(KktStepper& stepper, State& state, StepInput inpu
   return at_rest;
 }
 
+/** Wire with a soft tip of 16 mm whose rest curvature has both components. @param curvature [1/m] */
+inline Wire curvedTipWire(double curvature)
+{
+  Wire wire = uniformWire(0.08, 2.463e-3, 4.45e-4, 6450.0);
+  wire.sections.push_back(wire.sections[0]);
+  wire.sections[1].length = 0.016;
+  wire.sections[1].bending_stiffness = 2e-4;
+  wire.sections[1].torsional_stiffness = 2e-4 / 1.49;
+  wire.sections[1].rest_curvature = Eigen::Vector2d(0.3 * curvature, -curvature);
+  return wire;
+}
+
 }  // namespace endovascular_sim::rod

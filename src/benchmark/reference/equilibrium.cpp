@@ -119,6 +119,8 @@ double EquilibriumSolver::potential(const Equilibrium& e) const
   }
   for (std::size_t i = 0; i < problem_.force.size(); ++i)
     sum -= problem_.force[i].dot(e.position[i]);
+  for (int i = 0; problem_.node_potential && i < problem_.nodes(); ++i)
+    sum += problem_.node_potential(i, e.position[i]).energy;
   if (problem_.twist_held)
   {
     const double twist = problem_.twist + transport(e);
@@ -164,6 +166,8 @@ Eigen::VectorXd EquilibriumSolver::forces(const Equilibrium& e) const
   }
   for (std::size_t i = 0; i < problem_.force.size(); ++i)
     gradient.segment<3>(rowOf(static_cast<int>(i))) -= problem_.force[i];
+  for (int i = 0; problem_.node_potential && i < problem_.nodes(); ++i)
+    gradient.segment<3>(rowOf(i)) += problem_.node_potential(i, e.position[i]).gradient;
   return gradient + e.torque * transportGradient(e);
 }
 
@@ -195,6 +199,8 @@ rod::SparseMatrix EquilibriumSolver::hessian(const Equilibrium& e) const
     addBlock(entries, next(j), j, -geometric);
     addBlock(entries, next(j), next(j), geometric);
   }
+  for (int i = 0; problem_.node_potential && i < problem_.nodes(); ++i)
+    addBlock(entries, i, i, problem_.node_potential(i, e.position[i]).hessian);
   rod::SparseMatrix matrix(rowOf(problem_.nodes()), rowOf(problem_.nodes()));
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +19,14 @@ struct Support
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector of the constrained coordinate
 };
 
+/** Potential of a node in space, with its derivatives by the node's position. */
+struct NodePotential
+{
+  double energy = 0.0;                                 ///< [J]
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< [N]
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();   ///< [N/m]
+};
+
 /** Static problem of a discrete inextensible rod, open or a closed ring. */
 struct EquilibriumProblem
 {
@@ -27,6 +36,8 @@ struct EquilibriumProblem
   std::vector<Support> supports;               ///< constraints on single coordinates
   std::vector<Eigen::Vector3d> force;          ///< dead loads, size n or empty [N]
   std::vector<Eigen::Vector3d> rest_binormal;  ///< rest curvature binormals, fixed in space, size n or empty [1]
+  /** Potential of a node at a position [m], e.g. of a wall; empty: none. */
+  std::function<NodePotential(int node, const Eigen::Vector3d& position)> node_potential;
   bool twist_held = false;  ///< prescribed twist; the torque is uniform, as in straight isotropic wires
   /** Twist between the material frames of both end edges relative to the direct parallel transport between them; for a
    *  ring, 2π times the linking number [rad]. */

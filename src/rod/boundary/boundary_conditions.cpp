@@ -12,6 +12,10 @@ namespace endovascular_sim::rod
 namespace
 {
 
+// Half width of the introducer's mouth over the decay length of its guide: within that length, the guide does not tell
+// where the wire begins to be straight.
+constexpr double kHalfWidth = 0.5;
+constexpr double kShortestDecay = 1e-6;  // m, of a mouth as sharp as that of a clamp
 constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: a shorter visible rest is neglected
 
 /** Rotation from the wire's first direction to that of its clamped distal end. */
@@ -125,6 +129,7 @@ TwistBoundary BoundaryConditions::twistBoundary(const State& state, double tip_t
   twist.director = boundary_.director;
   const double clamp = clamped_ == ClampedNodes::kEdge ? 0.5 * rod_.rest_length[0] : 0.0;
   twist.position = boundary_.introducer ? rod_.length() - state.inserted_length : clamp;
+  twist.half_width = boundary_.introducer ? kHalfWidth * std::max(boundary_.guide_decay, kShortestDecay) : 0.0;
   twist.rotation = state.rotation;
   twist.tip_torque = tip_torque;
   return twist;

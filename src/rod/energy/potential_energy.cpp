@@ -66,21 +66,21 @@ struct Bishop
   }
 };
 
-/** First edge with a material frame that rest curvature needs. The nodes of the edge with the hold of an introducer
- *  have edges before the hold.
- *  @param first first edge beyond the hold; 0: the hold is a clamp */
+/** First edge with a material frame: that before the first node with rest curvature, or the first one beyond the hold. */
 int firstFrame(const Discretisation& rod, const TwistBoundary& hold, int first)
 {
-  const int mouth = hold.position < rod.position[first] ? first - 1 : first;
-  return std::clamp(std::max(rod.first_curved, mouth) - 1, 0, first);
+  int node = first + 1;
+  if (hold.hasMouth())
+    for (node = 1; node + 1 < rod.nodes() && rod.position[node + 1] <= hold.mouth().begin();)
+      ++node;
+  return std::clamp(std::max(rod.first_curved, node) - 1, 0, first);
 }
 
-/** Strain energy, counted from the rest shape. Before the hold of an introducer, the wire is held straight. */
+/** Strain energy, counted from the rest shape. Before the mouth of an introducer, the wire is held straight. */
 double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int first, const State& state,
                      const std::vector<double>& angle)
 {
-  const bool has_mouth = first > 0;
-  double energy = has_mouth ? straightEnergy(rod.curved_parts, hold.position) : 0.0;
+  double energy = hold.hasMouth() ? straightEnergy(rod.curved_parts, hold.mouth()) : 0.0;
   const int begin = firstFrame(rod, hold, first);
   Bishop before{hold.tangent, hold.director};
   const auto direction = [&state](int edge) { return (state.position[edge + 1] - state.position[edge]).normalized(); };
@@ -96,8 +96,8 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
     if (i > begin && i >= rod.first_curved)
     {
       const Eigen::Vector2d rest =
-          has_mouth && rod.position[i - 1] < hold.position ? rod.restBeyond(i, hold.position).curvature
-                                                           : rod.rest_curvature[i];
+          hold.hasMouth() && rod.position[i - 1] < hold.mouth().end() ? rod.restAt(i, hold.mouth()).curvature
+                                                                      : rod.rest_curvature[i];
       from_rest = rest.squaredNorm();
       const Eigen::Vector3d binormal = before.halfBinormal(rest, angle[i - 1]) + after.halfBinormal(rest, angle[i]);
       from_rest -= 2.0 * strain.dot(binormal);

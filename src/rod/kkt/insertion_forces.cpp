@@ -104,9 +104,9 @@ double InsertionForces::restShare(const Location& at, const State& state) const
 {
   if (!model_.boundary.introducer)
     return 1.0;
-  const double mouth = model_.rod.length() - state.inserted_length;
+  const Mouth mouth = model_.conditions.twistBoundary(state, 0.0).mouth();
   const int last = model_.rod.nodes() - 2;
-  const auto share = [&](int node) { return model_.rod.hatShareBeyond(std::clamp(node, 1, last), mouth); };
+  const auto share = [&](int node) { return model_.rod.actingShare(std::clamp(node, 1, last), mouth); };
   return (1.0 - at.parameter) * share(at.node) + at.parameter * share(at.node + 1);
 }
 

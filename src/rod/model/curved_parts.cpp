@@ -1,12 +1,47 @@
 #include "rod/model/curved_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace endovascular_sim::rod
 {
 namespace
 {
+
+/** Integral of a function that is quadratic between the breaks, by Simpson's rule.
+ *  @param breaks ascending */
+template <std::size_t Count, typename Function>
+double integral(double begin, double end, const std::array<double, Count>& breaks, Function function)
+{
+  double sum = 0.0;
+  double from = begin;
+  for (std::size_t k = 0; k <= Count; ++k)
+  {
+    const double to = k < Count ? std::clamp(breaks[k], from, std::max(from, end)) : end;
+    if (to <= from)
+      continue;
+    sum += (to - from) / 6.0 * (function(from) + 4.0 * function(0.5 * (from + to)) + function(to));
+    from = to;
+  }
+  return sum;
+}
+
+/** Integral of a node's hat function times the acting share over a stretch of arc length [m]. */
+double hatIntegral(const std::vector<double>& position, int node, double begin, double end, const Mouth& mouth)
+{
+  double sum = 0.0;
+  const int last = static_cast<int>(position.size()) - 1;
+  for (const int edge : {node - 1, node})
+  {
+    if (edge < 0 || edge >= last)
+      continue;
+    sum += integral<2>(std::max({begin, position[edge], mouth.begin()}), std::min(end, position[edge + 1]),
+                       {mouth.begin(), mouth.end()},
+                       [&](double at) { return hatOf(position, node, at) * mouth.share(at); });
+  }
+  return sum;
+}
 
 /** Integral of a node's hat function over a stretch of arc length [m]. */
 double hatIntegral(const std::vector<double>& position, int node, double begin, double end)
@@ -23,14 +58,6 @@ double hatIntegral(const std::vector<double>& position, int node, double begin, 
       sum += (to - from) * hatOf(position, node, 0.5 * (from + to));
   }
   return sum;
-}
-
-const CurvedPart* partAt(const std::vector<CurvedPart>& parts, double arc_length)
-{
-  for (const CurvedPart& part : parts)
-    if (arc_length >= part.begin && arc_length < part.end)
-      return &part;
-  return nullptr;
 }
 
 }  // namespace
@@ -59,39 +86,61 @@ double hatOf(const std::vector<double>& position, int node, double arc_length)
                       : std::max(0.0, (position[node + 1] - arc_length) / (position[node + 1] - position[node]));
 }
 
-Eigen::Vector2d restAngle(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node,
-                          double from)
+double Mouth::share(double at) const
+{
+  return std::clamp(0.5 + 0.5 * (at - arc_length) / half_width, 0.0, 1.0);
+}
+
+Eigen::Vector2d restAngle(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node)
 {
   Eigen::Vector2d angle = Eigen::Vector2d::Zero();
   for (const CurvedPart& part : parts)
-    angle += hatIntegral(position, node, std::max(from, part.begin), part.end) * part.curvature;
+    angle += hatIntegral(position, node, part.begin, part.end) * part.curvature;
   return angle;
 }
 
-double hatBeyond(const std::vector<double>& position, int node, double from)
+Eigen::Vector2d restAngle(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node,
+                          const Mouth& mouth)
 {
-  return hatIntegral(position, node, from, position.back());
+  Eigen::Vector2d angle = Eigen::Vector2d::Zero();
+  for (const CurvedPart& part : parts)
+    angle += hatIntegral(position, node, part.begin, part.end, mouth) * part.curvature;
+  return angle;
 }
 
-Eigen::Vector2d restCurvatureAt(const std::vector<CurvedPart>& parts, double arc_length)
+Eigen::Vector2d restAngleSlope(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node,
+                               const Mouth& mouth)
 {
-  const CurvedPart* part = partAt(parts, arc_length);
-  return part != nullptr ? part->curvature : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  for (const CurvedPart& part : parts)
+    slope += hatIntegral(position, node, std::max(part.begin, mouth.begin()), std::min(part.end, mouth.end())) /
+             (2.0 * mouth.half_width) * part.curvature;
+  return slope;
 }
 
-double straightEnergy(const std::vector<CurvedPart>& parts, double up_to)
+double hatBeyond(const std::vector<double>& position, int node, const Mouth& mouth)
+{
+  return hatIntegral(position, node, position.front(), position.back(), mouth);
+}
+
+double straightEnergy(const std::vector<CurvedPart>& parts, const Mouth& mouth)
 {
   double energy = 0.0;
   for (const CurvedPart& part : parts)
     energy += 0.5 * part.bending_stiffness * part.curvature.squaredNorm() *
-              std::max(0.0, std::min(up_to, part.end) - part.begin);
+              integral<2>(part.begin, part.end, {mouth.begin(), mouth.end()},
+                          [&mouth](double at) { return 1.0 - mouth.share(at); });
   return energy;
 }
 
-double straightEnergyPerLength(const std::vector<CurvedPart>& parts, double arc_length)
+double straightEnergySlope(const std::vector<CurvedPart>& parts, const Mouth& mouth)
 {
-  const CurvedPart* part = partAt(parts, arc_length);
-  return part != nullptr ? 0.5 * part->bending_stiffness * part->curvature.squaredNorm() : 0.0;
+  double force = 0.0;
+  for (const CurvedPart& part : parts)
+    force += 0.5 * part.bending_stiffness * part.curvature.squaredNorm() *
+             std::max(0.0, std::min(part.end, mouth.end()) - std::max(part.begin, mouth.begin())) /
+             (2.0 * mouth.half_width);
+  return force;
 }
 
 }  // namespace endovascular_sim::rod

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,21 +27,36 @@ Eigen::Vector2d turningAngle(const Eigen::Vector2d& curvature);
  *  @param position arc length of all nodes, ascending [m] */
 double hatOf(const std::vector<double>& position, int node, double arc_length);
 
-/** Turning angle at rest of a node: the integral of rest curvature times the node's hat function, from an arc length on
- *  [rad]. It is a smooth function of that arc length, whose derivative is continuous. */
+/** Transition along the wire at the end of a straight hold. Rest curvature acts beyond it, and before it the wire is
+ *  held straight. The acting share a rises linearly from 0 to 1 over the transition's width. */
+struct Mouth
+{
+  double arc_length = 0.0;  ///< of the middle [m]
+  double half_width = 0.0;  ///< positive [m]
+
+  double begin() const { return arc_length - half_width; }
+  double end() const { return arc_length + half_width; }
+  double share(double at) const;
+};
+
+/** Turning angle at rest of a node: the integral of rest curvature times the node's hat function [rad]. */
+Eigen::Vector2d restAngle(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node);
+
+/** The same times the acting share. Its derivative by the mouth's arc length is continuous. */
 Eigen::Vector2d restAngle(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node,
-                          double from = -std::numeric_limits<double>::infinity());
+                          const Mouth& mouth);
 
-/** Integral of a node's hat function from an arc length on [m]. */
-double hatBeyond(const std::vector<double>& position, int node, double from);
+/** Minus the derivative of that by the mouth's arc length [rad/m]. */
+Eigen::Vector2d restAngleSlope(const std::vector<CurvedPart>& parts, const std::vector<double>& position, int node,
+                               const Mouth& mouth);
 
-/** Rest curvature at an arc length [1/m]. */
-Eigen::Vector2d restCurvatureAt(const std::vector<CurvedPart>& parts, double arc_length);
+/** Integral of a node's hat function times the acting share [m]. */
+double hatBeyond(const std::vector<double>& position, int node, const Mouth& mouth);
 
-/** Energy of the parts before an arc length when they are held straight: ∫ ½ EI |κ̄|² ds [J]. */
-double straightEnergy(const std::vector<CurvedPart>& parts, double up_to);
+/** Energy of the parts as far as they are held straight: ∫ ½ EI |κ̄|² (1 − a) ds [J]. */
+double straightEnergy(const std::vector<CurvedPart>& parts, const Mouth& mouth);
 
-/** Derivative of straightEnergy() by the arc length [N]. */
-double straightEnergyPerLength(const std::vector<CurvedPart>& parts, double arc_length);
+/** Derivative of straightEnergy() by the mouth's arc length [N]. */
+double straightEnergySlope(const std::vector<CurvedPart>& parts, const Mouth& mouth);
 
 }  // namespace endovascular_sim::rod

@@ -65,16 +65,15 @@ const Section& sectionAt(const Wire& wire, double position)
 
 }  // namespace
 
-RestBeyond Discretisation::restBeyond(int node, double arc_length) const
+RestAtMouth Discretisation::restAt(int node, const Mouth& mouth) const
 {
   // Of a node that a layer covers in part, the rest curvature is that of a cell as curved as the covered part.
   const double whole = restAngle(curved_parts, position, node).norm();
   const double scale = whole > 0.0 ? turningAngle(rest_curvature[node]).norm() / whole : 1.0;
-  RestBeyond rest;
-  rest.curvature = integratedCurvature(scale * restAngle(curved_parts, position, node, arc_length));
+  RestAtMouth rest;
+  rest.curvature = integratedCurvature(scale * restAngle(curved_parts, position, node, mouth));
   // The derivative of 2 tan(|φ|/2) along φ. Rest curvature that changes its direction within a node is rare.
-  rest.slope = (scale * (1.0 + 0.25 * rest.curvature.squaredNorm()) * hatOf(position, node, arc_length)) *
-               restCurvatureAt(curved_parts, arc_length);
+  rest.slope = (scale * (1.0 + 0.25 * rest.curvature.squaredNorm())) * restAngleSlope(curved_parts, position, node, mouth);
   return rest;
 }
 

@@ -12,11 +12,11 @@
 namespace endovascular_sim::rod
 {
 
-/** Rest curvature of the part of a node beyond an arc length. */
-struct RestBeyond
+/** Rest curvature that acts at a node near a mouth. */
+struct RestAtMouth
 {
   Eigen::Vector2d curvature;  ///< as Discretisation::rest_curvature [1]
-  Eigen::Vector2d slope;      ///< minus its derivative by the arc length [1/m]
+  Eigen::Vector2d slope;      ///< minus its derivative by the mouth's arc length [1/m]
 };
 
 /** Discrete rod: the wire's properties per node and per edge. Constant between changes of the nodes.
@@ -49,14 +49,11 @@ struct Discretisation
     return std::max(0.0, std::min(1.0, 1.0 - (arc_length - begin) / cell_length[node]));
   }
 
-  /** Part of a node's hat function that lies beyond an arc length [m], 0 to 1; see hatOf(). */
-  double hatShareBeyond(int node, double arc_length) const
-  {
-    return hatBeyond(position, node, arc_length) / cell_length[node];
-  }
+  /** Rest curvature that acts at a node near a mouth. */
+  RestAtMouth restAt(int node, const Mouth& mouth) const;
 
-  /** Rest curvature of the part of a node beyond an arc length [m]. */
-  RestBeyond restBeyond(int node, double arc_length) const;
+  /** Acting share at a node near a mouth, weighted with its hat function, 0 to 1. */
+  double actingShare(int node, const Mouth& mouth) const { return hatBeyond(position, node, mouth) / cell_length[node]; }
 
   /** Coulomb coefficient between a node and a wall whose coefficient is @p wall. */
   double frictionOn(double wall, int node) const

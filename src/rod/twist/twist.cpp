@@ -44,6 +44,15 @@ double torsionalCompliance(const Discretisation& rod, double begin, double end, 
   return sum;
 }
 
+/** First node with two edges that a mouth touches, or that lies beyond it. */
+int firstAtMouth(const Discretisation& rod, const Mouth& mouth, int first_node)
+{
+  int node = first_node + 1;
+  while (node + 1 < rod.nodes() && rod.position[node + 1] <= mouth.begin())
+    ++node;
+  return node;
+}
+
 }  // namespace
 
 bool QuasiStaticTwist::matters(const Discretisation& rod, const TwistBoundary& boundary)
@@ -118,12 +127,9 @@ void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& b
   first_edge_ = state.first_node;
   while (first_edge_ + 2 < n && edgeMiddle(rod, first_edge_) < boundary.position)
     ++first_edge_;
-  // Rest curvature acts at both nodes of the edge with the hold; edges before the hold turn with the handle.
-  const bool has_mouth = first_edge_ > state.first_node;
-  mouth_edge_ = -1;
-  if (has_mouth)
-    mouth_edge_ = boundary.position < rod.position[first_edge_] ? first_edge_ - 1 : first_edge_;
-  first_curved_ = std::max(rod.first_curved, has_mouth ? std::max(mouth_edge_, state.first_node + 1) : first_edge_ + 1);
+  first_curved_ = std::max(rod.first_curved, first_edge_ + 1);
+  if (boundary.hasMouth())
+    first_curved_ = std::max(rod.first_curved, firstAtMouth(rod, boundary.mouth(), state.first_node));
   if (first_curved_ > n - 2)
     first_curved_ = n;
   first_own_ = first_curved_ < n ? std::max(first_curved_, first_edge_ + 1) : n;
@@ -154,21 +160,18 @@ void QuasiStaticTwist::prepare(const Discretisation& rod, const TwistBoundary& b
     placeTip(rod, boundary, state);
 }
 
-/** Prepares the rest curvature at both nodes of the edge with the hold. */
+/** Prepares the rest curvature at the nodes that the mouth touches. */
 void QuasiStaticTwist::prepareMouth(const Discretisation& rod, const TwistBoundary& boundary)
 {
-  mouth_ = boundary.position;
-  for (int side = 0; side < 2 && mouth_edge_ >= 0; ++side)
-  {
-    const int node = mouth_edge_ + side;
-    mouth_rest_[side].setZero();
-    mouth_slope_[side].setZero();
-    if (node < rod.first_curved || node + 1 >= rod.nodes())
-      continue;
-    const RestBeyond rest = rod.restBeyond(node, mouth_);
-    mouth_rest_[side] = rest.curvature;
-    mouth_slope_[side] = rest.slope;
-  }
+  mouth_begin_ = first_curved_;
+  mouth_rest_.clear();
+  straight_force_ = 0.0;
+  if (!boundary.hasMouth() || rod.curved_parts.empty())
+    return;
+  const Mouth mouth = boundary.mouth();
+  straight_force_ = straightEnergySlope(rod.curved_parts, mouth);
+  for (int i = first_curved_; i + 1 < rod.nodes() && rod.position[i - 1] < mouth.end(); ++i)
+    mouth_rest_.push_back(rod.restAt(i, mouth));
 }
 
 /** Prepares the straight body: a torsion spring between the hold and its last edge, loaded by the torques along it. */
@@ -478,18 +481,14 @@ Eigen::Vector3d QuasiStaticTwist::restCurvatureOnEdge(const Discretisation& rod,
 
 double QuasiStaticTwist::holdForce(const Discretisation& rod, const State& state) const
 {
-  if (mouth_edge_ < 0 || rod.curved_parts.empty())
-    return 0.0;
-  double force = straightEnergyPerLength(rod.curved_parts, mouth_);
-  for (int side = 0; side < 2; ++side)
+  double force = straight_force_;
+  for (std::size_t k = 0; k < mouth_rest_.size(); ++k)
   {
-    const int i = mouth_edge_ + side;
-    if (i < first_curved_ || i + 1 >= rod.nodes())
-      continue;
+    const int i = mouth_begin_ + static_cast<int>(k);
     const Eigen::Vector3d strain = binormalAt(rod, state, i).value - state.curvature_offset[i] - rest_binormal_[i];
     for (int j = i - 1; j <= i; ++j)
       force += rod.bending_stiffness[i] / rod.cell_length[i] *
-               strain.dot(binormalOnEdge(mouth_slope_[side], j, cosine_[j], sine_[j]));
+               strain.dot(binormalOnEdge(mouth_rest_[k].slope, j, cosine_[j], sine_[j]));
   }
   return force;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "rod/model/discretisation.h"
 #include "rod/model/state.h"
 #include "rod/twist/twist_friction.h"
 
@@ -20,6 +20,7 @@ struct TwistBoundary
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();   ///< tangent of the wire at the hold, unit
   Eigen::Vector3d director = Eigen::Vector3d::UnitY();  ///< d1 at the hold at rotation 0, unit, ⟂ tangent
   double position = 0.0;                                ///< arc length of the hold from the proximal end [m]
+  double half_width = 0.0;                              ///< of the mouth of an introducer [m]; 0: the hold is a clamp
   double rotation = 0.0;                                ///< rotation of the handle [rad]
   double tip_torque = 0.0;                              ///< external torque at the tip about the axis [N·m]
 
@@ -32,6 +33,8 @@ struct TwistBoundary
   /** Friction of the wall by ascending nodes; null or empty: none. */
   const std::vector<TwistFriction>* friction = nullptr;
 
+  bool hasMouth() const { return half_width > 0.0; }
+  Mouth mouth() const { return {position, half_width}; }
   /** True where an external torque acts along the wire. */
   bool hasEdgeTorque() const { return edge_torque != nullptr && !edge_torque->empty(); }
   /** True where the wall's friction acts on the twist. */
@@ -88,17 +91,16 @@ public:
   /** First node at which rest curvature acts: on the curved tip, with a part of its cell beyond the hold. */
   int firstCurved() const { return first_curved_; }
 
-  /** Rest curvature that acts at a curved node, in the material frame: that of the part beyond the hold, weighted with
-   *  the node's hat function [1]. */
+  /** Rest curvature that acts at a curved node, in the material frame [1]. */
   const Eigen::Vector2d& restCurvature(const Discretisation& rod, int node) const
   {
-    return isAtMouth(node) ? mouth_rest_[node - mouth_edge_] : rod.rest_curvature[node];
+    return isAtMouth(node) ? mouth_rest_[node - mouth_begin_].curvature : rod.rest_curvature[node];
   }
 
-  /** Derivative of the bending energy by the arc length of the hold, at fixed positions and angles [N]. Beyond the hold
-   *  the wire bends from its rest curvature κ̄. Before it, the wire is held straight and has the energy ½ EI |κ̄|² per
-   *  length. With the moment M of both nodes of the hold's edge, interpolated by their hat functions, the force is
-   *  ½ EI |κ̄|² + κ̄·M. */
+  /** Derivative of the bending energy by the arc length of the hold, at fixed positions and angles [N]. Beyond the
+   *  mouth the wire bends from its rest curvature κ̄. Before it, the wire is held straight and has the energy ½ EI |κ̄|²
+   *  per length. With the acting share a and the moment M, interpolated by the nodes' hat functions, the force is
+   *  ∫ (½ EI |κ̄|² + κ̄·M) a′ ds. */
   double holdForce(const Discretisation& rod, const State& state) const;
 
   /** Rest curvature binormal at a node of the curved tip, in space: mean over both edges of ω̄₁m₂ − ω̄₂m₁, with the rest
@@ -135,7 +137,10 @@ private:
   double assemble(const Discretisation& rod, const TwistBoundary& boundary, const State& state, bool secants);
   void turnFrames(const TwistBoundary& boundary, const State& state);
   Eigen::Vector3d binormalOnEdge(const Eigen::Vector2d& rest_curvature, int edge, double cosine, double sine) const;
-  bool isAtMouth(int node) const { return mouth_edge_ >= 0 && (node == mouth_edge_ || node == mouth_edge_ + 1); }
+  bool isAtMouth(int node) const
+  {
+    return node >= mouth_begin_ && node < mouth_begin_ + static_cast<int>(mouth_rest_.size());
+  }
   double edgeAngle(const TwistBoundary& boundary, const State& state, int edge) const
   {
     return edge < first_edge_ ? boundary.rotation : state.twist_angle[edge];
@@ -155,10 +160,9 @@ private:
   int first_edge_ = 0;        ///< first edge beyond the hold
   int first_curved_ = 0;      ///< first curved node with a part of its cell beyond the hold; n without
   int first_own_ = 0;         ///< first node with angles of their own on both sides; n without
-  int mouth_edge_ = -1;       ///< edge with the hold of an introducer; -1 without
-  double mouth_ = 0.0;        ///< arc length of the hold [m]
-  std::array<Eigen::Vector2d, 2> mouth_rest_;   ///< rest curvature that acts at both its nodes [1]
-  std::array<Eigen::Vector2d, 2> mouth_slope_;  ///< minus its derivative by the arc length of the hold [1/m]
+  int mouth_begin_ = 0;                   ///< first node with rest curvature at the mouth
+  std::vector<RestAtMouth> mouth_rest_;   ///< of the nodes from there on that the mouth touches
+  double straight_force_ = 0.0;           ///< part of holdForce() of the straight energy [N]
   int last_body_ = 0;         ///< last edge of the straight body
   double body_stiffness_ = 0.0;
   double body_load_ = 0.0;        ///< external torque on the body before its last edge [N·m]

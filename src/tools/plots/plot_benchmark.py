@@ -239,13 +239,33 @@ def draw_reversal(folder):
     save(figure, folder, 'reversal.png')
 
 
+def draw_mouth(folder):
+    """Draws the force at the hand over the inserted length while an instrument passes the introducer's mouth."""
+    cases = {key: rows for key, rows in grouped(rows_of(folder, 'mouth'), 'instrument', 'nodes', 'speed [mm/s]', 'tube').items()
+             if key[1] == 'adaptive' and value(rows[0], 'speed [mm/s]') == 25}
+    if not cases:
+        return
+    figure, axes = panels(len(cases))
+    for axis, ((instrument, _, _, tube), rows) in zip(axes, cases.items()):
+        at = [value(row, 'inserted length [mm]') for row in rows]
+        axis.plot(at, [value(row, 'reference [N]') for row in rows], color='black', linewidth=3, alpha=0.4, label='reference')
+        for way, style in (('in [N]', '-'), ('out [N]', '--')):
+            axis.plot(at, [value(row, way) for row in rows], style, linewidth=1, label=way.split()[0])
+        axis.set_xlabel('inserted length [mm]')
+        axis.set_ylabel('force at the hand [N]')
+        axis.set_title(f'{instrument}, {tube} tube', fontsize=10)
+        axis.grid(True, alpha=0.3)
+        axis.legend(fontsize=8)
+    save(figure, folder, 'mouth.png')
+
+
 def main():
     """Draws the plots of all tables in the folder."""
     parser = tools.argument_parser(__doc__)
     parser.add_argument('folder', type=pathlib.Path, help='folder with the CSV files of `benchmark`')
     folder = parser.parse_args().folder
     for draw in (draw_accuracy, draw_static, draw_dynamic, draw_vessel, draw_speed, draw_volumes, draw_growth,
-                 draw_sampling, draw_hand_force, draw_reversal):
+                 draw_sampling, draw_hand_force, draw_reversal, draw_mouth):
         draw(folder)
 
 

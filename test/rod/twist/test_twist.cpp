@@ -13,17 +13,6 @@ namespace endovascular_sim::rod
 namespace
 {
 
-Wire curvedTipWire(double curvature)
-{
-  Wire wire = uniformWire(0.08, 2.463e-3, 4.45e-4, 6450.0);
-  wire.sections.push_back(wire.sections[0]);
-  wire.sections[1].length = 0.016;
-  wire.sections[1].bending_stiffness = 2e-4;
-  wire.sections[1].torsional_stiffness = 2e-4 / 1.49;
-  wire.sections[1].rest_curvature = Eigen::Vector2d(0.3 * curvature, -curvature);
-  return wire;
-}
-
 /** Bent and wavy wire in space, clamped at its proximal end. */
 State bentState(const KktStepper& stepper, double rotation)
 {
@@ -111,40 +100,49 @@ struct TipAtTheMouth
 
 TEST(QuasiStaticTwist, ForceAtTheHoldIsTheDerivativeOfTheBendingEnergyByItsArcLength)
 {
-  TipAtTheMouth tip;
-  QuasiStaticTwist twist;
-  tip.hold(0.6);
-  twist.solve(tip.rod, tip.boundary, tip.state);
-  ASSERT_EQ(twist.firstCurved(), tip.node);
-  ASSERT_NEAR(twist.restShare(tip.node), 0.6, 1e-9);
-  const double force = twist.holdForce(tip.rod, tip.state);
-  const double step = 1e-3;
-  tip.hold(0.6 - step);
-  double difference = tip.potential();
-  tip.hold(0.6 + step);
-  difference -= tip.potential();
-  EXPECT_GT(std::abs(force), 1e-3);
-  EXPECT_NEAR(force, difference / (2.0 * step * tip.rod.cell_length[tip.node]), 1e-6 * std::abs(force));
+  for (const double half_width : {0.3, 1.0, 2.5})
+    for (const double share : {0.1, 0.35, 0.6, 0.85})
+    {
+      TipAtTheMouth tip;
+      tip.boundary.half_width = half_width * tip.rod.cell_length[tip.node];
+      QuasiStaticTwist twist;
+      tip.hold(share);
+      twist.solve(tip.rod, tip.boundary, tip.state);
+      const double force = twist.holdForce(tip.rod, tip.state);
+      const double step = 1e-4;
+      tip.hold(share - step);
+      double difference = tip.potential();
+      tip.hold(share + step);
+      difference -= tip.potential();
+      EXPECT_GT(std::abs(force), 1e-3);
+      EXPECT_NEAR(force, difference / (2.0 * step * tip.rod.cell_length[tip.node]), 1e-5 * std::abs(force))
+          << half_width << ' ' << share;
+    }
 }
 
-TEST(QuasiStaticTwist, RestCurvatureBeginsToActContinuouslyWhereTheHoldIsPassed)
+TEST(QuasiStaticTwist, RestCurvatureBeginsToActContinuouslyWhereTheMouthIsPassed)
 {
   TipAtTheMouth tip;
+  tip.boundary.half_width = 0.7 * tip.rod.cell_length[tip.node];
   QuasiStaticTwist twist;
-  const auto binormals = [&](double share)
+  const auto binormal = [&](double share)
   {
     tip.hold(share);
     twist.solve(tip.rod, tip.boundary, tip.state);
-    std::vector<Eigen::Vector3d> rest(tip.rod.nodes(), Eigen::Vector3d::Zero());
-    for (int i = twist.firstCurved(); i + 1 < tip.rod.nodes(); ++i)
-      rest[i] = twist.restCurvatureBinormal(i);
-    return rest;
+    return twist.firstCurved() <= tip.node ? twist.restCurvatureBinormal(tip.node).norm() : 0.0;
   };
-  const std::vector<Eigen::Vector3d> full = binormals(1.0 - 1e-9);
-  EXPECT_GT(full[tip.node].norm(), 1e-2);
-  EXPECT_LT(binormals(1e-9)[tip.node].norm(), 1e-8);
-  const std::vector<Eigen::Vector3d> half = binormals(0.5);
-  EXPECT_NEAR(half[tip.node].norm(), 0.5 * full[tip.node].norm(), 1e-9);
+  // Share of the node's cell: its hat function is wider by half a cell on both sides.
+  const double full = binormal(2.3);
+  EXPECT_GT(full, 1e-2);
+  EXPECT_LT(binormal(-1.3), 1e-8);
+  double before = 0.0;
+  for (double share = -1.3; share <= 2.3; share += 0.05)
+  {
+    const double now = binormal(share);
+    EXPECT_GE(now, before - 1e-9 * full) << share;
+    EXPECT_LE(now - before, 0.06 * full) << share;
+    before = now;
+  }
 }
 
 TEST(QuasiStaticTwist, AStraightWireTurnsAtItsTipExactlyAsAtTheHandle)

@@ -1,0 +1,129 @@
+#include "benchmark/mouth/mouth_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "benchmark/harness/bench_run.h"
+#include "benchmark/mouth/mouth_reference.h"
+#include "simulation/stepper_factory.h"
+
+namespace endovascular_sim::benchmark
+{
+namespace
+{
+
+constexpr double kTube = 4e-3;        // radius of the tube [m]
+constexpr double kStraight = 0.02;    // length of the tube before its bend [m]
+constexpr double kBegin = 2e-3;       // first inserted length [m]
+constexpr double kFollowed = 0.5e-3;  // longest distance between equilibria of the reference [m]
+constexpr double kAbsolute = 0.02;    // tolerated deviation [N]
+constexpr double kRelative = 0.03;
+
+std::string sceneOf(const MouthMotion& motion)
+{
+  char text[1200];
+  char pieces[200];
+  if (motion.bend_curvature != 0.0)
+    std::snprintf(pieces, sizeof pieces, "{length: %g}, {length: %g, curvature: %g}", kStraight, motion.travel,
+                  motion.bend_curvature);
+  else
+    std::snprintf(pieces, sizeof pieces, "{length: %g}", motion.travel + 0.05);
+  char sampling[100] = "{kind: adaptive}";
+  if (motion.nodes > 0)
+    std::snprintf(sampling, sizeof sampling, "{kind: uniform, nodes: %d}", motion.nodes);
+  std::snprintf(text, sizeof text, R"(
+name: mouth
+duration: 1000.0
+vessel:
+  tube: {radius: %g, facet_length: 1.0e-3, facets_around: 64, pieces: [%s]}
+  friction: 0.0
+entry: {position: [0, 0, 0], direction: [1, 0, 0], up: [0, 1, 0]}
+instrument: {use: %s}
+drive: {source: script, initial_insertion: %g, speed: %g, travel: %g, force_limit: 100.0}
+sampling: %s
+)",
+                kTube, pieces, motion.instrument.c_str(), kBegin, motion.speed, motion.travel, sampling);
+  return text;
+}
+
+MouthProblem problemOf(const scene::Scene& scene, const MouthMotion& motion)
+{
+  MouthProblem problem;
+  problem.wire = scene.instruments.front().instrument.wire;
+  scene::EntryPose entry;
+  entry.wall_distance = kTube;
+  const rod::Boundary boundary = simulation::boundaryOf(scene, entry);
+  problem.guide_length = boundary.guide_length;
+  problem.guide_decay = std::min(boundary.guide_decay, 0.25 * boundary.guide_length);
+  problem.sheath_clearance = boundary.sheath_clearance;
+  problem.clearance = kTube - problem.wire.sections.back().radius;
+  problem.bend_begin = kStraight;
+  problem.bend_curvature = motion.bend_curvature;
+  return problem;
+}
+
+/** Force of the reference at an inserted length, by linear interpolation. */
+double interpolated(const std::vector<MouthForce>& reference, double insertion)
+{
+  const auto after = std::upper_bound(reference.begin() + 1, reference.end() - 1, insertion,
+                                      [](double length, const MouthForce& at) { return length < at.insertion; });
+  const MouthForce& a = *(after - 1);
+  const MouthForce& b = *after;
+  return a.force + (b.force - a.force) * (insertion - a.insertion) / (b.insertion - a.insertion);
+}
+
+}  // namespace
+
+MouthCurves runMouth(const MouthMotion& motion)
+{
+  BenchRun run(sceneOf(motion));
+  simulation::Simulation& simulation = run.simulation();
+  const double dt = run.scene().solver.time_step;
+  const int steps = static_cast<int>(std::lround(motion.travel / motion.speed / dt));
+  MouthCurves curves;
+  for (int k = 1; k <= 2 * steps; ++k)
+  {
+    simulation.step({kBegin + motion.speed * dt * (k <= steps ? k : 2 * steps - k), 0.0});
+    if (!simulation.report().solved)
+      throw std::runtime_error("mouth: a step was rejected");
+    (k <= steps ? curves.in : curves.out).push_back({simulation.state().inserted_length, simulation.state().hand_force});
+  }
+  MouthReference reference(problemOf(run.scene(), motion));
+  const int between = std::max(1, static_cast<int>(std::ceil(motion.reference_step / kFollowed)));
+  const int points = static_cast<int>(std::floor(motion.travel / motion.reference_step));
+  for (int k = 0; k <= points * between; ++k)
+  {
+    const double insertion = kBegin + k * motion.reference_step / between;
+    const double force = reference.force(insertion);
+    if (k % between == 0)
+      curves.reference.push_back({insertion, force});
+  }
+  return curves;
+}
+
+MouthDeviation deviationOf(const std::vector<MouthForce>& way, const std::vector<MouthForce>& reference)
+{
+  MouthDeviation found;
+  for (std::size_t k = 0; k < way.size(); ++k)
+  {
+    const MouthForce& at = way[k];
+    if (at.insertion > reference.back().insertion)
+      continue;
+    const double exact = interpolated(reference, at.insertion);
+    const double deviation = std::abs(at.force - exact);
+    if (deviation > found.largest)
+    {
+      found.largest = deviation;
+      found.at = at.insertion;
+    }
+    found.of_tolerance = std::max(found.of_tolerance, deviation / (kAbsolute + kRelative * std::abs(exact)));
+    if (k > 0 && way[k - 1].insertion <= reference.back().insertion)
+      found.change = std::max(found.change, std::abs(at.force - way[k - 1].force) -
+                                                std::abs(exact - interpolated(reference, way[k - 1].insertion)));
+  }
+  return found;
+}
+
+}  // namespace endovascular_sim::benchmark

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "benchmark/mouth/mouth_reference.h"
+#include "benchmark/mouth/mouth_runs.h"
+
+namespace endovascular_sim::benchmark
+{
+namespace
+{
+
+/** A wire that is straight but for a curved end, in free space. */
+MouthProblem curvedEnd(double radius)
+{
+  rod::Section shaft;
+  shaft.length = 0.1;
+  shaft.radius = 4e-4;
+  shaft.density = 6450.0;
+  shaft.bending_stiffness = 1e-4;
+  shaft.torsional_stiffness = 1e-4;
+  rod::Section end = shaft;
+  end.length = 0.01;
+  end.rest_curvature.x() = 1.0 / radius;
+  MouthProblem problem;
+  problem.wire.sections = {shaft, end};
+  problem.sheath_clearance = problem.clearance = 1.0;
+  return problem;
+}
+
+// Beyond the mouth, a part without load has its rest shape. The hand is pulled with the energy per length of the
+// straightened part.
+TEST(MouthReference, AFreeCurvedEndPullsWithItsStraighteningEnergyPerLength)
+{
+  MouthReference reference(curvedEnd(0.02));
+  for (double insertion = 1e-3; insertion < 6e-3; insertion += 0.5e-3)
+    if (insertion > 2e-3)
+      EXPECT_NEAR(reference.force(insertion), -0.5 * 1e-4 * 50.0 * 50.0, 1e-4) << insertion;
+    else
+      reference.force(insertion);
+}
+
+void expectTheReference(const MouthMotion& motion)
+{
+  const MouthCurves curves = runMouth(motion);
+  for (const auto* way : {&curves.in, &curves.out})
+  {
+    const MouthDeviation found = deviationOf(*way, curves.reference);
+    EXPECT_LE(found.of_tolerance, 1.0) << "at " << 1e3 * found.at << " mm: " << found.largest << " N";
+    EXPECT_LE(found.change, 0.02);
+  }
+}
+
+TEST(Mouth, ForceOfAJudkinsGuideIsThatOfTheQuasiStaticReference)
+{
+  MouthMotion motion;
+  motion.instrument = "guide_6f_jl4";
+  motion.travel = 0.05;
+  expectTheReference(motion);
+}
+
+TEST(Mouth, ForceOfAJWireWithUniformNodesIsThatOfTheQuasiStaticReference)
+{
+  MouthMotion motion;
+  motion.instrument = "guidewire_035_j";
+  motion.nodes = 750;
+  motion.travel = 0.04;
+  expectTheReference(motion);
+}
+
+}  // namespace
+}  // namespace endovascular_sim::benchmark
