@@ -37,43 +37,66 @@ bool EnergyAuditFile::flush()
 void AuditClosure::add(double time, const rod::EnergyBalance& balance)
 {
   const auto second = static_cast<std::size_t>(std::max(0.0, std::ceil(time - 1e-9) - 1.0));
+  if (ends_.empty())
+    first_second_ = second;
   // A second without a row of its own ends as the one before.
-  ends_.resize(std::max(ends_.size(), second + 1), ends_.empty() ? Second() : ends_.back());
-  ends_[second] = {balance.error(), balance.turnover};
+  ends_.resize(std::max(ends_.size(), second - first_second_ + 1), ends_.empty() ? Amount() : ends_.back());
+  ends_.back() = {balance.error(), balance.turnover};
 }
 
-double AuditClosure::ratio(std::size_t second) const
+AuditClosure::Amount AuditClosure::inSecond(std::size_t k) const
 {
-  const Second before = second > 0 ? ends_[second - 1] : Second();
-  const double error = std::abs(ends_[second].error - before.error);
-  const double tolerated =
-      kShareOfSecond * (ends_[second].turnover - before.turnover) + kShareOfRun * ends_.back().turnover;
-  return error == 0.0 ? 0.0 : error / tolerated;
+  const Amount before = k > 0 ? ends_[k - 1] : Amount();
+  return {std::abs(ends_[k].error - before.error), ends_[k].turnover - before.turnover};
+}
+
+double AuditClosure::ratio(std::size_t k) const
+{
+  const Amount amount = inSecond(k);
+  const double mean = ends_.back().turnover / static_cast<double>(ends_.size());
+  return amount.error == 0.0 ? 0.0 : amount.error / (kShareOfSecond * amount.turnover + kShareOfRun * mean);
+}
+
+std::size_t AuditClosure::worstIndex() const
+{
+  std::size_t worst = 0;
+  for (std::size_t k = 1; k < ends_.size(); ++k)
+    if (ratio(k) > ratio(worst))
+      worst = k;
+  return worst;
 }
 
 int AuditClosure::worstSecond() const
 {
-  int worst = -1;
-  for (std::size_t k = 0; k < ends_.size(); ++k)
-    if (worst < 0 || ratio(k) > ratio(static_cast<std::size_t>(worst)))
-      worst = static_cast<int>(k);
-  return worst;
+  return ends_.empty() ? -1 : static_cast<int>(first_second_ + worstIndex());
 }
 
 double AuditClosure::worst() const
 {
-  return ends_.empty() ? 0.0 : ratio(static_cast<std::size_t>(worstSecond()));
+  return ends_.empty() ? 0.0 : ratio(worstIndex());
+}
+
+double AuditClosure::shareOfRun() const
+{
+  double error = 0.0;
+  for (std::size_t k = 0; k < ends_.size(); ++k)
+    error += inSecond(k).error;
+  return error == 0.0 ? 0.0 : error / ends_.back().turnover;
 }
 
 std::string AuditClosure::text() const
 {
-  char line[200];
+  if (ends_.empty())
+    return "energy audit: no step";
+  const Amount amount = inSecond(worstIndex());
+  char line[300];
   std::snprintf(
       line, sizeof line,
-      "energy audit: closing error of the run %.3g J of %.3g J of work; largest error of a second %.2f of the "
-      "tolerated one, in second %d",
-      ends_.empty() ? 0.0 : ends_.back().error, ends_.empty() ? 0.0 : ends_.back().turnover, worst(),
-      worstSecond() + 1);
+      "energy audit: %s; largest unexplained share %.2g %% of the turnover of second %d, %.2f of the tolerated "
+      "(%.3g J of %.3g J); in sum %.2g %% of the run's %.3g J, tolerated %.0f %%",
+      accepted() ? "within" : "beyond", amount.error == 0.0 ? 0.0 : 100.0 * amount.error / amount.turnover,
+      worstSecond() + 1, worst(), amount.error, amount.turnover, 100.0 * shareOfRun(), ends_.back().turnover,
+      100.0 * kShareOfRun);
   return line;
 }
 

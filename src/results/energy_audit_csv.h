@@ -26,36 +26,45 @@ private:
   std::ofstream stream_;
 };
 
-/** Closing error of an audit in each second of the simulated time. */
+/** Part of the work that no term of an audit explains, in each second of the simulated time and in the run. */
 class AuditClosure
 {
 public:
-  static constexpr double kShareOfSecond = 0.02;  ///< tolerated error: share of the work of the second …
-  static constexpr double kShareOfRun = 0.01;     ///< … plus this share of the work of the run
+  static constexpr double kShareOfSecond = 0.02;  ///< tolerated in a second: share of the second's turnover …
+  static constexpr double kShareOfRun = 0.01;  ///< … plus this share of the mean turnover of all seconds; and in sum
 
   /** Notes a balance. @param time simulated time [s], ascending */
   void add(double time, const rod::EnergyBalance& balance);
 
-  /** Largest error of a second relative to the tolerated one, by magnitudes; at most 1: the audit closes [1]. */
+  /** Largest unexplained part of a second relative to the tolerated one, by magnitudes [1]. */
   double worst() const;
 
-  /** Second with the largest error; −1 without a row. */
+  /** Second with the largest part relative to the tolerated one, counted from time 0; −1 without a row. */
   int worstSecond() const;
 
-  /** Result as a line of text. */
+  /** Sum of the magnitudes of the unexplained parts of all seconds over the turnover of the run [1]. */
+  double shareOfRun() const;
+
+  /** True if every second and the sum are within the tolerated. */
+  bool accepted() const { return worst() <= 1.0 && shareOfRun() <= kShareOfRun; }
+
+  /** Result as a line of text: the largest unexplained share, the sum, and the acceptance. */
   std::string text() const;
 
 private:
-  /** Balance at the end of a second. */
-  struct Second
+  /** Unexplained part and turnover since the start, or of one second [J]. */
+  struct Amount
   {
-    double error = 0.0;     ///< [J]
-    double turnover = 0.0;  ///< [J]
+    double error = 0.0;
+    double turnover = 0.0;
   };
 
-  double ratio(std::size_t second) const;
+  Amount inSecond(std::size_t k) const;
+  double ratio(std::size_t k) const;
+  std::size_t worstIndex() const;
 
-  std::vector<Second> ends_;
+  std::size_t first_second_ = 0;  ///< second of the first row
+  std::vector<Amount> ends_;      ///< sums at the end of every second from there on
 };
 
 }  // namespace endovascular_sim::results

@@ -173,8 +173,8 @@ public:
   /** Energy audit of the run; null without --audit. */
   rod::EnergyAudit* audit() { return audit_file_ ? &audit_ : nullptr; }
 
-  /** Result of the audit as text. */
-  std::string closure() const { return closure_.text(); }
+  /** Acceptance of the audit. */
+  const results::AuditClosure& closure() const { return closure_; }
 
   /** @param duration computing time of the step [s] */
   void addStep(const simulation::Simulation& simulation, double duration)
@@ -432,8 +432,8 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
   if (!options.audit)
     return;
   simulation.setAudit(nullptr);
-  if (!options.quiet)
-    std::fprintf(stderr, "%s\n", tables.closure().c_str());
+  if (!options.quiet || !tables.closure().accepted())
+    std::fprintf(stderr, "%s\n", tables.closure().text().c_str());
 }
 
 void writeWallForces(const std::string& folder, const Surroundings& surroundings)

@@ -93,6 +93,7 @@ void EnergyAudit::endStep(bool solved, double kinetic)
 {
   if (solved)
   {
+    pending_.turnover += std::abs(pending_.stored());
     sum_ += pending_;
     wall_energy_ = pending_wall_energy_;
     radius_ = pending_radius_;
@@ -104,6 +105,7 @@ void EnergyAudit::endStep(bool solved, double kinetic)
   {
     sum_.kinetic -= kinetic;
     sum_.rejected += kinetic;
+    sum_.turnover += kinetic;
   }
   pending_ = EnergyBalance();
   pending_wall_energy_ = wall_energy_;

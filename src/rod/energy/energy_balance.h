@@ -46,7 +46,7 @@ struct EnergyBalance
   // No part of the sum.
   double configurational = 0.0;  ///< change of the potentials by the insertion at fixed nodes
   double turn_error = 0.0;       ///< part of error of the equations of the twist
-  double turnover = 0.0;         ///< sum of the magnitudes of the work of all steps
+  double turnover = 0.0;         ///< over all steps: magnitudes of the work, and of the change of stored energy
 
   double work() const { return push + turn + loads + pressure; }
   double stored() const { return kinetic + bending + twist + guide + wall + gravity; }

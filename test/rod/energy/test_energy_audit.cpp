@@ -167,6 +167,7 @@ TEST(EnergyAudit, StoresTheWorkOfATurningHandInAWireHeldAtBothEnds)
   const double stored = 0.5 * wire.sections[0].torsional_stiffness / length * turn * turn;
   EXPECT_NEAR(balance.twist, stored, 1e-6 * stored);
   EXPECT_NEAR(balance.twisting, stored / steps, 1e-6 * stored);  // the torque at the end of a step times its turn
+  EXPECT_NEAR(balance.turnover, balance.turn + stored, 1e-6 * stored);
   EXPECT_NEAR(balance.error(), 0.0, 1e-6 * stored);
 }
 
