@@ -2,24 +2,10 @@
 
 #include <algorithm>
 
+#include "simulation/instrument_tip.h"
+
 namespace endovascular_sim::procedure
 {
-
-Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted)
-{
-  const rod::State& state = simulation.state();
-  const std::vector<double>& arc = simulation.discretisation().position;
-  // Node positions are arc lengths up to the tip of the foremost instrument.
-  const double target = arc.back() - state.inserted_length + inserted;
-  const auto after = std::upper_bound(arc.begin(), arc.end(), target);
-  if (after == arc.begin())
-    return state.position.front();
-  if (after == arc.end())
-    return state.position.back();
-  const auto k = static_cast<std::size_t>(after - arc.begin());
-  const double share = (target - arc[k - 1]) / (arc[k] - arc[k - 1]);
-  return state.position[k - 1] + share * (state.position[k] - state.position[k - 1]);
-}
 
 double bentLength(const instrument::Instrument& instrument)
 {
@@ -54,18 +40,20 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     InstrumentView view;
     view.hand = simulation.hand(k);
     view.outside = simulation.isOutside(k);
-    view.tip = pointAt(simulation, std::max(0.0, view.hand.insertion));
+    view.tip = simulation::pointAt(simulation, std::max(0.0, view.hand.insertion));
+    view.tip_rotation = simulation::tipRotation(simulation, k);
     const double bent = bentLength(scene.instruments[static_cast<std::size_t>(k)].instrument);
     if (bent > 0.0 && view.hand.insertion > 2.0 * bent)
     {
       view.bend.length = bent;
-      view.bend.base = pointAt(simulation, view.hand.insertion - bent);
-      view.bend.shaft = (view.bend.base - pointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
+      view.bend.base = simulation::pointAt(simulation, view.hand.insertion - bent);
+      view.bend.shaft =
+          (view.bend.base - simulation::pointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
     }
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)
-      view.balloon = pointAt(simulation, middle);
+      view.balloon = simulation::pointAt(simulation, middle);
     observation.instruments.push_back(view);
   }
   markCovered(observation);

@@ -20,6 +20,7 @@ struct InstrumentView
   bool outside = false;                           ///< true if the instrument has left the introducer
   bool covered = false;                           ///< true if the tip lies inside another instrument
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip in the patient frame; the introducer if outside [m]
+  double tip_rotation = 0.0;                      ///< rotation of the material at the tip, as that of the handle [rad]
   BranchPosition branch_position;                 ///< position of the tip in the tree of branches
   TipBend bend;                                   ///< bend of the tip; straight if outside
   std::optional<Eigen::Vector3d> balloon;         ///< centre of the balloon if it is in the vessel, patient frame [m]
@@ -31,10 +32,6 @@ struct Observation
   double time = 0.0;  ///< simulated time [s]
   std::vector<InstrumentView> instruments;
 };
-
-/** Point of the common centreline of the instruments at a length beyond the introducer [m].
- *  @param inserted length beyond the introducer [m]; negative outside */
-Eigen::Vector3d pointAt(const simulation::Simulation& simulation, double inserted);
 
 /** Length from the tip of an instrument to the proximal end of its foremost curve; 0 for a straight instrument [m]. */
 double bentLength(const instrument::Instrument& instrument);

@@ -51,17 +51,18 @@ std::string instrumentsCsv(const SessionMetrics& metrics)
 {
   std::string text =
       "time,instrument,insertion,rotation,pressure,hand_force,hand_torque,peak_hand_force,peak_hand_torque,tip_x,tip_y,"
-      "tip_z,branch,depth\n";
+      "tip_z,branch,depth,tip_rotation\n";
   std::array<char, 400> row{};
   for (const Sample& sample : metrics.samples())
     for (std::size_t k = 0; k < sample.observation.instruments.size(); ++k)
     {
       const procedure::InstrumentView& view = sample.observation.instruments[k];
-      std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g\n",
+      std::snprintf(row.data(), row.size(), "%.9g,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,%.9g,%.9g\n",
                     sample.observation.time, metrics.scene().instruments[k].instrument.name.c_str(),
                     view.hand.insertion, view.hand.rotation, view.hand.pressure, view.hand.force, view.hand.torque,
                     sample.peaks.hand_force[k], sample.peaks.hand_torque[k], view.tip.x(), view.tip.y(), view.tip.z(),
-                    metrics.locator().name(view.branch_position.branch).c_str(), view.branch_position.depth);
+                    metrics.locator().name(view.branch_position.branch).c_str(), view.branch_position.depth,
+                    view.tip_rotation);
       text += row.data();
     }
   return text;

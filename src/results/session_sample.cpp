@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/instrument_tip.h"
+
 namespace endovascular_sim::results
 {
 namespace
@@ -14,7 +16,7 @@ Eigen::Vector3d foremostTip(const simulation::Simulation& simulation)
   double furthest = 0.0;
   for (int k = 0; k < simulation.instruments(); ++k)
     furthest = std::max(furthest, simulation.hand(k).insertion);
-  return procedure::pointAt(simulation, furthest);
+  return simulation::pointAt(simulation, furthest);
 }
 
 }  // namespace
@@ -80,7 +82,8 @@ bool Sample::isFinite() const
   const auto isFiniteView = [](const procedure::InstrumentView& view)
   {
     return std::isfinite(view.hand.insertion) && std::isfinite(view.hand.rotation) && std::isfinite(view.hand.force) &&
-           std::isfinite(view.hand.torque) && std::isfinite(view.hand.pressure) && view.tip.allFinite();
+           std::isfinite(view.hand.torque) && std::isfinite(view.hand.pressure) && view.tip.allFinite() &&
+           std::isfinite(view.tip_rotation);
   };
   const auto isFiniteLoad = [](const WallLoad& load)
   { return std::isfinite(load.sum) && std::isfinite(load.largest) && std::isfinite(load.at_tip); };

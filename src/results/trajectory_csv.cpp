@@ -13,10 +13,11 @@ namespace endovascular_sim::results
 
 std::string toCsv(const TrajectoryRow& row)
 {
-  std::array<char, 360> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.9g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu,%.17g",
-                                   row.time, row.insertion, row.rotation, row.hand_force, row.hand_torque, row.tip.x(),
-                                   row.tip.y(), row.tip.z(), row.nodes, row.pressure);
+  std::array<char, 400> text{};
+  const int length =
+      std::snprintf(text.data(), text.size(), "%.9g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu,%.17g,%.17g",
+                    row.time, row.insertion, row.rotation, row.hand_force, row.hand_torque, row.tip.x(), row.tip.y(),
+                    row.tip.z(), row.nodes, row.pressure, row.tip_rotation);
   return {text.data(), static_cast<std::size_t>(length)};
 }
 

@@ -20,10 +20,12 @@ struct TrajectoryRow
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip in the patient frame [m]
   std::size_t nodes = 0;                          ///< number of nodes beyond the introducer
   double pressure = 0.0;                          ///< largest pressure at the inflators of balloons [Pa]
+  double tip_rotation = 0.0;                      ///< rotation of the material at the tip [rad]
 };
 
 /** Header of trajectory.csv. */
-constexpr auto kTrajectoryColumns = "time,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z,nodes,pressure";
+constexpr auto kTrajectoryColumns =
+    "time,insertion,rotation,hand_force,hand_torque,tip_x,tip_y,tip_z,nodes,pressure,tip_rotation";
 
 /** Text of a row without line break; numbers are written with all digits. */
 std::string toCsv(const TrajectoryRow& row);

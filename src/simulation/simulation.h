@@ -101,6 +101,9 @@ public:
    *  @throws std::logic_error for a scheme without SchemeTraits::audits */
   void setAudit(rod::EnergyAudit* audit);
 
+  /** Pose of the introducer, or of the proximal end without one. */
+  const scene::EntryPose& entry() const { return entry_; }
+
   /** True for a wire behind an introducer; false for one that is simulated as a whole. */
   bool hasIntroducer() const { return scene_.introducer; }
 

@@ -29,6 +29,7 @@
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "simulation/driven_hands.h"
+#include "simulation/instrument_tip.h"
 #include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
 #include "simulation/still_image.h"
@@ -121,15 +122,17 @@ results::TrajectoryRow rowOf(const simulation::Simulation& simulation)
   const rod::State& state = simulation.state();
   results::TrajectoryRow row;
   row.time = simulation.time();
-  simulation::HandState foremost = simulation.hand(0);
+  int furthest = 0;
   for (int k = 1; k < simulation.instruments(); ++k)
-    if (simulation.hand(k).insertion > foremost.insertion)
-      foremost = simulation.hand(k);
+    if (simulation.hand(k).insertion > simulation.hand(furthest).insertion)
+      furthest = k;
+  const simulation::HandState foremost = simulation.hand(furthest);
   row.insertion = foremost.insertion;
   row.rotation = foremost.rotation;
   row.hand_force = foremost.force;
   row.hand_torque = foremost.torque;
   row.tip = state.position.back();
+  row.tip_rotation = simulation::tipRotation(simulation, furthest);
   for (int k = 0; k < simulation.instruments(); ++k)
     row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
   row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - results::firstInsertedNode(simulation));

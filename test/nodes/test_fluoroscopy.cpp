@@ -77,7 +77,7 @@ RodStateVisual rod()
   }
   state.contact_force.resize(state.nodes.size());
   state.insertion = {0.04};
-  state.rotation = state.hand_force = state.hand_torque = state.pressure = {0.0};
+  state.rotation = state.tip_rotation = state.hand_force = state.hand_torque = state.pressure = {0.0};
   return state;
 }
 

@@ -28,17 +28,19 @@ TEST(TrajectoryFile, WritesNumbersThatReadBackToTheSameBits)
   TrajectoryRow row;
   row.insertion = 0.1 + 0.2;
   row.pressure = 1e6 / 3.0;
+  row.tip_rotation = -1.0 / 7.0;
   row.tip = {1.0 / 3.0, -2.0 / 7.0, 1e-17};
   std::istringstream text(toCsv(row));
   std::vector<double> values;
   for (std::string cell; std::getline(text, cell, ',');)
     values.push_back(std::stod(cell));
-  ASSERT_EQ(values.size(), 10U);
+  ASSERT_EQ(values.size(), 11U);
   EXPECT_EQ(values[1], row.insertion);
   EXPECT_EQ(values[5], row.tip.x());
   EXPECT_EQ(values[6], row.tip.y());
   EXPECT_EQ(values[7], row.tip.z());
   EXPECT_EQ(values[9], row.pressure);
+  EXPECT_EQ(values[10], row.tip_rotation);
 }
 
 TEST(TrajectoryFile, ReportsAtTheNextRowThatItsFolderWasRemoved)

@@ -93,7 +93,9 @@ together = {row["time"]: row for row in rows(offline / "trajectory.csv")}
 for row in rows(graph / "trajectory.csv"):
     if row["time"] in together:
         other = together[row["time"]]
-        assert all(row[key] == other[key] for key in ("insertion", "rotation", "hand_force", "hand_torque", "tip_x")), (row, other)
+        assert all(row[key] == other[key] for key in ("insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_rotation")), (row, other)
+assert rows(graph / "instruments.csv") == rows(offline / "instruments.csv"), "instruments.csv of graph and simulate differ"
+assert any(float(row["tip_rotation"]) != 0.0 for row in rows(graph / "instruments.csv"))
 equal("errors", len(metrics["errors"]), len(json.load(open(offline / "metrics.json"))["errors"]))
 shown("%d" % len(metrics["errors"]), "errors", table)
 assert "*" not in re.sub(r"\*: best.*", "", table), "an unfinished session is marked as the best"

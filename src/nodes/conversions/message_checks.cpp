@@ -127,11 +127,11 @@ void requireUsable(const RodStateVisual& state)
 void requireUsable(const RodStateVisual& state, std::size_t instruments)
 {
   requireUsable(state);
-  requireSizes({state.insertion.size(), state.rotation.size(), state.hand_force.size(), state.hand_torque.size(),
-                state.pressure.size()},
+  requireSizes({state.insertion.size(), state.rotation.size(), state.tip_rotation.size(), state.hand_force.size(),
+                state.hand_torque.size(), state.pressure.size()},
                instruments, names::kRodStateVisual, "insertion to pressure", "instruments of the scene");
-  for (const std::vector<double>* values : {&state.insertion, &state.rotation, &state.pressure})
-    requireFinite(*values, names::kRodStateVisual, "insertion, rotation, pressure");
+  for (const std::vector<double>* values : {&state.insertion, &state.rotation, &state.tip_rotation, &state.pressure})
+    requireFinite(*values, names::kRodStateVisual, "insertion, rotation, tip_rotation, pressure");
 }
 
 void requireUsable(const DriveApplied& drive, std::size_t instruments)

@@ -13,8 +13,8 @@ void toMessage(const results::Sample& sample, SessionSample& message)
 {
   message.time = sample.observation.time;
   const std::size_t size = sample.observation.instruments.size();
-  for (std::vector<double>* list :
-       {&message.insertion, &message.rotation, &message.hand_force, &message.hand_torque, &message.pressure})
+  for (std::vector<double>* list : {&message.insertion, &message.rotation, &message.tip_rotation, &message.hand_force,
+                                    &message.hand_torque, &message.pressure})
     list->resize(size);
   message.tip.resize(size);
   for (std::size_t k = 0; k < size; ++k)
@@ -22,6 +22,7 @@ void toMessage(const results::Sample& sample, SessionSample& message)
     const procedure::InstrumentView& view = sample.observation.instruments[k];
     message.insertion[k] = view.hand.insertion;
     message.rotation[k] = view.hand.rotation;
+    message.tip_rotation[k] = view.tip_rotation;
     message.hand_force[k] = view.hand.force;
     message.hand_torque[k] = view.hand.torque;
     message.pressure[k] = view.hand.pressure;
@@ -41,9 +42,9 @@ void toMessage(const results::Sample& sample, SessionSample& message)
 
 results::Sample fromMessage(const SessionSample& message, std::size_t instruments)
 {
-  for (const std::size_t size :
-       {message.insertion.size(), message.rotation.size(), message.hand_force.size(), message.hand_torque.size(),
-        message.pressure.size(), message.tip.size(), message.peak_hand_force.size(), message.peak_hand_torque.size()})
+  for (const std::size_t size : {message.insertion.size(), message.rotation.size(), message.tip_rotation.size(),
+                                 message.hand_force.size(), message.hand_torque.size(), message.pressure.size(),
+                                 message.tip.size(), message.peak_hand_force.size(), message.peak_hand_torque.size()})
     if (size != instruments)
       throw InputError(
           names::kSessionSample, "insertion to peak_hand_torque",
@@ -56,6 +57,7 @@ results::Sample fromMessage(const SessionSample& message, std::size_t instrument
     view.hand = {message.insertion[k], message.rotation[k], message.hand_force[k], message.hand_torque[k],
                  message.pressure[k]};
     view.tip = fromMessage(message.tip[k]);
+    view.tip_rotation = message.tip_rotation[k];
     sample.observation.instruments.push_back(view);
   }
   procedure::markCovered(sample.observation);

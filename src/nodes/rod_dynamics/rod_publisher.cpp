@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
+#include "nodes/rod_dynamics/instruments/instrument_observation.h"
 #include "nodes/runtime/ros_names.h"
 #include "results/run_result.h"
+#include "simulation/instrument_tip.h"
 #include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
@@ -78,6 +78,7 @@ void RodPublisher::publishVisual(const simulation::Simulation& simulation)
   message.time = simulation.time();
   message.insertion.clear();
   message.rotation.clear();
+  message.tip_rotation.clear();
   message.hand_force.clear();
   message.hand_torque.clear();
   message.pressure.clear();
@@ -86,6 +87,7 @@ void RodPublisher::publishVisual(const simulation::Simulation& simulation)
     const simulation::HandState hand = simulation.hand(k);
     message.insertion.push_back(hand.insertion);
     message.rotation.push_back(hand.rotation);
+    message.tip_rotation.push_back(simulation::tipRotation(simulation, k));
     message.hand_force.push_back(hand.force);
     message.hand_torque.push_back(hand.torque);
     message.pressure.push_back(hand.pressure);
@@ -116,19 +118,15 @@ void RodPublisher::publishTreatment(const simulation::Simulation& simulation)
 
 void RodPublisher::publishTip(const simulation::Simulation& simulation)
 {
-  const std::vector<Eigen::Vector3d>& x = simulation.state().position;
-  const std::size_t n = x.size();
-  const Eigen::Quaterniond rotation =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (x[n - 1] - x[n - 2]).normalized());
+  const geometry_msgs::Pose tip = tipPose(simulation, static_cast<std::size_t>(simulation.state().reference));
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = now_;
   transform.header.frame_id = names::kPatientFrame;
   transform.child_frame_id = names::kTipFrame;
-  transform.transform.translation = toVector(x[n - 1]);
-  transform.transform.rotation.x = rotation.x();
-  transform.transform.rotation.y = rotation.y();
-  transform.transform.rotation.z = rotation.z();
-  transform.transform.rotation.w = rotation.w();
+  transform.transform.translation.x = tip.position.x;
+  transform.transform.translation.y = tip.position.y;
+  transform.transform.translation.z = tip.position.z;
+  transform.transform.rotation = tip.orientation;
   transforms_.sendTransform(transform);
 }
 

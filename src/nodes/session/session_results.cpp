@@ -93,6 +93,7 @@ void SessionResults::add(const RodStateVisual& rod)
       static_cast<std::size_t>(std::max_element(rod.insertion.begin(), rod.insertion.end()) - rod.insertion.begin());
   row.insertion = rod.insertion.at(furthest);
   row.rotation = rod.rotation.at(furthest);
+  row.tip_rotation = rod.tip_rotation.at(furthest);
   row.hand_force = rod.hand_force.at(furthest);
   row.hand_torque = rod.hand_torque.at(furthest);
   row.tip = {tip.x, tip.y, tip.z};

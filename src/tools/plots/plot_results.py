@@ -21,13 +21,14 @@ NUMERICAL = ("inertia", "positions", "twisting", "lengths", "iteration", "contac
 SUMS = ("work", "stored", "dissipated", "numerical", "error")
 COLUMNS = ("time", "insertion", "rotation", "hand_force", "hand_torque", "tip_x", "tip_y", "tip_z")
 CURVES = ("time", "insertion", "rotation", "hand_force", "hand_torque")
+TIP = "tip_rotation"  # absent in results of earlier versions
 
 
 def read_trajectory(path):
     """Columns of a trajectory.csv as lists of floats, SI units."""
     if not os.path.isfile(path):
         tools.fail("%s: no such file; give the results folder of a session or of `simulate`" % path)
-    columns = {name: [] for name in COLUMNS}
+    columns = {name: [] for name in COLUMNS + (TIP,)}
     with open(path, newline="") as stream:
         reader = csv.DictReader(stream)
         missing = [name for name in COLUMNS if name not in (reader.fieldnames or [])]
@@ -35,12 +36,12 @@ def read_trajectory(path):
             tools.fail("%s: no column %s in the header line" % (path, ", ".join(missing)))
         for row in reader:
             try:
-                values = [float(row[name]) for name in COLUMNS]
+                values = [float(row[name]) for name in COLUMNS] + [float(row.get(TIP, "nan"))]
             except (TypeError, ValueError):
                 # The last row of an interrupted session may be incomplete.
                 tools.warn("%s: line %d skipped: not a number in every column" % (path, reader.line_num))
                 continue
-            for name, value in zip(COLUMNS, values):
+            for name, value in zip(COLUMNS + (TIP,), values):
                 columns[name].append(value)
     if not columns["time"]:
         tools.fail("%s: no row; the session ended before the first one" % path)
@@ -66,19 +67,20 @@ def read_instruments(path):
     curves = {}
     for row in tools.read_rows(path):
         try:
-            values = [float(row[name]) for name in CURVES]
+            values = [float(row[name]) for name in CURVES] + [float(row.get(TIP, "nan"))]
         except (KeyError, TypeError, ValueError):
             continue  # the last row of an interrupted session may be incomplete
-        curve = curves.setdefault(row["instrument"], {name: [] for name in CURVES})
-        for name, value in zip(CURVES, values):
+        curve = curves.setdefault(row["instrument"], {name: [] for name in CURVES + (TIP,)})
+        for name, value in zip(CURVES + (TIP,), values):
             curve[name].append(value)
     return curves or None
 
 
 def plot_forces(pyplot, curves, path):
-    """Draws force and torque at every handle over time, force over insertion, and insertion and rotation (dotted) over time.
+    """Draws force and torque at every handle over time, force over insertion, and over time insertion and the rotations of
+    handle (dotted) and tip (dashed).
 
-    `curves`: values of CURVES by instrument. Outside of the introducer an instrument has no force: its curves have a gap."""
+    `curves`: values of CURVES and TIP by instrument. Outside of the introducer an instrument has no force: its curves have a gap."""
     figure, axes = pyplot.subplots(2, 2, figsize=(11, 7), constrained_layout=True)
     rotation = axes[1, 1].twinx()
     for k, (name, data) in enumerate(curves.items()):
@@ -95,11 +97,12 @@ def plot_forces(pyplot, curves, path):
         axes[1, 0].plot(data["time"], shown(data["hand_torque"], 1e3), **style)
         axes[1, 1].plot(data["time"], insertion, **style)
         rotation.plot(data["time"], shown(data["rotation"]), linewidth=0.8, color=colour, linestyle=":")
+        rotation.plot(data["time"], shown(data[TIP]), linewidth=0.8, color=colour, linestyle="--")
     axes[0, 0].set(xlabel="time [s]", ylabel="force at the handle [N]")
     axes[0, 1].set(xlabel="insertion [mm]", ylabel="force at the handle [N]")
     axes[1, 0].set(xlabel="time [s]", ylabel="torque at the handle [mN·m]")
     axes[1, 1].set(xlabel="time [s]", ylabel="insertion [mm]")
-    rotation.set_ylabel("rotation, dotted [rad]")
+    rotation.set_ylabel("rotation of handle (dotted) and tip (dashed) [rad]")
     axes[0, 0].legend(fontsize="small")
     for axis in axes.flat:
         axis.grid(alpha=0.3)

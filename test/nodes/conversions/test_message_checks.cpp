@@ -30,7 +30,8 @@ RodStateVisual visual()
   state.nodes.resize(3);
   state.radius.assign(3, 4e-4);
   state.contact_force.resize(3);
-  for (auto* values : {&state.insertion, &state.rotation, &state.hand_force, &state.hand_torque, &state.pressure})
+  for (auto* values :
+       {&state.insertion, &state.rotation, &state.tip_rotation, &state.hand_force, &state.hand_torque, &state.pressure})
     values->assign(2, 0.0);
   return state;
 }
@@ -79,7 +80,8 @@ TEST(MessageChecks, RefuseAnIncompleteStateOfTheWire)
 {
   expectRefused<RodStateVisual>(
       visual(), [](const RodStateVisual& state) { requireUsable(state, 2); },
-      {[](RodStateVisual& state) { state.rotation.clear(); },
+      {[](RodStateVisual& state) { state.rotation.clear(); }, [](RodStateVisual& state) { state.tip_rotation.clear(); },
+       [](RodStateVisual& state) { state.tip_rotation[0] = kNan; },
        [](RodStateVisual& state) { state.hand_force.pop_back(); },
        [](RodStateVisual& state) { state.pressure.push_back(0.0); },
        [](RodStateVisual& state) { state.insertion[0] = kNan; },

@@ -6,24 +6,15 @@
 #include <Eigen/Geometry>
 
 #include "nodes/conversions/contact_conversions.h"
-#include "procedure/observation.h"
+#include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::nodes
 {
-namespace
-{
-
-constexpr double kTangentLength = 0.5e-3;  ///< length at the tip that gives its direction [m]
-
-}  // namespace
-
 geometry_msgs::Pose tipPose(const simulation::Simulation& simulation, std::size_t instrument)
 {
   const double inserted = std::max(0.0, simulation.hand(static_cast<int>(instrument)).insertion);
-  const Eigen::Vector3d tip = procedure::pointAt(simulation, inserted);
-  const Eigen::Vector3d behind = procedure::pointAt(simulation, inserted - kTangentLength);
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), (tip - behind).normalized());
+  const Eigen::Vector3d tip = simulation::pointAt(simulation, inserted);
+  const Eigen::Quaterniond turn(simulation::tipFrame(simulation, static_cast<int>(instrument)));
   geometry_msgs::Pose pose;
   pose.position = toPoint(tip);
   pose.orientation.x = turn.x();

@@ -10,7 +10,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Tip of an instrument in the patient frame, x along its tangent; the introducer while the instrument is outside. */
+/** Tip of an instrument in the patient frame, with its material frame (simulation::tipFrame): x along its tangent. The
+ *  introducer while the instrument is outside. */
 geometry_msgs::Pose tipPose(const simulation::Simulation& simulation, std::size_t instrument);
 
 /** True if a contact is one of the wall with this instrument: the outermost one that reaches the contact's node. */

@@ -9,7 +9,7 @@
 #include "nodes/conversions/joint_state_conversions.h"
 #include "nodes/rod_dynamics/instruments/instrument_observation.h"
 #include "nodes/runtime/ros_names.h"
-#include "procedure/observation.h"
+#include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::nodes
 {
@@ -167,7 +167,7 @@ void InstrumentPublisher::publishTip(std::size_t k, const simulation::Simulation
 void InstrumentPublisher::publishWallForce(std::size_t k, const simulation::Simulation& simulation)
 {
   const double inserted = simulation.hand(static_cast<int>(k)).insertion;
-  const Eigen::Vector3d tip = procedure::pointAt(simulation, std::max(0.0, inserted));
+  const Eigen::Vector3d tip = simulation::pointAt(simulation, std::max(0.0, inserted));
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const simulation::WallContact& contact : contacts_)
