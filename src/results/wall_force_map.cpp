@@ -14,6 +14,7 @@ constexpr std::size_t kReserved = 4096;  // reserved triangles with contact, suf
 
 WallForceMap::WallForceMap(double threshold, const vessel::Vessel& vessel)
   : threshold_(threshold),
+    facets_(vessel.mesh),
     finder_(vessel.centreline),
     region_of_triangle_(vessel.mesh.triangles.size(), kUnknown),
     record_of_triangle_(vessel.mesh.triangles.size(), -1),
@@ -34,9 +35,9 @@ WallForceMap::WallForceMap(double threshold, const vessel::Vessel& vessel)
   last_step_over_.reserve(kReserved);
 }
 
-bool WallForceMap::isOnMesh(const simulation::WallContact& contact) const
+bool WallForceMap::isOnMesh(int triangle) const
 {
-  return contact.triangle >= 0 && contact.triangle < static_cast<int>(centres_.size());
+  return triangle >= 0 && triangle < static_cast<int>(centres_.size());
 }
 
 const std::string& WallForceMap::regionName(int region) const
@@ -46,11 +47,14 @@ const std::string& WallForceMap::regionName(int region) const
 
 int WallForceMap::regionOf(const simulation::WallContact& contact)
 {
-  if (!isOnMesh(contact))
-    return finder_.nearest(contact.position);
-  int& region = region_of_triangle_[static_cast<std::size_t>(contact.triangle)];
+  return isOnMesh(contact.triangle) ? regionOf(contact.triangle) : finder_.nearest(contact.position);
+}
+
+int WallForceMap::regionOf(int triangle)
+{
+  int& region = region_of_triangle_[static_cast<std::size_t>(triangle)];
   if (region == kUnknown)
-    region = finder_.nearest(centre(contact.triangle));
+    region = finder_.nearest(centre(triangle));
   return region;
 }
 
@@ -110,22 +114,32 @@ void WallForceMap::add(const std::vector<simulation::WallContact>& contacts, dou
     const int region = regionOf(contact);
     add(whole_, contact, region, force, dt);
     add(accountOf(region), contact, region, force, dt);
-    if (!isOnMesh(contact))
-      continue;
-    WallForce& record = recordOf(contact.triangle, region);
-    record.integral += force * dt;
-    if (force > record.peak)
-    {
-      record.peak = force;
-      record.peak_time = time;
-    }
-    std::uint64_t& last_over =
-        last_step_over_[static_cast<std::size_t>(record_of_triangle_[static_cast<std::size_t>(contact.triangle)])];
-    if (force > threshold_ && last_over != steps_)
-    {
-      last_over = steps_;
-      record.time_over_threshold += dt;
-    }
+    const contact::FacetForces::Shares shares = facets_.divide(contact.normal_force, contact.touched);
+    for (std::size_t k = 0; k < shares.count; ++k)
+      add(shares.share[k], dt);
+    if (shares.count == 0)
+      add({contact.triangle, force}, dt);
+  }
+}
+
+/** Adds the force of one contact on a triangle. */
+void WallForceMap::add(const contact::FacetForce& share, double dt)
+{
+  if (!isOnMesh(share.triangle) || !(share.force > 0.0))
+    return;
+  WallForce& record = recordOf(share.triangle, regionOf(share.triangle));
+  record.integral += share.force * dt;
+  if (share.force > record.peak)
+  {
+    record.peak = share.force;
+    record.peak_time = time_;
+  }
+  std::uint64_t& last_over =
+      last_step_over_[static_cast<std::size_t>(record_of_triangle_[static_cast<std::size_t>(share.triangle)])];
+  if (share.force > threshold_ && last_over != steps_)
+  {
+    last_over = steps_;
+    record.time_over_threshold += dt;
   }
 }
 

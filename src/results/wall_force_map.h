@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/wall/facet_forces.h"
 #include "simulation/contact_forces.h"
 #include "vessel/centreline/branch_finder.h"
 #include "vessel/model/vessel.h"
@@ -36,9 +37,9 @@ struct WallForce
 {
   int triangle = 0;                  ///< index of the triangle
   int region = kNoRegion;            ///< branch of the centreline nearest to the centre of the triangle
-  double peak = 0.0;                 ///< largest force of a single contact [N]
+  double peak = 0.0;                 ///< largest force of a single contact on it [N]
   double peak_time = 0.0;            ///< end of the step with the peak [s]
-  double integral = 0.0;             ///< time integral of the forces [N·s]
+  double integral = 0.0;             ///< time integral of the forces along its normal [N·s]
   double time_over_threshold = 0.0;  ///< time with at least one contact above the threshold [s]
 };
 
@@ -53,9 +54,10 @@ struct WallForceSummary
 
 /** Accumulator of the forces on the wall: per triangle, per region and in total.
  *
- *  The forces are those of wallContacts(), one per node of the wire. Along a line contact, a finer sampling divides the
- *  same load among more contacts. Peaks and times over the threshold therefore depend on the sampling, but sums and
- *  integrals do not. Memory is allocated only at the first contact of a triangle. */
+ *  The forces are those of wallContacts(), one per node of the wire. A node that touches several facets counts as one
+ *  contact in the totals; every triangle receives the share of its own facet, along its normal. Along a line contact, a
+ * finer sampling divides the same load among more contacts. Peaks and times over the threshold therefore depend on the
+ * sampling, but sums and integrals do not. Memory is allocated only at the first contact of a triangle. */
 class WallForceMap
 {
 public:
@@ -92,12 +94,15 @@ private:
     bool is_over = false;    ///< true if a contact of that step exceeds the threshold
   };
 
-  bool isOnMesh(const simulation::WallContact& contact) const;
+  bool isOnMesh(int triangle) const;
+  int regionOf(int triangle);
+  void add(const contact::FacetForce& share, double dt);
   WallForce& recordOf(int triangle, int region);
   Account& accountOf(int region) { return regions_[static_cast<std::size_t>(region) + 1]; }
   void add(Account& account, const simulation::WallContact& contact, int region, double force, double dt);
 
   double threshold_;
+  contact::FacetForces facets_;
   std::vector<Eigen::Vector3d> centres_;
   std::vector<std::string> names_;  ///< names of "no region" and the branches
   vessel::BranchFinder finder_;

@@ -1,5 +1,6 @@
 #include "simulation/contact_forces.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "rod/contact/wall_friction.h"
@@ -16,6 +17,37 @@ void takeNearer(WallContact& contact, const contact::Feature& feature)
   contact.gap = feature.gap;
   contact.position = feature.point;
   contact.triangle = feature.triangle;
+}
+
+/** Lists the triangle of a feature at its place by depth [m]. @param depths of the listed triangles */
+void touch(int triangle, double depth, WallContact& contact, std::array<double, WallContact::kMostFacets>& depths)
+{
+  for (std::size_t k = 0; k < depths.size(); ++k)
+    if (contact.touched[k] < 0 || depth > depths[k])
+    {
+      std::swap(triangle, contact.touched[k]);
+      std::swap(depth, depths[k]);
+    }
+}
+
+/** Lists the triangles that touch every contact's node.
+ *  @param at_node index of the contact at a node; −1: none */
+void listTouched(const Simulation& simulation, const std::vector<int>& at_node, std::vector<WallContact>& contacts)
+{
+  const std::vector<Eigen::Vector3d>& x = simulation.state().position;
+  std::vector<std::array<double, WallContact::kMostFacets>> depths(contacts.size());
+  for (const contact::Feature& feature : simulation.contactSet().features)
+    for (const int side : {0, 1})
+    {
+      const double weight = side == 0 ? 1.0 - feature.parameter : feature.parameter;
+      const auto edge = static_cast<std::size_t>(feature.edge);
+      const int k = at_node[edge + static_cast<std::size_t>(side)];
+      if (weight <= 0.0 || k < 0)
+        continue;
+      const Eigen::Vector3d axis = (1.0 - feature.parameter) * x[edge] + feature.parameter * x[edge + 1];
+      touch(feature.triangle, feature.normal.dot(feature.point - axis), contacts[static_cast<std::size_t>(k)],
+            depths[static_cast<std::size_t>(k)]);
+    }
 }
 
 }  // namespace
@@ -54,6 +86,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
         if (feature.parameter > 0.0 && feature.parameter < 1.0 &&
             contact.node == feature.edge + (feature.parameter > 0.5 ? 0 : 1))
           takeNearer(contact, feature);
+  listTouched(simulation, at_node, contacts);
 }
 
 std::vector<WallContact> wallContacts(const Simulation& simulation)

@@ -1,0 +1,67 @@
+#include "contact/wall/facet_forces.h"
+
+#include <gtest/gtest.h>
+
+namespace endovascular_sim::contact
+{
+namespace
+{
+
+/** Two squares along x that meet on the x axis and rise at 45° on both sides: the lumen lies above. Triangles 0 and 1
+ * push towards +y, 2 and 3 towards −y; 0 and 3 share the edge on the axis. */
+geometry::TriangleMesh trough()
+{
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {{0.0, 0.0, 0.0},  {1.0, 0.0, 0.0}, {1.0, -1.0, 1.0},
+                   {0.0, -1.0, 1.0}, {1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 5, 4}, {0, 4, 1}};
+  return mesh;
+}
+
+}  // namespace
+
+TEST(FacetForces, OfTwoTouchedFacetsAddUpToTheVectorOfTheContact)
+{
+  const FacetForces facets(trough());
+  const double c = std::sqrt(0.5);
+  const Eigen::Vector3d force = 3.0 * Eigen::Vector3d(0.0, c, c) + 1.0 * Eigen::Vector3d(0.0, -c, c);
+  const FacetForces::Shares shares = facets.divide(force, std::array<int, 4>{1, 2, -1, -1});
+  ASSERT_EQ(shares.count, 2U);
+  EXPECT_EQ(shares.share[0].triangle, 1);
+  EXPECT_NEAR(shares.share[0].force, 3.0, 1e-12);
+  EXPECT_EQ(shares.share[1].triangle, 2);
+  EXPECT_NEAR(shares.share[1].force, 1.0, 1e-12);
+}
+
+TEST(FacetForces, OfOneTouchedFacetNeedNoOther)
+{
+  const FacetForces facets(trough());
+  const FacetForces::Shares shares = facets.divide({0.0, 1.0, 1.0}, std::array<int, 4>{0, 0, 3, 2});
+  ASSERT_EQ(shares.count, 1U);
+  EXPECT_EQ(shares.share[0].triangle, 0);
+  EXPECT_NEAR(shares.share[0].force, std::sqrt(2.0), 1e-12);
+}
+
+// The normal of an edge of the mesh lies between those of its two triangles, of which the feature names one.
+TEST(FacetForces, OfAnEdgeAreDividedBetweenItsTriangles)
+{
+  const FacetForces facets(trough());
+  const FacetForces::Shares shares = facets.divide({0.0, 0.0, 2.0}, std::array<int, 1>{0});
+  ASSERT_EQ(shares.count, 2U);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(shares.share[k].force, std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(shares.share[0].triangle + shares.share[1].triangle, 3);
+}
+
+TEST(FacetForces, NeverPullAndNeverNameAForeignTriangle)
+{
+  const FacetForces facets(trough());
+  const FacetForces::Shares shares = facets.divide({0.0, 5.0, 1.0}, std::array<int, 4>{2, 0, 99, -1});
+  ASSERT_EQ(shares.count, 1U);
+  EXPECT_EQ(shares.share[0].triangle, 0);
+  EXPECT_GT(shares.share[0].force, 0.0);
+  EXPECT_EQ(facets.divide({0.0, 0.0, -1.0}, std::array<int, 1>{0}).count, 0U);
+  EXPECT_EQ(facets.divide({0.0, 0.0, 1.0}, std::array<int, 1>{-1}).count, 0U);
+}
+
+}  // namespace endovascular_sim::contact
