@@ -19,6 +19,7 @@ const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // o
 constexpr double kSameLength = 1e-9;      // tolerance for the equality of lengths [m]
 constexpr double kTravelsPerEdge = 4.0;   // smallest ratio of edge length to travel per sub-step
 constexpr double kEdgePerGuide = 0.5;     // largest ratio of edge length to guide length
+constexpr double kSmoothEdge = 0.25;      // largest ratio without ripple of the hand force
 constexpr double kAtmosphere = 101325.0;  // standard atmosphere [Pa]
 constexpr double kShortestEdge = 2e-5;    // smallest ratio of edge length to wire length
 
@@ -129,6 +130,24 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
                       std::to_string(shortest) + " m");
 }
 
+/** Warns of edges with which the force at the hand ripples while nodes leave the introducer's guide. */
+void judgeEdges(const SceneFields& fields, const Scene& scene)
+{
+  const double longest = kSmoothEdge * scene.solver.guide_length;
+  const bool uniform = scene.sampling.kind == SamplingKind::kUniform;
+  const double edge = uniform ? scene.longest() / (scene.sampling.nodes - 1) : scene.sampling.max_edge;
+  if (!scene.introducer || edge <= longest + kSameLength)
+    return;
+  const std::string fault = "edges of " + std::to_string(edge) +
+                            " m are longer than a quarter of solver.guide_length, " + std::to_string(longest) +
+                            " m: the force at the hand ripples; give at ";
+  if (uniform)
+    fields.warn("sampling.nodes",
+                fault + "least " + std::to_string(static_cast<int>(std::ceil(scene.longest() / longest)) + 1));
+  else
+    fields.warn("sampling.max_edge", fault + "most that");
+}
+
 /** Rejects a smooth wall that a balloon would move. */
 void checkWall(const SceneFields& fields, const Scene& scene)
 {
@@ -144,6 +163,7 @@ void checkWall(const SceneFields& fields, const Scene& scene)
 void checkScene(const SceneFields& fields, const Scene& scene)
 {
   checkEdges(fields, scene);
+  judgeEdges(fields, scene);
   const bool held_twice = scene.introducer && scene.proximal_end != rod::EndHold::kFree;
   if (held_twice)
     fields.reject("proximal_end",

@@ -84,6 +84,9 @@ public:
   /** Throws InputError for @p key, which may be a path below this map; an empty key denotes the map itself. */
   [[noreturn]] virtual void reject(const std::string& key, const std::string& remedy) const = 0;
 
+  /** Adds a warning about @p key, as reject() names it. */
+  virtual void warn(const std::string& key, const std::string& remedy) const = 0;
+
   void vector3(const std::string& key, Eigen::Vector3d& value, const Quantity& quantity, Need need = Need::kOptional)
   {
     numbers(key, value.data(), 3, quantity, need);

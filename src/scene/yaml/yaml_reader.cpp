@@ -408,15 +408,28 @@ void SceneReader::list(const std::string& key, std::size_t /*size*/, const std::
 void SceneReader::reject(const std::string& key, const std::string& remedy) const
 {
   rejectMisspeltKey();
-  // The key may be a path below this map. The deepest existing value on the path supplies file and line.
+  const SceneNode& deepest = deepestOn(key);
+  throw InputError(deepest.file, (key.empty() ? path_ : pathOf(key)) + deepest.location(), remedy);
+}
+
+void SceneReader::warn(const std::string& key, const std::string& remedy) const
+{
+  if (report_ == nullptr)
+    return;
+  const SceneNode& deepest = deepestOn(key);
+  report_->warnings.push_back(InputError(deepest.file, pathOf(key) + deepest.location(), remedy).what());
+}
+
+const SceneNode& SceneReader::deepestOn(const std::string& path) const
+{
   const SceneNode* deepest = node_ == nullptr ? &parent_ : node_;
-  std::istringstream path(key);
-  for (std::string word; std::getline(path, word, '.');)
+  std::istringstream words(path);
+  for (std::string word; std::getline(words, word, '.');)
     if (const SceneNode* next = deepest->find(word))
       deepest = next;
     else
       break;
-  throw InputError(deepest->file, (key.empty() ? path_ : pathOf(key)) + deepest->location(), remedy);
+  return *deepest;
 }
 
 void SceneReader::rejectMisspeltKey() const

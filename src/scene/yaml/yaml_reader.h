@@ -58,6 +58,7 @@ public:
   void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
             const std::function<void(SceneFields&, std::size_t)>& visit, Need need) override;
   [[noreturn]] void reject(const std::string& key, const std::string& remedy) const override;
+  void warn(const std::string& key, const std::string& remedy) const override;
 
 private:
   /** Throws InputError for an unknown key within edit distance 2 of a missing known key. A misspelling is a better
@@ -70,6 +71,8 @@ private:
    *  @throws InputError for an impossible value */
   void judge(const SceneNode& node, const std::string& path, const Quantity& quantity, double value);
   std::string pathOf(const std::string& key) const;
+  /** Deepest existing value on a path below this map. */
+  const SceneNode& deepestOn(const std::string& path) const;
 
   const SceneNode* node_;
   const SceneNode& parent_;

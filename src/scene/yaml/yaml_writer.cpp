@@ -128,6 +128,9 @@ void SceneWriter::list(const std::string& key, std::size_t size, const std::func
   }
 }
 
+/** A scene was judged when it was read. */
+void SceneWriter::warn(const std::string& /*key*/, const std::string& /*remedy*/) const {}
+
 void SceneWriter::reject(const std::string& key, const std::string& remedy) const
 {
   throw InputError("scene", key, remedy);

@@ -34,6 +34,7 @@ public:
   void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
             const std::function<void(SceneFields&, std::size_t)>& visit, Need need) override;
   [[noreturn]] void reject(const std::string& key, const std::string& remedy) const override;
+  void warn(const std::string& key, const std::string& remedy) const override;
 
 private:
   void line(const std::string& key, const std::string& value);
