@@ -2,6 +2,7 @@
 
 #include "benchmark/coaxial/coaxial_study.h"
 #include "benchmark/facets/facets_study.h"
+#include "benchmark/force_quality/force_quality_study.h"
 #include "benchmark/mouth/mouth_study.h"
 #include "benchmark/reversal/reversal_study.h"
 #include "benchmark/sleeve/sleeve_study.h"
@@ -35,6 +36,8 @@ const std::vector<Study>& studies()
        facetsTables(), facetsStudy},
       {"mouth", "Introducer's mouth", "force at the hand of curved instruments against quasi-static equilibria",
        mouthTables(), mouthStudy},
+      {"force_quality", "Quality of the force", "changes per millisecond and noise in every shipped scene",
+       forceQualityTables(), forceQualityStudy},
       {"sleeve", "Rod through a sleeve", "force at the hand against the exact elastica", sleeveTables(), sleeveStudy},
       {"x_ray", "X-ray frames", "processor time over pixels and triangles, at rest and after a movement", xRayTables(),
        xRayStudy},

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include "benchmark/study_list.h"
 #include "benchmark/tables_page.h"
 #include "common/output_file.h"
+#include "common/quantities.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -76,6 +78,9 @@ void addOptions(tools::CommandLine& line, Options& options)
               "missing")
       ->required();
   line.flag("--quick", options.study_options.quick, "fewer and smaller cases: a few minutes");
+  line.quantity("--seconds", options.study_options.seconds, "T", quantities::kDuration,
+                "simulated time per scene in force_quality [s]; default: 30, or 3 with --quick")
+      ->check(tools::positiveNumber());
   line.option("--vessel-mesh", options.study_options.vessel_mesh, "FILE",
               "aortic_arch_tree.obj [mm]; default: that of ENDOVASCULAR_DATA_DIR")
       ->check(CLI::ExistingFile);
@@ -113,7 +118,8 @@ int run(const Options& options)
   };
   TablesPage page(textOf(out / "tables.md"));
   const std::string command =
-      std::string("rosrun endovascular_sim benchmark ") + options.study + (study_options.quick ? " --quick" : "");
+      std::string("rosrun endovascular_sim benchmark ") + options.study + (study_options.quick ? " --quick" : "") +
+      (std::isfinite(study_options.seconds) ? " --seconds " + number(study_options.seconds, 6) : "");
   for (const Study& study : studies())
   {
     if (options.study != "all" && options.study != study.name)

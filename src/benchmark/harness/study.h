@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ using Progress = std::function<void(double, const std::string&)>;
 /** Options of all studies. */
 struct StudyOptions
 {
-  bool quick = false;       ///< fewer and smaller cases: minutes instead of an hour
+  bool quick = false;                                         ///< fewer and smaller cases: minutes instead of an hour
+  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< simulated time per scene; NaN: of the study [s]
   std::string vessel_mesh;  ///< path of aortic_arch_tree.obj [mm]; empty: cases that need it are omitted and named
   std::function<std::uint64_t()> allocations;  ///< number of allocations of the process so far; empty: not counted
 };
