@@ -125,6 +125,9 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   if (!iterate(state, input, dt, report))
     return false;
   contacts_.releaseRetained();
+  // The centreline has moved since the twist was relaxed.
+  if (!turned_ && layers_->isCurved())
+    layers_->relaxTwist(state, input, friction_.lastAboutAxis(), *timer_);
   finish(state, dt);
   if (turned_)
     updateTorques(state, input);
