@@ -269,18 +269,22 @@ void Simulation::resample()
     stepper_->resample(sampling_->discretisation());
 }
 
+/** Sets the least radius for contact at every node. */
+void Simulation::prepareContactRadii()
+{
+  if (treatments_.empty())
+    return;
+  const std::vector<double>& radii = treatments_.contactRadii(state_, discretisation(), contactSet());
+  stepper_->setContactRadii(radii);
+  if (audit_ != nullptr)
+    audit_->setContactRadii(radii);
+}
+
 /** Steps the wire, and adds the force and the torque of the introducer's valve on the hand. */
 void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   const double insertion = state_.inserted_length;
   const double rotation = state_.rotation;
-  if (!treatments_.empty())
-  {
-    const std::vector<double>& radii = treatments_.contactRadii(state_, discretisation(), contactSet());
-    stepper_->setContactRadii(radii);
-    if (audit_ != nullptr)
-      audit_->setContactRadii(radii);
-  }
   valve_.release(state_);
   report_.add(stepper_->step(state_, input, dt, pass, contacts_, timer_));
   if (!valve_.present())
@@ -291,6 +295,63 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
   if (audit_ != nullptr)
     audit_->addValve(state_.hand_parts.valve * (state_.inserted_length - insertion),
                      state_.valve_torque * (state_.rotation - rotation));
+}
+
+bool Simulation::isBeyondGrip() const
+{
+  for (int k = 0; k < instruments(); ++k)
+    if (!drive::GripSearch::isWithin(hand(k).force, scene_.instruments[k].drive.force_limit))
+      return true;
+  return false;
+}
+
+/** Search that begins with the state before the sub-step. */
+drive::GripSearch Simulation::gripSearch() const
+{
+  std::vector<drive::GrippingHand> hands;
+  for (int k = 0; k < instruments(); ++k)
+  {
+    const rod::HandleState handle = rod::handleState(before_, k);
+    const double least = std::min(leastInsertion(k), handle.inserted_length);
+    hands.push_back({scene_.instruments[k].drive.force_limit, least, std::max(mostInsertion(k), handle.inserted_length),
+                     handle.inserted_length, handle.force});
+  }
+  return drive::GripSearch(std::move(hands));
+}
+
+/** Steps the wire. A hand that would bear more than its grip slips: the sub-step is repeated until no hand does. */
+void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass)
+{
+  before_ = state_;
+  std::optional<rod::EnergyAudit> audit;
+  if (audit_ != nullptr)
+    audit = *audit_;
+  moveWire(input, dt, pass);
+  if (!scene_.introducer || !report_.solved || !isBeyondGrip())
+    return;
+  const std::vector<rod::LayerInput> wanted = handles_;
+  drive::GripSearch search = gripSearch();
+  hand_positions_.clear();
+  for (const rod::LayerInput& handle : handles_)
+    hand_positions_.push_back(handle.inserted_length);
+  while (report_.solved && !stepper_->contactSet().stale)
+  {
+    hand_forces_.clear();
+    for (int k = 0; k < instruments(); ++k)
+      hand_forces_.push_back(hand(k).force);
+    if (!search.improve(hand_forces_, hand_positions_))
+      break;
+    for (int k = 0; k < instruments(); ++k)
+      handles_[k].inserted_length = hand_positions_[k];
+    setState(before_);
+    if (audit_ != nullptr)
+      *audit_ = *audit;
+    input.setHandles(handles_);
+    moveWire(input, dt, pass);
+  }
+  for (int k = 0; report_.solved && k < instruments(); ++k)
+    if (scene_.instruments[k].drive.grip == drive::Grip::kFingers)
+      channels_[k].slipped_insertion += wanted[k].inserted_length - handles_[k].inserted_length;
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */
@@ -311,16 +372,16 @@ int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::E
 /** Sets the positions of all handles at the end of a sub-step. */
 void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input)
 {
-  std::vector<rod::LayerInput> handles;
+  handles_.clear();
   for (int k = 0; k < instruments(); ++k)
   {
     const HandCommand motion = stale ? HandCommand() : allowedMotion(k, parts[k], dt);
     if (stale)
       channels_[k].pacer.miss(parts[k]);
     const HandState now = hand(k);
-    handles.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
+    handles_.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
   }
-  input.setHandles(handles);
+  input.setHandles(handles_);
 }
 
 void Simulation::stepAll(const std::vector<HandCommand>& commands)
@@ -358,7 +419,8 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     setHandles(parts_, stale, dt, input);
     input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
-    moveWire(input, dt, pass);
+    prepareContactRadii();
+    moveWithinGrips(input, dt, pass);
     if (!report_.solved)
       break;  // the wire keeps its position; later steps make up for the motion of the handle
   }

@@ -10,6 +10,7 @@
 #include "common/hash.h"
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
+#include "drive/grip_search.h"
 #include "rod/boundary/hemostatic_valve.h"
 #include "rod/energy/energy_audit.h"
 #include "rod/sampling/adaptive_sampling.h"
@@ -165,7 +166,11 @@ private:
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
+  void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
+  void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
+  bool isBeyondGrip() const;
+  drive::GripSearch gripSearch() const;
 
   scene::Scene scene_;
   scene::EntryPose entry_;
@@ -180,6 +185,9 @@ private:
   rod::StepReport report_;
   std::vector<Channel> channels_;  ///< one per instrument
   std::vector<HandCommand> wanted_, parts_;
+  rod::State before_;                     ///< state before the present sub-step
+  std::vector<rod::LayerInput> handles_;  ///< of the present sub-step, one per instrument
+  std::vector<double> hand_forces_, hand_positions_;
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
   std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]

@@ -249,7 +249,7 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
 // The wire sticks in the catheter's curved tip, and the fingers slip on it.
 TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
 {
-  Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.4"});
+  Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.48"});
   std::vector<HandCommand> commands = {{0.02, 0.0}, {-0.023, 0.0}};
   const auto move = [&](int instrument, double insertion, double speed)
   {
@@ -264,7 +264,7 @@ TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
   move(0, 0.15, 0.1);
   move(1, 0.10, 0.1);
   move(0, -0.1, 0.05);
-  EXPECT_LT(bench.simulation->reached(0).insertion, bench.simulation->hand(0).insertion - 1e-3);
+  EXPECT_LT(bench.simulation->reached(0).insertion, bench.simulation->hand(0).insertion - 1e-4);
   EXPECT_TRUE(bench.simulation->isOutside(0));
 }
 

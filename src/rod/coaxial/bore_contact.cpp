@@ -73,9 +73,6 @@ void BoreContact::addElasticity(const std::vector<BoreNode>& nodes)
     elastic_[i].own += pull;
     elastic_[i].next -= pull;
     elastic_[i + 1].own += pull;
-    const Eigen::Vector2d push = (std::min(0.0, nodes[i].tension) / nodes[i].edge) * (before_[i + 1] - before_[i]);
-    force_[i] += push;
-    force_[i + 1] -= push;
   }
 }
 

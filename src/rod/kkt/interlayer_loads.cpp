@@ -10,7 +10,11 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr std::size_t kLeastNodes = 5;  // of the solution in a bore
+constexpr std::size_t kLeastNodes = 5;      // of the solution in a bore
+constexpr double kLargestTension = 1e4;     // N, beyond every hand
+constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
+constexpr double kRelativeTolerance = 0.01;
+constexpr int kMaxSolutions = 12;
 
 }  // namespace
 
@@ -165,53 +169,113 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
   }
 }
 
-/** Updates the tension from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted wire.
- */
-void InterlayerLoads::updateTension(const LayerPair& pair, int end, const std::vector<double>& vessel_share,
-                                    const State& state)
+/** Tension before a node, and the load of the node with it.
+ *
+ *  Under the compression C the wire lies in its bore as a helix where r C²/(4 B) exceeds the load of the solution in
+ * the bore. The helix precesses, so that the wire slips along the axis: C' = μ r C²/(4 B), and C/(1 − μ r h C/(4 B))
+ * after the length h. Beyond the pole of this solution no force of the hand reaches the end of the wire:
+ * kLargestTension.
+ *  @param tension, after after the node, without and with the change by bending [N]
+ *  @param friction coefficient times mobilised part times length [m] */
+double InterlayerLoads::tensionBefore(std::size_t i, double tension, double after, double friction, double fit_load)
 {
-  const int first = state.first_node;
-  const LayerState& layer = state.layers[pair.inner];
-  const auto moment = [&](int i) -> Eigen::Vector2d
-  { return nodes_[i - first].moment + nodes_[i - first].stiffness * BoreContact::bend(nodes_, i - first); };
-  double tension = end + 1 < model_.rod.nodes() ? protrusion(pair, end) * tension_[end] : 0.0;
-  Eigen::Vector2d beyond = nodes_.back().moment;
-  Eigen::Vector2d here = moment(end);
-  for (int i = end; i >= first; --i)
+  const BoreLoad& bore = bore_load_[i];
+  const double slope = 0.5 * bore.slope;
+  const double implicit =
+      (fit_load + bore.value + slope * (tension + after - 2.0 * bore.tension)) / (1.0 + slope * friction);
+  double load = std::max(fit_load, implicit);
+  const double helix = nodes_[i].stiffness > 0.0 ? nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
+  if (after < 0.0 && helix * after * after > load)
   {
-    nodes_[i - first].tension = tension;
-    if (end < static_cast<int>(tension_.size()) || i < end)
-      tension_[i] = tension;
-    if (i == first)
-      break;
+    const double before = std::max(-after / kLargestTension, 1.0 + friction * helix * after);
+    load = helix * after * after / before;
+  }
+  load_[i] = load - fit_load;
+  return std::clamp(after - friction * load, -kLargestTension, kLargestTension);
+}
+
+/** Updates tension and loads from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted
+ *  wire.
+ *  @return largest change of the tension [N] */
+double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
+                                      const std::vector<double>& vessel_share)
+{
+  const auto last = static_cast<std::size_t>(end - first);
+  const auto moment = [&](std::size_t i) -> Eigen::Vector2d
+  { return nodes_[i].moment + nodes_[i].stiffness * BoreContact::bend(nodes_, i); };
+  double tension = end + 1 < model_.rod.nodes() ? protrusion(pair, end) * tension_[end] : 0.0;
+  double change = 0.0;
+  Eigen::Vector2d beyond = nodes_.back().moment;
+  Eigen::Vector2d here = moment(last);
+  for (std::size_t i = last;; --i)
+  {
+    change = std::max(change, std::abs(tension - nodes_[i].tension));
+    nodes_[i].tension = tension;
+    if (i == 0)
+      return change;
+    const int node = first + static_cast<int>(i);
     const Eigen::Vector2d before = moment(i - 1);
-    const Eigen::Vector2d curvature = nodes_[i - first].curvature + BoreContact::bend(nodes_, i - first);
-    const double load = vessel_share[i] * stack_.overlap(pair.inner, pair.outer, i) * nodes_[i - first].cell *
-                        (layer.load[i] + stack_.layer(pair.inner).fit_load);
-    tension += 0.5 * curvature.dot(beyond - before) - pair.mobilised * pair.friction * load;
+    const Eigen::Vector2d curvature = nodes_[i].curvature + BoreContact::bend(nodes_, i);
+    const double length = vessel_share[node] * stack_.overlap(pair.inner, pair.outer, node) * nodes_[i].cell;
+    tension = tensionBefore(i, tension, tension + 0.5 * curvature.dot(beyond - before),
+                            pair.mobilised * pair.friction * length, stack_.layer(pair.inner).fit_load);
     beyond = here;
     here = before;
   }
 }
 
+/** Takes over the loads of a solution in the bore. They change with the tension by the curvature towards the side on
+ *  which the wire bears. */
+void InterlayerLoads::updateBoreLoads()
+{
+  for (std::size_t i = 1; i < bore_load_.size(); ++i)
+  {
+    const BoreNode& node = nodes_[i];
+    const double load = bore_.load()[i];
+    bore_load_[i].value = load;
+    bore_load_[i].tension = 0.5 * (nodes_[i - 1].tension + node.tension);
+    bore_load_[i].slope = load > 0.0 ? node.curvature.dot(node.shift) / node.shift.norm() : 0.0;
+  }
+}
+
+/** Solves for tension and loads of a pair together. */
 void InterlayerLoads::updatePair(const LayerPair& pair, const std::vector<double>& vessel_share, State& state)
 {
   const int first = state.first_node;
   const int end = lastCommonNode(pair, state);
   LayerState& layer = state.layers[pair.inner];
   placeNodes(pair, end, state);
-  updateTension(pair, end, vessel_share, state);
+  load_.assign(nodes_.size() - 1, 0.0);
+  bore_load_.assign(nodes_.size() - 1, BoreLoad());
+  for (int i = first; i <= end; ++i)
+    bore_load_[i - first].value = layer.load[i];
+  double change = updateTension(pair, end, first, vessel_share);
+  const bool bears = pair.friction > 0.0 && nodes_.size() >= kLeastNodes;
+  for (int solution = 0; bears && solution < kMaxSolutions && (solution == 0 || change > tolerance()); ++solution)
+  {
+    bore_.solve(nodes_);
+    updateBoreLoads();
+    change = updateTension(pair, end, first, vessel_share);
+  }
   std::fill(layer.load.begin(), layer.load.end(), 0.0);
   std::fill(layer.bore_shift.begin(), layer.bore_shift.end(), Eigen::Vector3d::Zero());
-  if (pair.friction <= 0.0 || nodes_.size() < kLeastNodes)
-    return;
-  bore_.solve(nodes_);
-  for (int i = first; i <= end; ++i)
+  for (int i = first; i <= end && i < static_cast<int>(tension_.size()); ++i)
+    tension_[i] = nodes_[i - first].tension;
+  for (int i = first; bears && i <= end; ++i)
   {
     const Eigen::Vector2d& shift = nodes_[i - first].shift;
-    layer.load[i] = bore_.load()[i - first];
+    layer.load[i] = load_[i - first];
     layer.bore_shift[i] = shift.x() * director_[i] + shift.y() * normal_[i];
   }
+}
+
+/** Change of the tension below which tension and loads agree [N]. */
+double InterlayerLoads::tolerance() const
+{
+  double largest = 0.0;
+  for (const BoreNode& node : nodes_)
+    largest = std::max(largest, std::abs(node.tension));
+  return kTensionTolerance + kRelativeTolerance * largest;
 }
 
 }  // namespace endovascular_sim::rod

@@ -21,11 +21,13 @@ struct LayerPair
   double mobilised = 0.0;  ///< acting part of the friction along the wire, −1 to 1; positive against insertion
 };
 
-/** Normal loads between neighbouring layers (docs/PHYSICS.md, "Friction between layers").
+/** Normal loads between neighbouring layers (docs/PHYSICS.md, "Normal load between layers").
  *
  *  The layers inside a gap are one wire in the bore of the next layer, whose axis is the centreline. Its tension is
  * that of the stack beyond the tip of the outer layer, and from there to the introducer it changes with its curvature
- * and with the friction in the gap. The friction is that of the loads of the last step. */
+ * and with the friction in the gap. Tension, load and friction are those of one solution: the load is linear in the
+ * tension near the last solution in the bore, the tension follows from the friction of that load, and both are
+ * repeated while the tension changes. A wire under compression bears at least with the load of its helix. */
 class InterlayerLoads
 {
 public:
@@ -39,6 +41,14 @@ public:
               State& state);
 
 private:
+  /** Load of a solution in the bore, near the tension of that solution. */
+  struct BoreLoad
+  {
+    double value = 0.0;    ///< at the tension of the solution [N/m]
+    double tension = 0.0;  ///< mean of the tensions on both sides of the node [N]
+    double slope = 0.0;    ///< change with that mean [1/m]
+  };
+
   void updateCentreline(const State& state);
   void updateMoments(const LayerTwists& twists, const State& state);
   void updateStackTension(const State& state);
@@ -48,7 +58,10 @@ private:
   int lastCommonNode(const LayerPair& pair, const State& state) const;
   double protrusion(const LayerPair& pair, int end) const;
   void placeNodes(const LayerPair& pair, int end, const State& state);
-  void updateTension(const LayerPair& pair, int end, const std::vector<double>& vessel_share, const State& state);
+  double updateTension(const LayerPair& pair, int end, int first, const std::vector<double>& vessel_share);
+  double tensionBefore(std::size_t i, double tension, double after, double friction, double fit_load);
+  void updateBoreLoads();
+  double tolerance() const;
   Eigen::Vector2d across(const Eigen::Vector3d& vector, int node) const;
 
   const ConcentricStack& stack_;
@@ -56,8 +69,10 @@ private:
   BoreContact bore_;
   std::vector<Eigen::Vector3d> binormal_, tangent_, director_, normal_;  ///< of every node; Bishop frame
   std::vector<std::vector<Eigen::Vector3d>> moment_;  ///< bending moment of every layer and those inside it [N·m]
-  std::vector<double> tension_;  ///< of the layers inside the present gap; beyond its outer layer, of the stack [N]
-  std::vector<BoreNode> nodes_;  ///< of the present pair, from the first node of the state on
+  std::vector<double> tension_;      ///< of the layers inside the present gap; beyond its outer layer, of the stack [N]
+  std::vector<BoreNode> nodes_;      ///< of the present pair, from the first node of the state on
+  std::vector<BoreLoad> bore_load_;  ///< of the last solution in the bore, at these nodes
+  std::vector<double> load_;         ///< with the helix, at these nodes [N/m]
 };
 
 }  // namespace endovascular_sim::rod

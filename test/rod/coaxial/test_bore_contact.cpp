@@ -166,9 +166,8 @@ double imbalance(const std::vector<BoreNode>& before, const std::vector<BoreNode
     force[i] -= kRestoring * nodes[i].cell * (nodes[i].shift - before[i].shift);
     const auto pull = [&](std::size_t edge) -> Vector2d
     {
-      const std::vector<BoreNode>& of = nodes[edge].tension > 0.0 ? nodes : before;  // compression acts explicitly
-      const Vector2d from = of[edge].shift * (edge < 2 ? 0.0 : 1.0);
-      return nodes[edge].tension / nodes[edge].edge * (of[edge + 1].shift - from);
+      const double tension = std::max(0.0, nodes[edge].tension);  // compression has no part
+      return tension / nodes[edge].edge * (nodes[edge + 1].shift - nodes[edge].shift);
     };
     force[i] += (i < last ? pull(i) : Vector2d::Zero().eval()) - pull(i - 1);
     force[i] -= load[i] * nodes[i].cell * nodes[i].shift.normalized();
