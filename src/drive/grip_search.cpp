@@ -14,7 +14,7 @@ constexpr double kStiffness = 1e5;       // N/m, of an instrument at a stop, whe
 constexpr double kLeastStride = 1e-8;    // m
 constexpr double kLargestStride = 1e-3;  // m
 constexpr double kLeastInterval = 1e-7;  // m between the two nearest trials
-constexpr int kMaxTrials = 20;
+constexpr int kMaxTrials = 16;
 constexpr int kMaxFalse = 2;    // trials on the same side, after which the next one is close to the other side
 constexpr double kClose = 0.1;  // of the interval
 

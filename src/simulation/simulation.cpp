@@ -350,8 +350,21 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
     moveWire(input, dt, pass);
   }
   for (int k = 0; report_.solved && k < instruments(); ++k)
-    if (scene_.instruments[k].drive.grip == drive::Grip::kFingers)
-      channels_[k].slipped_insertion += wanted[k].inserted_length - handles_[k].inserted_length;
+    noteSlip(k, wanted[k].inserted_length, handles_[k].inserted_length);
+}
+
+/** Takes over the slip of a hand: its grip is as loose as the motion has shown.
+ *  @param wanted, reached insertions [m] */
+void Simulation::noteSlip(int instrument, double wanted, double reached)
+{
+  Channel& channel = channels_[instrument];
+  const double before = rod::handleState(before_, instrument).inserted_length;
+  if (wanted == reached)
+    return;
+  if (wanted != before)
+    channel.grip = std::min(channel.grip, std::clamp((reached - before) / (wanted - before), 0.0, 1.0));
+  if (scene_.instruments[instrument].drive.grip == drive::Grip::kFingers)
+    channel.slipped_insertion += wanted - reached;
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */

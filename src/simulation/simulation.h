@@ -169,6 +169,7 @@ private:
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
+  void noteSlip(int instrument, double wanted, double reached);
   bool isBeyondGrip() const;
   drive::GripSearch gripSearch() const;
 

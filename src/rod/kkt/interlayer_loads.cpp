@@ -14,6 +14,7 @@ constexpr std::size_t kLeastNodes = 5;      // of the solution in a bore
 constexpr double kLargestTension = 1e4;     // N, beyond every hand
 constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
 constexpr double kRelativeTolerance = 0.01;
+constexpr double kHelixShare = 0.85;  // of the load of a helix, with the reversals of its hand and its ends
 constexpr int kMaxSolutions = 12;
 
 }  // namespace
@@ -184,12 +185,12 @@ double InterlayerLoads::tensionBefore(std::size_t i, double tension, double afte
   const double implicit =
       (fit_load + bore.value + slope * (tension + after - 2.0 * bore.tension)) / (1.0 + slope * friction);
   double load = std::max(fit_load, implicit);
-  const double helix = nodes_[i].stiffness > 0.0 ? nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
+  const double helix =
+      nodes_[i].stiffness > 0.0 ? kHelixShare * nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
   if (after < 0.0 && helix * after * after > load)
-  {
-    const double before = std::max(-after / kLargestTension, 1.0 + friction * helix * after);
-    load = helix * after * after / before;
-  }
+    load = helix * after * after / std::max(-after / kLargestTension, 1.0 + friction * helix * after);
+  if (friction > 0.0)
+    load = std::min(load, std::max(0.0, kLargestTension + after) / friction);
   load_[i] = load - fit_load;
   return std::clamp(after - friction * load, -kLargestTension, kLargestTension);
 }

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace endovascular_sim::benchmark
+{
+
+/** Path of a catheter. */
+enum class JamPath
+{
+  kRightAngle,  ///< bend of 90°
+  kHairpin,     ///< bend of 180°
+  kS,           ///< two bends of 90° in opposite directions
+};
+
+/** Wire that is pushed through a catheter against a closed end, with bends of 30 mm radius. */
+struct JamCase
+{
+  std::string name;
+  double grip = 5.0;      ///< force limit of both hands [N]
+  double friction = 0.3;  ///< between wire and catheter [1]
+  JamPath path = JamPath::kRightAngle;
+  double clearance = 4e-4;  ///< radius of the bore less that of the wire [m]
+};
+
+/** The cases of grips, frictions and paths. Each clearance occurs with every other value. */
+std::vector<JamCase> jamCases();
+
+/** Jam at one time. */
+struct JamSample
+{
+  double tip_load = 0.0;              ///< compression of the wire beyond the catheter [N]
+  double wire = 0.0;                  ///< force of the wire on its hand [N]
+  double catheter = 0.0;              ///< force of the catheter on its hand [N]
+  double insertion = 0.0;             ///< of the wire [m]
+  std::vector<Eigen::Vector3d> axis;  ///< centreline [m]
+};
+
+/** Largest values over a run. */
+struct JamResult
+{
+  double hand_ratio = 0.0;   ///< force on a hand over its grip [1]
+  double layer_force = 0.0;  ///< force on a layer over the sum of the grips [1]
+  double imbalance = 0.0;    ///< sum over the hands less the force of the stack [N]
+  double unexplained = 0.0;  ///< work that the energy audit does not explain over its turnover [1]
+  int rejected = 0;          ///< steps
+  JamSample pushed;          ///< largest force of the wire while it slides and no hand slips
+  JamSample jammed;          ///< at the end
+};
+
+JamResult runJam(const JamCase& at);
+
+/** Force of the hand on the same wire in a rigid tube of the catheter's bore along a recorded axis, pushed slowly
+ *  against the load of the sample on its tip [N]. */
+double forceInRigidTube(const JamCase& at, const JamSample& sample);
+
+}  // namespace endovascular_sim::benchmark
