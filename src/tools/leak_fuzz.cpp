@@ -45,6 +45,7 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--steps", options.steps, "N", "total number of steps [1000000]");
   line.option("--seed", options.settings.seed, "S", "seed of the random choices [1]");
   line.flag("--smooth", options.settings.smooth, "smooth walls (vessel.wall: smooth) in place of facets");
+  line.flag("--coaxial", options.settings.coaxial, "a wire in a catheter, each with a hand of its own");
   line.flag("--resume", options.resume, "continues from DIR/leak_fuzz.json");
   line.option("--episode", options.episode, "K", "runs this episode only, prints its result and writes no file");
   line.repeated("--mesh", options.meshes, "FILE",
@@ -87,6 +88,8 @@ std::string reproduction(const Options& options)
   std::string command = "rosrun endovascular_sim leak_fuzz --seed " + std::to_string(options.settings.seed);
   if (options.settings.smooth)
     command += " --smooth";
+  if (options.settings.coaxial)
+    command += " --coaxial";
   for (const std::string& mesh : options.meshes)
     command += " --mesh " + mesh;
   for (const std::string& value : options.settings.overrides)

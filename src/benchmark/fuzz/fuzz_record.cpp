@@ -33,6 +33,7 @@ Json toJson(const FuzzEpisode& e)
           {"depth_step", e.depth_step},
           {"depth_place", e.depth_place},
           {"hand_force", e.force},
+          {"over_grips", e.over_grips},
           {"max_strain", e.max_strain}};
 }
 
@@ -53,6 +54,7 @@ FuzzEpisode episodeOf(const Json& json)
   e.depth_step = json.at("depth_step");
   e.depth_place = json.at("depth_place");
   e.force = json.at("hand_force");
+  e.over_grips = json.at("over_grips");
   e.max_strain = json.at("max_strain");
   return e;
 }
@@ -60,11 +62,12 @@ FuzzEpisode episodeOf(const Json& json)
 Table worstTable(const std::vector<FuzzEpisode>& worst)
 {
   Table table({"episode", "vessel", "depth [mm]", "at step", "from the introducer [mm]", "escaped", "not finite",
-               "refused", "hand [N]", "strain", "what"});
+               "refused", "hand [N]", "of the grips", "strain", "what"});
   for (const FuzzEpisode& e : worst)
     table.add({std::to_string(e.number), e.vessel, number(1e3 * e.depth), std::to_string(e.depth_step),
                number(1e3 * e.depth_place), e.escaped ? "yes" : "no", e.finite ? "no" : "yes",
-               std::to_string(e.rejected), number(e.force), number(e.max_strain, 2), e.description});
+               std::to_string(e.rejected), number(e.force), number(e.over_grips, 3), number(e.max_strain, 2),
+               e.description});
   return table;
 }
 
@@ -77,7 +80,8 @@ FuzzRecord::FuzzRecord(FuzzSettings settings, std::vector<std::string> kinds)
 
 bool FuzzRecord::isWorse(const FuzzEpisode& a, const FuzzEpisode& b) const
 {
-  const auto rank = [](const FuzzEpisode& e) { return (e.finite ? 0 : 2) + (e.escaped ? 1 : 0); };
+  const auto rank = [](const FuzzEpisode& e)
+  { return (e.finite ? 0 : 4) + (e.escaped ? 2 : 0) + (e.over_grips > kFuzzOverGrips ? 1 : 0); };
   return rank(a) != rank(b) ? rank(a) > rank(b) : a.depth > b.depth;
 }
 
@@ -89,6 +93,8 @@ void FuzzRecord::add(const FuzzEpisode& episode)
   escapes_ += episode.escaped;
   not_finite_ += !episode.finite;
   too_deep_ += episode.depth > kFuzzDepth;
+  too_strong_ += episode.over_grips > kFuzzOverGrips;
+  over_grips_ = std::max(over_grips_, episode.over_grips);
   rejected_ += static_cast<std::uint64_t>(episode.rejected);
   hit_iteration_limit_ += static_cast<std::uint64_t>(episode.hit_iteration_limit);
   VesselTotal& total = vessels_[episode.vessel];
@@ -116,6 +122,7 @@ std::string FuzzRecord::json() const
     worst.push_back(toJson(episode));
   const Json json = {{"seed", settings_.seed},
                      {"steps_per_episode", settings_.steps_per_episode},
+                     {"coaxial", settings_.coaxial},
                      {"overrides", settings_.overrides},
                      {"kinds", kinds_},
                      {"good", good()},
@@ -125,6 +132,8 @@ std::string FuzzRecord::json() const
                      {"escapes", escapes_},
                      {"not_finite", not_finite_},
                      {"too_deep", too_deep_},
+                     {"too_strong", too_strong_},
+                     {"over_grips", over_grips_},
                      {"depth", depth()},
                      {"refused_steps", rejected_},
                      {"steps_at_solve_limit", hit_iteration_limit_},
@@ -139,7 +148,8 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
   {
     const Json json = Json::parse(text);
     if (json.at("seed") != settings_.seed || json.at("steps_per_episode") != settings_.steps_per_episode ||
-        json.at("overrides") != Json(settings_.overrides) || json.at("kinds") != Json(kinds_))
+        json.at("coaxial") != settings_.coaxial || json.at("overrides") != Json(settings_.overrides) ||
+        json.at("kinds") != Json(kinds_))
       throw InputError(origin, "",
                        "belongs to another seed, episode length, overrides or list of vessels; give the same "
                        "ones, or another --out");
@@ -149,6 +159,8 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
     escapes_ = json.at("escapes");
     not_finite_ = json.at("not_finite");
     too_deep_ = json.at("too_deep");
+    too_strong_ = json.at("too_strong");
+    over_grips_ = json.at("over_grips");
     rejected_ = json.at("refused_steps");
     hit_iteration_limit_ = json.at("steps_at_solve_limit");
     vessels_.clear();
@@ -176,7 +188,9 @@ std::string FuzzRecord::markdown(const std::string& command, const std::vector<s
                      " times: " + std::to_string(escapes_) + " escapes, " + std::to_string(not_finite_) +
                      " not finite, " + std::to_string(too_deep_) + " deeper than " + number(1e3 * kFuzzDepth) +
                      " mm beyond the wall's compliance (deepest " + number(1e3 * depth()) + " mm), " +
-                     std::to_string(rejected_) + " steps rejected. " + (good() ? "Good." : "NOT GOOD.") + "\n\n";
+                     std::to_string(too_strong_) + " with a hand beyond " + number(kFuzzOverGrips) +
+                     " of the grips (largest " + number(over_grips_, 3) + "), " + std::to_string(rejected_) +
+                     " steps rejected. " + (good() ? "Good." : "NOT GOOD.") + "\n\n";
   Table totals({"vessel", "episodes", "steps", "escapes", "deepest [mm]"});
   for (const auto& [name, total] : vessels_)
     totals.add({name, std::to_string(total.episodes), std::to_string(total.steps), std::to_string(total.escapes),

@@ -24,8 +24,8 @@ public:
   std::uint64_t notFinite() const { return not_finite_; }
   double depth() const { return worst_.empty() ? 0.0 : worst_.front().depth; }  ///< largest penetration depth [m]
 
-  /** No escape, no NaN, no depth beyond kFuzzDepth. */
-  bool good() const { return escapes_ == 0 && not_finite_ == 0 && too_deep_ == 0; }
+  /** No escape, no NaN, no depth beyond kFuzzDepth, no force beyond kFuzzOverGrips. */
+  bool good() const { return escapes_ == 0 && not_finite_ == 0 && too_deep_ == 0 && too_strong_ == 0; }
 
   /** Results as JSON; also the state for resume(). */
   std::string json() const;
@@ -56,7 +56,8 @@ private:
 
   FuzzSettings settings_;
   std::vector<std::string> kinds_;
-  std::uint64_t next_ = 0, steps_ = 0, checks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0;
+  std::uint64_t next_ = 0, steps_ = 0, checks_ = 0, escapes_ = 0, not_finite_ = 0, too_deep_ = 0, too_strong_ = 0;
+  double over_grips_ = 0.0;  ///< largest force on a hand relative to the sum of the grips
   std::uint64_t rejected_ = 0, hit_iteration_limit_ = 0;
   std::map<std::string, VesselTotal> vessels_;
   std::vector<FuzzEpisode> worst_;  ///< sorted, worst first

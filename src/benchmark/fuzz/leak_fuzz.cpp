@@ -38,6 +38,8 @@ struct Setup
   double friction, force_limit;
   std::string sampling;
   double tip_width;  // ratio of the radius of the tip to that of the shaft
+  double clearance, thickness, stiffness_ratio, layer_friction, outer_limit;  // of a catheter over the wire
+  bool coaxial;
 };
 
 /** Largest radius of a wire in the vessel [m]. In trees it also encounters narrower branches. */
@@ -51,7 +53,20 @@ double largestRadius(const FuzzVessel& vessel)
   return 0.5 * widest_end;
 }
 
-Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
+/** Chooses a catheter that has room in the vessel around the wire. */
+void addCatheter(const FuzzVessel& vessel, FuzzRandom& random, Setup& setup)
+{
+  setup.radius = std::min({setup.radius, 0.45e-3, 0.4 * largestRadius(vessel)});
+  const double room = largestRadius(vessel) - setup.radius;
+  setup.clearance = std::min(random.logBetween(0.03e-3, 0.5e-3), 0.5 * room);
+  setup.thickness = std::min(random.between(0.1e-3, 0.4e-3), 0.5 * room);
+  setup.stiffness_ratio = random.logBetween(0.2, 10.0);
+  setup.layer_friction = random.chance(0.2) ? 0.0 : random.between(0.0, 0.4);
+  setup.outer_limit = random.logBetween(1.0, 100.0);
+  setup.force_limit = random.logBetween(1.0, 100.0);
+}
+
+Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random, bool coaxial)
 {
   Setup setup;
   setup.length = random.between(0.1, 0.3);
@@ -81,23 +96,58 @@ Setup randomSetup(const FuzzVessel& vessel, FuzzRandom& random)
     setup.radius = random.between(0.6e-3, 1.33e-3);  // catheters, to 8F
   setup.radius = std::min(setup.radius, largestRadius(vessel));
   setup.tip_width = random.chance(0.3) ? random.between(0.3, 1.0) : 1.0;
+  setup.coaxial = coaxial;
+  if (coaxial)
+    addCatheter(vessel, random, setup);
   return setup;
+}
+
+std::string wireText(const Setup& setup)
+{
+  std::ostringstream out;
+  out.precision(12);
+  out << "{name: wire, sections: [{length: " << setup.length - setup.tip_length << ", radius: " << setup.radius
+      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.bending
+      << ", poisson_ratio: 0.3}, {length: " << setup.tip_length << ", radius: " << setup.tip_width * setup.radius
+      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.tip_bending << ", poisson_ratio: 0.3";
+  if (setup.tip_radius > 0.0)
+    out << ", rest_curvature: {radius: " << setup.tip_radius << ", direction: 0}";
+  out << "}]}";
+  return out.str();
+}
+
+std::string catheterText(const Setup& setup)
+{
+  std::ostringstream out;
+  out.precision(12);
+  const double bore = setup.radius + setup.clearance;
+  out << "{name: catheter, kind: catheter, inner_radius: " << bore << ", sections: [{length: " << setup.length
+      << ", radius: " << bore + setup.thickness << ", material: polymer, density: 1200, bending_stiffness: "
+      << std::max(1.6e-6, setup.stiffness_ratio * setup.bending) << ", poisson_ratio: 0.3}]}";
+  return out.str();
+}
+
+std::string driveText(double force_limit)
+{
+  std::ostringstream out;
+  out.precision(12);
+  out << "{source: script, initial_insertion: " << kInitialInsertion
+      << ", insertion: {points: [[0, 0]]}, rotation: {points: [[0, 0]]}, force_limit: " << force_limit << "}";
+  return out.str();
 }
 
 std::string sceneText(const Setup& setup)
 {
   std::ostringstream out;
   out.precision(12);
-  out << "name: fuzz\nduration: 1.0e6\nvessel: none\ninstrument:\n  name: wire\n  sections:\n"
-      << "    - {length: " << setup.length - setup.tip_length << ", radius: " << setup.radius
-      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.bending << ", poisson_ratio: 0.3}\n"
-      << "    - {length: " << setup.tip_length << ", radius: " << setup.tip_width * setup.radius
-      << ", material: nitinol, density: 6450, bending_stiffness: " << setup.tip_bending << ", poisson_ratio: 0.3";
-  if (setup.tip_radius > 0.0)
-    out << ", rest_curvature: {radius: " << setup.tip_radius << ", direction: 0}";
-  out << "}\ndrive:\n  source: script\n  initial_insertion: " << kInitialInsertion
-      << "\n  insertion: {points: [[0, 0]]}\n  rotation: {points: [[0, 0]]}\n  force_limit: " << setup.force_limit
-      << "\nsampling: " << setup.sampling << "\nsolver: {time_step: " << setup.time_step << "}\n";
+  out << "name: fuzz\nduration: 1.0e6\nvessel: none\n";
+  if (setup.coaxial)
+    out << "instruments:\n  - {instrument: " << wireText(setup) << ", friction: " << setup.layer_friction
+        << ", fit_load: 0, drive: " << driveText(setup.force_limit) << "}\n  - {instrument: " << catheterText(setup)
+        << ", drive: " << driveText(setup.outer_limit) << "}\n";
+  else
+    out << "instrument: " << wireText(setup) << "\ndrive: " << driveText(setup.force_limit) << "\n";
+  out << "sampling: " << setup.sampling << "\nsolver: {time_step: " << setup.time_step << "}\n";
   return out.str();
 }
 
@@ -109,7 +159,11 @@ std::string describe(const Setup& setup, const FuzzVessel& vessel)
          (setup.tip_radius > 0.0 ? "of " + number(1e3 * setup.tip_radius) + " mm" : std::string("straight")) + ", " +
          setup.sampling + ", Δt " + number(1e3 * setup.time_step) + " ms, wall " +
          (std::isfinite(setup.stiffness) ? number(1e-6 * setup.stiffness) + " N/mm per mm" : std::string("rigid")) +
-         ", μ " + number(setup.friction) + ", slips at " + number(setup.force_limit) + " N";
+         ", μ " + number(setup.friction) + ", slips at " + number(setup.force_limit) + " N" +
+         (setup.coaxial ? "; catheter with " + number(1e3 * setup.clearance) + " mm clearance, EI ratio " +
+                              number(setup.stiffness_ratio) + ", μ " + number(setup.layer_friction) + ", slips at " +
+                              number(setup.outer_limit) + " N"
+                        : std::string());
 }
 
 /** Hand with abrupt random pushes, pulls and turns. */
@@ -239,10 +293,11 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
 {
   FuzzRandom random(settings.seed, number);
   FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
-  const Setup setup = randomSetup(vessel, random);
+  const Setup setup = randomSetup(vessel, random, settings.coaxial);
   scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
   scene.solver.stepper.curved_wall = settings.smooth;
-  const scene::EntryPose entry = randomEntry(vessel, random, setup.radius, 1.5 * kInitialInsertion);
+  const double widest = setup.radius + (setup.coaxial ? setup.clearance + setup.thickness : 0.0);
+  const scene::EntryPose entry = randomEntry(vessel, random, widest, 1.5 * kInitialInsertion);
   WallSource wall(detectorOf(vessel), setup.stiffness, setup.friction);
   simulation::Simulation simulation(scene, entry, &wall, &vessel.vessel.centreline);
 
@@ -251,16 +306,22 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   episode.vessel = vessel.name;
   episode.description = describe(setup, vessel);
   std::vector<CheckedNode> nodes;
-  RandomHand hand(random, setup.time_step, setup.length);
+  std::vector<RandomHand> hands(setup.coaxial ? 2 : 1, RandomHand(random, setup.time_step, setup.length));
+  const double grips = setup.force_limit + (setup.coaxial ? setup.outer_limit : 0.0);
   while (episode.steps < settings.steps_per_episode && episode.finite && !episode.escaped)
   {
-    simulation.step(hand.next());
+    std::vector<simulation::HandCommand> commands;
+    for (RandomHand& hand : hands)
+      commands.push_back(hand.next());
+    simulation.stepAll(commands);
     ++episode.steps;
     const rod::StepReport& report = simulation.report();
     episode.rejected += !report.solved;
     episode.hit_iteration_limit += report.hit_iteration_limit;
     episode.max_strain = std::max(episode.max_strain, report.max_strain);
-    episode.force = std::max(episode.force, std::abs(simulation.state().hand_force));
+    for (int k = 0; k < simulation.instruments(); ++k)
+      episode.force = std::max(episode.force, std::abs(simulation.hand(k).force));
+    episode.over_grips = episode.force / grips;
     const bool suspicious = simulation.surfacePenetration() > kSuspicious || !report.solved;
     if (suspicious || episode.steps % kCheckInterval == 0)
       checkWire(simulation, setup.stiffness, *vessel.check, episode, nodes);

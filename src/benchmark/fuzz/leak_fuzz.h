@@ -15,6 +15,7 @@ struct FuzzSettings
   std::uint64_t seed = 1;
   int steps_per_episode = 400;
   bool smooth = false;                 ///< smooth walls (vessel.wall: smooth) in place of facets
+  bool coaxial = false;                ///< a wire in a catheter, each with a hand of its own
   std::vector<std::string> overrides;  ///< overrides `key.path=value` of every scene
 };
 
@@ -34,19 +35,24 @@ struct FuzzEpisode
   double depth = 0.0;           ///< largest penetration depth of the surface minus the compliance of the wall [m]
   int depth_step = 0;           ///< step of the largest depth
   double depth_place = 0;       ///< arc length from the introducer to the largest depth [m]
-  double force = 0.0;           ///< largest force at the hand [N]
+  double force = 0.0;           ///< largest force on a hand [N]
+  double over_grips = 0.0;      ///< largest force on a hand relative to the sum of the grips
   double max_strain = 0.0;
 };
 
 /** Largest permitted depth beyond the compliance of the wall [m]. */
 constexpr double kFuzzDepth = 1e-4;
 
+/** Largest permitted force on a hand relative to the sum of the grips. */
+constexpr double kFuzzOverGrips = 1.02;
+
 /** Runs an episode, which depends only on the seed, its number and the list of vessel kinds.
  *
  *  Wire (EI from 1.6 to 5000 N·mm², straight or pre-curved tip, length, radius), sampling (uniform, adaptive), time
  * step (0.1 to 10 ms), wall (rigid, compliant; friction) and the hand's motion (up to 500 mm/s and 59 rad/s, reversals)
  * are drawn at random. WireCheck checks the whole wire after every tenth step, and after steps with a depth above 50 µm
- * in the solver.
+ * in the solver. A coaxial episode has a catheter over the wire (bore, stiffness and friction at random), whose hand
+ * moves by itself.
  *  @throws std::logic_error if WireCheck disagrees with a brute-force search over all triangles */
 FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number);
 
