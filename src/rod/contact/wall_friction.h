@@ -31,7 +31,8 @@ double nodeAngle(const std::vector<double>& twist_angle, int node, int first_nod
  *  stretch is u plus the tangential motion since the step began. The normal force f_n is that of the last solve.
  *
  *  With a SurfaceMotion, the motion is that of the surface: a turn Δθ about the tangent t adds r Δθ n × t, n the wall's
- *  normal. The turn of the Bishop frame in space is neglected. Positions are solved for at a fixed turn, and the twist
+ *  normal. begin_angle follows the turn of the Bishop frame in space where a curved tip
+ *  swings (FrameTurns); elsewhere it is neglected. Positions are solved for at a fixed turn, and the twist
  *  at a fixed motion (aboutAxis), both with the same potential.
  *
  *  A solve uses the secant stiffness μ f_n/max(|u|, δ) of the expected stretch. Along the direction of sliding, the

@@ -109,9 +109,7 @@ void SingleLayer::turnSurface(State& state, const std::vector<double>& turns, do
   twist_.turn(model_.rod, boundary_, turns, share, state);
 }
 
-/** Recomputes the torques for the centreline at the end of the step; the twist angles are restored. During the step the
- *  twist was relaxed for the new rotation of the handle but the previous centreline. While the handle turns, that
- *  torque is too large by the curved tip's stiffness times the rotation of a step. */
+/** Recomputes the torques for the centreline at the end of the step; the twist angles are restored. */
 void SingleLayer::updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                                 PhaseTimer& timer)
 {
