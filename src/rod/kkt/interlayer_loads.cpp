@@ -11,7 +11,8 @@ namespace
 {
 
 constexpr std::size_t kLeastNodes = 5;      // of the solution in a bore
-constexpr double kLargestTension = 1e4;     // N, beyond every hand
+constexpr double kLargestTension = 1e3;     // N, beyond every hand
+constexpr double kMostYield = 5e-5;         // m, of the bore, in a shift of the last step
 constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
 constexpr double kRelativeTolerance = 0.01;
 constexpr double kHelixShare = 0.85;  // of the load of a helix, with the reversals of its hand and its ends
@@ -163,6 +164,9 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
     node.wall = std::min(stack_.profile(pair.outer).cover(i), groupCover(pair.inner, i));
     node.clearance = std::max(0.0, stack_.layer(pair.outer).lumen - groupRadius(pair.inner, i));
     node.shift = across(state.layers[pair.inner].bore_shift[i], i);
+    const double distance = node.shift.norm();
+    if (distance > node.clearance + kMostYield)
+      node.shift *= (node.clearance + kMostYield) / distance;
     // A wire on the inner side of a bend is bent more than the centreline.
     const Eigen::Vector2d sharper = node.curvature.dot(node.shift) * node.curvature;
     node.curvature += sharper;
@@ -189,8 +193,8 @@ double InterlayerLoads::tensionBefore(std::size_t i, double tension, double afte
       nodes_[i].stiffness > 0.0 ? kHelixShare * nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
   if (after < 0.0 && helix * after * after > load)
     load = helix * after * after / std::max(-after / kLargestTension, 1.0 + friction * helix * after);
-  if (friction > 0.0)
-    load = std::min(load, std::max(0.0, kLargestTension + after) / friction);
+  if (friction != 0.0)
+    load = std::min(load, std::max(0.0, kLargestTension + std::copysign(after, after * friction)) / std::abs(friction));
   load_[i] = load - fit_load;
   return std::clamp(after - friction * load, -kLargestTension, kLargestTension);
 }
