@@ -172,9 +172,9 @@ TEST(ReferencesTwist, BelowAQuarterWaveTheTipFollowsTheHandleWithoutASnapThrough
 // L0/GJ.
 TEST(ReferencesTwist, ALongShaftWithAShortPreCurvedTipSnapsByTheLumpedFormula)
 {
-  const int nodes = 101;
-  const int bent = 8;
-  const double edge = 1e-3;
+  const int nodes = 801;
+  const int bent = 64;
+  const double edge = 0.125e-3;
   const double shaft = (nodes - 2 - bent) * edge;  // from the middle of the first edge to the tip's first middle
   const double factor = 2.0;                       // A
   const double curvature = std::sqrt(factor / (bent * edge * shaft));
@@ -226,9 +226,9 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandlesAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
-// A freely rotating bent tip exerts no torque. The computed torque comes from its lag behind the handle, which is less
-// than the rotation of one step.
-TEST(ReferencesTwist, LagTorqueOfAnUnloadedRotatingTipIsOfFirstOrderInTheTimeStep)
+// A freely rotating bent tip exerts no torque. Positions that are solved at a fixed twist would lag behind the handle, and
+// the hand would feel a good part of EI κ̄² ℓ times the rotation of a step.
+TEST(ReferencesTwist, TorqueOfAnUnloadedRotatingTipIsOfSecondOrderInTheTimeStep)
 {
   constexpr double kRate = 4.0;        // rad/s
   constexpr double kCurvature = 80.0;  // 1/m
@@ -253,10 +253,10 @@ TEST(ReferencesTwist, LagTorqueOfAnUnloadedRotatingTipIsOfFirstOrderInTheTimeSte
       ASSERT_TRUE(stepper.step(state, input, dt, pass, nullptr, timer).solved);
     }
     const double of_a_step = kStiffness * kCurvature * kCurvature * tip.length * kRate * dt;
-    EXPECT_LT(state.hand_torque, of_a_step) << dt;
+    EXPECT_LT(std::abs(state.hand_torque), 1e-3 * of_a_step) << dt;
     if (dt == 1e-3)
     {
-      EXPECT_NEAR(coarser / state.hand_torque, 2.0, 0.05) << "first order in the step";
+      EXPECT_GT(std::abs(coarser / state.hand_torque), 3.8) << "second order in the step";
     }
     coarser = state.hand_torque;
   }

@@ -411,6 +411,9 @@ bool ActiveSetSolver<Layout>::factoriseAndSolve(const State& state, StepReport& 
   {
     if (!klu_.factorise(sparseFromBand(matrix_)))
       return false;
+    // KLU does not tell the inertia.
+    if (Layout::kTurns && Matrix(matrix_).factorise() != model_.rod.nodes() - system_.first)
+      return false;
   }
   else if (matrix_.factorise() != model_.rod.nodes() - system_.first)
     return false;

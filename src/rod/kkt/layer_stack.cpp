@@ -190,7 +190,7 @@ bool LayerStack::advance(State& state, const StepInput& input, double dt)
   }
   place(state);  // at the positions of the last step, which another stepper may have done
   if (turned && isCurved())
-    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, twists_.firstCurved());
+    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, firstCurved());
   else
     frame_turns_.neglect();
   updateSlides(state);
@@ -285,12 +285,13 @@ TwistAction LayerStack::predictTwist(State& state, const StepInput& input, const
   return twists_.combine(stack_, model_.rod, state);
 }
 
-bool LayerStack::isCurved() const
+int LayerStack::firstCurved() const
 {
+  int first = model_.rod.nodes();
   for (int k = 0; k < stack_.count(); ++k)
     if (stack_.profile(k).rod().first_curved < stack_.profile(k).rod().nodes())
-      return true;
-  return false;
+      first = std::min(first, stack_.profile(k).rod().first_curved);
+  return first;
 }
 
 /** Layer whose turn is the unknown of an edge: that on the surface at the edge's distal node, or a curved layer inside
@@ -382,11 +383,13 @@ void LayerStack::surfaceAngles(const State& state, std::vector<double>& angle) c
 void LayerStack::initialSurfaceAngles(const State& state, std::vector<double>& angle) const
 {
   angle.assign(state.position.size(), 0.0);
-  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
-    angle[i] = nodeAngle(initial_twist_[stack_.surfaceLayer(i)], i, state.first_node);
   const std::vector<double>& turn = frameTurns(state);
-  for (int i = state.first_node; !turn.empty() && i < model_.rod.nodes(); ++i)
-    angle[i] -= nodeAngle(turn, i, state.first_node);
+  followed_twist_ = initial_twist_;
+  for (std::vector<double>& twist : followed_twist_)
+    for (std::size_t j = 0; j < turn.size(); ++j)
+      twist[j] -= turn[j];
+  for (int i = state.first_node; i < model_.rod.nodes(); ++i)
+    angle[i] = nodeAngle(followed_twist_[stack_.surfaceLayer(i)], i, state.first_node);
 }
 
 const std::vector<double>& LayerStack::frameTurns(const State& state) const

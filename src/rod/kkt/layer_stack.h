@@ -39,7 +39,7 @@ public:
                          PhaseTimer& timer) override;
   TwistAction predictTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                            bool first_solve, PhaseTimer& timer) override;
-  bool isCurved() const override;
+  bool isCurved() const override { return firstCurved() < model_.rod.nodes(); }
   void lineariseTwist(const State& state, SurfaceTwist& twist) override;
   void turnSurface(State& state, const std::vector<double>& turns, double share) override;
   void updateTorques(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
@@ -72,6 +72,7 @@ private:
   TwistBoundary layerBoundary(int k, const TwistBoundary& boundary, const State& state, const StepInput& input,
                               const std::vector<TwistFriction>& friction);
   void sumTwists(State& state) const;
+  int firstCurved() const;
   int turningLayer(int edge) const;
   bool setEdgeTorque(int k, const State& state, const StepInput& input);
   void updateHandForces(State& state, double dt) const;
@@ -94,6 +95,7 @@ private:
   const std::vector<TwistFriction>* wall_friction_ = nullptr;  ///< of the last predictTwist()
   std::vector<int> edge_layer_;                                ///< layer whose turn is the unknown of every edge
   mutable FrameTurns frame_turns_;
+  mutable std::vector<std::vector<double>> followed_twist_;  ///< initial angles less the turns of the frames [rad]
   State relaxed_;                                              ///< state for the computation of torques
 };
 

@@ -485,10 +485,11 @@ double QuasiStaticTwist::holdForce(const Discretisation& rod, const State& state
   for (std::size_t k = 0; k < mouth_rest_.size(); ++k)
   {
     const int i = mouth_begin_ + static_cast<int>(k);
-    const Eigen::Vector3d strain = binormalAt(rod, state, i).value - state.curvature_offset[i] - rest_binormal_[i];
+    const Eigen::Vector3d bent = binormalAt(rod, state, i).value - state.curvature_offset[i];
+    double by_length = -mouth_rest_[k].curvature.dot(mouth_rest_[k].slope);
     for (int j = i - 1; j <= i; ++j)
-      force += rod.bending_stiffness[i] / rod.cell_length[i] *
-               strain.dot(binormalOnEdge(mouth_rest_[k].slope, j, cosine_[j], sine_[j]));
+      by_length += bent.dot(binormalOnEdge(mouth_rest_[k].slope, j, cosine_[j], sine_[j]));
+    force += rod.bending_stiffness[i] / rod.cell_length[i] * by_length;
   }
   return force;
 }

@@ -74,10 +74,11 @@ TEST(TurnCoupling, MixedDerivativesAreThoseOfTheEnergy)
   std::vector<Eigen::Vector3d> motion(static_cast<std::size_t>(n), Eigen::Vector3d::Zero());
   std::vector<double> turn(static_cast<std::size_t>(n - 1), 0.0);
   double largest = 0.0;
-  for (int j = n - 8; j + 1 < n; ++j)
+  const int first = tip.rod.first_curved;  // before it, the straight body is a spring without a holonomy of its own
+  for (int j = first; j + 1 < n; ++j)
     for (const Eigen::Vector3d& mixed : tip.surface.mixed[j])
       largest = std::max(largest, mixed.norm());
-  for (int j = n - 8; j + 1 < n; ++j)
+  for (int j = first; j + 1 < n; ++j)
     for (int place = 0; place < 4; ++place)
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -122,9 +123,8 @@ TEST(TurnCoupling, StiffnessOfTheCentrelineIsTheSecondDerivativeOfTheEnergy)
   const std::vector<double> none(static_cast<std::size_t>(n - 1), 0.0);
   for (int trial = 0; trial < 6; ++trial)
   {
-    // Of the distal edges only: the twist of the straight body is a spring without a holonomy of its own.
     std::vector<Eigen::Vector3d> motion(static_cast<std::size_t>(n), Eigen::Vector3d::Zero());
-    for (int i = n - 5; i < n; ++i)
+    for (int i = tip.rod.first_curved + 1; i < n; ++i)
       motion[i] = Eigen::Vector3d(std::sin(1.0 + i * trial), std::cos(2.0 * i + trial), std::sin(3.0 * i - trial));
     const double step = 2e-6;
     const auto at = [&](double share)
