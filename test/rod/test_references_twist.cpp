@@ -226,8 +226,8 @@ TEST(ReferencesTwist, AStraightWireTransmitsTheHandlesAngleThroughAnyBend)
   EXPECT_NEAR(state.hand_torque, 0.0, 1e-15);
 }
 
-// A freely rotating bent tip exerts no torque. Positions that are solved at a fixed twist would lag behind the handle, and
-// the hand would feel a good part of EI κ̄² ℓ times the rotation of a step.
+// A freely rotating bent tip exerts no torque. Positions that are solved at a fixed twist would lag behind the handle,
+// and the hand would feel a good part of EI κ̄² ℓ times the rotation of a step.
 TEST(ReferencesTwist, TorqueOfAnUnloadedRotatingTipIsOfSecondOrderInTheTimeStep)
 {
   constexpr double kRate = 4.0;        // rad/s

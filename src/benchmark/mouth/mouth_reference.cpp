@@ -15,9 +15,10 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kWallStiffness = 5e6;  // of tube and sheath per length of wire [N/m²]: 0.1 mm at 500 N/m
+constexpr double kWallStiffness = 2e8;  // of tube and sheath per length of wire [N/m²]: 5 µm at 1 N/mm
 constexpr double kStep = 50e-6;         // m, of the central difference
-constexpr double kPoints = 8;           // of the midpoint rule on an edge
+constexpr double kTolerance = 1e-8;     // of an equilibrium; the error of its energy is of second order
+constexpr int kPoints = 8;              // of the midpoint rule on an edge
 
 const rod::Section& sectionAt(const rod::Wire& wire, double from_tip)
 {
@@ -115,17 +116,31 @@ EquilibriumProblem MouthReference::problemAt(double inserted_length) const
       const double from_tip = (n - 1 - i) * h + h * ((q + 0.5) / kPoints - 0.5);
       const rod::Section& at = sectionAt(problem_.wire, std::max(0.0, from_tip));
       const double beyond = (inserted_length - from_tip) / problem_.guide_decay;  // ±½: the mouth's transition
-      angle += at.rest_curvature.x() * std::clamp(0.5 + beyond, 0.0, 1.0) * h / kPoints;
+      angle -= at.rest_curvature.y() * std::clamp(0.5 + beyond, 0.0, 1.0) * h / kPoints;
       compliance += 1.0 / (kPoints * at.bending_stiffness);
     }
     stiffness[i] = problem.rod.bending_stiffness[i] = 1.0 / compliance;
     problem.rest_binormal[i] = Vector3d(0.0, 0.0, 2.0 * std::tan(0.5 * angle));
   }
+  problem.tolerance = kTolerance;
   problem.held.assign(static_cast<std::size_t>(n), false);
   problem.held[0] = problem.held[1] = true;
   problem.node_potential = [this, stiffness, h, n](int node, const Vector3d& position)
   { return potentialAt(position, stiffness[node], node + 1 < n ? h : 0.5 * h); };
   return problem;
+}
+
+/** Point of the last equilibrium at a number of edges from the tip, negative beyond it: the wire slides along itself.
+ */
+Vector3d MouthReference::slid(double edges, const Vector3d& straight) const
+{
+  if (edges <= 0.0)
+    return last_[0] - edges * (last_[0] - last_[1]);
+  const auto before = static_cast<std::size_t>(edges);
+  if (before + 1 >= last_.size())
+    return straight;
+  const double share = edges - static_cast<double>(before);
+  return (1.0 - share) * last_[before] + share * last_[before + 1];
 }
 
 /** Energy of the equilibrium, with that of the part that is held straight [J]. */
@@ -137,10 +152,9 @@ double MouthReference::leastEnergy(double inserted_length)
   for (int i = 0; i < n; ++i)
   {
     const int from_tip = n - 1 - i;
-    const double x = inserted_length - from_tip * h;
-    e.position.emplace_back(x, 0.0, 0.0);
-    if (i > 1 && from_tip < static_cast<int>(last_.size()))
-      e.position.back() = last_[from_tip];
+    e.position.emplace_back(inserted_length - from_tip * h, 0.0, 0.0);
+    if (i > 1 && !last_.empty())
+      e.position.back() = slid(from_tip - (inserted_length - last_insertion_) / h, e.position.back());
   }
   const EquilibriumSolver solver(problemAt(inserted_length));
   if (!solver.solve(e))

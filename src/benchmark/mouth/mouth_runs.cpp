@@ -14,11 +14,12 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kTube = 4e-3;        // radius of the tube [m]
-constexpr double kStraight = 0.02;    // length of the tube before its bend [m]
-constexpr double kBegin = 2e-3;       // first inserted length [m]
-constexpr double kFollowed = 0.5e-3;  // longest distance between equilibria of the reference [m]
-constexpr double kAbsolute = 0.02;    // tolerated deviation [N]
+constexpr double kTube = 4e-3;         // radius of the tube [m]
+constexpr double kStraight = 0.02;     // length of the tube before its bend [m]
+constexpr double kBegin = 2e-3;        // first inserted length [m]
+constexpr double kFollowed = 0.25e-3;  // longest distance between equilibria of the reference [m]
+constexpr double kRamp = 0.1;          // time in which the hand changes its speed: inertia is no force of the mouth [s]
+constexpr double kAbsolute = 0.02;     // tolerated deviation [N]
 constexpr double kRelative = 0.03;
 
 std::string sceneOf(const MouthMotion& motion)
@@ -26,8 +27,8 @@ std::string sceneOf(const MouthMotion& motion)
   char text[1200];
   char pieces[200];
   if (motion.bend_curvature != 0.0)
-    std::snprintf(pieces, sizeof pieces, "{length: %g}, {length: %g, curvature: %g}", kStraight, motion.travel,
-                  motion.bend_curvature);
+    std::snprintf(pieces, sizeof pieces, "{length: %g}, {length: %g, curvature: %g, plane_angle: %g}", kStraight,
+                  motion.travel, motion.bend_curvature, -M_PI / 2.0);
   else
     std::snprintf(pieces, sizeof pieces, "{length: %g}", motion.travel + 0.05);
   char sampling[100] = "{kind: adaptive}";
@@ -64,6 +65,14 @@ MouthProblem problemOf(const scene::Scene& scene, const MouthMotion& motion)
   return problem;
 }
 
+/** Time at full speed in which the hand would move as far as at a time, with ramps of its speed at both ends [s]. */
+double travelled(double time, double duration)
+{
+  const double up = std::min(time, kRamp);
+  const double down = std::max(0.0, time - (duration - kRamp));
+  return 0.5 * up * up / kRamp + std::max(0.0, time - kRamp) - 0.5 * down * down / kRamp;
+}
+
 /** Force of the reference at an inserted length, by linear interpolation. */
 double interpolated(const std::vector<MouthForce>& reference, double insertion)
 {
@@ -81,14 +90,16 @@ MouthCurves runMouth(const MouthMotion& motion)
   BenchRun run(sceneOf(motion));
   simulation::Simulation& simulation = run.simulation();
   const double dt = run.scene().solver.time_step;
-  const int steps = static_cast<int>(std::lround(motion.travel / motion.speed / dt));
+  const double duration = motion.travel / motion.speed + kRamp;
+  const int steps = static_cast<int>(std::lround(duration / dt));
   MouthCurves curves;
   for (int k = 1; k <= 2 * steps; ++k)
   {
-    simulation.step({kBegin + motion.speed * dt * (k <= steps ? k : 2 * steps - k), 0.0});
+    simulation.step({kBegin + motion.speed * travelled((k <= steps ? k : 2 * steps - k) * dt, duration), 0.0});
     if (!simulation.report().solved)
       throw std::runtime_error("mouth: a step was rejected");
-    (k <= steps ? curves.in : curves.out).push_back({simulation.state().inserted_length, simulation.state().hand_force});
+    (k <= steps ? curves.in : curves.out)
+        .push_back({simulation.state().inserted_length, simulation.state().hand_force});
   }
   MouthReference reference(problemOf(run.scene(), motion));
   const int between = std::max(1, static_cast<int>(std::ceil(motion.reference_step / kFollowed)));

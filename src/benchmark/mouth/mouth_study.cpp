@@ -51,15 +51,16 @@ std::vector<MouthMotion> motionsOf(bool quick)
 
 std::vector<TableSpec> mouthTables()
 {
-  return {{"mouth",
-           "Introducer's mouth: force at the hand",
-           {"instrument", "nodes", "speed [mm/s]", "tube", "inserted length [mm]", "reference [N]", "in [N]", "out [N]"},
-           "mouth.png"},
-          {"mouth_errors",
-           "Introducer's mouth: largest deviations",
-           {"instrument", "nodes", "speed [mm/s]", "tube", "way", "largest deviation [mN]", "at [mm]",
-            "deviation over 20 mN + 3 %", "change per ms beyond the reference's [mN]"},
-           ""}};
+  return {
+      {"mouth",
+       "Introducer's mouth: force at the hand",
+       {"instrument", "nodes", "speed [mm/s]", "tube", "inserted length [mm]", "reference [N]", "in [N]", "out [N]"},
+       "mouth.png"},
+      {"mouth_errors",
+       "Introducer's mouth: largest deviations",
+       {"instrument", "nodes", "speed [mm/s]", "tube", "way", "largest deviation [mN]", "at [mm]",
+        "deviation over 20 mN + 3 %", "change per ms beyond the reference's [mN]"},
+       ""}};
 }
 
 std::vector<Section> mouthStudy(const StudyOptions& options, const Progress& progress)
@@ -81,7 +82,8 @@ std::vector<Section> mouthStudy(const StudyOptions& options, const Progress& pro
     const MouthCurves curves = runMouth(motion);
     for (const MouthForce& at : curves.reference)
       sections[0].table.add({motion.instrument, nodes, speed, tube, number(1e3 * at.insertion, 5), number(at.force, 4),
-                             number(forceAt(curves.in, at.insertion), 4), number(forceAt(curves.out, at.insertion), 4)});
+                             number(forceAt(curves.in, at.insertion), 4),
+                             number(forceAt(curves.out, at.insertion), 4)});
     for (const auto& [way, forces] : {std::pair("in", &curves.in), std::pair("out", &curves.out)})
     {
       const MouthDeviation found = deviationOf(*forces, curves.reference);

@@ -38,7 +38,8 @@ struct EquilibriumProblem
   std::vector<Eigen::Vector3d> rest_binormal;  ///< rest curvature binormals, fixed in space, size n or empty [1]
   /** Potential of a node at a position [m], e.g. of a wall; empty: none. */
   std::function<NodePotential(int node, const Eigen::Vector3d& position)> node_potential;
-  bool twist_held = false;  ///< prescribed twist; the torque is uniform, as in straight isotropic wires
+  double tolerance = 1e-11;  ///< largest last motion over the length of the wire
+  bool twist_held = false;   ///< prescribed twist; the torque is uniform, as in straight isotropic wires
   /** Twist between the material frames of both end edges relative to the direct parallel transport between them; for a
    *  ring, 2π times the linking number [rad]. */
   double twist = 0.0;

@@ -15,7 +15,6 @@ namespace
 
 constexpr int kMaxIterations = 500;
 constexpr double kLargestTurn = 0.3;  // largest rotation of an edge in one iteration [rad]
-constexpr double kConverged = 1e-11;  // largest last motion over the length of the wire
 constexpr double kConvergedStrain = 1e-12;
 constexpr double kReach =
     0.1;  // largest motion by the residual force against the regularisation, over the length of the wire
@@ -128,7 +127,7 @@ bool EquilibriumSolver::solve(Equilibrium& e) const
     double strain = 0.0;
     for (int j = 0; j < problem_.edges(); ++j)
       strain = std::max(strain, rigidEdge(j) ? 0.0 : std::abs(edge(e, j).length / problem_.rod.rest_length[j] - 1.0));
-    if (step.head(rowOf(n)).lpNorm<Eigen::Infinity>() < kConverged * length_ && strain < kConvergedStrain)
+    if (step.head(rowOf(n)).lpNorm<Eigen::Infinity>() < problem_.tolerance * length_ && strain < kConvergedStrain)
       return true;
   }
   return false;

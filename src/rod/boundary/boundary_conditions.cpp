@@ -15,7 +15,7 @@ namespace
 // Half width of the introducer's mouth over the decay length of its guide: within that length, the guide does not tell
 // where the wire begins to be straight.
 constexpr double kHalfWidth = 0.5;
-constexpr double kShortestDecay = 1e-6;  // m, of a mouth as sharp as that of a clamp
+constexpr double kShortestDecay = 1e-6;            // m, of a mouth as sharp as that of a clamp
 constexpr double kLongestHiddenPart = 1.0 - 1e-6;  // of an edge: a shorter visible rest is neglected
 
 /** Rotation from the wire's first direction to that of its clamped distal end. */
@@ -192,8 +192,7 @@ Energy elasticEnergy(const Discretisation& rod, const State& state, const QuasiS
     const Eigen::Vector3d kb = binormalAt(rod, state, i).value;
     double strain = kb.squaredNorm();
     if (twist && i >= twist->firstCurved())
-      strain +=
-          twist->restCurvature(rod, i).squaredNorm() - 2.0 * kb.dot(twist->restCurvatureBinormal(i));
+      strain += twist->restCurvature(rod, i).squaredNorm() - 2.0 * kb.dot(twist->restCurvatureBinormal(i));
     energy.bending += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * strain;
   }
   for (int j = state.first_node; j + 1 < rod.nodes(); ++j)

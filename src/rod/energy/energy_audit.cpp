@@ -232,8 +232,8 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   addChangeOfNodes(first, final);
   // The energy of the twist refers to angles alone; that of the hold is singular where it passes the middle of an edge.
   pending_.positions += by_positions.sum() - (last - at_begin).sum();
-  pending_.twisting +=
-      by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist - (at_begin - first).twist;
+  pending_.twisting += by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist -
+                       (at_begin - first).twist;
   const double by_insertion = (with_insertion - first).sum() - (with_insertion - first).twist;
   pending_.configurational += by_insertion;
   pending_.insertion += part.insertion_work - by_insertion;

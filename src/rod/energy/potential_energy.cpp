@@ -66,7 +66,8 @@ struct Bishop
   }
 };
 
-/** First edge with a material frame: that before the first node with rest curvature, or the first one beyond the hold. */
+/** First edge with a material frame: that before the first node with rest curvature, or the first one beyond the hold.
+ */
 int firstFrame(const Discretisation& rod, const TwistBoundary& hold, int first)
 {
   int node = first + 1;
@@ -95,9 +96,9 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
     double from_rest = 0.0;  // change of the square by the rest curvature
     if (i > begin && i >= rod.first_curved)
     {
-      const Eigen::Vector2d rest =
-          hold.hasMouth() && rod.position[i - 1] < hold.mouth().end() ? rod.restAt(i, hold.mouth()).curvature
-                                                                      : rod.rest_curvature[i];
+      const Eigen::Vector2d rest = hold.hasMouth() && rod.position[i - 1] < hold.mouth().end()
+                                       ? rod.restAt(i, hold.mouth()).curvature
+                                       : rod.rest_curvature[i];
       from_rest = rest.squaredNorm();
       const Eigen::Vector3d binormal = before.halfBinormal(rest, angle[i - 1]) + after.halfBinormal(rest, angle[i]);
       from_rest -= 2.0 * strain.dot(binormal);

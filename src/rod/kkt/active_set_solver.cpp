@@ -311,8 +311,7 @@ void ActiveSetSolver<Layout>::addCurvature(const contact::Feature& feature, cons
   if (between && !Layout::kTurns)
     return;
   const int node = contact.node + (at_second ? 1 : 0);
-  const double force =
-      between ? -contact.stiffness * contact.gap : feature.normal.dot(state_->wall_force[node]);
+  const double force = between ? -contact.stiffness * contact.gap : feature.normal.dot(state_->wall_force[node]);
   if (force <= 0.0)
     return;
   const int before = std::max(node - 1, system_.first);

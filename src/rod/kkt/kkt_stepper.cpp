@@ -395,8 +395,9 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   const LayerFrictionWork layers = layers_->frictionWork(before, after);
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
   audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
-                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_, layers_->frameTurns(after), spring_energy_,
-                   layers.push, layers.turn, layers_->insertionWork(before, after)});
+                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_,
+                   layers_->frameTurns(after), spring_energy_, layers.push, layers.turn,
+                   layers_->insertionWork(before, after)});
   layers_->restore(after);
 }
 

@@ -96,7 +96,7 @@ private:
   std::vector<int> edge_layer_;                                ///< layer whose turn is the unknown of every edge
   mutable FrameTurns frame_turns_;
   mutable std::vector<std::vector<double>> followed_twist_;  ///< initial angles less the turns of the frames [rad]
-  State relaxed_;                                              ///< state for the computation of torques
+  State relaxed_;                                            ///< state for the computation of torques
 };
 
 }  // namespace endovascular_sim::rod

@@ -56,8 +56,8 @@ private:
   std::vector<double> saved_twist_;
   mutable FrameTurns frame_turns_;
   mutable std::vector<double> followed_twist_;  ///< initial twist angles less the turns of the frames [rad]
-  TwistBoundary boundary_;        ///< that of the last predictTwist()
-  double rotation_before_ = 0.0;  ///< of the handle at the beginning of the step [rad]
+  TwistBoundary boundary_;                      ///< that of the last predictTwist()
+  double rotation_before_ = 0.0;                ///< of the handle at the beginning of the step [rad]
 };
 
 }  // namespace endovascular_sim::rod

@@ -82,8 +82,7 @@ double hatOf(const std::vector<double>& position, int node, double arc_length)
   if (arc_length <= position[node])
     return node == 0 ? (arc_length < position[0] ? 0.0 : 1.0)
                      : std::max(0.0, (arc_length - position[node - 1]) / (position[node] - position[node - 1]));
-  return node == last ? 0.0
-                      : std::max(0.0, (position[node + 1] - arc_length) / (position[node + 1] - position[node]));
+  return node == last ? 0.0 : std::max(0.0, (position[node + 1] - arc_length) / (position[node + 1] - position[node]));
 }
 
 double Mouth::share(double at) const

@@ -10,8 +10,8 @@ namespace endovascular_sim::rod
 /** Part of a wire with constant rest curvature. */
 struct CurvedPart
 {
-  double begin = 0.0;  ///< arc length [m]
-  double end = 0.0;    ///< [m]
+  double begin = 0.0;                                   ///< arc length [m]
+  double end = 0.0;                                     ///< [m]
   Eigen::Vector2d curvature = Eigen::Vector2d::Zero();  ///< components in the material frame [1/m]
   double bending_stiffness = 0.0;                       ///< EI [N·m²]
 };

@@ -73,7 +73,8 @@ RestAtMouth Discretisation::restAt(int node, const Mouth& mouth) const
   RestAtMouth rest;
   rest.curvature = integratedCurvature(scale * restAngle(curved_parts, position, node, mouth));
   // The derivative of 2 tan(|φ|/2) along φ. Rest curvature that changes its direction within a node is rare.
-  rest.slope = (scale * (1.0 + 0.25 * rest.curvature.squaredNorm())) * restAngleSlope(curved_parts, position, node, mouth);
+  rest.slope =
+      (scale * (1.0 + 0.25 * rest.curvature.squaredNorm())) * restAngleSlope(curved_parts, position, node, mouth);
   return rest;
 }
 

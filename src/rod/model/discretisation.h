@@ -53,7 +53,10 @@ struct Discretisation
   RestAtMouth restAt(int node, const Mouth& mouth) const;
 
   /** Acting share at a node near a mouth, weighted with its hat function, 0 to 1. */
-  double actingShare(int node, const Mouth& mouth) const { return hatBeyond(position, node, mouth) / cell_length[node]; }
+  double actingShare(int node, const Mouth& mouth) const
+  {
+    return hatBeyond(position, node, mouth) / cell_length[node];
+  }
 
   /** Coulomb coefficient between a node and a wall whose coefficient is @p wall. */
   double frictionOn(double wall, int node) const

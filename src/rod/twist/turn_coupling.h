@@ -24,8 +24,8 @@ namespace endovascular_sim::rod
  *  where the last term is the tilt of the frames. The twist m = τ_i − τ_{i−1} + ∫κb/(2|ē|)·de (Bergou et al. 2010,
  *  eq. 7) has mixed derivatives too, and the direction of a compressed edge's force turns with the edge.
  *
- *  A rigid rotation of the whole has no stiffness then. The Gauss–Newton form alone resists the rotation of a curved tip
- *  like a spring of stiffness Σ B|ω̄|²/l, and the hand would feel its torque per step: c Σ EI κ̄² ℓ ω Δt. */
+ *  A rigid rotation of the whole has no stiffness then. The Gauss–Newton form alone resists the rotation of a curved
+ * tip like a spring of stiffness Σ B|ω̄|²/l, and the hand would feel its torque per step: c Σ EI κ̄² ℓ ω Δt. */
 class TurnCoupling
 {
 public:

@@ -115,8 +115,7 @@ void QuasiStaticTwist::followFrames(const Discretisation& rod, const TwistBounda
   bishop_normal_before_ = bishop_normal_;
   transportBishopFrame(rod, boundary, state);
   for (int j = std::max(first_curved_ - 1, first_edge_); j + 1 < rod.nodes(); ++j)
-    state.twist_angle[j] -=
-        frameTurn(bishop_before_[j], bishop_normal_before_[j], bishop_[j], bishop_normal_[j]);
+    state.twist_angle[j] -= frameTurn(bishop_before_[j], bishop_normal_before_[j], bishop_[j], bishop_normal_[j]);
 }
 
 /** Sizes the vectors, finds the edges with angles of their own, and transports the frame. */

@@ -157,13 +157,13 @@ private:
   void prepareBody(const Discretisation& rod, const TwistBoundary& boundary);
   double bodyTorque(const TwistBoundary& boundary, double angle) const;
 
-  int first_edge_ = 0;        ///< first edge beyond the hold
-  int first_curved_ = 0;      ///< first curved node with a part of its cell beyond the hold; n without
-  int first_own_ = 0;         ///< first node with angles of their own on both sides; n without
-  int mouth_begin_ = 0;                   ///< first node with rest curvature at the mouth
-  std::vector<RestAtMouth> mouth_rest_;   ///< of the nodes from there on that the mouth touches
-  double straight_force_ = 0.0;           ///< part of holdForce() of the straight energy [N]
-  int last_body_ = 0;         ///< last edge of the straight body
+  int first_edge_ = 0;                   ///< first edge beyond the hold
+  int first_curved_ = 0;                 ///< first curved node with a part of its cell beyond the hold; n without
+  int first_own_ = 0;                    ///< first node with angles of their own on both sides; n without
+  int mouth_begin_ = 0;                  ///< first node with rest curvature at the mouth
+  std::vector<RestAtMouth> mouth_rest_;  ///< of the nodes from there on that the mouth touches
+  double straight_force_ = 0.0;          ///< part of holdForce() of the straight energy [N]
+  int last_body_ = 0;                    ///< last edge of the straight body
   double body_stiffness_ = 0.0;
   double body_load_ = 0.0;        ///< external torque on the body before its last edge [N·m]
   double body_load_angle_ = 0.0;  ///< rotation of the body's last edge by that torque [rad]
@@ -171,12 +171,12 @@ private:
   double held_rest_ = 0.0;        ///< torque of rest curvature on them [N·m]
   double tip_gradient_ = 0.0;     ///< gradient of the potential energy by the last edge's angle [N·m]
   double energy_ = 0.0;
-  std::vector<Eigen::Vector3d> bishop_;         ///< first Bishop director per edge
-  std::vector<Eigen::Vector3d> bishop_normal_;  ///< second one, tangent × first
-  Eigen::Vector3d tip_bishop_, tip_normal_;     ///< both directors of the last edge
+  std::vector<Eigen::Vector3d> bishop_;                                ///< first Bishop director per edge
+  std::vector<Eigen::Vector3d> bishop_normal_;                         ///< second one, tangent × first
+  Eigen::Vector3d tip_bishop_, tip_normal_;                            ///< both directors of the last edge
   std::vector<Eigen::Vector3d> bishop_before_, bishop_normal_before_;  ///< both on the last centreline
   std::vector<Eigen::Vector3d> binormal_;                              ///< κb per curved node
-  std::vector<double> cosine_, sine_;           ///< cosine and sine of the twist angles of the curved tip's edges
+  std::vector<double> cosine_, sine_;  ///< cosine and sine of the twist angles of the curved tip's edges
   std::vector<Eigen::Vector3d> rest_binormal_;
   std::vector<double> torque_;
   std::vector<double> gradient_, diagonal_, upper_, concave_;

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "rod/twist/bishop_frames.h"
 #include "test/rod/rod_fixtures.h"
