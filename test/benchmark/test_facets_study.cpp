@@ -15,8 +15,8 @@ TEST(FacetsStudy, ASmoothWallOf16FacetsExertsNoTorqueOnAJTip)
   EXPECT_LT(std::abs(turnJTip(16, true, 0.0, 0.125, 1e-3).mean_torque), 10e-6);
 }
 
-// In a round tube without friction, turning costs nothing. Before positions and turns were solved together, the torque was
-// 7 µN·m here, in proportion to the time step.
+// In a round tube without friction, turning costs nothing. Before positions and turns were solved together, the torque
+// was 7 µN·m here, in proportion to the time step.
 TEST(FacetsStudy, ATipInARoundTubeExertsNoTorqueWhateverTheTimeStep)
 {
   for (const double time_step : {0.5e-3, 1e-3, 2e-3})
