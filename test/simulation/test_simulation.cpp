@@ -249,7 +249,7 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
 // The wire sticks in the catheter's curved tip, and the fingers slip on it.
 TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
 {
-  Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.48"});
+  Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.42"});
   std::vector<HandCommand> commands = {{0.02, 0.0}, {-0.023, 0.0}};
   const auto move = [&](int instrument, double insertion, double speed)
   {

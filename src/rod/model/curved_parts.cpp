@@ -27,6 +27,22 @@ double integral(double begin, double end, const std::array<double, Count>& break
   return sum;
 }
 
+double middleOfFirst(const std::vector<double>& position)
+{
+  return 0.5 * (position[0] + position[1]);
+}
+
+/** Begin and end of the part of an edge on which the hat function of one of its nodes is not zero. */
+double supportBegin(const std::vector<double>& position, int node, int edge)
+{
+  return edge == 0 && node == 1 ? middleOfFirst(position) : position[edge];
+}
+
+double supportEnd(const std::vector<double>& position, int node, int edge)
+{
+  return edge == 0 && node == 0 ? middleOfFirst(position) : position[edge + 1];
+}
+
 /** Integral of a node's hat function times the acting share over a stretch of arc length [m]. */
 double hatIntegral(const std::vector<double>& position, int node, double begin, double end, const Mouth& mouth)
 {
@@ -36,8 +52,8 @@ double hatIntegral(const std::vector<double>& position, int node, double begin, 
   {
     if (edge < 0 || edge >= last)
       continue;
-    sum += integral<2>(std::max({begin, position[edge], mouth.begin()}), std::min(end, position[edge + 1]),
-                       {mouth.begin(), mouth.end()},
+    sum += integral<2>(std::max({begin, supportBegin(position, node, edge), mouth.begin()}),
+                       std::min(end, supportEnd(position, node, edge)), {mouth.begin(), mouth.end()},
                        [&](double at) { return hatOf(position, node, at) * mouth.share(at); });
   }
   return sum;
@@ -52,8 +68,8 @@ double hatIntegral(const std::vector<double>& position, int node, double begin, 
   {
     if (edge < 0 || edge >= last)
       continue;
-    const double from = std::max(begin, position[edge]);
-    const double to = std::min(end, position[edge + 1]);
+    const double from = std::max(begin, supportBegin(position, node, edge));
+    const double to = std::min(end, supportEnd(position, node, edge));
     if (to > from)
       sum += (to - from) * hatOf(position, node, 0.5 * (from + to));
   }
@@ -79,6 +95,8 @@ Eigen::Vector2d turningAngle(const Eigen::Vector2d& curvature)
 double hatOf(const std::vector<double>& position, int node, double arc_length)
 {
   const int last = static_cast<int>(position.size()) - 1;
+  if (node < 2 && arc_length >= position[0] && arc_length <= position[1])
+    return (arc_length < middleOfFirst(position)) == (node == 0) ? 1.0 : 0.0;
   if (arc_length <= position[node])
     return node == 0 ? (arc_length < position[0] ? 0.0 : 1.0)
                      : std::max(0.0, (arc_length - position[node - 1]) / (position[node] - position[node - 1]));

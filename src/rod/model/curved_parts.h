@@ -22,8 +22,9 @@ Eigen::Vector2d integratedCurvature(const Eigen::Vector2d& angle);
 /** Turning angle of an integrated curvature [rad]. */
 Eigen::Vector2d turningAngle(const Eigen::Vector2d& curvature);
 
-/** Hat function of a node: 1 at the node, 0 at its neighbours and beyond, linear on both edges. Its integral is the
- *  length of the node's cell.
+/** Hat function of a node: 1 at the node, 0 at its neighbours and beyond, linear on both edges. On the first edge it is
+ *  that of the cells, 1 up to the middle: the first node does not bend, and a clamp acts at the middle. Its integral is
+ *  the length of the node's cell.
  *  @param position arc length of all nodes, ascending [m] */
 double hatOf(const std::vector<double>& position, int node, double arc_length);
 
