@@ -126,7 +126,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
     return false;
   contacts_.releaseRetained();
   // The centreline has moved since the twist was relaxed.
-  if (!turned_ && layers_->isCurved())
+  if (!turned_ && (layers_->isCurved() || model_.boundary.distal_twist_held))
     layers_->relaxTwist(state, input, friction_.lastAboutAxis(), *timer_);
   finish(state, dt);
   if (turned_)

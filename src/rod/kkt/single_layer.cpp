@@ -38,8 +38,11 @@ bool SingleLayer::advance(State& state, const StepInput& input, double /*dt*/)
   std::fill_n(initial_twist_.begin(), state.first_node, state.rotation);  // nodes that this step may bring in
   rotation_before_ = state.rotation;
   const bool turned = state.rotation != input.rotation;
-  if (turned && isCurved())
-    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, model_.rod.first_curved);
+  // A twist that is held at both ends refers to the frames of all edges: writhe turns them.
+  const bool held = model_.boundary.distal_twist_held;
+  if ((turned && isCurved()) || held)
+    frame_turns_.begin(model_.rod, model_.conditions.twistBoundary(state, 0.0), state,
+                       held ? 1 : model_.rod.first_curved);
   else
     frame_turns_.neglect();
   return turned;
