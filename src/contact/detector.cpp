@@ -12,6 +12,7 @@ namespace
 
 constexpr double kSameNormal = 0.9995;    // cosine between normals above which two features of a node are one
 constexpr double kSameDistance = 1e-12;   // m
+constexpr double kHorizon = 4.0;          // queries before its end in which a list is renewed
 constexpr std::size_t kListsAtOnce = 16;  // for which memory is reserved together as the wire enters
 constexpr std::size_t kUsualNodes = 512;  // of a wire
 
@@ -91,6 +92,8 @@ void Detector::begin(const Query& query, ContactSet& set)
   set.first_edge = query.first_node;
   set.features.clear();
   reserveLists(query.nodes.size());
+  built_lists_ = 0;
+  due_.clear();
   for (std::size_t i = 0; i < query.nodes.size(); ++i)
   {
     const Eigen::Vector3d& a = query.nodes[i];
@@ -98,7 +101,29 @@ void Detector::begin(const Query& query, ContactSet& set)
     const double cutoff = listCutoff(query, i);
     NeighbourList& list = listOf(query, i);
     list.follow(a, b, cutoff);
+    built_lists_ += !list.isValid();
+    if (list.isValid() && list.queriesLeft() < kHorizon)
+      due_.emplace_back(list.queriesLeft(), i);
     list.update(model_->bvh(), model_->bounds(), a, b, cutoff, scratch_);
+  }
+  renewDueLists(query);
+}
+
+/** Renews some of the lists that expire soon, the nearest ones to their end first. The lists of a wire that is pushed
+ *  would otherwise expire together, and one query would pay for all of them. */
+void Detector::renewDueLists(const Query& query)
+{
+  const auto share = static_cast<std::size_t>(std::ceil(static_cast<double>(due_.size()) / kHorizon));
+  if (share <= built_lists_)
+    return;
+  const auto end = due_.begin() + static_cast<std::ptrdiff_t>(share - built_lists_);
+  built_lists_ = share;
+  std::partial_sort(due_.begin(), end, due_.end());
+  for (auto due = due_.begin(); due != end; ++due)
+  {
+    const std::size_t i = due->second;
+    listOf(query, i).renew(model_->bvh(), model_->bounds(), query.nodes[i], query.nodes[nextNode(query, i)],
+                           listCutoff(query, i), scratch_);
   }
 }
 

@@ -46,6 +46,9 @@ public:
   void moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
                     std::uint64_t vessel_version);
 
+  /** Number of neighbour lists that the last query has built. */
+  std::size_t builtLists() const { return built_lists_; }
+
   /** Signed distance from a point to the wall, see WallModel::signedDistance [m]. */
   double signedDistance(const Eigen::Vector3d& point, int hint = -1, int* nearest = nullptr) const
   {
@@ -53,6 +56,9 @@ public:
   }
 
   const Wall& wall() const { return model_->wall(); }
+
+  /** Version of the vessel that every set reports; each movement of the wall has another one. */
+  std::uint64_t vesselVersion() const { return vessel_version_; }
 
   /** The wall model, for further detectors. */
   const std::shared_ptr<const WallModel>& model() const { return model_; }
@@ -62,6 +68,7 @@ private:
   NeighbourList& listOf(const Query& query, std::size_t node) { return lists_[query.nodes.size() - 1 - node]; }
   void reserveLists(std::size_t nodes);
   void begin(const Query& query, ContactSet& set);
+  void renewDueLists(const Query& query);
   void detectNode(const Query& query, std::size_t node, std::vector<Feature>& features);
   void detectEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
   void detectSmoothNode(const Query& query, std::size_t node, std::vector<Feature>& features);
@@ -83,7 +90,9 @@ private:
   std::vector<NeighbourList> lists_;  ///< per node, from the tip
   std::vector<int> nearest_;          ///< per node of the whole wire: nearest triangle of its last search, or −1
   NeighbourList::Scratch scratch_;
-  double deviation_ = 0.0;  ///< WallModel::deviation() [m]
+  std::size_t built_lists_ = 0;                      ///< in the last query
+  std::vector<std::pair<double, std::size_t>> due_;  ///< remaining queries and node of the lists that expire soon
+  double deviation_ = 0.0;                           ///< WallModel::deviation() [m]
   std::vector<SmoothFoot>
       nearest_feet_;              ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
   std::vector<SmoothFoot> feet_;  ///< smooth wall: feet of the present node

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -123,6 +124,28 @@ TEST(ListReuse, GivesTheBitsOfANewDetectorToASlidingWire)
     features += reused.features.size();
   }
   EXPECT_GT(features, 1000U);
+}
+
+// All lists of a wire are built when it enters and would expire in the same query once it slides.
+TEST(ListReuse, OfAWireThatBeginsToSlideIsSpreadOverTheQueries)
+{
+  const geometry::TriangleMesh mesh = fineTube();
+  Detector detector(mesh, WallLaw{});
+  const int nodes = 100;
+  std::size_t sum = 0;
+  std::size_t most = 0;
+  const int queries = 200;
+  for (int k = 0; k < queries; ++k)
+  {
+    ContactSet set;
+    detector.detect(wireAlongTheWall(nodes, 0.25e-3, 1e-9 + 35e-6 * k), set);
+    if (k == 0)
+      continue;
+    sum += detector.builtLists();
+    most = std::max(most, detector.builtLists());
+  }
+  EXPECT_GT(sum, 5U * nodes);
+  EXPECT_LE(most, 40U);
 }
 
 }  // namespace

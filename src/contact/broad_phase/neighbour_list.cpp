@@ -154,8 +154,15 @@ inline double NeighbourList::squaredDistanceTo(const Eigen::Vector3d& point, dou
 void NeighbourList::follow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double cutoff)
 {
   // The distance to a segment is convex: between the edge's ends it is at most the larger of theirs.
+  const double before = displacement_;
   displacement_ = std::sqrt(std::max(squaredDistanceTo(a, slide_), squaredDistanceTo(b, length_))) + wall_displacement_;
+  growth_ = displacement_ - before;
   valid_ = displacement_ < skin_ && cutoff <= cutoff_ && cutoff >= cutoff_ - kCutoffExcess;
+}
+
+double NeighbourList::queriesLeft() const
+{
+  return growth_ > 0.0 ? (skin_ - displacement_) / growth_ : std::numeric_limits<double>::infinity();
 }
 
 void NeighbourList::followWall(const WallMovement& movement)
@@ -180,12 +187,16 @@ void NeighbourList::update(const Bvh& bvh, const WallBounds& bounds, const Eigen
                            double cutoff, Scratch& scratch)
 {
   if (!valid_)
-  {
-    start(a, b, cutoff);
-    rebuild(bvh, bounds, scratch);
-  }
+    renew(bvh, bounds, a, b, cutoff, scratch);
   else if (packets_outdated_)
     pack(bounds);
+}
+
+void NeighbourList::renew(const Bvh& bvh, const WallBounds& bounds, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          double cutoff, Scratch& scratch)
+{
+  start(a, b, cutoff);
+  rebuild(bvh, bounds, scratch);
 }
 
 /** Chooses the segment, the cutoff and the skin of a new list by the wire's motion since the last one. */
@@ -203,7 +214,7 @@ void NeighbourList::start(const Eigen::Vector3d& a, const Eigen::Vector3d& b, do
   const double usual = snaps ? (was_long_ ? 0.5 : 1.0) * kSnapSkin : kSkin;
   skin_ = first ? kFirstSkin : usual;
   cutoff_ = first || cutoff == cutoff_ ? cutoff : cutoff + 0.5 * kCutoffSlack;
-  displacement_ = wall_displacement_ = 0.0;
+  displacement_ = wall_displacement_ = growth_ = 0.0;
   triangles_.clear();
   edges_.clear();
 }

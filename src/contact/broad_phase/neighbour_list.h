@@ -41,10 +41,17 @@ public:
    *  wall's shape. */
   bool isValid() const { return valid_; }
 
+  /** Queries until the list becomes invalid if the displacement grows as in the last one; infinite without growth. */
+  double queriesLeft() const;
+
   /** Rebuilds an invalid list; renews the packets of a valid one whose features have moved.
    *  @param a, b, cutoff as for follow */
   void update(const Bvh& bvh, const WallBounds& bounds, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
               double cutoff, Scratch& scratch);
+
+  /** Rebuilds a list, also a valid one. @param a, b, cutoff as for follow */
+  void renew(const Bvh& bvh, const WallBounds& bounds, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+             double cutoff, Scratch& scratch);
 
   /** A movement of the wall. */
   struct WallMovement
@@ -99,6 +106,7 @@ private:
   double skin_ = 0.0;               ///< displacement up to which the list is complete [m]
   double displacement_ = 0.0;       ///< bound of the wire's and the wall's displacement since the last rebuild [m]
   double wall_displacement_ = 0.0;  ///< the wall's share of it [m]
+  double growth_ = 0.0;             ///< of displacement_ in the last query [m]
   std::vector<Entry> triangles_;    ///< ascending
   std::vector<Entry> edges_;        ///< ascending; reflex edges
   std::vector<TrianglePacket> triangle_packets_;  ///< of triangles_, relative to begin_
