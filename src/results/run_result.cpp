@@ -25,6 +25,7 @@ struct HandPart
   const char* name;
   double rod::HandForceParts::*value;
 };
+constexpr double kSafeShare = 0.999;  // of a distance from the wall within which a node stays inside [1]
 constexpr double kSlowStep = 300e-6;  // step time above which a step is counted as slow [s]
 constexpr std::array<HandPart, 7> kHandParts = {{{"bending", &rod::HandForceParts::bending},
                                                  {"friction", &rod::HandForceParts::friction},
@@ -137,9 +138,22 @@ int firstInsertedNode(const simulation::Simulation& simulation)
 void RunResult::checkOutside(const simulation::Simulation& simulation, const contact::Detector& wall)
 {
   int outside = 0;
-  nearest_.resize(simulation.state().position.size(), -1);
+  clearances_.resize(simulation.state().position.size());
+  if (wall_version_ != wall.vesselVersion())
+    for (Clearance& clearance : clearances_)
+      clearance.distance = 0.0;
+  wall_version_ = wall.vesselVersion();
   for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
-    outside += wall.signedDistance(simulation.state().position[i], nearest_[i], &nearest_[i]) < 0.0;
+  {
+    const Eigen::Vector3d& position = simulation.state().position[i];
+    Clearance& clearance = clearances_[i];
+    // The distance from the wall is 1-Lipschitz.
+    if ((position - clearance.position).norm() < kSafeShare * clearance.distance)
+      continue;
+    clearance.position = position;
+    clearance.distance = wall.signedDistance(position, clearance.triangle, &clearance.triangle);
+    outside += clearance.distance < 0.0;
+  }
   nodes_outside_ = std::max(nodes_outside_, outside);
 }
 

@@ -36,7 +36,8 @@ public:
    *  @param seconds wall time of the step [s] */
   void addStep(const simulation::Simulation& simulation, double seconds);
 
-  /** Updates the largest number of inserted nodes outside the wall; costs one nearest-triangle search per node. */
+  /** Updates the largest number of inserted nodes outside the wall. Costs one nearest-triangle search per node that has
+   *  moved by as much as its last distance from the wall. */
   void checkOutside(const simulation::Simulation& simulation, const contact::Detector& wall);
 
   /** Result as JSON (docs/SIMULATE.md).
@@ -63,7 +64,15 @@ private:
   double worst_penetration_ = 0.0;
   double worst_penetration_time_ = 0.0;
   int nodes_outside_ = 0;
-  std::vector<int> nearest_;  ///< last nearest triangle of each node; −1: unknown
+  /** Last search of the wall for a node. */
+  struct Clearance
+  {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+    double distance = 0.0;                               ///< to the wall; at most 0: outside or unknown [m]
+    int triangle = -1;                                   ///< the nearest; −1: unknown
+  };
+  std::vector<Clearance> clearances_;  ///< of each node
+  std::uint64_t wall_version_ = 0;     ///< of the vessel, for which they hold
   double max_strain_ = 0.0;
   std::uint64_t strained_steps_ = 0;
   RunningValue hand_force_;   ///< in every step, force on the hand with the largest one

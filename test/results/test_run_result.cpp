@@ -1,5 +1,7 @@
+#include "contact/detector.h"
 #include "results/run_result.h"
 #include "scene/scene_file.h"
+#include "vessel/anatomy/tube.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -34,12 +36,30 @@ TEST(RunResult, HasAllDocumentedKeys)
                           "nodes_outside", "max_strain", "inserted_length", "tip_position", "tip_tangent", "hand_force",
                           "hand_torque", "energy", "wall_forces", "trajectory_hash", "scene_hash", "mesh_hash"})
     EXPECT_TRUE(json.contains(key)) << key;
-  for (const char* phase : {"collision", "assembly", "solve", "sampling", "twist"})
+  for (const char* phase : kPhaseNames)
     for (const char* statistic : {"mean", "median", "p99", "max"})
       EXPECT_TRUE(json["step_time_us"][phase].contains(statistic)) << phase << " " << statistic;
   EXPECT_EQ(json["steps"], 20);
   EXPECT_NEAR(json["real_time_factor"].get<double>(), 20.0, 1e-9);
   EXPECT_NEAR(json["step_time_us"]["median"].get<double>(), 50.0, 1e-9);
+}
+
+TEST(RunResult, NamesPhasesThatCoverTheStep)
+{
+  const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml");
+  simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
+  double phases = 0.0;
+  double steps = 0.0;
+  for (int k = 1; k <= 200; ++k)
+  {
+    const auto begin = PhaseTimer::Clock::now();
+    simulation.step({0.005 + 3e-5 * k, 0.001 * k});
+    steps += std::chrono::duration<double>(PhaseTimer::Clock::now() - begin).count();
+    for (std::size_t phase = 0; phase < kPhaseCount; ++phase)
+      phases += simulation.timer().seconds(static_cast<Phase>(phase));
+  }
+  EXPECT_LE(phases, steps);
+  EXPECT_GE(phases, 0.95 * steps);
 }
 
 TEST(RunResult, FirstInsertedNodeWithoutAnIntroducerIsTheFirstNode)
@@ -62,6 +82,32 @@ TEST(RunResult, ReportsExactlyZeroForUnusedPhases)
     EXPECT_EQ(json["step_time_us"]["twist"]["max"], 0.0) << scene;
     EXPECT_GT(json["step_time_us"]["solve"]["max"], 0.0) << scene;
   }
+}
+
+// The wire leaves a closed tube of 150 mm, in which its nodes stay clear of the wall for most steps.
+TEST(RunResult, CountsTheNodesOutsideThatASearchForEveryNodeFinds)
+{
+  const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml");
+  simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
+  vessel::TubeShape tube;
+  tube.radius = 0.004;
+  tube.facet_length = 0.004;
+  tube.pieces = {{0.14}};
+  const contact::Detector wall(vessel::tubeMesh(tube), contact::WallLaw());
+  RunResult result(scene, 0, 6000);
+  int most = 0;
+  for (int k = 1; k <= 6000; ++k)
+  {
+    simulation.step({0.005 + 3e-5 * k, 0.0});
+    result.checkOutside(simulation, wall);
+    int outside = 0;
+    for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+      outside += wall.signedDistance(simulation.state().position[i]) < 0.0;
+    most = std::max(most, outside);
+    if (k % 100 == 0)
+      ASSERT_EQ(Json::parse(result.json(simulation))["nodes_outside"], most) << k;
+  }
+  EXPECT_GT(most, 5);
 }
 
 TEST(RunResult, ReportsMeanMedianAndTails)

@@ -3,12 +3,36 @@
 #include <algorithm>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "geometry/mesh_topology.h"
 
 namespace endovascular_sim::contact
 {
+namespace
+{
+
+constexpr double kCoplanar = 1e-12;  // squared sine, or volume, of normals that count as dependent
+
+/** Factors of unit normals whose sum is nearest to a force; 0 for one that depends on those before it.
+ *  @param count of the normals, 1 to 3 */
+Eigen::Vector3d nearestSum(const std::array<Eigen::Vector3d, FacetForces::kMost>& normals, std::size_t count,
+                           const Eigen::Vector3d& force)
+{
+  const Eigen::Vector3d& a = normals[0];
+  if (count == 1)
+    return {a.dot(force), 0.0, 0.0};
+  const Eigen::Vector3d across = a.cross(normals[1]);
+  const double squared = across.squaredNorm();
+  if (squared < kCoplanar)
+    return {a.dot(force), 0.0, 0.0};
+  const Eigen::Vector3d& b = normals[1];
+  const double volume = count > 2 ? across.dot(normals[2]) : 0.0;
+  const double third = volume * volume > kCoplanar ? across.dot(force) / volume : 0.0;
+  const Eigen::Vector3d rest = third != 0.0 ? Eigen::Vector3d(force - third * normals[2]) : force;
+  return {rest.cross(b).dot(across) / squared, a.cross(rest).dot(across) / squared, third};
+}
+
+}  // namespace
 
 FacetForces::FacetForces(const geometry::TriangleMesh& mesh) : neighbour_(mesh.triangles.size(), {-1, -1, -1})
 {
@@ -49,18 +73,24 @@ double FacetForces::solve(const Eigen::Vector3d& force, Shares& shares) const
 {
   while (shares.count > 0)
   {
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMost> normals(3, static_cast<Eigen::Index>(shares.count));
+    std::array<Eigen::Vector3d, kMost> normals;
     for (std::size_t k = 0; k < shares.count; ++k)
-      normals.col(static_cast<Eigen::Index>(k)) = normal_[static_cast<std::size_t>(shares.share[k].triangle)];
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> push = normals.colPivHouseholderQr().solve(force);
-    Eigen::Index least = 0;
-    if (push.minCoeff(&least) >= 0.0)
+      normals[k] = normal_[static_cast<std::size_t>(shares.share[k].triangle)];
+    const Eigen::Vector3d push = nearestSum(normals, shares.count, force);
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < shares.count; ++k)
+      least = push[static_cast<Eigen::Index>(k)] < push[static_cast<Eigen::Index>(least)] ? k : least;
+    if (push[static_cast<Eigen::Index>(least)] >= 0.0)
     {
+      Eigen::Vector3d rest = force;
       for (std::size_t k = 0; k < shares.count; ++k)
+      {
         shares.share[k].force = push[static_cast<Eigen::Index>(k)];
-      return (force - normals * push).norm();
+        rest -= shares.share[k].force * normals[k];
+      }
+      return rest.norm();
     }
-    const auto pulls = shares.share.begin() + least;
+    const auto pulls = shares.share.begin() + static_cast<std::ptrdiff_t>(least);
     std::copy(pulls + 1, shares.share.begin() + static_cast<std::ptrdiff_t>(shares.count), pulls);
     --shares.count;
   }

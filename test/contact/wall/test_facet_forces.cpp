@@ -1,6 +1,10 @@
 #include "contact/wall/facet_forces.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
+
+#include <Eigen/LU>
 
 namespace endovascular_sim::contact
 {
@@ -18,7 +22,45 @@ geometry::TriangleMesh trough()
   return mesh;
 }
 
+/** Three triangles without common vertices, whose normals into the lumen are given. */
+geometry::TriangleMesh facetsWith(const Eigen::Matrix3d& normals)
+{
+  geometry::TriangleMesh mesh;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector3d along = normals.col(k).unitOrthogonal();
+    const Eigen::Vector3d at(3.0 * k, 0.0, 0.0);
+    mesh.triangles.emplace_back(3 * k, 3 * k + 2, 3 * k + 1);
+    mesh.vertices.insert(mesh.vertices.end(), {at, at + along, at + normals.col(k).cross(along)});
+  }
+  return mesh;
+}
+
 }  // namespace
+
+TEST(FacetForces, OfThreeFacetsEqualTheSolutionOfTheLinearSystem)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int k = 0; k < 1000; ++k)
+  {
+    Eigen::Matrix3d normals;
+    for (int j = 0; j < 3; ++j)
+      normals.col(j) = Eigen::Vector3d(0.3 * uniform(random), 0.3 * uniform(random), 1.0).normalized();
+    const Eigen::Vector3d push(1.5 + uniform(random), 1.5 + uniform(random), 1.5 + uniform(random));
+    const Eigen::Vector3d force = normals * push;
+    const FacetForces::Shares shares = FacetForces(facetsWith(normals)).divide(force, std::array<int, 3>{0, 1, 2});
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t j = 0; j < shares.count; ++j)
+      sum += shares.share[j].force * normals.col(shares.share[j].triangle);
+    const Eigen::Vector3d expected = normals.fullPivLu().solve(force);
+    if (shares.count < 3)  // two of them make up the force
+      continue;
+    EXPECT_NEAR((sum - force).norm(), 0.0, 1e-12);
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(shares.share[j].force, expected[shares.share[j].triangle], 1e-9);
+  }
+}
 
 TEST(FacetForces, OfTwoTouchedFacetsAddUpToTheVectorOfTheContact)
 {
