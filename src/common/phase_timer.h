@@ -3,21 +3,31 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
 namespace endovascular_sim
 {
 
-/** Phases of a step with separately reported times. A phase that a scene does not use stays at exactly zero. */
+/** Phases of a step with separately reported times. Together they cover the step. A phase that a scene does not use
+ *  stays at exactly zero. */
 enum class Phase
 {
-  kCollision,
-  kAssembly,
-  kSolve,
-  kSampling,
+  kCollision,  ///< queries of the wall
+  kAssembly,   ///< of the system of a solve
+  kSolve,      ///< factorisations, and the choice of the active contacts
+  kSampling,   ///< choice of the nodes
   kTwist,
+  kContact,   ///< springs, permitted motion and limits of the contacts that a query found
+  kFriction,  ///< of the wall
+  kLayers,    ///< places of coaxial instruments, their loads on each other, and their friction
+  kForces,    ///< at the hands and on the wall
+  kBalloon,   ///< widths of balloons, and the motion of the wall
+  kControl,   ///< all else: commands, grips, copies of the state
 };
-constexpr std::size_t kPhaseCount = 5;
-constexpr std::array<const char*, kPhaseCount> kPhaseNames = {"collision", "assembly", "solve", "sampling", "twist"};
+constexpr std::size_t kPhaseCount = 11;
+constexpr std::array<const char*, kPhaseCount> kPhaseNames = {"collision", "assembly", "solve",    "sampling",
+                                                              "twist",     "contact",  "friction", "layers",
+                                                              "forces",    "balloon",  "control"};
 
 /** Time spent per phase since the last reset. No result of the simulation depends on it. */
 class PhaseTimer
@@ -37,28 +47,38 @@ public:
   /** Number of entries into a phase since the last reset. */
   int entries(Phase phase) const { return entries_[static_cast<std::size_t>(phase)]; }
 
-  /** Guard that counts the time from its construction to its destruction towards a phase. */
+  /** Guard that counts the time from its construction to its destruction towards a phase, less that of guards inside.
+   */
   class Scope
   {
   public:
-    Scope(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), begin_(Clock::now())
+    Scope(PhaseTimer& timer, Phase phase) : timer_(timer), outer_(timer.phase_)
     {
-      ++timer_.entries_[static_cast<std::size_t>(phase_)];
+      ++timer_.entries_[static_cast<std::size_t>(phase)];
+      timer_.enter(phase);
     }
-    ~Scope()
-    {
-      timer_.seconds_[static_cast<std::size_t>(phase_)] += std::chrono::duration<double>(Clock::now() - begin_).count();
-    }
+    ~Scope() { timer_.enter(outer_); }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
   private:
     PhaseTimer& timer_;
-    Phase phase_;
-    Clock::time_point begin_;
+    std::optional<Phase> outer_;
   };
 
 private:
+  /** Ends the present phase. @param phase that begins; none: time is not counted */
+  void enter(std::optional<Phase> phase)
+  {
+    const Clock::time_point now = Clock::now();
+    if (phase_)
+      seconds_[static_cast<std::size_t>(*phase_)] += std::chrono::duration<double>(now - since_).count();
+    phase_ = phase;
+    since_ = now;
+  }
+
+  std::optional<Phase> phase_;  ///< that is counted at present
+  Clock::time_point since_;     ///< begin of the present phase, or of its part after the last guard inside
   std::array<double, kPhaseCount> seconds_{};
   std::array<int, kPhaseCount> entries_{};
 };

@@ -155,14 +155,17 @@ void BalloonTreatments::widen(InstrumentTreatment& treated, const rod::State& st
                               double growth)
 {
   const double tip = tipOf(treated.instrument, state, rod);
-  const double covered_from = coveredFrom(treated.instrument, state, rod);
+  const double begin = treated.treatment.begin();
+  const double end = std::min(treated.treatment.end(), coveredFrom(treated.instrument, state, rod));
   positions_.clear();
-  for (int i = rod.nodes() - 1; i >= state.first_node; --i)
+  const auto from = rod.position.begin() + state.first_node;
+  const auto beyond = std::lower_bound(from, rod.position.end(), tip - begin);
+  for (int i = static_cast<int>(beyond - rod.position.begin()) - 1; i >= state.first_node; --i)
   {
     const double from_tip = tip - rod.position[i];
-    if (from_tip >= std::min(treated.treatment.end(), covered_from))
+    if (from_tip >= end)
       break;
-    if (from_tip <= treated.treatment.begin())
+    if (from_tip <= begin)
       continue;
     if (positions_.empty())
       treated.last_node = i;

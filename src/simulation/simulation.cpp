@@ -274,6 +274,7 @@ void Simulation::prepareContactRadii()
 {
   if (treatments_.empty())
     return;
+  PhaseTimer::Scope scope(timer_, Phase::kBalloon);
   const std::vector<double>& radii = treatments_.contactRadii(state_, discretisation(), contactSet());
   stepper_->setContactRadii(radii);
   if (audit_ != nullptr)
@@ -397,12 +398,26 @@ void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, d
   input.setHandles(handles_);
 }
 
+/** @return version of the vessel in this step */
+std::uint64_t Simulation::beginTreatments()
+{
+  PhaseTimer::Scope scope(timer_, treatments_.empty() ? Phase::kControl : Phase::kBalloon);
+  return treatments_.beginStep(steps_);
+}
+
+void Simulation::endTreatments()
+{
+  PhaseTimer::Scope scope(timer_, treatments_.empty() ? Phase::kControl : Phase::kBalloon);
+  treatments_.endStep(steps_, pressures_, state_, discretisation());
+}
+
 void Simulation::stepAll(const std::vector<HandCommand>& commands)
 {
   if (commands.size() != channels_.size())
     throw std::invalid_argument("Simulation: requires one command for every instrument");
-  setPressures(commands);
   timer_.reset();
+  PhaseTimer::Scope scope(timer_, Phase::kControl);
+  setPressures(commands);
   resample();
   double travel = 0.0;
   for (int k = 0; k < instruments(); ++k)
@@ -419,7 +434,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     parts_[k] = {wanted_[k].insertion / substeps, wanted_[k].rotation / substeps};
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
-  const std::uint64_t vessel_version = treatments_.beginStep(steps_);
+  const std::uint64_t vessel_version = beginTreatments();
   for (int k = 1; k <= substeps; ++k)
   {
     rod::StepInput input;
@@ -437,7 +452,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     if (!report_.solved)
       break;  // the wire keeps its position; later steps make up for the motion of the handle
   }
-  treatments_.endStep(steps_, pressures_, state_, discretisation());
+  endTreatments();
   ++steps_;
   state_hash_ = state_.hash();
   trajectory_.add(state_hash_);

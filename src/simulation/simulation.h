@@ -166,6 +166,8 @@ private:
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
+  std::uint64_t beginTreatments();
+  void endTreatments();
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);

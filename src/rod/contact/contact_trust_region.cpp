@@ -76,15 +76,17 @@ void ContactTrustRegion::update(const std::vector<contact::Feature>& features)
 
 void ContactTrustRegion::subtractGrowth(const std::vector<double>& least_radius)
 {
+  bool grows = false;
   for (std::size_t i = 0; i < margins_.size(); ++i)
   {
     const double growth = std::max(0.0, surface_.growthTo(least_radius[i], static_cast<int>(i)));
+    grows = grows || growth > 0.0;
     margins_[i] = std::max(kLeastOfMargin * margins_[i], margins_[i] - growth);
     if (isWide(least_radius[i]))
       query_.noteWideGrowth(growth);
     any_wide_ = any_wide_ || isWide(least_radius[i]);
   }
-  for (std::size_t i = 0; i < reach_.size(); ++i)
+  for (std::size_t i = 0; grows && i < reach_.size(); ++i)
     reach_[i] = std::min(reach_[i], leastAround(static_cast<int>(i), [this](int k) { return listedMargin(k); }));
 }
 

@@ -121,20 +121,30 @@ void InterlayerFriction::updateTorqueLimits(const State& state)
   }
 }
 
-bool InterlayerFriction::addTorques(int k, const State& state, std::vector<double>& edge_torque) const
+/** Factor of the friction torque limit of pair m on layer k; 0: none. */
+double InterlayerFriction::torqueShare(int m, int k, const State& state) const
 {
-  bool any = false;
+  const double share = state.layers[m].friction_share;
+  const double sign = m == k ? -share : nextOuter(m, state) == k ? share : 0.0;
+  return sign == 0.0 || !canStick(m, state) ? 0.0 : sign;
+}
+
+bool InterlayerFriction::hasTorques(int k, const State& state) const
+{
+  for (int m = 0; m < stack_.count(); ++m)
+    if (torqueShare(m, k, state) != 0.0)
+      return true;
+  return false;
+}
+
+void InterlayerFriction::addTorques(int k, const State& state, std::vector<double>& edge_torque) const
+{
   for (int m = 0; m < stack_.count(); ++m)
   {
-    const double share = state.layers[m].friction_share;
-    const double sign = m == k ? -share : nextOuter(m, state) == k ? share : 0.0;
-    if (sign == 0.0 || !canStick(m, state))
-      continue;
-    any = true;
-    for (std::size_t j = 0; j < edge_torque.size(); ++j)
+    const double sign = torqueShare(m, k, state);
+    for (std::size_t j = 0; sign != 0.0 && j < edge_torque.size(); ++j)
       edge_torque[j] += sign * torque_limit_[m][j];
   }
-  return any;
 }
 
 double InterlayerFriction::turnWork(int k, int outer, const State& before, const State& after) const

@@ -41,9 +41,11 @@ public:
   /** Updates the largest friction torques between neighbours. */
   void updateTorqueLimits(const State& state);
 
-  /** Adds the friction torques on every edge of a layer [N·m].
-   *  @return true when there are any */
-  bool addTorques(int k, const State& state, std::vector<double>& edge_torque) const;
+  /** Whether there are friction torques on a layer. */
+  bool hasTorques(int k, const State& state) const;
+
+  /** Adds the friction torques on every edge of a layer [N·m]. */
+  void addTorques(int k, const State& state, std::vector<double>& edge_torque) const;
 
   /** Changes the friction torques towards those with which every pair sticks at its angle, within friction's limit.
    *  @param held arc length at which the proximal end holds the twist [m]
@@ -58,6 +60,7 @@ private:
   void updateVesselShares(const State& state);
   double load(int k, int outer, int node, const State& state) const;
   bool canStick(int k, const State& state) const;
+  double torqueShare(int m, int k, const State& state) const;
   double meanTurn(int k, int outer, const State& state) const;
   double turnCompliance(int k, int outer, double held) const;
   double turnPerShare(int k, double turn, double share, double compliance, bool first) const;

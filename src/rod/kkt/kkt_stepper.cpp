@@ -60,8 +60,11 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
   timer_ = &timer;
   motion_.resize(state.position.size());
   last_input_ = input;
-  if (layers_->beginStep(state, input, dt, friction_))
-    contacts_.invalidate();
+  {
+    PhaseTimer::Scope scope(timer, Phase::kLayers);
+    if (layers_->beginStep(state, input, dt, friction_))
+      contacts_.invalidate();
+  }
   StepReport report;
   const double kinetic = audit_ != nullptr ? kineticEnergy(model_.rod, state) : 0.0;
   report.solved = advance(state, layers_->centrelineInput(state, input), dt, report);
@@ -117,11 +120,17 @@ bool KktStepper::gainedEnergy(const State& before, const State& state, double dt
 bool KktStepper::solveStep(State& state, const StepInput& input, double dt, StepReport& report)
 {
   begin_ = state.position;
-  turned_ = layers_->advance(state, input, dt);
+  {
+    PhaseTimer::Scope scope(*timer_, Phase::kLayers);
+    turned_ = layers_->advance(state, input, dt);
+  }
   with_turns_ = false;
   placeEnds(state, input, dt);
-  contacts_.refresh(state, report);
-  contacts_.settle(state);
+  {
+    PhaseTimer::Scope scope(*timer_, Phase::kContact);
+    contacts_.refresh(state, report);
+    contacts_.settle(state);
+  }
   if (!iterate(state, input, dt, report))
     return false;
   contacts_.releaseRetained();
@@ -206,6 +215,7 @@ void KktStepper::relaxTwist(State& state, const StepInput& input, bool first_sol
  *  stretches at the end of the step. */
 void KktStepper::updateTorques(State& state, const StepInput& input)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kForces);
   if (with_turns_)
   {
     const SurfaceMotion at_rest{model_.rod.radius, surface_angle_, surface_angle_};
@@ -285,6 +295,7 @@ bool KktStepper::restoreOnce(State& state, const StepInput& input, double dt, St
 
 double KktStepper::truncation(const State& state, StepReport& report)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kContact);
   double factor = turnTruncation(model_.rod, state, motion_, model_.settings.max_rotation);
   factor = contacts_.truncation(state, motion_, factor, report);
   report.truncations += factor < 1.0;
@@ -297,6 +308,7 @@ double KktStepper::truncation(const State& state, StepReport& report)
  *  @return the remaining share */
 double KktStepper::move(State& state, double factor, StepReport& report)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kContact);
   const int n = model_.rod.nodes();
   for (int i = state.first_node; i < n; ++i)
     state.position[i] += factor * motion_[i];
@@ -320,6 +332,7 @@ double KktStepper::move(State& state, double factor, StepReport& report)
 /** Lagged forces are taken from accepted solutions only: a truncated one is not an equilibrium. */
 void KktStepper::accept(State& state, double dt)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kForces);
   contacts_.updateWallForces(state, motion_);
   if (audit_ != nullptr)
     noteForces(dt);
@@ -331,6 +344,7 @@ void KktStepper::accept(State& state, double dt)
 
 void KktStepper::finish(State& state, double dt)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kFriction);
   layers_->initialSurfaceAngles(state, surface_begin_);
   layers_->surfaceAngles(state, surface_angle_);
   const SurfaceMotion surface = surfaceMotion();
@@ -339,11 +353,13 @@ void KktStepper::finish(State& state, double dt)
   for (int i = model_.conditions.firstFreeNode(state); i < model_.rod.nodes(); ++i)
     if (!model_.conditions.isDistalHeld(i))
       state.velocity[i] = inverse * (state.position[i] - begin_[i]);
+  PhaseTimer::Scope layers(*timer_, Phase::kLayers);
   layers_->finish(state, dt);
 }
 
 void KktStepper::collectFriction(const State& state, double dt, bool first_solve)
 {
+  PhaseTimer::Scope scope(*timer_, Phase::kFriction);
   layers_->initialSurfaceAngles(state, surface_begin_);
   const SurfaceMotion surface = surfaceMotion();
   friction_.collect(state, begin_, &model_.rod.mass, dt, first_solve, &surface);

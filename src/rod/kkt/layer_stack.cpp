@@ -213,13 +213,16 @@ bool LayerStack::advance(State& state, const StepInput& input, double dt)
 bool LayerStack::setEdgeTorque(int k, const State& state, const StepInput& input)
 {
   const bool outside = !input.edge_torque.empty();
+  if (!outside && !friction_.hasTorques(k, state))
+    return false;
   edge_torque_.assign(state.twist_angle.size(), 0.0);
   for (std::size_t j = 0; outside && j < edge_torque_.size(); ++j)
   {
     const int node = static_cast<int>(j);
     edge_torque_[j] = 0.5 * (stack_.outerShare(k, node) + stack_.outerShare(k, node + 1)) * input.edge_torque[j];
   }
-  return friction_.addTorques(k, state, edge_torque_) || outside;
+  friction_.addTorques(k, state, edge_torque_);
+  return true;
 }
 
 /** Boundary of one layer's twist. The wall holds the layer that it touches.
