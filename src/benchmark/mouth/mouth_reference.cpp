@@ -16,6 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kWallStiffness = 2e8;  // of tube and sheath per length of wire [N/m²]: 5 µm at 1 N/mm
+constexpr double kTipLength = 1e-3;     // m, length of wire that the contact of the rounded tip represents
 constexpr double kStep = 50e-6;         // m, of the central difference
 constexpr double kTolerance = 1e-8;     // of an equilibrium; the error of its energy is of second order
 constexpr int kPoints = 8;              // of the midpoint rule on an edge
@@ -40,7 +41,7 @@ int MouthReference::simulatedEdges(double inserted_length) const
 }
 
 /** Potential of the guide (IntroducerGuide), of the sheath and of the tube on a node. */
-NodePotential MouthReference::potentialAt(const Vector3d& position, double stiffness, double length) const
+NodePotential MouthReference::potentialAt(const Vector3d& position, double stiffness, double length, bool tip) const
 {
   NodePotential sum;
   const double decay = problem_.guide_decay;
@@ -58,7 +59,7 @@ NodePotential MouthReference::potentialAt(const Vector3d& position, double stiff
                    k * slope * (lateral * axis.transpose() + axis * lateral.transpose()) +
                    0.5 * k * (2.0 / 3.0) * slope * slope * squared * axis * axis.transpose();
   }
-  addWall(position, length, sum);
+  addWall(position, tip ? kTipLength : length, sum);
   return sum;
 }
 
@@ -126,7 +127,7 @@ EquilibriumProblem MouthReference::problemAt(double inserted_length) const
   problem.held.assign(static_cast<std::size_t>(n), false);
   problem.held[0] = problem.held[1] = true;
   problem.node_potential = [this, stiffness, h, n](int node, const Vector3d& position)
-  { return potentialAt(position, stiffness[node], node + 1 < n ? h : 0.5 * h); };
+  { return potentialAt(position, stiffness[node], node + 1 < n ? h : 0.5 * h, node + 1 == n); };
   return problem;
 }
 

@@ -39,7 +39,7 @@ private:
   EquilibriumProblem problemAt(double inserted_length) const;
   Eigen::Vector3d slid(double edges, const Eigen::Vector3d& straight) const;
   double leastEnergy(double inserted_length);
-  NodePotential potentialAt(const Eigen::Vector3d& position, double stiffness, double length) const;
+  NodePotential potentialAt(const Eigen::Vector3d& position, double stiffness, double length, bool tip) const;
   void addWall(const Eigen::Vector3d& position, double length, NodePotential& sum) const;
   int simulatedEdges(double inserted_length) const;
 

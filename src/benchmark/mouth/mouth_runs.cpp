@@ -21,6 +21,7 @@ constexpr double kFollowed = 0.25e-3;  // longest distance between equilibria of
 constexpr double kRamp = 0.1;          // time in which the hand changes its speed: inertia is no force of the mouth [s]
 constexpr double kAbsolute = 0.02;     // tolerated deviation [N]
 constexpr double kRelative = 0.03;
+constexpr double kPlane = 0.05e-3;  // lateral offset of a wire that has left its plane [m]
 
 std::string sceneOf(const MouthMotion& motion)
 {
@@ -73,6 +74,13 @@ double travelled(double time, double duration)
   return 0.5 * up * up / kRamp + std::max(0.0, time - kRamp) - 0.5 * down * down / kRamp;
 }
 
+/** True while all nodes lie in the plane of the axis and the rest curvature. */
+bool isPlane(const rod::State& state)
+{
+  return std::all_of(state.position.begin() + state.first_node, state.position.end(),
+                     [](const Eigen::Vector3d& at) { return std::abs(at.y()) < kPlane; });
+}
+
 /** Force of the reference at an inserted length, by linear interpolation. */
 double interpolated(const std::vector<MouthForce>& reference, double insertion)
 {
@@ -99,7 +107,7 @@ MouthCurves runMouth(const MouthMotion& motion)
     if (!simulation.report().solved)
       throw std::runtime_error("mouth: a step was rejected");
     (k <= steps ? curves.in : curves.out)
-        .push_back({simulation.state().inserted_length, simulation.state().hand_force});
+        .push_back({simulation.state().inserted_length, simulation.state().hand_force, isPlane(simulation.state())});
   }
   MouthReference reference(problemOf(run.scene(), motion));
   const int between = std::max(1, static_cast<int>(std::ceil(motion.reference_step / kFollowed)));
@@ -114,13 +122,22 @@ MouthCurves runMouth(const MouthMotion& motion)
   return curves;
 }
 
+std::optional<PlaneLeft> planeLeft(const std::vector<MouthForce>& way)
+{
+  const auto begin = std::find_if(way.begin(), way.end(), [](const MouthForce& at) { return !at.plane; });
+  if (begin == way.end())
+    return std::nullopt;
+  const auto end = std::find_if(begin, way.end(), [](const MouthForce& at) { return at.plane; });
+  return PlaneLeft{begin->insertion, (end == way.end() ? way.back() : *end).insertion};
+}
+
 MouthDeviation deviationOf(const std::vector<MouthForce>& way, const std::vector<MouthForce>& reference)
 {
   MouthDeviation found;
   for (std::size_t k = 0; k < way.size(); ++k)
   {
     const MouthForce& at = way[k];
-    if (at.insertion > reference.back().insertion)
+    if (at.insertion > reference.back().insertion || !at.plane)
       continue;
     const double exact = interpolated(reference, at.insertion);
     const double deviation = std::abs(at.force - exact);
@@ -130,7 +147,7 @@ MouthDeviation deviationOf(const std::vector<MouthForce>& way, const std::vector
       found.at = at.insertion;
     }
     found.of_tolerance = std::max(found.of_tolerance, deviation / (kAbsolute + kRelative * std::abs(exact)));
-    if (k > 0 && way[k - 1].insertion <= reference.back().insertion)
+    if (k > 0 && way[k - 1].plane && way[k - 1].insertion <= reference.back().insertion)
       found.change = std::max(found.change, std::abs(at.force - way[k - 1].force) -
                                                 std::abs(exact - interpolated(reference, way[k - 1].insertion)));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct MouthForce
 {
   double insertion = 0.0;  ///< [m]
   double force = 0.0;      ///< [N]
+  bool plane = true;       ///< the wire lies in the plane of its rest curvature
+};
+
+/** Inserted lengths at which a way leaves the plane of the rest curvature, and returns to it [m]. */
+struct PlaneLeft
+{
+  double from = 0.0;
+  double to = 0.0;
 };
 
 /** Forces of a run at every step on the way in and out, and those of MouthReference. */
@@ -30,7 +39,8 @@ struct MouthCurves
   std::vector<MouthForce> in, out, reference;
 };
 
-/** Comparison of a way with the reference, which is interpolated linearly. */
+/** Comparison of a way with the reference, which is interpolated linearly. The reference is plane: forces of a wire
+ * that has left the plane are not compared. */
 struct MouthDeviation
 {
   double largest = 0.0;       ///< deviation of the force [N]
@@ -42,6 +52,9 @@ struct MouthDeviation
 /** Runs the `kkt` scheme and the reference.
  *  @throws std::runtime_error for a rejected step, or without an equilibrium */
 MouthCurves runMouth(const MouthMotion& motion);
+
+/** First part of a way out of the plane; empty: none. */
+std::optional<PlaneLeft> planeLeft(const std::vector<MouthForce>& way);
 
 MouthDeviation deviationOf(const std::vector<MouthForce>& way, const std::vector<MouthForce>& reference);
 

@@ -33,11 +33,39 @@ IntroducerGuide::IntroducerGuide(const Boundary& boundary)
 {
 }
 
-void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight,
-                               GuidedEdge& edge, GuideStiffness form) const
+/** Potential of a point of the wire, with its derivatives by the point. */
+struct IntroducerGuide::Point
+{
+  double energy;            // [J]
+  Eigen::Vector3d force;    // [N]
+  Eigen::Matrix3d hessian;  // [N/m]
+};
+
+/** @param depth of the point, over λ
+ *  @param scale weight of the point over λ⁴ */
+inline IntroducerGuide::Point IntroducerGuide::pointAt(double depth, const Eigen::Vector3d& lateral, double scale,
+                                                       GuideStiffness form) const
 {
   const double along = form == GuideStiffness::kExact ? 1.0 / 3.0 : 1.0;  // of the square of the slope
   const double axial_share = form == GuideStiffness::kLateral ? 0.0 : 1.0;
+  const double stiffness = scale * depth * depth * depth;
+  // Of the stiffness by X, relative to it; the second one: slope² 2/3.
+  const double slope = -3.0 * axial_share / (decay_ * depth);
+  const double squared = lateral.squaredNorm();
+  Point point;
+  point.energy = 0.5 * stiffness * squared;
+  point.force = stiffness * (lateral + (0.5 * slope * squared) * direction_);
+  const Eigen::Vector3d coupling = slope * lateral;
+  point.hessian = coupling * direction_.transpose() + direction_ * coupling.transpose() +
+                  (along * slope * slope * squared - 1.0) * direction_ * direction_.transpose();
+  point.hessian.diagonal().array() += 1.0;
+  point.hessian *= stiffness;
+  return point;
+}
+
+void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight,
+                               GuidedEdge& edge, GuideStiffness form) const
+{
   edge.reset();
   const double x0 = axial(first);
   const double x1 = axial(second);
@@ -49,25 +77,58 @@ void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector
   for (std::size_t q = 0; q < kPoint.size(); ++q)
   {
     const double t = inside * kPoint[q];
-    const double depth = (reach_ - x0 - t * (x1 - x0)) * inverse;
-    const double stiffness = scale * kWeight[q] * depth * depth * depth;
-    // Of the stiffness by X, relative to it; the second one: slope² 2/3.
-    const double slope = -3.0 * axial_share * inverse / depth;
-    const Eigen::Vector3d y = (1.0 - t) * y0 + t * y1;
-    const double squared = y.squaredNorm();
-    edge.energy += 0.5 * stiffness * squared;
-    const Eigen::Vector3d force = stiffness * (y + (0.5 * slope * squared) * direction_);
-    edge.gradient[0] += (1.0 - t) * force;
-    edge.gradient[1] += t * force;
-    const Eigen::Vector3d coupling = slope * y;
-    Eigen::Matrix3d hessian = coupling * direction_.transpose() + direction_ * coupling.transpose() +
-                              (along * slope * slope * squared - 1.0) * direction_ * direction_.transpose();
-    hessian.diagonal().array() += 1.0;
-    hessian *= stiffness;
-    edge.first += (1.0 - t) * (1.0 - t) * hessian;
-    edge.across += t * (1.0 - t) * hessian;
-    edge.second += t * t * hessian;
+    const Point point =
+        pointAt((reach_ - x0 - t * (x1 - x0)) * inverse, (1.0 - t) * y0 + t * y1, scale * kWeight[q], form);
+    edge.energy += point.energy;
+    edge.gradient[0] += (1.0 - t) * point.force;
+    edge.gradient[1] += t * point.force;
+    edge.first += (1.0 - t) * (1.0 - t) * point.hessian;
+    edge.across += t * (1.0 - t) * point.hessian;
+    edge.second += t * t * point.hessian;
   }
+}
+
+void IntroducerGuide::evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, const EdgeBow& bow,
+                               double weight, CurvedEdge& edge) const
+{
+  edge.reset();
+  edge.by_bow = EdgeBow();
+  edge.first_even.setZero();
+  edge.second_even.setZero();
+  const double x0 = axial(first);
+  const double x1 = axial(second);
+  const double inside = x1 > reach_ ? (reach_ - x0) / (x1 - x0) : 1.0;
+  const double scale = weight * inside / (decay_ * decay_ * decay_ * decay_);
+  double by_inside = 0.0;
+  for (std::size_t q = 0; q < kPoint.size(); ++q)
+  {
+    const double t = inside * kPoint[q];
+    const double even = 4.0 * t * (1.0 - t);
+    const double odd = 0.25 * even * (1.0 - 2.0 * t);
+    const Eigen::Vector3d from = (1.0 - t) * first + t * second + even * bow.even + odd * bow.odd - origin_;
+    const double x = direction_.dot(from);
+    if (x >= reach_)
+      continue;
+    const Point point =
+        pointAt((reach_ - x) / decay_, from - x * direction_, scale * kWeight[q], GuideStiffness::kExact);
+    edge.energy += point.energy;
+    edge.gradient[0] += (1.0 - t) * point.force;
+    edge.gradient[1] += t * point.force;
+    edge.by_bow.even += even * point.force;
+    edge.by_bow.odd += odd * point.force;
+    edge.first += (1.0 - t) * (1.0 - t) * point.hessian;
+    edge.across += t * (1.0 - t) * point.hessian;
+    edge.second += t * t * point.hessian;
+    edge.first_even += (1.0 - t) * even * point.hessian;
+    edge.second_even += t * even * point.hessian;
+    by_inside += point.energy / inside + kPoint[q] * point.force.dot(second - first + (4.0 - 8.0 * t) * bow.even +
+                                                                     (1.0 - 6.0 * t + 6.0 * t * t) * bow.odd);
+  }
+  if (inside == 1.0)
+    return;
+  // On a straight edge this vanishes: the rule is exact there, and the potential is zero at its end.
+  edge.gradient[0] += (by_inside * (inside - 1.0) / (x1 - x0)) * direction_;
+  edge.gradient[1] -= (by_inside * inside / (x1 - x0)) * direction_;
 }
 
 double IntroducerGuide::density(const Eigen::Vector3d& position) const

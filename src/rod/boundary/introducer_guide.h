@@ -23,6 +23,20 @@ struct GuidedEdge
   void reset();
 };
 
+/** Offset of a curved wire from the chord of an edge at its parameter t: 4t(1 − t) even + t(1 − t)(1 − 2t) odd [m]. */
+struct EdgeBow
+{
+  Eigen::Vector3d even = Eigen::Vector3d::Zero();
+  Eigen::Vector3d odd = Eigen::Vector3d::Zero();
+};
+
+/** Potential of the introducer on a curved edge, with its derivatives by the positions of both nodes and by the bow. */
+struct CurvedEdge : GuidedEdge
+{
+  EdgeBow by_bow;                           ///< [N]
+  Eigen::Matrix3d first_even, second_even;  ///< second derivatives by a node and by EdgeBow::even, symmetric [N/m]
+};
+
 /** Second derivatives of the guide's potential. */
 enum class GuideStiffness
 {
@@ -74,10 +88,16 @@ public:
   void evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, double weight, GuidedEdge& edge,
                 GuideStiffness form = GuideStiffness::kExact) const;
 
+  /** Computes the potential of a curved edge, by the same points. The gradient is exact. */
+  void evaluate(const Eigen::Vector3d& first, const Eigen::Vector3d& second, const EdgeBow& bow, double weight,
+                CurvedEdge& edge) const;
+
   /** Energy per length and bending stiffness at a point of the wire [1/m²]. */
   double density(const Eigen::Vector3d& position) const;
 
 private:
+  struct Point;
+  Point pointAt(double depth, const Eigen::Vector3d& lateral, double scale, GuideStiffness form) const;
   double axial(const Eigen::Vector3d& position) const { return direction_.dot(position - origin_); }
 
   Eigen::Vector3d origin_, direction_;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "rod/model/node_curvature.h"
+#include "rod/twist/transported_frame.h"
 
 namespace endovascular_sim::rod
 {
@@ -45,26 +46,14 @@ double twistEnergy(const Discretisation& rod, const TwistBoundary& hold, int fir
   return energy;
 }
 
-/** Bishop frame, transported along the edges from the hold. */
-struct Bishop
+/** Half of a node's rest curvature binormal in a frame that is turned by an angle. */
+Eigen::Vector3d halfBinormal(const TransportedFrame& frame, const Eigen::Vector2d& rest, double angle)
 {
-  Eigen::Vector3d tangent, director;
-
-  void moveTo(const Eigen::Vector3d& next)
-  {
-    director -= (director.dot(next) / (1.0 + tangent.dot(next))) * (tangent + next);
-    tangent = next;
-  }
-
-  /** Half of a node's rest curvature binormal in the frame that is turned by an angle. */
-  Eigen::Vector3d halfBinormal(const Eigen::Vector2d& rest, double angle) const
-  {
-    const Eigen::Vector3d normal = tangent.cross(director);
-    const Eigen::Vector3d m1 = std::cos(angle) * director + std::sin(angle) * normal;
-    const Eigen::Vector3d m2 = std::cos(angle) * normal - std::sin(angle) * director;
-    return 0.5 * (rest.x() * m2 - rest.y() * m1);
-  }
-};
+  const Eigen::Vector3d normal = frame.tangent.cross(frame.director);
+  const Eigen::Vector3d m1 = std::cos(angle) * frame.director + std::sin(angle) * normal;
+  const Eigen::Vector3d m2 = std::cos(angle) * normal - std::sin(angle) * frame.director;
+  return 0.5 * (rest.x() * m2 - rest.y() * m1);
+}
 
 /** First edge with a material frame: that before the first node with rest curvature, or the first one beyond the hold.
  */
@@ -83,14 +72,14 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
 {
   double energy = hold.hasMouth() ? straightEnergy(rod.curved_parts, hold.mouth()) : 0.0;
   const int begin = firstFrame(rod, hold, first);
-  Bishop before{hold.tangent, hold.director};
+  TransportedFrame before{hold.tangent, hold.director};
   const auto direction = [&state](int edge) { return (state.position[edge + 1] - state.position[edge]).normalized(); };
   if (begin == 0)
     before.moveTo(direction(0));
   for (int i = 1; i + 1 < rod.nodes(); ++i)
   {
     const Eigen::Vector3d strain = binormalAt(rod, state, i).value - state.curvature_offset[i];
-    Bishop after = before;
+    TransportedFrame after = before;
     if (i >= begin)
       after.moveTo(direction(i));
     double from_rest = 0.0;  // change of the square by the rest curvature
@@ -100,7 +89,7 @@ double bendingEnergy(const Discretisation& rod, const TwistBoundary& hold, int f
                                        ? rod.restAt(i, hold.mouth()).curvature
                                        : rod.rest_curvature[i];
       from_rest = rest.squaredNorm();
-      const Eigen::Vector3d binormal = before.halfBinormal(rest, angle[i - 1]) + after.halfBinormal(rest, angle[i]);
+      const Eigen::Vector3d binormal = halfBinormal(before, rest, angle[i - 1]) + halfBinormal(after, rest, angle[i]);
       from_rest -= 2.0 * strain.dot(binormal);
     }
     energy += 0.5 * rod.bending_stiffness[i] / rod.cell_length[i] * (strain.squaredNorm() + from_rest);

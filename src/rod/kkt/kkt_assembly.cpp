@@ -211,37 +211,83 @@ void KktAssembly::addNodeTerms(int node, const KktIterate& at)
     system_.rhs[system_.row(node) + axis] -= residual[axis];
 }
 
+/** Adds a block below the diagonal; @p row lies after @p col. */
+void KktAssembly::addAcross(int row, int col, const Eigen::Matrix3d& block)
+{
+  for (int k = 0; k < 3; ++k)
+    for (int line = 0; line < 3; ++line)
+      system_.matrix.at(system_.row(row) + line, system_.row(col) + k) += block(line, k);
+}
+
+/** Adds a force on a node [N]. */
+void KktAssembly::addForce(int node, const Eigen::Vector3d& force, double factor)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    system_.rhs[system_.row(node) + axis] += factor * force[axis];
+}
+
 /** Adds the potentials of the introducer's guide and of its sheath. */
 void KktAssembly::addIntroducer(const KktIterate& at)
 {
   configurational_force_ = 0.0;
   const double factor = at.dt * at.dt;
-  visitIntroducer(at.state,
-                  [this, factor](int edge, bool both, const GuidedEdge& term)
-                  {
-                    for (int end = 0; end < (both ? 2 : 1); ++end)
-                    {
-                      configurational_force_ += model_.boundary.direction.dot(term.gradient[end]);
-                      for (int axis = 0; axis < 3; ++axis)
-                        system_.rhs[system_.row(edge + end) + axis] -= factor * term.gradient[end][axis];
-                    }
-                    addBlock(edge, factor * term.first);
-                    if (!both)
-                      return;
-                    addBlock(edge + 1, factor * term.second);
-                    for (int col = 0; col < 3; ++col)
-                      for (int line = 0; line < 3; ++line)
-                        system_.matrix.at(system_.row(edge + 1) + line, system_.row(edge) + col) +=
-                            factor * term.across(line, col);
-                  });
+  const auto add = [this, factor](int edge, bool both, const GuidedEdge& term)
+  {
+    for (int end = 0; end < (both ? 2 : 1); ++end)
+    {
+      configurational_force_ += model_.boundary.direction.dot(term.gradient[end]);
+      addForce(edge + end, term.gradient[end], -factor);
+    }
+    addBlock(edge, factor * term.first);
+    if (!both)
+      return;
+    addBlock(edge + 1, factor * term.second);
+    addAcross(edge + 1, edge, factor * term.across);
+  };
+  visitSheath(at.state, add);
+  if (!CurvedGuide::matters(model_.rod, at.state))
+  {
+    guide_.forEachEdge(model_.rod, at.state, [&add](int edge, const GuidedEdge& term) { add(edge, true, term); });
+    return;
+  }
+  curved_guide_.forEachEdge(model_.rod, model_.conditions.twistBoundary(at.state, 0.0), at.state,
+                            [&](int edge, const CurvedGuideTerm& term)
+                            {
+                              add(edge, true, term.edge);
+                              addBow(edge, term, factor);
+                            });
 }
 
-/** Calls visit(edge, both, term) with the terms of the introducer; both: the term acts on both nodes of the edge. */
+/** Adds the terms of an edge's bow, which depends on the positions of four nodes. Its own second derivatives, 1/256 of
+ *  those of the chord, are left out: they would couple four nodes. */
+void KktAssembly::addBow(int edge, const CurvedGuideTerm& term, double factor)
+{
+  const std::array<double, 4>& spread = term.spread;
+  for (int k = 0; k < 4; ++k)
+    if (spread[k] != 0.0)
+      addForce(edge - 1 + k, term.edge.by_bow.even, -factor * spread[k]);
+  const Eigen::Matrix3d first = factor * term.edge.first_even;
+  const Eigen::Matrix3d second = factor * term.edge.second_even;
+  addBlock(edge, 2.0 * spread[1] * first);
+  addBlock(edge + 1, 2.0 * spread[2] * second);
+  addAcross(edge + 1, edge, spread[2] * first + spread[1] * second);
+  if (spread[0] != 0.0)
+  {
+    addAcross(edge, edge - 1, spread[0] * first);
+    addAcross(edge + 1, edge - 1, spread[0] * second);
+  }
+  if (spread[3] != 0.0)
+  {
+    addAcross(edge + 2, edge, spread[3] * first);
+    addAcross(edge + 2, edge + 1, spread[3] * second);
+  }
+}
+
+/** Calls visit(edge, both, term) with the terms of the sheath; both: the term acts on both nodes of the edge. */
 template <typename Visit>
-void KktAssembly::visitIntroducer(const State& state, Visit visit) const
+void KktAssembly::visitSheath(const State& state, Visit visit) const
 {
   const Discretisation& rod = model_.rod;
-  guide_.forEachEdge(rod, state, [&visit](int edge, const GuidedEdge& term) { visit(edge, true, term); });
   GuidedEdge term;
   for (int edge = state.first_node; edge < rod.nodes() && sheath_.isInside(state.position[edge]); ++edge)
   {
@@ -255,9 +301,27 @@ void KktAssembly::visitIntroducer(const State& state, Visit visit) const
 double KktAssembly::introducerEnergy(const State& state) const
 {
   double energy = 0.0;
-  if (model_.boundary.introducer)
-    visitIntroducer(state, [&energy](int /*edge*/, bool /*both*/, const GuidedEdge& term) { energy += term.energy; });
+  if (!model_.boundary.introducer)
+    return energy;
+  visitSheath(state, [&energy](int /*edge*/, bool /*both*/, const GuidedEdge& term) { energy += term.energy; });
+  if (CurvedGuide::matters(model_.rod, state))
+    curved_guide_.forEachEdge(model_.rod, model_.conditions.twistBoundary(state, 0.0), state,
+                              [&energy](int /*edge*/, const CurvedGuideTerm& term) { energy += term.edge.energy; });
+  else
+    guide_.forEachEdge(model_.rod, state, [&energy](int /*edge*/, const GuidedEdge& term) { energy += term.energy; });
   return energy;
+}
+
+double KktAssembly::guideRestForce(const State& state) const
+{
+  double force = 0.0;
+  if (!model_.boundary.introducer || !CurvedGuide::matters(model_.rod, state))
+    return force;
+  const TwistBoundary hold = model_.conditions.twistBoundary(state, 0.0);
+  if (curved_guide_.isUneven(model_.rod, hold, state))
+    curved_guide_.forEachEdge(model_.rod, hold, state,
+                              [&force](int /*edge*/, const CurvedGuideTerm& term) { force -= term.by_mouth; });
+  return force;
 }
 
 }  // namespace endovascular_sim::rod

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "rod/boundary/curved_guide.h"
 #include "rod/boundary/introducer_guide.h"
 #include "rod/boundary/introducer_sheath.h"
 #include "rod/kkt/kkt_model.h"
@@ -49,6 +50,10 @@ public:
   /** Energy of the introducer's guide and of its sheath: their forces are its derivatives by the positions [J]. */
   double introducerEnergy(const State& state) const;
 
+  /** Minus the derivative of that energy by the arc length at which rest curvature begins to act, at fixed nodes: a
+   * part of the force on the hand [N]. */
+  double guideRestForce(const State& state) const;
+
   /** Axial force of the wire on the introducer's guide and sheath in the system assembled last: the configurational
    *  part of the force on the hand [N]. */
   double configurationalForce() const { return configurational_force_; }
@@ -61,15 +66,19 @@ private:
   void addBending(int first, int second, const BendingPair& bending);
   void addConstraint(int edge, const KktIterate& at);
   void addIntroducer(const KktIterate& at);
+  void addBow(int edge, const CurvedGuideTerm& term, double factor);
   template <typename Visit>
-  void visitIntroducer(const State& state, Visit visit) const;
+  void visitSheath(const State& state, Visit visit) const;
   void addNodeTerms(int node, const KktIterate& at);
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
+  void addAcross(int row, int col, const Eigen::Matrix3d& block);
+  void addForce(int node, const Eigen::Vector3d& force, double factor);
 
   const KktModel& model_;
   KktSystem& system_;
   IntroducerGuide guide_{model_.boundary};
+  CurvedGuide curved_guide_{guide_};
   IntroducerSheath sheath_{model_.boundary};
   NodeResistance resistance_;
   double configurational_force_ = 0.0;  ///< [N]

@@ -336,10 +336,10 @@ void KktStepper::accept(State& state, double dt)
   contacts_.updateWallForces(state, motion_);
   if (audit_ != nullptr)
     noteForces(dt);
-  reactions_.update(
-      {model_, system_, solution(), motion_, begin_, assembly_.resistance(), assembly_.configurationalForce(),
-       layers_->restForce(state), layers_->slides(), friction_, last_input_.forces, dt},
-      state);
+  reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
+                     assembly_.configurationalForce(), layers_->restForce(state) + assembly_.guideRestForce(state),
+                     layers_->slides(), friction_, last_input_.forces, dt},
+                    state);
 }
 
 void KktStepper::finish(State& state, double dt)
@@ -413,7 +413,8 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
                    resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_,
                    layers_->frameTurns(after), spring_energy_, layers.push, layers.turn,
-                   layers_->insertionWork(before, after)});
+                   layers_->insertionWork(before, after) +
+                       assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length)});
   layers_->restore(after);
 }
 
