@@ -72,7 +72,7 @@ public:
   virtual const StepInput& centrelineInput(const State& state, const StepInput& input) = 0;
 
   /** Stops the layers after a rejected step. */
-  virtual void stop(State& state) const = 0;
+  virtual void stop(State& state) = 0;
 
   /** Moves the layers to their positions at the end of a step, or of a part of one, and updates the rod's properties.
    *  @return true when a handle turns */

@@ -92,10 +92,11 @@ const StepInput& LayerStack::centrelineInput(const State& state, const StepInput
   return input_;
 }
 
-void LayerStack::stop(State& state) const
+void LayerStack::stop(State& state)
 {
   for (LayerState& layer : state.layers)
     layer.speed = 0.0;
+  place(state);  // the rejected step has placed the layers at its end
 }
 
 /** Changes the reference before a step in which another layer's tip passes that of the present one. The nodes move

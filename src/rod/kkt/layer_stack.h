@@ -33,7 +33,7 @@ public:
   State initialState(double inserted_length, double rotation) const override;
   bool beginStep(State& state, const StepInput& input, double dt, WallFriction& friction) override;
   const StepInput& centrelineInput(const State& state, const StepInput& input) override;
-  void stop(State& state) const override;
+  void stop(State& state) override;
   bool advance(State& state, const StepInput& input, double dt) override;
   TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                          PhaseTimer& timer) override;

@@ -25,7 +25,7 @@ public:
     return false;
   }
   const StepInput& centrelineInput(const State& /*state*/, const StepInput& input) override { return input; }
-  void stop(State& /*state*/) const override {}
+  void stop(State& /*state*/) override {}
   bool advance(State& state, const StepInput& input, double dt) override;
   TwistAction relaxTwist(State& state, const StepInput& input, const std::vector<TwistFriction>& friction,
                          PhaseTimer& timer) override;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "test/rod/kkt_stepper_peer.h"
@@ -299,6 +301,18 @@ TEST(StackSliding, AStateContinuesInAnotherStepperBitForBitAlsoPastAChangeOfTheR
     EXPECT_EQ(one.state.layers[layer].hand_force, other.state.layers[layer].hand_force);
     EXPECT_EQ(one.state.layers[layer].hand_torque, other.state.layers[layer].hand_torque);
   }
+}
+
+TEST(StackSliding, ARejectedStepLeavesTheRadiiOfTheStateBeforeIt)
+{
+  WireAndCatheter stack({{0.15, 0.0}, {0.1, 0.0}});
+  const std::vector<double> radius = stack.stepper->discretisation().radius;
+  StepInput impossible;
+  impossible.layers = {{0.15, 0.0}, {0.105, 0.0}};
+  impossible.forces.push_back({150, Eigen::Vector3d(std::nan(""), 0.0, 0.0)});
+  std::uint32_t pass = 0;
+  EXPECT_FALSE(stack.stepper->step(stack.state, impossible, kStep, pass, nullptr, stack.timer).solved);
+  EXPECT_EQ(stack.stepper->discretisation().radius, radius);
 }
 
 }  // namespace
