@@ -1,6 +1,7 @@
 #include "benchmark/study_list.h"
 
 #include "benchmark/coaxial/coaxial_study.h"
+#include "benchmark/coaxial/jam_study.h"
 #include "benchmark/facets/facets_study.h"
 #include "benchmark/force_quality/force_quality_study.h"
 #include "benchmark/mouth/mouth_study.h"
@@ -27,6 +28,8 @@ const std::vector<Study>& studies()
       {"speed", "Speed", "time per step by phase over the number of nodes", speedTables(), speedStudy},
       {"coaxial", "Friction between layers", "hand force in a catheter against a rigid tube", coaxialTables(),
        coaxialStudy},
+      {"jam", "Jammed wire", "hand force of a wire that jams in a catheter against a rigid tube", jamTables(),
+       jamStudy},
       {"contact", "Contact", "detection: bounding volumes, time per step, growth with the triangles", contactTables(),
        contactStudy},
       {"hand_force", "Force at the hand", "curves, nodes, noise", handForceTables(), handForceStudy},

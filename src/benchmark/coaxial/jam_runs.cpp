@@ -20,23 +20,19 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kBendRadius = 0.03;       // m
-constexpr double kBefore = 0.06;           // m, straight part before the first bend
-constexpr double kBeyond = 0.03;           // m, straight part after the last one
-constexpr double kProtrusion = 2e-3;       // m, of the wire beyond the catheter at the closed end
-constexpr double kWireRadius = 2e-4;       // m
-constexpr double kStiffness = 4e-5;        // N·m² of the wire
-constexpr double kOutside = 0.04;          // m of the wire behind the introducer at the end
-constexpr double kFast = 0.1;              // m/s, on the way
-constexpr double kSlow = 8e-3;             // m/s, at the closed end
-constexpr double kPushed = 6e-3;           // m beyond the closed end that the hand pushes
-constexpr double kReferenceStep = 2e-4;    // s: friction of walls uses normal forces of the last solution
-constexpr double kReferenceEdge = 1e-3;    // m
-constexpr double kReferenceSpeed = 0.04;   // m/s
-constexpr double kReferenceTravel = 3e-3;  // m of the tip to the end of the catheter
-constexpr double kReferenceRamp = 1e-3;    // m of the hand in which the load grows
-constexpr double kMeasuredTravel = 1e-3;   // m of the tip over which the force is averaged: one edge
-constexpr double kMostTravel = 0.02;       // m of the hand, which also takes up the shortening by the helix
+constexpr double kBendRadius = 0.03;      // m
+constexpr double kBefore = 0.06;          // m, straight part before the first bend
+constexpr double kBeyond = 0.03;          // m, straight part after the last one
+constexpr double kProtrusion = 2e-3;      // m, of the wire beyond the catheter at the closed end
+constexpr double kWireRadius = 2e-4;      // m
+constexpr double kStiffness = 4e-5;       // N·m² of the wire
+constexpr double kOutside = 0.04;         // m of the wire behind the introducer at the end
+constexpr double kFast = 0.1;             // m/s, on the way
+constexpr double kSlow = 8e-3;            // m/s, at the closed end
+constexpr double kPushed = 6e-3;          // m beyond the closed end that the hand pushes
+constexpr double kNoSlip = 1e-9;          // m, rounding
+constexpr double kMeasuredTravel = 1e-3;  // m of the tip over which the force is averaged: one edge
+constexpr double kMostTravel = 0.03;      // m of the hand, which also takes up the shortening by the helix
 
 double bendsOf(JamPath path)
 {
@@ -113,6 +109,23 @@ std::string sceneOf(const JamCase& at)
   return out.str();
 }
 
+/** Load at the stop: force of the wall on the wire beyond the catheter, along the last straight part [N]. */
+double loadAtStop(const rod::State& state)
+{
+  const std::vector<Vector3d>& at = state.position;
+  const std::size_t last = at.size() - 1;
+  Vector3d sum = Vector3d::Zero();
+  double from_tip = 0.0;
+  std::size_t i = last;
+  for (; from_tip < kProtrusion; --i)
+  {
+    sum += state.wall_force[i];
+    from_tip += (at[i] - at[i - 1]).norm();
+  }
+  const std::size_t straight = last - (last - i) * static_cast<std::size_t>(0.5 * kBeyond / kProtrusion);
+  return -sum.dot((at[i] - at[straight]).normalized());
+}
+
 JamSample sampleOf(const simulation::Simulation& simulation)
 {
   JamSample sample;
@@ -120,7 +133,7 @@ JamSample sampleOf(const simulation::Simulation& simulation)
   sample.wire = simulation.hand(0).force;
   sample.catheter = simulation.hand(1).force;
   sample.insertion = simulation.hand(0).insertion;
-  sample.tip_load = -state.tension.back();
+  sample.tip_load = loadAtStop(state);
   sample.axis.assign(state.position.begin() + state.first_node, state.position.end());
   return sample;
 }
@@ -231,7 +244,6 @@ JamResult runJam(const JamCase& at)
   const double end = 0.1 + (lengthOf(at.path) - 0.5e-3 - 0.9 * kBefore) / kFast + kPushed / kSlow + 0.2;
   while (simulation.time() < end)
   {
-    const drive::HandMotion slipped = simulation.slipped(0);
     simulation.stepAll(simulation::commandsAt(scene, simulation.time() + scene.solver.time_step));
     result.rejected += !simulation.report().solved;
     const JamSample sample = sampleOf(simulation);
@@ -241,7 +253,9 @@ JamResult runJam(const JamCase& at)
     result.imbalance =
         std::max(result.imbalance, std::abs(sample.wire + sample.catheter - simulation.state().hand_force));
     const bool slides = simulation.state().layers[0].friction_stretch >= 19.9e-6;
-    if (slides && simulation.slipped(0).insertion == slipped.insertion && sample.wire > result.pushed.wire)
+    const bool firm =
+        std::max(std::abs(simulation.slipped(0).insertion), std::abs(simulation.slipped(1).insertion)) < kNoSlip;
+    if (slides && firm && sample.wire > result.pushed.wire)
       result.pushed = sample;
     result.jammed = sample;
   }
@@ -250,15 +264,17 @@ JamResult runJam(const JamCase& at)
   return result;
 }
 
-double forceInRigidTube(const JamCase& at, const JamSample& sample)
+double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference)
 {
+  if (at.friction == 0.0)
+    return sample.tip_load;
   ReferenceRod rod;
   rod.length = sample.insertion + kOutside;
   rod.bending_stiffness = kStiffness;
   rod.torsional_stiffness = kStiffness / 1.3;
   rod.radius = kWireRadius;
   rod.density = 5000.0;
-  rod.nodes = static_cast<int>(std::lround(rod.length / kReferenceEdge)) + 1;
+  rod.nodes = static_cast<int>(std::lround(rod.length / reference.edge)) + 1;
   rod::Boundary boundary;
   boundary.guide_length = 8e-3;
   boundary.direction = Vector3d::UnitZ();
@@ -266,7 +282,7 @@ double forceInRigidTube(const JamCase& at, const JamSample& sample)
   rod::Environment environment;
   environment.damping = 50.0;
   ReferenceWire wire("kkt", rod, boundary, environment, stiffContactSettings(),
-                     sample.insertion - kProtrusion - kReferenceTravel);
+                     sample.insertion - kProtrusion - reference.travel);
   PathTube tube(sample.axis, at.clearance, at.friction);
   wire.wall = &tube;
   const double outside = rod.length - wire.state.inserted_length;
@@ -277,12 +293,12 @@ double forceInRigidTube(const JamCase& at, const JamSample& sample)
   double sum = 0.0;
   double travel = 0.0;
   int count = 0;
-  for (double reached = -1.0; reached < 0.0; travel += kReferenceSpeed * kReferenceStep)
+  for (double reached = -1.0; reached < 0.0; travel += reference.speed * reference.step)
   {
-    const double load = std::min(1.0, travel / kReferenceRamp) * sample.tip_load;
+    const double load = std::min(1.0, travel / reference.ramp) * sample.tip_load;
     wire.input.forces = {{rod.nodes - 1, -load * forward}};
-    wire.input.inserted_length += kReferenceSpeed * kReferenceStep;
-    if (!wire.step(kReferenceStep) || travel > kMostTravel)
+    wire.input.inserted_length += reference.speed * reference.step;
+    if (!wire.step(reference.step) || travel > kMostTravel)
       throw std::runtime_error("jam: the reference does not arrive");
     reached = forward.dot(wire.state.position.back() - end);
     if (reached < -kMeasuredTravel)

@@ -15,7 +15,6 @@ constexpr double kLargestTension = 1e3;     // N, beyond every hand
 constexpr double kMostYield = 5e-5;         // m, of the bore, in a shift of the last step
 constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
 constexpr double kRelativeTolerance = 0.01;
-constexpr double kHelixShare = 0.85;  // of the load of a helix, with the reversals of its hand and its ends
 constexpr int kMaxSolutions = 12;
 
 }  // namespace
@@ -189,8 +188,7 @@ double InterlayerLoads::tensionBefore(std::size_t i, double tension, double afte
   const double implicit =
       (fit_load + bore.value + slope * (tension + after - 2.0 * bore.tension)) / (1.0 + slope * friction);
   double load = std::max(fit_load, implicit);
-  const double helix =
-      nodes_[i].stiffness > 0.0 ? kHelixShare * nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
+  const double helix = nodes_[i].stiffness > 0.0 ? nodes_[i].clearance / (4.0 * nodes_[i].stiffness) : 0.0;
   if (after < 0.0 && helix * after * after > load)
     load = helix * after * after / std::max(-after / kLargestTension, 1.0 + friction * helix * after);
   if (friction != 0.0)

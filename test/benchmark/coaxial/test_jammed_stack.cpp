@@ -38,7 +38,8 @@ std::string identifierOf(const testing::TestParamInfo<JamCase>& info)
 
 INSTANTIATE_TEST_SUITE_P(Cases, JammedStack, testing::ValuesIn(jamCases()), identifierOf);
 
-// At larger grips a wire of 40 N·mm² comes close to its lock-up, where a few per cent of the load double the force.
+// `benchmark jam` runs all cases, with steps of 25 µs in the reference. Up to 5 N its contacts do not chatter with 0.2
+// ms.
 TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
 {
   for (const JamCase& at : jamCases())
@@ -46,7 +47,7 @@ TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
     if (at.friction == 0.0 || at.grip > 5.0)
       continue;
     const JamSample pushed = runJam(at).pushed;
-    const double reference = forceInRigidTube(at, pushed);
+    const double reference = forceInRigidTube(at, pushed, {2e-4, 1e-3, 0.04, 4e-3, 2e-3});
     EXPECT_NEAR(pushed.wire, reference, 0.05 * reference + 5e-3) << at.name;
   }
 }
