@@ -38,8 +38,7 @@ std::string identifierOf(const testing::TestParamInfo<JamCase>& info)
 
 INSTANTIATE_TEST_SUITE_P(Cases, JammedStack, testing::ValuesIn(jamCases()), identifierOf);
 
-// `benchmark jam` runs all cases, with steps of 25 µs in the reference. Up to 5 N its contacts do not chatter with 0.2
-// ms.
+// `benchmark jam` runs all cases, above 5 N with steps of 25 µs in the reference.
 TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
 {
   for (const JamCase& at : jamCases())
@@ -47,7 +46,7 @@ TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
     if (at.friction == 0.0 || at.grip > 5.0)
       continue;
     const JamSample pushed = runJam(at).pushed;
-    const double reference = forceInRigidTube(at, pushed, {2e-4, 1e-3, 0.04, 4e-3, 2e-3});
+    const double reference = forceInRigidTube(at, pushed, {1e-4, 1e-3, 0.04, 4e-3, 2e-3});
     EXPECT_NEAR(pushed.wire, reference, 0.05 * reference + 5e-3) << at.name;
   }
 }
