@@ -46,6 +46,9 @@ public:
   /** Lets the rendered forces approach those of the simulation from zero, after publishHeld(). */
   void fadeForcesIn() { renderer_.reset(); }
 
+  /** Publishes the steps that wait for the rest of their group, where no step follows soon. */
+  void publishWaitingSteps() { publisher_.publishGroup(); }
+
   /** Publishes the beginning of a run: the time, and an empty map of the wall forces. */
   void publishBeginning();
 
