@@ -320,7 +320,8 @@ drive::GripSearch Simulation::gripSearch() const
   return drive::GripSearch(std::move(hands));
 }
 
-/** Steps the wire. A hand that would bear more than its grip slips: the sub-step is repeated until no hand does. */
+/** Steps the wire. A hand that would bear more than its grip slips: the sub-step is repeated until no hand does. Where
+ *  no such positions are found, the friction between the instruments yields. */
 void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   before_ = state_;
@@ -335,6 +336,14 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
   hand_positions_.clear();
   for (const rod::LayerInput& handle : handles_)
     hand_positions_.push_back(handle.inserted_length);
+  const auto repeat = [&]
+  {
+    setState(before_);
+    if (audit_ != nullptr)
+      *audit_ = *audit;
+    input.setHandles(handles_);
+    moveWire(input, dt, pass);
+  };
   while (report_.solved && !stepper_->contactSet().stale)
   {
     hand_forces_.clear();
@@ -344,11 +353,13 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
       break;
     for (int k = 0; k < instruments(); ++k)
       handles_[k].inserted_length = hand_positions_[k];
-    setState(before_);
-    if (audit_ != nullptr)
-      *audit_ = *audit;
-    input.setHandles(handles_);
-    moveWire(input, dt, pass);
+    repeat();
+  }
+  if (report_.solved && !stepper_->contactSet().stale && isBeyondGrip())
+  {
+    for (int k = 0; k < instruments(); ++k)
+      handles_[k].most_force = scene_.instruments[k].drive.force_limit;
+    repeat();
   }
   for (int k = 0; report_.solved && k < instruments(); ++k)
     noteSlip(k, wanted[k].inserted_length, handles_[k].inserted_length);

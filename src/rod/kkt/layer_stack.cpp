@@ -16,6 +16,7 @@ constexpr double kTipTolerance = 1e-9;  // excess length of a layer over the ref
 constexpr int kFrictionIterations = 3;  // on the friction torques between layers, in one solve
 constexpr double kOffsetTime = 0.1;     // s in which an offset of a handle's force fades to 1/e
 constexpr double kNoOffset = 1e-9;      // N
+constexpr int kYieldBisections = 12;    // of the friction that bounded handles leave
 
 }  // namespace
 
@@ -428,6 +429,42 @@ void LayerStack::updateHandForces(State& state, double dt) const
   state.layers[state.reference].hand_force = state.hand_force - others;
 }
 
+bool LayerStack::isBeyondBound(const State& state) const
+{
+  for (std::size_t k = 0; k < state.layers.size(); ++k)
+    if (std::abs(state.layers[k].hand_force) > input_.layers[k].most_force)
+      return true;
+  return false;
+}
+
+/** Reduces the stretches of the friction between layers by a common factor, so that no handle bears more than its
+ *  bound: the layers creep in each other. The sum over the handles is not changed. Near the lock-up of a wire in its
+ *  bore, the friction turns by a slip of some micrometres, for which no position of a hand may be found. */
+void LayerStack::yieldToBounds(State& state, double dt)
+{
+  if (!isBeyondBound(state))
+    return;
+  std::vector<double> stretch;
+  for (const LayerState& layer : state.layers)
+    stretch.push_back(layer.friction_stretch);
+  const auto apply = [&](double share)
+  {
+    for (std::size_t k = 0; k < stretch.size(); ++k)
+      state.layers[k].friction_stretch = share * stretch[k];
+    friction_.updateLoads(state, twists_);
+    updateHandForces(state, dt);
+  };
+  double within = 0.0;
+  double beyond = 1.0;
+  for (int k = 0; k < kYieldBisections; ++k)
+  {
+    const double share = 0.5 * (within + beyond);
+    apply(share);
+    (isBeyondBound(state) ? beyond : within) = share;
+  }
+  apply(within);
+}
+
 void LayerStack::finish(State& state, double dt)
 {
   if (stack_.count() == 1)
@@ -443,6 +480,7 @@ void LayerStack::finish(State& state, double dt)
   friction_.updateLoads(state, twists_);
   friction_.settle(state);
   updateHandForces(state, dt);
+  yieldToBounds(state, dt);
 }
 
 Energy LayerStack::energy(const State& state, const StepInput& input, WallFriction& friction)

@@ -76,6 +76,8 @@ private:
   int turningLayer(int edge) const;
   bool setEdgeTorque(int k, const State& state, const StepInput& input);
   void updateHandForces(State& state, double dt) const;
+  bool isBeyondBound(const State& state) const;
+  void yieldToBounds(State& state, double dt);
 
   KktModel& model_;
   ConcentricStack stack_;

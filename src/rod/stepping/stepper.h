@@ -97,6 +97,8 @@ struct LayerInput
 {
   double inserted_length = 0.0;  ///< wire beyond the introducer; negative: outside [m]
   double rotation = 0.0;         ///< [rad]
+  /** Bound of the force on the handle: the friction between layers yields where it would be exceeded [N]. */
+  double most_force = std::numeric_limits<double>::infinity();
 };
 
 /** Input of one step. */

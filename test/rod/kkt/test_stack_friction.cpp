@@ -81,6 +81,21 @@ TEST(StackFriction, FrictionBetweenLayersSticksSlidesAndHasHysteresis)
   }
 }
 
+TEST(StackFriction, FrictionYieldsWhereAHandleWouldBearMoreThanItsBound)
+{
+  TightFit fit;
+  const double limit = 0.1 * 2.0 * 0.1;
+  fit.input[1].most_force = 0.4 * limit;
+  for (const double insertion : {0.1503, 0.1506, 0.15})
+  {
+    fit.moveTo(insertion, 0.0);
+    const double sign = insertion > 0.15 ? 1.0 : -1.0;
+    EXPECT_LE(std::abs(fit.state.layers[1].hand_force), 0.4 * limit);
+    EXPECT_NEAR(fit.state.layers[1].hand_force, -0.4 * sign * limit, 1e-3 * limit) << insertion;
+    EXPECT_NEAR(fit.state.layers[0].hand_force, 0.4 * sign * limit, 1e-2 * limit) << insertion;
+  }
+}
+
 TEST(StackFriction, AWireTurnedInATightCatheterTurnsItUntilItSlips)
 {
   TightFit fit;
