@@ -126,7 +126,7 @@ TEST(ListReuse, GivesTheBitsOfANewDetectorToASlidingWire)
   EXPECT_GT(features, 1000U);
 }
 
-// All lists of a wire are built when it enters and would expire in the same query once it slides.
+// All lists of a wire that begins to slide expire in its first queries, and would expire together from then on.
 TEST(ListReuse, OfAWireThatBeginsToSlideIsSpreadOverTheQueries)
 {
   const geometry::TriangleMesh mesh = fineTube();
@@ -139,7 +139,7 @@ TEST(ListReuse, OfAWireThatBeginsToSlideIsSpreadOverTheQueries)
   {
     ContactSet set;
     detector.detect(wireAlongTheWall(nodes, 0.25e-3, 1e-9 + 35e-6 * k), set);
-    if (k == 0)
+    if (k < 5)
       continue;
     sum += detector.builtLists();
     most = std::max(most, detector.builtLists());

@@ -48,7 +48,7 @@ public:
   /** True where the wire's edges are curves: one wire with rest curvature. */
   static bool matters(const Discretisation& rod, const State& state)
   {
-    return state.layers.empty() && rod.first_curved < rod.nodes() && !rod.curved_parts.empty();
+    return state.layers.size() <= 1 && rod.first_curved < rod.nodes() && !rod.curved_parts.empty();
   }
 
   /** True where an edge in the guide has a RestBow. */

@@ -50,7 +50,7 @@ inline IntroducerGuide::Point IntroducerGuide::pointAt(double depth, const Eigen
   const double axial_share = form == GuideStiffness::kLateral ? 0.0 : 1.0;
   const double stiffness = scale * depth * depth * depth;
   // Of the stiffness by X, relative to it; the second one: slope² 2/3.
-  const double slope = -3.0 * axial_share / (decay_ * depth);
+  const double slope = -3.0 * axial_share * (1.0 / decay_) / depth;
   const double squared = lateral.squaredNorm();
   Point point;
   point.energy = 0.5 * stiffness * squared;
