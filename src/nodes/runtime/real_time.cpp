@@ -10,12 +10,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <string>
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-
-#include "nodes/runtime/processor/processor_claim.h"
 
 namespace endovascular_sim::nodes
 {
@@ -136,18 +133,13 @@ bool useProcessor(int processor)
 
 void avoidProcessor(int processor)
 {
-  if (processor < 0)
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (processor < 0 || sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) < 2)
     return;
-  std::string core;
-  std::getline(
-      std::ifstream("/sys/devices/system/cpu/cpu" + std::to_string(processor) + "/topology/thread_siblings_list"),
-      core);
-  cpu_set_t chosen;
-  CPU_ZERO(&chosen);
-  for (const int other : processorsBesideLoop(allowedProcessors(), processor, processorsOfList(core)))
-    CPU_SET(other, &chosen);
-  if (CPU_COUNT(&chosen) > 0)
-    sched_setaffinity(0, sizeof chosen, &chosen);
+  CPU_CLR(processor, &allowed);
+  if (CPU_COUNT(&allowed) > 0)
+    sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
 void spinUntilShutdown()
