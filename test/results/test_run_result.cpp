@@ -3,6 +3,8 @@
 #include "scene/scene_file.h"
 #include "vessel/anatomy/tube.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -48,18 +50,21 @@ TEST(RunResult, NamesPhasesThatCoverTheStep)
 {
   const scene::Scene scene = scene::loadScene(PROJECT_DIR "/config/scenes/straight_wire.yaml");
   simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
-  double phases = 0.0;
-  double steps = 0.0;
+  std::vector<double> shares;
   for (int k = 1; k <= 200; ++k)
   {
     const auto begin = PhaseTimer::Clock::now();
     simulation.step({0.005 + 3e-5 * k, 0.001 * k});
-    steps += std::chrono::duration<double>(PhaseTimer::Clock::now() - begin).count();
+    const double step = std::chrono::duration<double>(PhaseTimer::Clock::now() - begin).count();
+    double phases = 0.0;
     for (std::size_t phase = 0; phase < kPhaseCount; ++phase)
       phases += simulation.timer().seconds(static_cast<Phase>(phase));
+    EXPECT_LE(phases, step);
+    shares.push_back(phases / step);
   }
-  EXPECT_LE(phases, steps);
-  EXPECT_GE(phases, 0.95 * steps);
+  // The median: the processor may be withdrawn between the clock of a step and those of its phases.
+  std::nth_element(shares.begin(), shares.begin() + 100, shares.end());
+  EXPECT_GE(shares[100], 0.95);
 }
 
 TEST(RunResult, FirstInsertedNodeWithoutAnIntroducerIsTheFirstNode)

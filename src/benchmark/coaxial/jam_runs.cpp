@@ -31,6 +31,7 @@ constexpr double kFast = 0.1;             // m/s, on the way
 constexpr double kSlow = 8e-3;            // m/s, at the closed end
 constexpr double kPushed = 6e-3;          // m beyond the closed end that the hand pushes
 constexpr double kNoSlip = 1e-9;          // m, rounding
+constexpr double kSmallGrip = 5.0;        // N, with which the contacts of the reference do not chatter
 constexpr double kMeasuredTravel = 1e-3;  // m of the tip over which the force is averaged: one edge
 constexpr double kMostTravel = 0.03;      // m of the hand, which also takes up the shortening by the helix
 
@@ -262,6 +263,11 @@ JamResult runJam(const JamCase& at)
   const rod::EnergyBalance& balance = audit.balance();
   result.unexplained = std::abs(balance.error()) / balance.turnover;
   return result;
+}
+
+JamReference referenceFor(const JamCase& at)
+{
+  return at.grip <= kSmallGrip ? JamReference{1e-4, 1e-3, 0.04, 4e-3, 2e-3} : JamReference();
 }
 
 double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference)

@@ -54,8 +54,7 @@ struct JamResult
 JamResult runJam(const JamCase& at);
 
 /** Run in a rigid tube. The friction of a wall uses the normal force of the last solution: with long steps the contacts
- *  chatter, and the force of a wire under 20 N is up to a third too small. Up to 20 N the force changes by less than 1
- * % when edges or steps are halved, and by 15 % at 100 N. */
+ *  chatter, and the force is too small. */
 struct JamReference
 {
   double step = 2.5e-5;  ///< [s]
@@ -65,8 +64,11 @@ struct JamReference
   double ramp = 4e-3;    ///< travel of the hand in which the load grows [m]
 };
 
+/** Run for a case: under small loads the contacts do not chatter with longer steps either. */
+JamReference referenceFor(const JamCase& at);
+
 /** Force of the hand on the same wire in a rigid tube of the catheter's bore along a recorded axis, pushed slowly
  *  against the load of the sample on its tip [N]. Without friction it is that load. */
-double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference = {});
+double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference);
 
 }  // namespace endovascular_sim::benchmark

@@ -10,25 +10,16 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kLargestQuickGrip = 5.0;  // N
+constexpr double kLargestQuickGrip = 5.0;  // N, of the quick study
 constexpr double kRelativeTolerance = 0.05;
 constexpr double kTolerance = 5e-3;  // N
-
-/** Under small loads the contacts do not chatter with longer steps either. */
-JamReference settingsFor(const JamCase& at)
-{
-  JamReference settings;
-  if (at.grip <= kLargestQuickGrip)
-    settings = {1e-4, 1e-3, 0.04, 4e-3, 2e-3};
-  return settings;
-}
 
 /** "-" where the reference does not arrive. */
 std::string referenceOf(const JamCase& at, const JamSample& sample, double& force)
 {
   try
   {
-    force = forceInRigidTube(at, sample, settingsFor(at));
+    force = forceInRigidTube(at, sample, referenceFor(at));
     return number(force, 4);
   }
   catch (const std::runtime_error&)

@@ -163,10 +163,7 @@ void CurvedGuide::evaluate(Walk& walk, int edge, CurvedGuideTerm& term) const
     return;
   }
   const RestBow rest = restBowAt(rod, mouth, edge);
-  const Vector3d normal = walk.frame.tangent.cross(walk.frame.director);
-  const double angle = state.twist_angle[edge];
-  const Vector3d m1 = std::cos(angle) * walk.frame.director + std::sin(angle) * normal;
-  const Vector3d m2 = std::cos(angle) * normal - std::sin(angle) * walk.frame.director;
+  const auto [m1, m2] = walk.frame.materialAxes(state.twist_angle[edge]);
   const Vector3d even = rest.even.x() * m1 + rest.even.y() * m2;
   const Vector3d odd = rest.odd.x() * m1 + rest.odd.y() * m2;
   bow.even += even;

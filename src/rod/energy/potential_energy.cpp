@@ -49,9 +49,7 @@ double twistEnergy(const Discretisation& rod, const TwistBoundary& hold, int fir
 /** Half of a node's rest curvature binormal in a frame that is turned by an angle. */
 Eigen::Vector3d halfBinormal(const TransportedFrame& frame, const Eigen::Vector2d& rest, double angle)
 {
-  const Eigen::Vector3d normal = frame.tangent.cross(frame.director);
-  const Eigen::Vector3d m1 = std::cos(angle) * frame.director + std::sin(angle) * normal;
-  const Eigen::Vector3d m2 = std::cos(angle) * normal - std::sin(angle) * frame.director;
+  const auto [m1, m2] = frame.materialAxes(angle);
   return 0.5 * (rest.x() * m2 - rest.y() * m1);
 }
 

@@ -46,7 +46,7 @@ TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
     if (at.friction == 0.0 || at.grip > 5.0)
       continue;
     const JamSample pushed = runJam(at).pushed;
-    const double reference = forceInRigidTube(at, pushed, {1e-4, 1e-3, 0.04, 4e-3, 2e-3});
+    const double reference = forceInRigidTube(at, pushed, referenceFor(at));
     EXPECT_NEAR(pushed.wire, reference, 0.05 * reference + 5e-3) << at.name;
   }
 }

@@ -13,7 +13,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kEdge = 3e-3;    // m
+constexpr double kEdge = 3e-3;     // m
 constexpr double kCurved = 10e-3;  // curved end of the wire [m]
 
 /** A wire in the introducer whose end bends in a plane of its rest curvature. */
