@@ -44,8 +44,9 @@ public:
   Shares divide(const Eigen::Vector3d& force, const std::array<int, N>& touched) const
   {
     Attempt attempt(force);
-    for (const int triangle : touched)
-      add(triangle, attempt);
+    for (int round = 0; round < 2; ++round)  // one that would pull with those before it may push with those after it
+      for (const int triangle : touched)
+        add(triangle, attempt);
     for (const int triangle : touched)
       if (isOnMesh(triangle))
         for (const int neighbour : neighbour_[static_cast<std::size_t>(triangle)])
