@@ -82,8 +82,10 @@ void VesselDilatation::archive(Archive& archive)
     vertices_[v] = initial;
   }
   archive(changed, active_, next_.first, next_.second, empty_, largest_displacement_, peak_pressure_, largest_stretch_);
+  archive(surroundings_.axis, surroundings_.widest, surroundings_.displacement);
   if (archive.reading())
-    requireFinite(largest_displacement_, peak_pressure_, largest_stretch_);
+    requireFinite(largest_displacement_, peak_pressure_, largest_stretch_, surroundings_.widest,
+                  surroundings_.displacement);
   for (const std::vector<int>* indices : {&changed, &active_})
     for (const int v : *indices)
       requireIndex(v, 0, static_cast<int>(vertices_.size()));
@@ -96,6 +98,13 @@ void VesselDilatation::archive(Archive& archive)
       requireFinite(mesh_.vertices[static_cast<std::size_t>(v)], vertex_state.base, vertex_state.peak,
                     vertex_state.rest, vertex_state.held);
   }
+  if (!archive.reading())
+    return;
+  requireFinite(surroundings_.axis);
+  requireLoaded(surroundings_.axis.size() != 1, "holds a body whose axis is one point");
+  near_.clear();
+  if (!surroundings_.axis.empty())
+    findNear();
 }
 
 }  // namespace endovascular_sim::intervention

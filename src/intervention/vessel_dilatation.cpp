@@ -13,7 +13,8 @@ namespace endovascular_sim::intervention
 namespace
 {
 
-constexpr double kStill = 1e-6;  // smallest reported displacement [m]
+constexpr double kStill = 1e-6;       // smallest reported displacement [m]
+constexpr double kFollowed = 0.2e-3;  // m, motion and growth of a body before its surroundings are searched again
 /** Minimum cosine between a vertex normal and the direction from the balloon's axis. Below it the vertex belongs to
  *  another vessel or to an end cap. */
 constexpr double kOwnWall = 0.2;
@@ -85,18 +86,42 @@ VesselDilatation::Reach VesselDilatation::reachOf(const geometry::Polyline& axis
   return reach;
 }
 
-/** Collects the active vertices and those within reach of a body. */
-void VesselDilatation::findNear(const geometry::Polyline& axis, double widest)
+/** True where near_ holds all vertices within reach of a body. */
+bool VesselDilatation::isFollowed(const std::vector<Eigen::Vector3d>& axis, double widest) const
 {
+  if (axis.size() != surroundings_.axis.size() || widest > surroundings_.widest + kFollowed ||
+      largest_displacement_ > surroundings_.displacement + kFollowed)
+    return false;
+  for (std::size_t k = 0; k < axis.size(); ++k)
+    if ((axis[k] - surroundings_.axis[k]).squaredNorm() > kFollowed * kFollowed)
+      return false;
+  return true;
+}
+
+/** Updates near_ for a body. A search costs more than the motion of the wall. */
+void VesselDilatation::follow(const geometry::Polyline& axis, double widest)
+{
+  if (isFollowed(axis.points(), widest))
+    return;
+  surroundings_ = {axis.points(), widest, largest_displacement_};
+  findNear();
+}
+
+/** Collects the active vertices and those within reach of the bodies that surroundings_ stands for. */
+void VesselDilatation::findNear()
+{
+  const geometry::Polyline axis(surroundings_.axis);
   near_ = active_;
   for (int v : near_)
     marked_[static_cast<std::size_t>(v)] = 1;
+  const double widest = surroundings_.widest + kFollowed;
+  const double displaced = surroundings_.displacement + kFollowed;
   const double step = std::max(widest, 1e-4);
-  const double reach = std::hypot(widest + largest_displacement_, 0.5 * step) + largest_displacement_;
+  const double reach = std::hypot(widest + displaced, 0.5 * step) + displaced + kFollowed;
   const int count = std::max(1, static_cast<int>(std::ceil(axis.length() / step)));
   for (int v : near_)
     segment_of_[static_cast<std::size_t>(v)] = axis.segmentAt(0.5 * axis.length());
-  for (int k = 0; k <= count && widest > 0.0; ++k)
+  for (int k = 0; k <= count; ++k)
   {
     const double arc = axis.length() * k / count;
     const std::size_t segment = axis.segmentAt(arc);
@@ -198,15 +223,17 @@ const WallDisplacement& VesselDilatation::applyLoad(const RoundBody& balloon, do
   const double yield_fraction =
       std::clamp((peak_pressure_ - law_.onset_pressure) / (law_.full_pressure - law_.onset_pressure), 0.0, 1.0);
   const geometry::Polyline axis(balloon.axis);
-  findNear(axis, *std::max_element(balloon.radii.begin(), balloon.radii.end()));
+  follow(axis, *std::max_element(balloon.radii.begin(), balloon.radii.end()));
   // Vertices deferred by the previous call come first.
-  const auto first = std::lower_bound(near_.begin(), near_.end(), next_,
-                                      [this](int v, const Order& order) { return orderOf(v) < order; });
-  std::rotate(near_.begin(), first, near_.end());
+  const auto first =
+      static_cast<std::size_t>(std::lower_bound(near_.begin(), near_.end(), next_,
+                                                [this](int v, const Order& order) { return orderOf(v) < order; }) -
+                               near_.begin());
   next_ = Order();
   bool deferred = false;
-  for (int v : near_)
+  for (std::size_t n = 0; n < near_.size(); ++n)
   {
+    const int v = near_[(first + n) % near_.size()];
     const VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];
     const Reach reach = reachOf(axis, balloon.radii, v);
     const double dilatation = dilate(v, reach, yield_fraction);
@@ -230,7 +257,7 @@ const WallDisplacement& VesselDilatation::applyLoad(const BalloonLoad& load, std
 void VesselDilatation::placeSleeve(const RoundBody& sleeve)
 {
   const geometry::Polyline axis(sleeve.axis);
-  findNear(axis, *std::max_element(sleeve.radii.begin(), sleeve.radii.end()));
+  follow(axis, *std::max_element(sleeve.radii.begin(), sleeve.radii.end()));
   for (int v : near_)
   {
     VertexState& vertex_state = vertices_[static_cast<std::size_t>(v)];

@@ -98,8 +98,18 @@ private:
   using Order = std::pair<std::size_t, int>;
   Order orderOf(int vertex) const { return {segment_of_[static_cast<std::size_t>(vertex)], vertex}; }
 
+  /** Body whose surroundings near_ holds. They are followed: another body near it needs no search. */
+  struct Surroundings
+  {
+    std::vector<Eigen::Vector3d> axis;  ///< [m]; empty before the first search
+    double widest = 0.0;                ///< largest radius [m]
+    double displacement = 0.0;          ///< largest displacement of a vertex [m]
+  };
+
   Reach reachOf(const geometry::Polyline& axis, const std::vector<double>& radii, int vertex) const;
-  void findNear(const geometry::Polyline& axis, double widest);
+  void follow(const geometry::Polyline& axis, double widest);
+  bool isFollowed(const std::vector<Eigen::Vector3d>& axis, double widest) const;
+  void findNear();
   bool moveVertex(int vertex, const Eigen::Vector3d& position, std::size_t max_vertices);
   void resetBase();
   void deflate(std::size_t max_vertices);
@@ -111,6 +121,7 @@ private:
   std::vector<Eigen::Vector3d> normals_;           ///< outward unit normals of the undeformed mesh, per vertex
   geometry::KdTree tree_;
   std::vector<VertexState> vertices_;
+  Surroundings surroundings_;
   std::vector<int> near_, active_;
   std::vector<std::size_t> segment_of_;  ///< segment of the body's axis, per vertex in near_
   Order next_;                           ///< first vertex of the next call

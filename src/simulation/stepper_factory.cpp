@@ -16,7 +16,8 @@ namespace
 constexpr double kLeastClearance = 20e-6;  // m
 constexpr double kClearanceShare = 0.9;    // of the clearance between wire and vessel at the introducer's mouth
 constexpr double kDecayPerEdge = 0.9;      // least decay length of the guide over the edges: limits the force's ripple
-constexpr double kSamplingPeriod = 10e-3;  // s between two updates of adaptive sampling
+constexpr double kStraighteningError = 12e-3;  // N, of the force at the mouth by the turn of an edge
+constexpr double kSamplingPeriod = 10e-3;      // s between two updates of adaptive sampling
 
 /** Wire of the longest instrument, which determines the nodes. */
 const rod::Wire& longestWire(const scene::Scene& scene)
@@ -86,8 +87,12 @@ std::unique_ptr<rod::AdaptiveSampling> makeSampling(const scene::Scene& scene, c
 
 rod::Discretisation initialNodes(const scene::Scene& scene, const rod::AdaptiveSampling* sampling)
 {
-  return sampling != nullptr ? sampling->discretisation()
-                             : rod::discretiseUniformly(longestWire(scene), scene.sampling.nodes);
+  const rod::Wire& wire = longestWire(scene);
+  if (sampling != nullptr)
+    return sampling->discretisation();
+  if (scene.introducer && scene.instruments.size() == 1 && scene.solver.scheme == "kkt")
+    return rod::discretise(wire, rod::resolvedPositions(wire, scene.sampling.nodes, kStraighteningError));
+  return rod::discretiseUniformly(wire, scene.sampling.nodes);
 }
 
 std::unique_ptr<rod::Stepper> makeStepper(const scene::Scene& scene, const scene::EntryPose& entry,

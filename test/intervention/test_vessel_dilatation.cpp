@@ -16,12 +16,12 @@ constexpr double kHalf = 5.0 * kAtmosphere;  // pressure at a yield fraction of 
 constexpr double kFull = 8.0 * kAtmosphere;
 
 /** Cylinder on the tube's axis. */
-RoundBody cylinder(double radius, double begin = 0.022, double end = 0.038, double aside = 0.0)
+RoundBody cylinder(double radius, double begin = 0.022, double end = 0.038, double aside = 0.0, int segments = 32)
 {
   RoundBody body;
-  for (int k = 0; k <= 32; ++k)
+  for (int k = 0; k <= segments; ++k)
   {
-    body.axis.emplace_back(aside, 0.0, begin + (end - begin) * k / 32);
+    body.axis.emplace_back(aside, 0.0, begin + (end - begin) * k / segments);
     body.radii.push_back(radius);
   }
   return body;
@@ -85,6 +85,24 @@ TEST(VesselDilatation, IsIndependentOfTheNumberOfCalls)
     EXPECT_EQ(followed.vertices[v], often.mesh().vertices[v]) << "all displacements were returned";
   }
   EXPECT_TRUE(often.applyLoad(cylinder(1.5e-3), kFull).indices.empty()) << "no vertex moves twice";
+}
+
+// Between searches the surroundings of a balloon are followed. A change of the number of its points forces a search.
+TEST(VesselDilatation, FollowsTheSurroundingsOfABalloonThatMovesAndGrowsAsSearchesWouldFindThem)
+{
+  const vessel::Vessel vessel = tubeWithLesion(0.7);
+  VesselDilatation following(vessel, DilatationLaw{});
+  VesselDilatation searching(vessel, DilatationLaw{});
+  for (int k = 0; k <= 100; ++k)
+  {
+    const double begin = 0.022 + 4e-5 * k;
+    const double radius = 0.4e-3 + 1.2e-5 * k;
+    following.applyLoad(cylinder(radius, begin, begin + 0.012, 1e-6 * k), kFull);
+    searching.applyLoad(cylinder(radius, begin, begin + 0.012, 1e-6 * k, 32 + k % 2), kFull);
+  }
+  EXPECT_GT(wallBetween(following.mesh(), 0.029, 0.031).first, 1.4e-3);
+  for (std::size_t v = 0; v < vessel.mesh.vertices.size(); ++v)
+    ASSERT_LT((following.mesh().vertices[v] - searching.mesh().vertices[v]).norm(), 1e-8) << v;
 }
 
 TEST(VesselDilatation, LimitsTheMovedVerticesPerCall)

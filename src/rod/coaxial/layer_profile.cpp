@@ -72,6 +72,7 @@ void LayerProfile::setNodes(const std::vector<double>& position)
                                       &rod_.friction, &rod_.friction_share, &cover_})
     values->assign(n, 0.0);
   rod_.rest_curvature.assign(n, Eigen::Vector2d::Zero());
+  rod_.position.clear();
   rod_.position.reserve(n);
   placed_ = false;
 }
@@ -263,7 +264,10 @@ void LayerProfile::findRange()
   while (count > 0 && cover_[count - 1] <= 0.0)
     --count;
   count = std::min(n, count + 1);
-  rod_.position.assign(position_.begin(), position_.begin() + count);
+  // The nodes that the layer has already are those of the stack.
+  const std::ptrdiff_t kept = std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(rod_.position.size()));
+  rod_.position.resize(static_cast<std::size_t>(kept));
+  rod_.position.insert(rod_.position.end(), position_.begin() + kept, position_.begin() + count);
   const double curved = tip_ - wire_.curvedTipLength();
   rod_.first_curved = count;
   if (curved < tip_)

@@ -12,8 +12,8 @@ namespace
 
 constexpr std::size_t kLeastNodes = 5;      // of the solution in a bore
 constexpr double kLargestTension = 1e3;     // N, beyond every hand
-constexpr double kMostYield = 5e-5;         // m, of the bore, in a shift of the last step
-constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
+constexpr double kMostYield = 5e-5;         // m, of the bore under a whole node, in a shift of the last step
+constexpr double kTensionTolerance = 1e-3;  // N, mean change of the tension that needs no further solution
 constexpr double kRelativeTolerance = 0.01;
 constexpr int kMaxSolutions = 12;
 
@@ -24,6 +24,10 @@ void InterlayerLoads::update(const std::vector<LayerPair>& pairs, const std::vec
 {
   if (std::all_of(pairs.begin(), pairs.end(), [](const LayerPair& pair) { return pair.friction <= 0.0; }))
     return;
+  end_ = 0;
+  for (const LayerPair& pair : pairs)
+    end_ = std::max(end_, lastCommonNode(pair, state) + 2);
+  end_ = std::min(end_, model_.rod.nodes());
   updateCentreline(state);
   updateMoments(twists, state);
   updateStackTension(state);
@@ -31,20 +35,25 @@ void InterlayerLoads::update(const std::vector<LayerPair>& pairs, const std::vec
     updatePair(*pair, vessel_share, state);
 }
 
-/** Updates curvature and frames of the centreline. */
+/** Updates curvature and frames of the centreline in the layers. */
 void InterlayerLoads::updateCentreline(const State& state)
 {
   const int n = model_.rod.nodes();
   const int first = state.first_node;
-  for (std::vector<Eigen::Vector3d>* values : {&binormal_, &tangent_, &director_, &normal_})
-    values->assign(static_cast<std::size_t>(n), Eigen::Vector3d::Zero());
+  for (std::vector<Eigen::Vector3d>* values : {&tangent_, &director_, &normal_})
+    values->resize(static_cast<std::size_t>(n));
+  binormal_.assign(static_cast<std::size_t>(n), Eigen::Vector3d::Zero());
+  curvature_.clear();
   Eigen::Vector3d before = (state.position[first + 1] - state.position[first]).normalized();
-  for (int i = first; i < n; ++i)
+  for (int i = first; i < end_; ++i)
   {
     const Eigen::Vector3d after = i + 1 < n ? (state.position[i + 1] - state.position[i]).normalized() : before;
     tangent_[i] = (before + after).normalized();
     if (i > first && i + 1 < n)
-      binormal_[i] = binormalAt(model_.rod, state, i).value;
+    {
+      curvature_.push_back(binormalAt(model_.rod, state, i));
+      binormal_[i] = curvature_.back().value;
+    }
     if (i == first)
       director_[i] = tangent_[i].unitOrthogonal();
     else
@@ -69,7 +78,7 @@ void InterlayerLoads::updateMoments(const LayerTwists& twists, const State& stat
       moment = moment_[k - 1];
     else
       moment.assign(state.position.size(), Eigen::Vector3d::Zero());
-    for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
+    for (int i = state.first_node + 1; i < std::min(end_, model_.rod.nodes() - 1); ++i)
     {
       if (layer.bending_stiffness[i] <= 0.0)
         continue;
@@ -87,14 +96,15 @@ void InterlayerLoads::updateStackTension(const State& state)
 {
   const int n = model_.rod.nodes();
   const std::vector<Eigen::Vector3d>& moment = moment_.back();
+  const int inner = state.first_node + 1;
   tension_.assign(static_cast<std::size_t>(n - 1), 0.0);
-  for (int j = state.first_node; j + 1 < n; ++j)
+  for (int j = state.first_node; j + 1 < end_; ++j)
   {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     if (j > state.first_node)
-      force += binormalAt(model_.rod, state, j).transposeAfter(moment[j]);
+      force += curvature_[j - inner].transposeAfter(moment[j]);
     if (j + 2 < n)
-      force += binormalAt(model_.rod, state, j + 1).transposeBefore(moment[j + 1]);
+      force += curvature_[j + 1 - inner].transposeBefore(moment[j + 1]);
     tension_[j] = state.tension[j] + (state.position[j + 1] - state.position[j]).normalized().dot(force);
   }
 }
@@ -164,8 +174,8 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
     node.clearance = std::max(0.0, stack_.layer(pair.outer).lumen - groupRadius(pair.inner, i));
     node.shift = across(state.layers[pair.inner].bore_shift[i], i);
     const double distance = node.shift.norm();
-    if (distance > node.clearance + kMostYield)
-      node.shift *= (node.clearance + kMostYield) / distance;
+    if (node.wall * (distance - node.clearance) > kMostYield)
+      node.shift *= (node.clearance + kMostYield / node.wall) / distance;
     // A wire on the inner side of a bend is bent more than the centreline.
     const Eigen::Vector2d sharper = node.curvature.dot(node.shift) * node.curvature;
     node.curvature += sharper;
@@ -199,7 +209,7 @@ double InterlayerLoads::tensionBefore(std::size_t i, double tension, double afte
 
 /** Updates tension and loads from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted
  *  wire.
- *  @return largest change of the tension [N] */
+ *  @return mean change of the tension [N]; at a tip alone it may be large, and move no hand */
 double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
                                       const std::vector<double>& vessel_share)
 {
@@ -212,10 +222,10 @@ double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
   Eigen::Vector2d here = moment(last);
   for (std::size_t i = last;; --i)
   {
-    change = std::max(change, std::abs(tension - nodes_[i].tension));
+    change += std::abs(tension - nodes_[i].tension);
     nodes_[i].tension = tension;
     if (i == 0)
-      return change;
+      return change / static_cast<double>(last + 1);
     const int node = first + static_cast<int>(i);
     const Eigen::Vector2d before = moment(i - 1);
     const Eigen::Vector2d curvature = nodes_[i].curvature + BoreContact::bend(nodes_, i);

@@ -8,6 +8,7 @@
 #include "rod/coaxial/concentric_stack.h"
 #include "rod/kkt/kkt_model.h"
 #include "rod/kkt/layer_twists.h"
+#include "rod/model/bending.h"
 
 namespace endovascular_sim::rod
 {
@@ -67,7 +68,9 @@ private:
   const ConcentricStack& stack_;
   const KktModel& model_;
   BoreContact bore_;
-  std::vector<Eigen::Vector3d> binormal_, tangent_, director_, normal_;  ///< of every node; Bishop frame
+  int end_ = 0;                               ///< after the last node whose centreline the pairs need
+  std::vector<CurvatureBinormal> curvature_;  ///< of the nodes up to there, from the second simulated one on
+  std::vector<Eigen::Vector3d> binormal_, tangent_, director_, normal_;  ///< of the same nodes; Bishop frame
   std::vector<std::vector<Eigen::Vector3d>> moment_;  ///< bending moment of every layer and those inside it [N·m]
   std::vector<double> tension_;      ///< of the layers inside the present gap; beyond its outer layer, of the stack [N]
   std::vector<BoreNode> nodes_;      ///< of the present pair, from the first node of the state on

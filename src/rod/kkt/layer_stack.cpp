@@ -389,12 +389,14 @@ void LayerStack::initialSurfaceAngles(const State& state, std::vector<double>& a
 {
   angle.assign(state.position.size(), 0.0);
   const std::vector<double>& turn = frameTurns(state);
-  followed_twist_ = initial_twist_;
-  for (std::vector<double>& twist : followed_twist_)
-    for (std::size_t j = 0; j < turn.size(); ++j)
+  if (!turn.empty())
+    followed_twist_ = initial_twist_;
+  for (std::size_t j = 0; j < turn.size(); ++j)
+    for (std::vector<double>& twist : followed_twist_)
       twist[j] -= turn[j];
+  const std::vector<std::vector<double>>& followed = turn.empty() ? initial_twist_ : followed_twist_;
   for (int i = state.first_node; i < model_.rod.nodes(); ++i)
-    angle[i] = nodeAngle(followed_twist_[stack_.surfaceLayer(i)], i, state.first_node);
+    angle[i] = nodeAngle(followed[stack_.surfaceLayer(i)], i, state.first_node);
 }
 
 const std::vector<double>& LayerStack::frameTurns(const State& state) const

@@ -8,6 +8,8 @@ namespace endovascular_sim::rod
 namespace
 {
 
+constexpr double kSameArc = 1e-9;  // m
+
 /** Integrals of section properties over a part of the wire. */
 struct StretchIntegrals
 {
@@ -136,6 +138,30 @@ Discretisation discretiseUniformly(const Wire& wire, int nodes)
   for (int i = 0; i < nodes; ++i)
     position[i] = wire.length() * i / (nodes - 1);
   return discretise(wire, position);
+}
+
+std::vector<double> resolvedPositions(const Wire& wire, int nodes, double largest_error)
+{
+  const double edge = wire.length() / (nodes - 1);
+  const std::vector<CurvedPart> parts = curvedPartsOf(wire);
+  std::vector<double> position = {0.0};
+  for (int i = 1; i < nodes; ++i)
+  {
+    const double begin = position.back();
+    const double end = wire.length() * i / (nodes - 1);
+    double pieces = 1.0;
+    for (const CurvedPart& part : parts)
+    {
+      const double square = part.curvature.squaredNorm();
+      const double error = part.bending_stiffness * square * square * edge * edge / 24.0;
+      if (part.begin < end - kSameArc && part.end > begin + kSameArc)
+        pieces = std::max(pieces, std::ceil(std::sqrt(error / largest_error)));
+    }
+    for (int k = 1; k < pieces; ++k)
+      position.push_back(begin + k / pieces * (end - begin));
+    position.push_back(end);
+  }
+  return position;
 }
 
 }  // namespace endovascular_sim::rod

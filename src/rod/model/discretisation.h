@@ -81,4 +81,10 @@ double massBetween(const Wire& wire, double begin, double end);
  *  @param nodes at least 3 */
 Discretisation discretiseUniformly(const Wire& wire, int nodes);
 
+/** Arc lengths of equally spaced nodes, with further ones where rest curvature turns an edge so far that the force of
+ *  its straightening has an error: EI κ̄²/2 · (κ̄ē)²/12, measured with `benchmark mouth`.
+ *  @param nodes at least 3, before edges are divided
+ *  @param largest_error of that force [N] */
+std::vector<double> resolvedPositions(const Wire& wire, int nodes, double largest_error);
+
 }  // namespace endovascular_sim::rod

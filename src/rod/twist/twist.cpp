@@ -13,11 +13,12 @@ namespace
 {
 
 constexpr int kMaxIterations = 200;
-constexpr double kMaxTurn = 0.3;      // rad per iteration, so that a snap-through ends in the next minimum
-constexpr double kConverged = 1e-12;  // rad
-// With friction: a ten-thousandth of the rotation at which it slips, before a last step that squares the error.
-constexpr double kConvergedInFriction = 1e-7;  // rad
-constexpr double kBalanced = 1e-7;             // tolerated residual torque, relative to that of all friction
+constexpr double kMaxTurn = 0.3;  // rad per iteration, so that a snap-through ends in the next minimum
+// Newton step after which no other is needed: the error that it leaves is of the order of its square. With friction, a
+// ten-thousandth of the rotation at which that slips.
+constexpr double kConverged = 1e-8;      // rad
+constexpr double kConvergedTip = 1e-12;  // rad: the torque on a held tip is that before the last step
+constexpr double kBalanced = 1e-7;       // tolerated residual torque, relative to that of all friction
 // Iterations with Newton's tangents, then as many with secants, which always descend.
 constexpr int kNewtonIterations = 6;
 // Omitted share of the Hessian's concave part: the first with which the Hessian is positive definite.
@@ -381,7 +382,7 @@ void QuasiStaticTwist::relax(const Discretisation& rod, const TwistBoundary& bou
   const int first = first_own_ - 1;
   const int last = rod.nodes() - 2;
   const double tolerated = balanced(boundary);
-  const double converged = boundary.hasFriction() ? kConvergedInFriction : kConverged;
+  const double converged = boundary.tip_held ? kConvergedTip : kConverged;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration)
   {
     const bool secants = iteration / kNewtonIterations % 2 == 1;

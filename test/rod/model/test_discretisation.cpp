@@ -62,5 +62,19 @@ TEST(Discretisation, FindsTheFirstNodeWithRestCurvature)
   EXPECT_EQ(discretiseUniformly(straight, 50).first_curved, 50);
 }
 
+// EI κ̄²/2 · (κ̄ē)²/12 of the tip: 1e-4/2 · 100² · (100 · 2e-3)²/12 N = 1.67 mN.
+TEST(Discretisation, DividesEdgesOfACurvedSectionUntilTheForceOfItsStraighteningIsWithinABound)
+{
+  const Wire wire = twoSections();
+  EXPECT_EQ(resolvedPositions(wire, 161, 2e-3).size(), 161U);
+  const std::vector<double> halved = resolvedPositions(wire, 161, 1e-3);
+  ASSERT_EQ(halved.size(), 161U + 10U);
+  EXPECT_NEAR(halved[150], 0.3, 1e-12);
+  for (std::size_t i = 151; i < halved.size(); ++i)
+    EXPECT_NEAR(halved[i] - halved[i - 1], 1e-3, 1e-12);
+  EXPECT_EQ(halved.back(), wire.length());
+  EXPECT_EQ(resolvedPositions(wire, 161, 0.1e-3).size(), 161U + 40U);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rod
