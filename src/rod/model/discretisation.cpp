@@ -8,7 +8,8 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kSameArc = 1e-9;  // m
+constexpr double kSameArc = 1e-9;     // m
+constexpr double kBesideCurve = 2.0;  // edges on either side of a curved section that are as short as in it
 
 /** Integrals of section properties over a part of the wire. */
 struct StretchIntegrals
@@ -143,6 +144,7 @@ Discretisation discretiseUniformly(const Wire& wire, int nodes)
 std::vector<double> resolvedPositions(const Wire& wire, int nodes, double largest_error)
 {
   const double edge = wire.length() / (nodes - 1);
+  const double beside = kBesideCurve * edge;
   const std::vector<CurvedPart> parts = curvedPartsOf(wire);
   std::vector<double> position = {0.0};
   for (int i = 1; i < nodes; ++i)
@@ -154,7 +156,7 @@ std::vector<double> resolvedPositions(const Wire& wire, int nodes, double larges
     {
       const double square = part.curvature.squaredNorm();
       const double error = part.bending_stiffness * square * square * edge * edge / 24.0;
-      if (part.begin < end - kSameArc && part.end > begin + kSameArc)
+      if (part.begin - beside < end - kSameArc && part.end + beside > begin + kSameArc)
         pieces = std::max(pieces, std::ceil(std::sqrt(error / largest_error)));
     }
     for (int k = 1; k < pieces; ++k)

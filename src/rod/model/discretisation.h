@@ -82,7 +82,8 @@ double massBetween(const Wire& wire, double begin, double end);
 Discretisation discretiseUniformly(const Wire& wire, int nodes);
 
 /** Arc lengths of equally spaced nodes, with further ones where rest curvature turns an edge so far that the force of
- *  its straightening has an error: EI κ̄²/2 · (κ̄ē)²/12, measured with `benchmark mouth`.
+ *  its straightening has an error: EI κ̄²/2 · (κ̄ē)²/12, measured with `benchmark mouth`. Two edges on either side of
+ * such a section are divided too: a step of the lengths at its end would double the error.
  *  @param nodes at least 3, before edges are divided
  *  @param largest_error of that force [N] */
 std::vector<double> resolvedPositions(const Wire& wire, int nodes, double largest_error);

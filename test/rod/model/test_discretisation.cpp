@@ -68,12 +68,12 @@ TEST(Discretisation, DividesEdgesOfACurvedSectionUntilTheForceOfItsStraightening
   const Wire wire = twoSections();
   EXPECT_EQ(resolvedPositions(wire, 161, 2e-3).size(), 161U);
   const std::vector<double> halved = resolvedPositions(wire, 161, 1e-3);
-  ASSERT_EQ(halved.size(), 161U + 10U);
-  EXPECT_NEAR(halved[150], 0.3, 1e-12);
-  for (std::size_t i = 151; i < halved.size(); ++i)
+  ASSERT_EQ(halved.size(), 161U + 12U);  // two edges before the section are divided too
+  EXPECT_NEAR(halved[148], 0.296, 1e-12);
+  for (std::size_t i = 149; i < halved.size(); ++i)
     EXPECT_NEAR(halved[i] - halved[i - 1], 1e-3, 1e-12);
   EXPECT_EQ(halved.back(), wire.length());
-  EXPECT_EQ(resolvedPositions(wire, 161, 0.1e-3).size(), 161U + 40U);
+  EXPECT_EQ(resolvedPositions(wire, 161, 0.1e-3).size(), 161U + 48U);
 }
 
 }  // namespace
