@@ -1,5 +1,6 @@
 #include "nodes/contact/contact_node.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -11,7 +12,9 @@
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
+#include "nodes/runtime/line/message_frame.h"
 #include "nodes/runtime/node_program.h"
+#include "nodes/runtime/processor/thread_time.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_vessel.h"
 
@@ -78,10 +81,16 @@ void ContactNode::subscribe()
         receiveDisplacement(event.getConstMessage());
       },
       &queue_);
+  if (ros::param::param("~local_line", true))
+    line_ = std::make_unique<LineServer>(lineName(ros::master::getURI(), node_.resolveName(names::kContactSet)),
+                                         [this](const std::uint8_t* frame, std::uint32_t size)
+                                         { receiveFrame(frame, size); });
   state_subscriber_ = subscribeGuarded<RodState>(
       node_, names::kRodState, kQueue,
       [this](const ros::MessageEvent<RodState const>& event)
       {
+        if (line_ && line_->isConnected())
+          return;  // for further subscribers, or of another node
         state_source_.require(event.getPublisherName());
         receiveState(event.getConstMessage());
       },
@@ -134,6 +143,22 @@ void ContactNode::receiveState(const RodStateConstPtr& message)
     respond(message);
 }
 
+/** Receives a rod state from the line. Invalid ones are ignored, as those of the topic. */
+void ContactNode::receiveFrame(const std::uint8_t* frame, std::uint32_t size)
+{
+  try
+  {
+    if (!line_state_ || !line_state_.unique())  // a deferred state is still in use
+      line_state_ = boost::make_shared<RodState>();
+    fromFrame(frame, size, *line_state_);
+    receiveState(line_state_);
+  }
+  catch (const std::exception& error)
+  {
+    IgnoredMessages::ofProcess().add(names::kRodState, error.what());
+  }
+}
+
 /** Applies displacements up to the requested version. @return true when the wall has this version */
 bool ContactNode::advanceWallTo(std::uint64_t version)
 {
@@ -173,16 +198,32 @@ void ContactNode::respond(const RodStateConstPtr& message)
     return;
   }
   fromMessage(*message, query_);
+  const double begin = threadProcessorTime();
   if (message->wanted_free_distance > 0.0)
     detector_->freeDistances(query_, message->wanted_free_distance, response_.set);
   else
     detector_->detect(query_, response_.set);
+  detection_time_ = detection_time_ + threadProcessorTime() - begin;
   response_.header.stamp = ros::Time::now();
   response_.header.frame_id = names::kPatientFrame;
-  publisher_.publish(response_);
+  publishResponse();
+  response_time_ = threadProcessorTime();
   ++responses_;
   countProgress();
   features_ = response_.set.features.size();
+}
+
+/** Sends the response to the rod: over the line, where it is connected. */
+void ContactNode::publishResponse()
+{
+  bool is_sent = false;
+  if (line_ && line_->isConnected())
+  {
+    toFrame(response_, frame_);
+    is_sent = line_->send(frame_);
+  }
+  if (!is_sent || publisher_.getNumSubscribers() > 1)  // the rod subscribes too
+    publisher_.publish(response_);
 }
 
 void ContactNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
@@ -195,6 +236,9 @@ void ContactNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   status.add("scheduling", grant_.describe());
   status.add("contact sets published", responses_.load());
+  const double responses = std::max(1.0, static_cast<double>(responses_));
+  status.add("processor time, detection [us]", 1e6 * detection_time_ / responses);
+  status.add("processor time, conversion and transport [us]", 1e6 * (response_time_ - detection_time_) / responses);
   status.add("features in the last set", features_.load());
   status.add("triangles", triangles_.load());
   status.add("vessel version", version_.load());

@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <boost/shared_ptr.hpp>
 
 #include "contact/detector.h"
 #include "endovascular_sim/RodState.h"
@@ -16,6 +18,7 @@
 #include "endovascular_sim/WallDisplacement.h"
 #include "nodes/conversions/contact_set_serializer.h"
 #include "nodes/runtime/direct_callback_queue.h"
+#include "nodes/runtime/line/local_line.h"
 #include "nodes/runtime/one_source.h"
 #include "nodes/runtime/real_time.h"
 #include "scene/model/scene.h"
@@ -23,7 +26,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** ROS node of contact detection: responds to every rod state with the wall features near the rod.
+/** ROS node of contact detection: responds to every rod state with the wall features near the rod. A rod of the same
+ *  machine connects to a local line. From then on its states arrive there, and those of the topic are ignored.
  *
  *  Lock-step with a moving wall: a rod state requests a version of the vessel. The node applies the displacements up to
  *  this version, never beyond it, and defers the response until they have arrived. */
@@ -42,9 +46,11 @@ private:
   void receiveVessel(const VesselMeshConstPtr& message);
   void receiveDisplacement(const WallDisplacementConstPtr& message);
   void receiveState(const RodStateConstPtr& message);
+  void receiveFrame(const std::uint8_t* frame, std::uint32_t size);
   bool advanceWallTo(std::uint64_t version);
   bool prepareWall(std::uint64_t version);
   void respond(const RodStateConstPtr& message);
+  void publishResponse();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
@@ -60,15 +66,20 @@ private:
   OneSource state_source_, displacement_source_;  ///< used by the thread of states and displacements only
   contact::Query query_;
   StampedContactSet response_;
+  std::vector<std::uint8_t> frame_;         ///< response as sent over the line
+  boost::shared_ptr<RodState> line_state_;  ///< buffer of the line's thread
   // Counters for /diagnostics, which another thread publishes.
   std::atomic<std::uint64_t> responses_{0};
   std::atomic<std::size_t> features_{0};
   std::atomic<std::size_t> triangles_{0};
   std::atomic<std::uint64_t> version_{0};
   std::atomic<std::uint64_t> deferrals_{0};
+  std::atomic<double> detection_time_{0.0};  ///< processor time of the detection, sum of all responses [s]
+  std::atomic<double> response_time_{0.0};   ///< processor time of the responding thread since its start [s]
   ros::Publisher publisher_;
   DirectCallbackQueue queue_;
   diagnostic_updater::Updater diagnostics_;
+  std::unique_ptr<LineServer> line_;  ///< null with topics only
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber vessel_subscriber_, displacement_subscriber_, state_subscriber_;
   ros::WallTimer timer_;

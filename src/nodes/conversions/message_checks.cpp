@@ -52,8 +52,10 @@ void requireNodes(const std::vector<geometry_msgs::Point>& nodes, const char* to
 {
   if (nodes.size() > kMostNodes)
     throw InputError(topic, "nodes", "must be at most " + std::to_string(kMostNodes));
+  const std::string topic_name = topic;  // once for all nodes of a wire, at every query
+  const std::string key = "nodes";
   for (const geometry_msgs::Point& node : nodes)
-    requirePosition(node, topic, "nodes");
+    requirePosition(node, topic_name, key);
 }
 
 void requireFinite(const ContactForceTotals& totals)

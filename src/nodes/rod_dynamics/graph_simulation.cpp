@@ -48,8 +48,10 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
 {
   if (scene_.vessel)
     contacts_ = std::make_unique<RemoteContactSource>(
-        node_, numericParameter(parameters, "contact_patience",
-                                pace == Pace::kRealTime ? kContactTimeout : kContactPatience, quantities::kWait));
+        node_,
+        numericParameter(parameters, "contact_patience", pace == Pace::kRealTime ? kContactTimeout : kContactPatience,
+                         quantities::kWait),
+        costs_);
   setState("DISABLED", "waiting for the vessel and the contact node");
 }
 
@@ -101,22 +103,40 @@ bool GraphSimulation::connect()
 
 void GraphSimulation::step()
 {
+  costs_.begin();
   const bool counted = !procedure_ || !procedure_->isOver();  // metrics end with the procedure, as those of `simulate`
-  const std::vector<simulation::HandCommand>& commands =
-      drives_.next(*simulation_, procedure_ ? &procedure_->next(*simulation_, now()) : nullptr);
-  simulation_->stepAll(commands);
+  const std::vector<simulation::HandCommand>& commands = nextCommands();
+  {
+    const LoopCosts::Scope scope(costs_, LoopPhase::kSimulation);
+    simulation_->stepAll(commands);
+  }
+  publishStep(commands, counted);
+}
+
+const std::vector<simulation::HandCommand>& GraphSimulation::nextCommands()
+{
+  const LoopCosts::Scope scope(costs_, LoopPhase::kCommands);
+  return drives_.next(*simulation_, procedure_ ? &procedure_->next(*simulation_, now()) : nullptr);
+}
+
+void GraphSimulation::publishStep(const std::vector<simulation::HandCommand>& commands, bool counted)
+{
+  const LoopCosts::Scope scope(costs_, LoopPhase::kPublishing);
   const std::vector<RenderedHand>& hands = renderer_.render(*simulation_, commands, scene_.solver.time_step);
   const ros::Time stamp = now();
   clock_.publishStep(simulation_->steps());
   instruments_.publishStep(*simulation_, hands, stamp);
   publisher_.publishStep(*simulation_, hands, stamp);
-  if (forces_)
-    forces_->publishStep(*simulation_, counted, stamp);
+  if (!forces_)
+    return;
+  const LoopCosts::Scope recording(costs_, LoopPhase::kRecording);
+  forces_->publishStep(*simulation_, counted, stamp);
 }
 
 void GraphSimulation::publishHeld(double share)
 {
   instruments_.publishPaused(renderer_.hands(), share, now());
+  publisher_.publishGroup();
 }
 
 void GraphSimulation::publishBeginning()

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <ros/ros.h>
 
 #include "nodes/rod_dynamics/contact_force_publisher.h"
+#include "nodes/rod_dynamics/control/loop_costs.h"
 #include "nodes/rod_dynamics/control/pace.h"
 #include "nodes/rod_dynamics/control/simulation_clock.h"
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
@@ -44,6 +46,9 @@ public:
   /** Lets the rendered forces approach those of the simulation from zero, after publishHeld(). */
   void fadeForcesIn() { renderer_.reset(); }
 
+  /** Publishes the steps that wait for the rest of their group, where no step follows soon. */
+  void publishWaitingSteps() { publisher_.publishGroup(); }
+
   /** Publishes the beginning of a run: the time, and an empty map of the wall forces. */
   void publishBeginning();
 
@@ -72,6 +77,7 @@ public:
   RemoteContactSource* contacts() { return contacts_.get(); }  ///< null without a vessel
   const RemoteContactSource* contacts() const { return contacts_.get(); }
   DriveCommands& drives() { return drives_; }
+  const LoopTimes& times() const { return costs_.last(); }  ///< of the last step
   const InstrumentPublisher& instruments() const { return instruments_; }
   SimulationClock& clock() { return clock_; }
 
@@ -86,6 +92,8 @@ public:
 
 private:
   bool waitForVessel();
+  const std::vector<simulation::HandCommand>& nextCommands();
+  void publishStep(const std::vector<simulation::HandCommand>& commands, bool counted);
   std::unique_ptr<simulation::Simulation> makeSimulation();
   ros::Time now() const { return clock_.stamp(simulation_ ? simulation_->steps() : 0); }
   void requireRigidWall() const;
@@ -93,6 +101,7 @@ private:
 
   ros::NodeHandle& node_;
   scene::Scene scene_;
+  LoopCosts costs_;
   SimulationClock clock_;
   scene::EntryPose entry_;
   vessel::Vessel vessel_;

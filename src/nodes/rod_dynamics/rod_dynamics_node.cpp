@@ -79,6 +79,7 @@ RodDynamicsNode::RodDynamicsNode(const ros::NodeHandle& node, const ros::NodeHan
     seconds_(numericParameter(parameters_, "seconds", 0.0, quantities::kDuration)),
     simulation_(node_, parameters_, std::move(scene), pace_),
     throttle_guard_(requiredIdleShare(), kRest),
+    statistics_(simulation_.scene().solver.time_step),
     recorder_(node_),
     run_publisher_(node_.advertise<SimulationRun>(names::kSimulationRun, 1, true))
 {
@@ -131,7 +132,7 @@ bool RodDynamicsNode::run()
   return true;
 }
 
-/** Waits for the subscriber of drive/applied and session/sample, if the parameter `wait_for_recorder` announces one: a
+/** Waits for the subscriber of session/steps and session/sample, if the parameter `wait_for_recorder` announces one: a
  * recording must begin with the first step. */
 void RodDynamicsNode::waitForRecorder() const
 {
@@ -179,12 +180,14 @@ void RodDynamicsNode::runSteps()
 void RodDynamicsNode::step(StepScheduler& scheduler, Clock::time_point awake)
 {
   const Clock::time_point begin = Clock::now();
+  const double woken_late = awake < scheduler.next() ? seconds(begin - scheduler.next()) : 0.0;
   scheduler.begin(begin);
   simulation_.step();
   const Clock::time_point end = Clock::now();
   // Only real time has deadlines.
   const Clock::time_point deadline = pace_ == Pace::kRealTime ? scheduler.slotEnd() : end;
-  statistics_.addStep(simulation_.simulation(), {begin, end, deadline}, simulation_.isFaded());
+  statistics_.addStep(simulation_.simulation(), {begin, end, deadline, woken_late, simulation_.times()},
+                      simulation_.isFaded());
   if (const RemoteContactSource* contacts = simulation_.contacts())
     statistics_.setContactSets(contacts->staleSets(), contacts->rejectedSets());
   if (pace_ != Pace::kRealTime)

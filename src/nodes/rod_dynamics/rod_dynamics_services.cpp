@@ -95,6 +95,7 @@ void RodDynamicsNode::stepByClient(const StepSimulation::Request& request, StepS
     response.message = simulation_.drives().give(names::kSimulationStep, request.commands);
   if (response.message.empty())
     response.message = takeSteps(request.steps);
+  simulation_.publishWaitingSteps();
   response.success = response.message.empty() ? 1 : 0;
   simulation_.clock().publish(simulation_.simulation().steps());
   observer_->report(simulation_.simulation(), simulation_.instruments(), simulation_.drives(),

@@ -16,8 +16,9 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr double kVisualRate = 60.0;   ///< rate of the data for display [Hz]
-constexpr int kStepQueue = 10000;      ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
+constexpr double kVisualRate = 60.0;  ///< rate of the data for display [Hz]
+constexpr std::uint32_t kStepQueue =
+    10000;                             ///< 10 s of steps: a recorder that is stopped for a shorter time loses none
 constexpr int kVisualQueue = 1000;     ///< data for display of as many steps
 constexpr int kTreatmentQueue = 1000;  ///< the recorder must not lose an event
 
@@ -28,6 +29,8 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pac
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step)))
 {
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
+  group_ = node.advertise<SessionSteps>(names::kSessionSteps,
+                                        std::max(1U, kStepQueue / static_cast<std::uint32_t>(visual_period_)));
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, pace == Pace::kRealTime ? 2 : kVisualQueue);
   if (simulation::hasBalloon(scene))
     treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
@@ -43,7 +46,28 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
                                ros::Time now)
 {
   now_ = now;
-  applied_message_.header.stamp = now;
+  const bool is_visual = simulation.steps() % visual_period_ == 0;
+  const bool is_last = simulation.steps() == last_step_;
+  // Events and the state at the scene's end are published without delay, so that no recording lacks them.
+  const bool is_event = simulation.events().size() != treatment_message_.event.size() || is_last;
+  publishApplied(simulation, hands);
+  if (is_visual || is_last)
+    publishGroup();
+  if (is_visual)
+    publishVisual(simulation);
+  if (treatment_ && (is_visual || is_event))
+    publishTreatment(simulation);
+  if (is_visual)
+    publishTip(simulation);
+}
+
+void RodPublisher::publishApplied(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands)
+{
+  const bool has_subscriber = applied_.getNumSubscribers() > 0;
+  const bool has_recorder = group_.getNumSubscribers() > 0;
+  if (!has_subscriber && !has_recorder)
+    return;
+  applied_message_.header.stamp = now_;
   applied_message_.step = simulation.steps() - 1;
   for (std::size_t k = 0; k < hands.size(); ++k)
   {
@@ -55,17 +79,24 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   }
   applied_message_.first_stale_pass = simulation.report().first_stale_pass;
   applied_message_.state_hash = simulation.stateHash();
-  applied_.publish(applied_message_);
-  const bool is_visual = simulation.steps() % visual_period_ == 0;
-  // Events and the state at the scene's end are published without delay, so that no recording lacks them.
-  const bool is_event =
-      simulation.events().size() != treatment_message_.event.size() || simulation.steps() == last_step_;
-  if (is_visual)
-    publishVisual(simulation);
-  if (treatment_ && (is_visual || is_event))
-    publishTreatment(simulation);
-  if (is_visual)
-    publishTip(simulation);
+  if (has_subscriber)
+    applied_.publish(applied_message_);
+  if (has_recorder)
+    group_message_.steps.push_back(applied_message_);
+}
+
+void RodPublisher::publishGroup()
+{
+  if (group_message_.steps.empty())
+    return;
+  group_.publish(group_message_);
+  group_message_.steps.clear();
+}
+
+void RodPublisher::reset()
+{
+  publishGroup();
+  treatment_message_ = TreatmentVisual();
 }
 
 void RodPublisher::publishVisual(const simulation::Simulation& simulation)

@@ -8,6 +8,7 @@
 
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionSteps.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "nodes/rod_dynamics/control/pace.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
@@ -16,7 +17,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Publisher of the rod's state: used input at every step, data for display at about 60 Hz. */
+/** Publisher of the rod's state: used input at every step, in groups for the recorder, and data for display at about
+ *  60 Hz. */
 class RodPublisher
 {
 public:
@@ -27,23 +29,28 @@ public:
    *  @param hands one per instrument */
   void publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands, ros::Time now);
 
-  /** Begins a new run. */
-  void reset() { treatment_message_ = TreatmentVisual(); }
+  /** Publishes the steps that wait for the rest of their group. Call it whenever no step follows soon. */
+  void publishGroup();
 
-  /** Reports whether drive/applied has a subscriber. */
-  bool isRecorded() const { return applied_.getNumSubscribers() > 0; }
+  /** Begins a new run. */
+  void reset();
+
+  /** Reports whether session/steps or drive/applied has a subscriber. */
+  bool isRecorded() const { return group_.getNumSubscribers() > 0 || applied_.getNumSubscribers() > 0; }
 
 private:
+  void publishApplied(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands);
   void publishVisual(const simulation::Simulation& simulation);
   void publishTreatment(const simulation::Simulation& simulation);
   void publishTip(const simulation::Simulation& simulation);
 
-  std::uint64_t visual_period_;  ///< interval of the data for display [steps]
+  std::uint64_t visual_period_;  ///< interval of the data for display, number of steps of a group [steps]
   std::uint64_t last_step_;      ///< last step of the scene's duration
-  ros::Publisher applied_, visual_, treatment_;
+  ros::Publisher applied_, group_, visual_, treatment_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Time now_;  ///< time of the last step
   DriveApplied applied_message_;
+  SessionSteps group_message_;
   RodStateVisual visual_message_;
   TreatmentVisual treatment_message_;
 };

@@ -1,6 +1,8 @@
 #include "nodes/rod_dynamics/step_statistics.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 namespace endovascular_sim::nodes
 {
@@ -24,6 +26,28 @@ void StepStatistics::addStep(const simulation::Simulation& simulation, const Ste
     worst_penetration_ = std::max(worst_penetration_.load(), simulation.surfacePenetration());
   longest_step_ = std::max(longest_step_.load(), seconds);
   total_step_ = total_step_ + seconds;
+  const std::lock_guard<PriorityInheritanceMutex> lock(phase_mutex_);
+  for (std::size_t k = 0; k < kLoopPhases; ++k)
+    processor_times_[k] += times.phases.processor[k];
+  lateness_.add(times.phases, times.woken_late, delay > kLate, delay > 0.0);
+}
+
+/** Adds the processor time of a step by phase, and the late steps by their cause. */
+void StepStatistics::diagnosePhases(diagnostic_updater::DiagnosticStatusWrapper& status) const
+{
+  std::array<double, kLoopPhases> sums{};
+  std::array<std::uint64_t, LateSteps::kCauses> late{};
+  {
+    const std::lock_guard<PriorityInheritanceMutex> lock(phase_mutex_);
+    sums = processor_times_;
+    for (std::size_t k = 0; k < late.size(); ++k)
+      late[k] = lateness_.count(k);
+  }
+  const double steps = std::max(1.0, static_cast<double>(steps_));
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    status.add(std::string("processor time, ") + kLoopPhaseNames[k] + " [us]", 1e6 * sums[k] / steps);
+  for (std::size_t k = 0; k < late.size(); ++k)
+    status.add(std::string("late steps, ") + LateSteps::nameOf(k), late[k]);
 }
 
 void StepStatistics::setHeld(const std::string& reason, bool is_fault)
@@ -59,7 +83,7 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
                    std::to_string(others) + " other session(s) use the same processor: steps may be late");
   else if (on_time < 99.0)
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
-                   "the computer is too slow or busy: more than 1 % of the steps are late");
+                   "more than 1 % of the steps are late; the values \"late steps\" name the causes");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   status.add("scheduling", grant.describe());
@@ -69,6 +93,7 @@ void StepStatistics::diagnose(const SchedulingGrant& grant, diagnostic_updater::
   status.add("on time [%]", on_time);
   status.add("step time, mean [us]", steps > 0 ? 1e6 * total_step_ / static_cast<double>(steps) : 0.0);
   status.add("step time, longest [us]", 1e6 * longest_step_);
+  diagnosePhases(status);
   status.add("stale contact sets", stale_sets_.load());
   status.add("rejected contact sets (late, duplicate or invalid)", rejected_sets_.load());
   status.add("pauses", pauses_.load());

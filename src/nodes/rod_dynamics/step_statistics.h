@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -8,6 +9,8 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include "nodes/rod_dynamics/control/late_steps.h"
+#include "nodes/runtime/priority_inheritance_mutex.h"
 #include "nodes/runtime/real_time.h"
 #include "simulation/simulation.h"
 
@@ -25,7 +28,12 @@ public:
   {
     Clock::time_point begin, end;
     Clock::time_point slot_end;  ///< deadline of the step
+    double woken_late = 0.0;     ///< delay of its begin that no step before caused [s]
+    LoopTimes phases;
   };
+
+  /** @param slot duration of a step in real time [s] */
+  explicit StepStatistics(double slot) : lateness_(slot) {}
 
   /** Counts a step.
    *  @param is_faded true while rendered forces are faded after rejected steps */
@@ -42,6 +50,8 @@ public:
   void diagnose(const SchedulingGrant& grant, diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
 private:
+  void diagnosePhases(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
   std::atomic<std::uint64_t> steps_{0};
   std::atomic<std::uint64_t> late_steps_{0};
   std::atomic<std::uint64_t> stale_sets_{0};
@@ -50,13 +60,16 @@ private:
   std::atomic<std::uint64_t> rejected_steps_{0};
   std::atomic<std::uint64_t> discarded_backlogs_{0};
   std::atomic<bool> is_rejecting_{false};
-  std::atomic<double> worst_penetration_{0.0};  ///< [m]
-  std::atomic<double> longest_step_{0.0};       ///< [s]
-  std::atomic<double> worst_delay_{0.0};        ///< largest delay of a step's end behind its deadline [s]
-  std::atomic<double> total_step_{0.0};         ///< sum of all step times [s]
-  mutable std::mutex mutex_;                    ///< guards the next two
-  std::string held_;                            ///< reason for which no step is taken; empty without one
-  bool is_fault_ = false;                       ///< of another node
+  std::atomic<double> worst_penetration_{0.0};         ///< [m]
+  std::atomic<double> longest_step_{0.0};              ///< [s]
+  std::atomic<double> worst_delay_{0.0};               ///< largest delay of a step's end behind its deadline [s]
+  std::atomic<double> total_step_{0.0};                ///< sum of all step times [s]
+  mutable PriorityInheritanceMutex phase_mutex_;       ///< guards the next two
+  std::array<double, kLoopPhases> processor_times_{};  ///< sums over all steps [s]
+  LateSteps lateness_;
+  mutable std::mutex mutex_;  ///< guards the next two
+  std::string held_;          ///< reason for which no step is taken; empty without one
+  bool is_fault_ = false;     ///< of another node
 };
 
 }  // namespace endovascular_sim::nodes

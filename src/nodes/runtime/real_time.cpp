@@ -10,9 +10,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string>
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+
+#include "nodes/runtime/processor/processor_claim.h"
 
 namespace endovascular_sim::nodes
 {
@@ -133,13 +136,18 @@ bool useProcessor(int processor)
 
 void avoidProcessor(int processor)
 {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  if (processor < 0 || sched_getaffinity(0, sizeof allowed, &allowed) != 0 || CPU_COUNT(&allowed) < 2)
+  if (processor < 0)
     return;
-  CPU_CLR(processor, &allowed);
-  if (CPU_COUNT(&allowed) > 0)
-    sched_setaffinity(0, sizeof allowed, &allowed);
+  std::string core;
+  std::getline(
+      std::ifstream("/sys/devices/system/cpu/cpu" + std::to_string(processor) + "/topology/thread_siblings_list"),
+      core);
+  cpu_set_t chosen;
+  CPU_ZERO(&chosen);
+  for (const int other : processorsBesideLoop(allowedProcessors(), processor, processorsOfList(core)))
+    CPU_SET(other, &chosen);
+  if (CPU_COUNT(&chosen) > 0)
+    sched_setaffinity(0, sizeof chosen, &chosen);
 }
 
 void spinUntilShutdown()

@@ -43,6 +43,7 @@ constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kProcedureStep = "procedure/step";
 constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionSample = "session/sample";
+constexpr auto kSessionSteps = "session/steps";
 constexpr auto kSessionEnd = "session/end";  ///< in recordings only
 constexpr auto kSessionStop = "session/stop";
 constexpr auto kSessionProgress = "session/progress";

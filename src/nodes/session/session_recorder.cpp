@@ -134,7 +134,7 @@ void SessionRecorder::recordLatched(const std::string& topic, std::uint32_t queu
                   });
 }
 
-/** Refuses a message that is further ahead of drive/applied than its queue is long, or whose time is not that of its
+/** Refuses a message that is further ahead of session/steps than its queue is long, or whose time is not that of its
  * step. */
 template <typename Message>
 void SessionRecorder::requireKnown(const Message& message, const std::string& topic) const
@@ -167,7 +167,7 @@ void SessionRecorder::measure(const std::string& topic, std::uint32_t queue)
 
 void SessionRecorder::subscribeToWire()
 {
-  listen<DriveApplied>(names::kDriveApplied, kStepQueue, [this](const auto& event) { onDrive(event); });
+  listen<SessionSteps>(names::kSessionSteps, kStepQueue, [this](const auto& event) { onSteps(event); });
   listen<RodStateVisual>(names::kRodStateVisual, kQueue, [this](const auto& event) { onRod(event); });
   measure<TreatmentVisual>(names::kTreatmentVisual, kQueue);
   for (const scene::DrivenInstrument& driven : scene_.instruments)
@@ -216,28 +216,43 @@ void SessionRecorder::publishInfo()
     recording_->bag.writeLatched(node_.resolveName(names::kSessionInfo), info_);
 }
 
-/** True for the step after the last one, and for the second step after a gap. A stray message has no effect. */
-bool SessionRecorder::isNext(std::uint64_t step)
+/** True for steps after the last one, and for the second group of steps after a gap. A stray message has no effect. */
+bool SessionRecorder::isNext(const SessionSteps& group)
 {
+  const std::uint64_t step = group.steps.front().step;
   const bool is_next = step == handled_ || step == after_gap_;
-  after_gap_ = step + 1;
+  after_gap_ = step + group.steps.size();
   return is_next;
 }
 
-void SessionRecorder::onDrive(const ros::MessageEvent<DriveApplied const>& event)
+void SessionRecorder::onSteps(const ros::MessageEvent<SessionSteps const>& event)
 {
-  const DriveApplied& drive = *event.getMessage();
-  requireUsable(drive, scene_.instruments.size());
-  if (!isNext(drive.step))
-    throw InputError(names::kDriveApplied, "step",
-                     "does not follow the step before: a message was lost, or is another's");
-  handled_ = drive.step + 1;
+  const SessionStepsConstPtr group = event.getConstMessage();
+  if (group->steps.empty())
+    throw InputError(names::kSessionSteps, "steps", "is empty");
+  for (std::size_t k = 0; k < group->steps.size(); ++k)
+  {
+    requireUsable(group->steps[k], scene_.instruments.size());
+    if (group->steps[k].step != group->steps.front().step + k)
+      throw InputError(names::kSessionSteps, "steps", "do not follow each other");
+  }
+  steps_source_.require(event.getPublisherName());
+  if (!isNext(*group))
+    throw InputError(names::kSessionSteps, "steps",
+                     "do not follow the step before: a message was lost, or is another's");
+  for (const DriveApplied& step : group->steps)
+    recordStep(boost::shared_ptr<const DriveApplied>(group, &step), event.getReceiptTime());
+}
+
+void SessionRecorder::recordStep(const DriveAppliedConstPtr& step, ros::Time time)
+{
+  handled_ = step->step + 1;
   if (!isRecording() || durationIsOver())
     return;
-  recording_->results.add(drive);
+  recording_->results.add(*step);
   last_step_ = ros::SteadyTime::now();
-  recording_->bag.write(node_.resolveName(names::kDriveApplied), event);
-  recordSetpoints(drive, event.getReceiptTime());
+  recording_->bag.write(node_.resolveName(names::kDriveApplied), time, step);
+  recordSetpoints(*step, time);
 }
 
 /** Records setpoint_js of all instruments, derived from drive/applied: rod_dynamics then need not publish it at the
@@ -406,7 +421,7 @@ void SessionRecorder::onTimer(const ros::SteadyTimerEvent&)
     return;
   const double silence = (ros::SteadyTime::now() - last_step_).toSec();
   const double patience = recording_->results.report().steps() == 0 ? settings_.start_patience : settings_.patience;
-  // Messages of the last steps on other topics may arrive after drive/applied.
+  // Messages of the last steps on other topics may arrive after session/steps.
   const bool is_settled = silence > kLongestSettling || (silence > kSettling && recording_->results.hasFinalMap());
   if (durationIsOver() && is_settled)
     endWith("");

@@ -20,10 +20,12 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/SessionProgress.h"
+#include "endovascular_sim/SessionSteps.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/runtime/one_source.h"
 #include "nodes/session/recording.h"
 #include "scene/model/scene.h"
 
@@ -77,10 +79,11 @@ private:
   template <typename Message>
   void measure(const std::string& topic, std::uint32_t queue);
 
-  bool isNext(std::uint64_t step);
+  bool isNext(const SessionSteps& group);
   template <typename Message>
   void requireKnown(const Message& message, const std::string& topic) const;
-  void onDrive(const ros::MessageEvent<DriveApplied const>& event);
+  void onSteps(const ros::MessageEvent<SessionSteps const>& event);
+  void recordStep(const DriveAppliedConstPtr& step, ros::Time time);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
   void recordSetpoints(const DriveApplied& drive, ros::Time time);
   void recordMeasurements(const RodStateVisual& rod, ros::Time time);
@@ -114,8 +117,9 @@ private:
   RecorderSettings settings_;
   SessionInfo info_;
   std::unique_ptr<Recording> recording_;
-  std::uint32_t run_ = 0;        ///< run of the recording; 0 before the first message about it
-  std::uint64_t handled_ = 0;    ///< number of steps, up to the last one that has arrived
+  std::uint32_t run_ = 0;      ///< run of the recording; 0 before the first message about it
+  std::uint64_t handled_ = 0;  ///< number of steps, up to the last one that has arrived
+  OneSource steps_source_;
   std::uint64_t after_gap_ = 0;  ///< step after the last one that has arrived, whether or not it followed
   SimulationRunConstPtr next_;   ///< run that is to be recorded; null without one
   ros::SteadyTime next_since_;   ///< arrival of next_

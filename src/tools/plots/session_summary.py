@@ -53,6 +53,7 @@ def summary_rows(report, metrics, device, folder):
         ("steps", "%d of %s ms, %s simulated" % (report["steps"], number(report["scene"]["dt"], "%g", "", 1e3),
                                                  number(report["simulated_time"], "%.3f", " s"))),
         ("steps on time", number(report["on_time_percent"], "%.2f", " %")),
+        ("processor time of a step", step_costs(report) or "not known"),
         ("real-time factor", number(report["real_time_factor"], "%.3f")),
         ("wire inside", number(report["inserted_length"], "%.1f", " mm", 1e3)),
         ("force at the hand, max", number(peak_hand_force(report, metrics), "%.3f", " N")),
@@ -77,7 +78,56 @@ def summary_rows(report, metrics, device, folder):
     return rows
 
 
-def problems(report):
+def loop_values(report, prefix):
+    """Values of the diagnostics of rod_dynamics whose key begins with a prefix: name without it and unit, to number."""
+    values = report.get("diagnostics", {}).get("rod_dynamics", {})
+    return {key[len(prefix):].split(" [")[0]: value for key, value in values.items()
+            if key.startswith(prefix) and isinstance(value, (int, float))}
+
+
+def step_costs(report):
+    """Text of the processor time of a step by phase; None without it."""
+    costs = loop_values(report, "processor time, ")
+    contact = report.get("diagnostics", {}).get("contact", {}).get("processor time, detection [us]")
+    if isinstance(contact, (int, float)):
+        costs["detection"] = contact
+    return ", ".join("%s %.0f" % pair for pair in costs.items() if pair[1] >= 0.5) + " us" if costs else None
+
+
+def causes_of_delay(report):
+    """Text of the causes of late steps, the most frequent first; empty without them."""
+    late = sorted(loop_values(report, "late steps, ").items(), key=lambda pair: -pair[1])
+    total = sum(count for _, count in late)
+    return ", ".join("%s %.0f %%" % (name, 100.0 * count / total) for name, count in late if count > 0.05 * total) \
+        if total > 0 else ""
+
+
+def lateness(report, processor):
+    """Remark on late steps: how many, their causes, and who used the processors. Other programs are named only if they
+    used more than 2 % of the processors' time, the host only if it withdrew more than 0.1 s and 0.2 %. None if at least
+    99 % of the steps were on time."""
+    on_time = report["on_time_percent"]
+    if not isinstance(on_time, (int, float)) or on_time >= 99.0:
+        return None
+    causes = causes_of_delay(report)
+    text = "%.1f %% of the steps were late" % (100.0 - on_time) + (" (%s)" % causes if causes else "")
+    if not may_run_in_real_time():
+        text += "; allow real-time scheduling (docs/INSTALL.md)"
+    if not processor:
+        return text
+    available = processor["elapsed"] * processor["processors"]
+    reasons = []
+    if processor["withdrawn"] > max(0.1, 0.002 * available):
+        reasons.append("the host of this virtual machine withdrew %.1f s of processor time" % processor["withdrawn"])
+    if processor["others"] > 0.02 * available:
+        reasons.append("other programs used %.1f s of processor time (%.0f %%): end them" %
+                       (processor["others"], 100.0 * processor["others"] / available))
+    if not reasons:
+        reasons.append("no other program used the processors: the scene needs a faster one, or a coarser sampling")
+    return text + "; " + "; ".join(reasons)
+
+
+def problems(report, processor=None):
     """Reasons for an incomplete session, and remarks: (fatal, remarks)."""
     fatal, remarks = [], []
     if report["steps"] == 0:
@@ -91,11 +141,9 @@ def problems(report):
                                                                                  report["recording"]["dropped"]))
     elif report["recording"]["dropped"] > 0:
         fatal.append("%d messages were lost: the disk was too slow" % report["recording"]["dropped"])
-    on_time = report["on_time_percent"]
-    if isinstance(on_time, (int, float)) and on_time < 99.0:
-        remedy = "end other programs and sessions" if may_run_in_real_time() else \
-            "allow real-time scheduling (docs/INSTALL.md) and end other programs"
-        remarks.append("fewer than 99 % of the steps were on time: " + remedy)
+    late = lateness(report, processor)
+    if late:
+        remarks.append(late)
     return fatal, remarks
 
 
@@ -137,7 +185,7 @@ def main():
     device = read_json(os.path.join(arguments.folder, "device_latency.json"))
     metrics = read_json(os.path.join(arguments.folder, "metrics.json"))
     rows = summary_rows(report, metrics, device, arguments.folder)
-    fatal, remarks = problems(report)
+    fatal, remarks = problems(report, read_json(os.path.join(arguments.folder, "processor.json")))
     try:
         write_html(report, rows, fatal, remarks, arguments.folder)
     except OSError as error:

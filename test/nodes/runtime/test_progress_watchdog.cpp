@@ -70,7 +70,7 @@ TEST(ProgressWatchdog, MarksTheGrantAndItsCopiesAsWithdrawnForDiagnostics)
   EXPECT_NE(copy.describe().find("withdrawn"), std::string::npos) << copy.describe();
 
   diagnostic_updater::DiagnosticStatusWrapper status;
-  StepStatistics().diagnose(copy, status);
+  StepStatistics(1e-3).diagnose(copy, status);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
   EXPECT_NE(status.message.find("withdrawn"), std::string::npos) << status.message;
   EXPECT_EQ(status.values.at(0).key, "scheduling");

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdio>
+#include <iterator>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace endovascular_sim::nodes
@@ -30,6 +35,46 @@ inline ProcessorChoice chooseProcessor(const std::vector<int>& allowed, const st
       best = {processor, sessions};
   }
   return best;
+}
+
+/** Processors of a list of Linux, e.g. "0-2,5"; empty for another text. */
+inline std::vector<int> processorsOfList(const std::string& text)
+{
+  constexpr int kMost = 4096;
+  std::vector<int> processors;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');)
+  {
+    int first = 0;
+    int last = 0;
+    const int numbers = std::sscanf(part.c_str(), "%d-%d", &first, &last);
+    last = numbers == 1 ? first : last;
+    if (numbers < 1 || first < 0 || last >= kMost)
+      return {};
+    for (; first <= last; ++first)
+      processors.push_back(first);
+  }
+  return processors;
+}
+
+/** Processors for the other work of a session: all but the loop's, and with at least two left also none of the same
+ *  core, whose threads share its arithmetic units. With the loop's processor alone there is no choice.
+ *  @param allowed processors of this process
+ *  @param loop processor of the real-time nodes
+ *  @param core processors of the loop's core, the loop's included */
+inline std::vector<int> processorsBesideLoop(const std::vector<int>& allowed, int loop, const std::vector<int>& core)
+{
+  const auto without = [&allowed](const std::vector<int>& excluded)
+  {
+    std::vector<int> left;
+    std::copy_if(allowed.begin(), allowed.end(), std::back_inserter(left),
+                 [&excluded](int one) { return std::find(excluded.begin(), excluded.end(), one) == excluded.end(); });
+    return left;
+  };
+  std::vector<int> others = without(core);
+  if (others.size() < 2)
+    others = without({loop});
+  return others.empty() ? allowed : others;
 }
 
 }  // namespace endovascular_sim::nodes

@@ -40,5 +40,28 @@ TEST(ProcessorChoice, UsesAllowedProcessorsOnly)
   EXPECT_EQ(chooseProcessor({}, {}).processor, -1);
 }
 
+TEST(ProcessorChoice, LeavesTheCoreOfTheLoopToItWhereTwoOtherProcessorsAreLeft)
+{
+  using Processors = std::vector<int>;
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(1), 0, {0}), (Processors{0}));
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(2), 1, {1}), (Processors{0}));
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(2), 1, {0, 1}), (Processors{0}));
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(4), 3, {3}), (Processors{0, 1, 2}));
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(4), 3, {1, 3}), (Processors{0, 2}));
+  EXPECT_EQ(processorsBesideLoop({1, 2, 3}, 3, {2, 3}), (Processors{1, 2}));
+  EXPECT_EQ(processorsBesideLoop(firstProcessors(4), -1, {}), firstProcessors(4));
+}
+
+TEST(ProcessorChoice, ReadsTheProcessorsOfACore)
+{
+  using Processors = std::vector<int>;
+  EXPECT_EQ(processorsOfList("3\n"), (Processors{3}));
+  EXPECT_EQ(processorsOfList("1,5"), (Processors{1, 5}));
+  EXPECT_EQ(processorsOfList("0-2,9"), (Processors{0, 1, 2, 9}));
+  EXPECT_EQ(processorsOfList(""), Processors());
+  EXPECT_EQ(processorsOfList("1-999999999"), Processors());
+  EXPECT_EQ(processorsOfList("x"), Processors());
+}
+
 }  // namespace
 }  // namespace endovascular_sim::nodes
