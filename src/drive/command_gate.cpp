@@ -9,10 +9,27 @@ namespace endovascular_sim::drive
 namespace
 {
 
+/** Largest speed relative to that of the stream at which the position makes up for delayed commands [1]. */
+constexpr double kCatchUp = 1.25;
+
 /** Value moved towards a target by at most a step. */
 double approach(double value, double target, double step)
 {
   return value + std::clamp(target - value, -step, step);
+}
+
+/** Moves a value towards a target by little more than the longest motion by one command.
+ *  @param longest becomes 0 at the target */
+void pursue(double& value, double target, double& longest)
+{
+  const double step = kCatchUp * longest;
+  if (std::abs(target - value) > step)
+  {
+    value = approach(value, target, step);
+    return;
+  }
+  value = target;
+  longest = 0.0;
 }
 
 }  // namespace
@@ -61,15 +78,31 @@ CommandVerdict CommandGate::offer(HandMotion command, const HandMotion& slipped)
   approaching_ = approaching_ || isFirst();
   ++accepted_;
   silence_ = 0.0;
+  longest_.insertion = std::max(longest_.insertion, std::abs(command.insertion - target_.insertion));
+  longest_.rotation = std::max(longest_.rotation, std::abs(command.rotation - target_.rotation));
   target_ = command;
   return verdict;
+}
+
+void CommandGate::stopAt(const Interval& stops)
+{
+  target_.insertion = stops.nearest(target_.insertion);
+  longest_.insertion = std::max(longest_.insertion, std::abs(position_.insertion - stops.nearest(position_.insertion)));
 }
 
 void CommandGate::follow(const HandMotion& position, double dt)
 {
   silence_ += dt;
   target_ = position_ = position;
+  longest_ = {};
   approaching_ = false;
+}
+
+/** Advances a stream by a step. A command that has come alone is followed at once. */
+void CommandGate::followStream()
+{
+  pursue(position_.insertion, target_.insertion, longest_.insertion);
+  pursue(position_.rotation, target_.rotation, longest_.rotation);
 }
 
 const HandMotion& CommandGate::next(double dt)
@@ -81,9 +114,11 @@ const HandMotion& CommandGate::next(double dt)
     position_.insertion = approach(position_.insertion, target_.insertion, limits_.approach_speed * dt);
     position_.rotation = approach(position_.rotation, target_.rotation, limits_.approach_turning_speed * dt);
     approaching_ = position_.insertion != target_.insertion || position_.rotation != target_.rotation;
+    if (!approaching_)
+      longest_ = {};
   }
   else
-    position_ = target_;
+    followStream();
   return position_;
 }
 

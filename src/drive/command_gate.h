@@ -58,7 +58,9 @@ inline Interval commandRange(const Interval& range, double slipped)
  *  stream is rejected and the next correct one is accepted. The first command after the time-out may be anywhere within
  *  the range; it is approached at limited speed. During an approach, a command near the present position is accepted
  *  too, so that a wrong first command is corrected by the next one. Where the limits clamp, a jump is approached
- * instead of rejected. Times are simulated ones: the result depends on the order of commands and steps only. */
+ * instead of rejected. Commands that arrive between two steps, e.g. during a delay of the simulation, are executed over
+ * the next steps: a hand that made up for them in one step would lose its grip. Times are simulated ones: the result
+ * depends on the order of commands and steps only. */
 class CommandGate
 {
 public:
@@ -70,9 +72,9 @@ public:
    *  @param slipped slipped motion of the handle [m], [rad]; it shifts the permitted range of the commands */
   CommandVerdict offer(HandMotion command, const HandMotion& slipped = {});
 
-  /** Replaces a target beyond a stop by the stop.
+  /** Replaces a target beyond a stop by the stop. A position beyond it returns at once.
    *  @param stops of the insertion [m] */
-  void stopAt(const Interval& stops) { target_.insertion = stops.nearest(target_.insertion); }
+  void stopAt(const Interval& stops);
 
   /** Advances by a step of another mode: jumps are measured from its position.
    *  @param dt duration of the step [s] */
@@ -100,10 +102,12 @@ public:
 private:
   bool isNear(const HandMotion& command) const;
   bool isFirst() const { return accepted_ == 0 || silence_ >= limits_.time_out; }
+  void followStream();
   CommandVerdict examine(HandMotion& command, const HandMotion& slipped);
 
   HandMotion target_;
   HandMotion position_;
+  HandMotion longest_;  ///< longest motions by one command since the position was at the target
   DriveLimits limits_;
   double silence_ = 0.0;  ///< since the last accepted command, or since the start [s]
   bool approaching_ = false;

@@ -41,8 +41,10 @@ void CommandGate::archive(Archive& archive)
 {
   archiveMotion(archive, target_);
   archiveMotion(archive, position_);
+  archiveMotion(archive, longest_);
   archive(silence_, approaching_, accepted_);
   requireNumbers(silence_);
+  requireLoaded(longest_.insertion >= 0.0 && longest_.rotation >= 0.0, "holds a negative length of a command");
 }
 
 void HandControl::archive(Archive& archive)

@@ -107,6 +107,55 @@ TEST(CommandGate, NeverMovesFasterThanAJumpPerStepAllows)
   EXPECT_LE(gate.next(kStep).insertion, kLimits.approach_speed * kStep);
 }
 
+/** Gate of a stream at 40 mm/s with a command every 5 ms, of which the last 50 ms arrive together. */
+CommandGate delayedGate()
+{
+  CommandGate gate({0.04, 0.0}, kLimits);
+  gate.offer({0.04, 0.0});
+  gate.next(kStep);
+  for (int k = 1; k <= 10; ++k)
+    EXPECT_EQ(gate.offer({0.04 + 2e-4 * k, -1e-3 * k}), CommandVerdict::kAccepted);
+  return gate;
+}
+
+TEST(CommandGate, ExecutesCommandsThatArriveTogetherOverTheNextSteps)
+{
+  CommandGate gate = delayedGate();
+  HandMotion last = gate.position();
+  for (int k = 0; k < 8; ++k)
+  {
+    const HandMotion now = gate.next(kStep);
+    EXPECT_GT(now.insertion - last.insertion, 0.0);
+    EXPECT_LE(now.insertion - last.insertion, 1.25 * 2e-4 * (1.0 + 1e-9));
+    EXPECT_LE(last.rotation - now.rotation, 1.25 * 1e-3 * (1.0 + 1e-9));
+    last = now;
+  }
+  EXPECT_EQ(last.insertion, gate.target().insertion);
+  EXPECT_EQ(last.rotation, gate.target().rotation);
+}
+
+TEST(CommandGate, FollowsAStreamExactlyAgainSoonAfterADelay)
+{
+  CommandGate gate = delayedGate();
+  double target = 0.0;
+  for (int k = 0; k < 40; ++k)
+  {
+    target = gate.target().insertion + 2e-4;
+    gate.offer({target, 0.0});
+    gate.next(kStep);
+  }
+  EXPECT_EQ(gate.position().insertion, target);
+}
+
+TEST(CommandGate, ReturnsFromBeyondAStopAtOnce)
+{
+  CommandGate gate = delayedGate();
+  runSilently(gate, 0.02);
+  gate.stopAt({0.0, 0.035});
+  EXPECT_EQ(gate.next(kStep).insertion, 0.035);
+  EXPECT_EQ(gate.target().insertion, 0.035);
+}
+
 TEST(CommandGate, ApproachesAJumpWhereTheLimitsClamp)
 {
   DriveLimits limits = kLimits;

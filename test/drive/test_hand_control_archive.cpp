@@ -66,6 +66,22 @@ TEST(ASavedHandControl, ContinuesEveryModeBitForBit)
           steps);
 }
 
+TEST(ASavedHandControl, ContinuesWithCommandsThatHaveArrivedTogether)
+{
+  const auto send = [](HandControl& control)
+  {
+    for (int k = 0; k < 10; ++k)
+      EXPECT_EQ(control.command("/a", JointCommand{CommandKind::kServoRelative, 2e-4, 0.01, std::nullopt}),
+                CommandVerdict::kAccepted);
+    run(control, 50);  // the approach to the first command of the stream
+    for (int k = 0; k < 10; ++k)
+      EXPECT_EQ(control.command("/a", JointCommand{CommandKind::kServoRelative, 2e-4, 0.01, std::nullopt}),
+                CommandVerdict::kAccepted);
+  };
+  for (const int steps : {0, 3})
+    expectSameMotion(send, steps);
+}
+
 TEST(ASavedHandControl, StaysFree)
 {
   expectSameMotion([](HandControl& control) { EXPECT_TRUE(control.stateCommand("/a", "free")); }, 300);

@@ -338,7 +338,12 @@ TEST_F(Crtk, AnInstrumentThatWaitsAtAStopForASecondIsAWarningWithItsReason)
       << "at the introducer after 0.3 s";
   EXPECT_NE(client_->reason().find("waits at a stop"), std::string::npos) << client_->reason();
   EXPECT_EQ(client_->state().state, "ENABLED");
-  EXPECT_TRUE(waitUntil(10.0, [] { return client_->diagnostics().find("waits at a stop") != std::string::npos; }));
+  EXPECT_TRUE(waitUntil(10.0,
+                        []
+                        {
+                          client_->send("servo_jv", velocities({-0.1}));
+                          return client_->diagnostics().find("waits at a stop") != std::string::npos;
+                        }));
   ASSERT_TRUE(client_->run(1.8, [] { client_->send("servo_jv", velocities({0.02})); }));
   EXPECT_EQ(client_->reason(), "") << "the instrument moves again";
 }

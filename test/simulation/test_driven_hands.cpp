@@ -103,6 +103,20 @@ TEST(DrivenHands, ShiftTheScaleOfFingersWhoseClientStreamsPositionsBeyondTheEnd)
   EXPECT_NEAR(bench.insertion(), 0.07, 1e-3);
 }
 
+TEST(DrivenHands, KeepTheirGripWhenCommandsArriveTogether)
+{
+  Bench bench(", force_limit: 0.5");
+  double goal = 0.02;
+  for (int round = 0; round < 5; ++round)  // a stream at 40 mm/s that is delayed by 50 ms five times
+  {
+    for (int k = 0; k < 10; ++k)
+      bench.send(CommandKind::kServoPosition, goal += 2e-4);
+    bench.run(0.05);
+  }
+  EXPECT_NEAR(bench.insertion(), goal, 1e-9);
+  EXPECT_NEAR(bench.simulation->reached(0).insertion, goal, 1e-12);
+}
+
 TEST(DrivenHands, EndAMoveAtTheStopThatItMeets)
 {
   Bench bench(", limits: {approach_speed: 0.5}");
