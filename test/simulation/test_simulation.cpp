@@ -246,8 +246,9 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
   EXPECT_LT(slipping.simulation->state().inserted_length, free.simulation->state().inserted_length - 1e-3);
 }
 
-// The curved tip of the wire enters the catheter, and the fingers slip on it. With a firm grip the withdrawal takes up to
-// 0.42 N, static, at 106 mm. Fingers that grip less firmly cannot withdraw the wire: with 0.38 N it stays at 106.6 mm.
+// The curved tip of the wire enters the catheter, and the fingers slip on it. With a firm grip the withdrawal takes up
+// to 0.42 N, static, at 106 mm. Fingers that grip less firmly cannot withdraw the wire: with 0.38 N it stays at 106.6
+// mm.
 TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
 {
   Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.42"});
