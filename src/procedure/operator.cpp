@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "common/error.h"
 
@@ -41,15 +42,21 @@ double towards(double from, double to, double limit)
 }  // namespace
 
 Operator::Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry)
+  : Operator(scene, std::make_shared<const BranchLocator>(tree, scene.procedure->branches), entry)
+{
+}
+
+Operator::Operator(const scene::Scene& scene, std::shared_ptr<const BranchLocator> branches,
+                   const Eigen::Vector3d& entry)
   : scene_(scene),
     hand_(scene.procedure->hand),
-    locator_(tree, scene.procedure->branches),
+    branches_(std::move(branches)),
     entry_(entry),
-    entry_branch_(locator_.at(entry).branch),
+    entry_branch_(locator().at(entry).branch),
     observation_interval_(
         static_cast<std::uint64_t>(std::max(1.0, std::round(hand_.reaction / scene.solver.time_step)))),
     steps_(expandedSteps(*scene.procedure)),
-    entries_(scene, locator_, entry_branch_)
+    entries_(scene, locator(), entry_branch_)
 {
   checkBranches();
   for (const scene::DrivenInstrument& driven : scene.instruments)
@@ -67,9 +74,9 @@ void Operator::checkBranches() const
 {
   const auto check = [this](const std::string& name, std::size_t step, const std::string& key)
   {
-    if (!name.empty() && locator_.find(name) < 0)
+    if (!name.empty() && locator().find(name) < 0)
       throw InputError(scene_.file, "procedure.steps." + std::to_string(step) + "." + key,
-                       "the vessel has no branch '" + name + "'; known: " + locator_.names());
+                       "the vessel has no branch '" + name + "'; known: " + locator().names());
   };
   for (std::size_t k = 0; k < scene_.procedure->steps.size(); ++k)
   {
@@ -129,7 +136,7 @@ std::string Operator::viewOf(std::size_t step) const
 const std::vector<simulation::HandCommand>& Operator::next(const simulation::Simulation& simulation)
 {
   if (observesBefore(simulation.steps()))
-    observe(procedure::observe(scene_, simulation, locator_));
+    observe(procedure::observe(scene_, simulation, locator()));
   return advance(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
 }
 
@@ -215,13 +222,13 @@ void Operator::prepareStep()
 {
   active_ = instrumentOf(scene_, step().instrument);
   const std::string& branch = step().until.tip_in.empty() ? step().until.balloon_in : step().until.tip_in;
-  goal_branch_ = branch.empty() ? -1 : locator_.find(branch);
-  on_way_ = locator_.pathBetween(entry_branch_, step().any_branch ? -1 : goal_branch_);
+  goal_branch_ = branch.empty() ? -1 : locator().find(branch);
+  on_way_ = locator().pathBetween(entry_branch_, step().any_branch ? -1 : goal_branch_);
   route_.reset();
   if (step().steer && goal_branch_ >= 0 && goal_branch_ != entry_branch_)
-    route_.emplace(locator_, entry_branch_, entry_, goal_branch_);
+    route_.emplace(locator(), entry_branch_, entry_, goal_branch_);
   support_ = instrumentOf(scene_, step().support.instrument);
-  support_branch_ = locator_.find(step().support.tip_in);
+  support_branch_ = locator().find(step().support.tip_in);
 }
 
 void Operator::finishStep(double time)
@@ -241,7 +248,7 @@ void Operator::fail(const InstrumentView* view, const std::string& why)
   records_.back().outcome = Progress::kFailed;
   failure_ = "step " + std::to_string(records_.size()) + " (" + records_.back().name + "): " + why;
   if (view != nullptr)
-    failure_ += "; the tip of " + step().instrument + " is in " + locator_.name(view->branch_position.branch) +
+    failure_ += "; the tip of " + step().instrument + " is in " + locator().name(view->branch_position.branch) +
                 formatted(", %.1f mm beyond its ostium, at ", 1e3 * view->branch_position.depth) +
                 inMillimetres(view->tip);
 }
@@ -277,9 +284,9 @@ bool Operator::isReached(const Observation& observation) const
     if (!by_tip && !view.balloon)
       return false;
     const Eigen::Vector3d& point = by_tip ? view.tip : *view.balloon;
-    if (locator_.at(point).branch != goal_branch_)
+    if (locator().at(point).branch != goal_branch_)
       return false;
-    if (!std::isnan(goal.beyond) && forward * (locator_.depthIn(goal_branch_, point) - goal.beyond) < 0.0)
+    if (!std::isnan(goal.beyond) && forward * (locator().depthIn(goal_branch_, point) - goal.beyond) < 0.0)
       return false;
   }
   if (!std::isnan(goal.insertion) && forward * (view.hand.insertion - goal.insertion) < 0.0)
@@ -350,7 +357,7 @@ void Operator::act(const Observation& observation)
   if (step().action == StepAction::kAdvance && isInWrongBranch(view) &&
       view.branch_position.depth > BranchEntries::kDepth)
   {
-    if (retry(Mode::kLeaveBranch, view, "entered " + locator_.name(view.branch_position.branch) + " repeatedly"))
+    if (retry(Mode::kLeaveBranch, view, "entered " + locator().name(view.branch_position.branch) + " repeatedly"))
       mode_time_ = observation.time;
     return;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,9 @@ public:
    *  @throws InputError for an unknown branch, listing the branches of the vessel */
   Operator(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
 
+  /** @param branches of the vessel, with the procedure's names; shared by any number of operators */
+  Operator(const scene::Scene& scene, std::shared_ptr<const BranchLocator> branches, const Eigen::Vector3d& entry);
+
   /** Commands for the next step of the simulation, one per instrument. Instruments without drive.source: procedure
    *  follow their own drives. To be called once before each step. */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
@@ -73,7 +77,7 @@ public:
   const std::string& failure() const { return failure_; }
   const std::vector<StepRecord>& records() const { return records_; }  ///< records of all steps begun so far
   std::size_t steps() const { return steps_.size(); }                  ///< number of steps, an exchange counted as two
-  const BranchLocator& locator() const { return locator_; }
+  const BranchLocator& locator() const { return *branches_; }
   int entryBranch() const { return entry_branch_; }  ///< branch that contains the introducer
 
   /** Saves or loads the mutable state. */
@@ -131,7 +135,7 @@ private:
 
   scene::Scene scene_;
   scene::HandScene hand_;
-  BranchLocator locator_;
+  std::shared_ptr<const BranchLocator> branches_;
   Eigen::Vector3d entry_;  ///< position of the introducer [m]
   int entry_branch_ = -1;
   std::uint64_t observation_interval_ = 1;

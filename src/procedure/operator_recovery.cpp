@@ -88,7 +88,7 @@ void Operator::recover(const InstrumentView& view, double time)
 bool Operator::isSupportPosition(const InstrumentView& view) const
 {
   return view.branch_position.branch >= 0 &&
-         locator_.pathBetween(entry_branch_, view.branch_position.branch)[static_cast<std::size_t>(support_branch_)];
+         locator().pathBetween(entry_branch_, view.branch_position.branch)[static_cast<std::size_t>(support_branch_)];
 }
 
 /** True if, for longer than HandScene::patience, neither the support nor the active instrument has been in the

@@ -255,22 +255,33 @@ EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, co
 EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel)
 {
   EntryPose pose = resolveEntry(scene.entry, vessel, scene.file);
-  if (!scene.introducer)
-    return pose;
-  const geometry::MeshDistance wall(vessel.mesh);
-  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  const bool may_meet_wall =
+      scene.introducer && std::any_of(scene.instruments.begin(), scene.instruments.end(),
+                                      [&pose](const DrivenInstrument& driven)
+                                      { return driven.drive.insertionAt(0.0) > pose.wall_distance; });
+  if (may_meet_wall)
+    requireFreeStart(scene, freeLength(pose, vessel));
+  return pose;
+}
+
+double freeLength(const EntryPose& entry, const vessel::Vessel& vessel)
+{
+  const double hit = geometry::MeshDistance(vessel.mesh).rayHit(entry.position, entry.direction);
+  return hit < 0.0 ? std::numeric_limits<double>::infinity() : hit;
+}
+
+void requireFreeStart(const Scene& scene, double free_length)
+{
+  for (std::size_t k = 0; scene.introducer && k < scene.instruments.size(); ++k)
   {
-    const double inserted = scene.instruments[k].drive.insertionAt(0.0);
-    const double free = inserted > pose.wall_distance ? wall.rayHit(pose.position, pose.direction) : -1.0;
-    if (free < 0.0 || inserted < free)
+    if (scene.instruments[k].drive.insertionAt(0.0) < free_length)
       continue;
     char limit[32];
-    std::snprintf(limit, sizeof limit, "%.3g m", free);
+    std::snprintf(limit, sizeof limit, "%.3g m", free_length);
     throw InputError(scene.file, drivePath(scene, k) + "drive.initial_insertion",
                      "makes the initially straight instrument penetrate the wall; must be less than " +
                          std::string(limit) + " along entry.direction from entry.position");
   }
-  return pose;
 }
 
 }  // namespace endovascular_sim::scene

@@ -57,4 +57,12 @@ EntryPose resolveEntry(const EntryScene& entry, const vessel::Vessel& vessel, co
  *  @throws InputError as resolveEntry(), and if an instrument would penetrate the wall at the start */
 EntryPose resolveStart(const Scene& scene, const vessel::Vessel& vessel);
 
+/** Length from an entry to the wall along its direction; infinite where the direction meets no wall [m]. */
+double freeLength(const EntryPose& entry, const vessel::Vessel& vessel);
+
+/** Checks the initial insertions of a scene with an introducer.
+ *  @param free_length freeLength() of its entry [m]
+ *  @throws InputError if an instrument would penetrate the wall at the start */
+void requireFreeStart(const Scene& scene, double free_length);
+
 }  // namespace endovascular_sim::scene

@@ -10,20 +10,18 @@
 
 namespace endovascular_sim::simulation
 {
-namespace
-{
 
-fluoroscopy::PatientVolume volumeOf(const scene::PatientScene& patient, const scene::Scene& scene,
-                                    const vessel::Vessel& vessel)
+fluoroscopy::PatientVolume patientVolume(const scene::Scene& scene, const vessel::Vessel& vessel)
 {
+  if (!scene.fluoroscopy || !scene.fluoroscopy->patient)
+    return {};
+  const scene::PatientScene& patient = *scene.fluoroscopy->patient;
   if (patient.body)
     return fluoroscopy::loadBody(vessel, {}, vessel::anatomyCacheFolder());
   const Eigen::Isometry3d of_mesh = scene.vessel ? scene.vessel->transform : Eigen::Isometry3d::Identity();
   return fluoroscopy::ctVolume(image::readVolume(patient.ct), patient.patient_from_ct.value_or(of_mesh), vessel.mesh,
                                patient.ct);
 }
-
-}  // namespace
 
 fluoroscopy::ProgressiveResolution sequenceResolution(double rate)
 {
@@ -38,9 +36,9 @@ fluoroscopy::ProgressiveResolution sequenceResolution(double rate)
 XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
                         const fluoroscopy::ProgressiveResolution& resolution)
 {
-  if (!scene.fluoroscopy || !scene.fluoroscopy->patient)
+  fluoroscopy::PatientVolume volume = patientVolume(scene, vessel);
+  if (!volume.volume)
     return {};
-  fluoroscopy::PatientVolume volume = volumeOf(*scene.fluoroscopy->patient, scene, vessel);
   return {std::make_unique<fluoroscopy::ProgressiveProjection>(*volume.volume, resolution), std::move(volume.notes)};
 }
 

@@ -1,6 +1,7 @@
 #include "fluoroscopy/patient/progressive_projection.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/error.h"
 
@@ -8,7 +9,13 @@ namespace endovascular_sim::fluoroscopy
 {
 
 ProgressiveProjection::ProgressiveProjection(const DensityVolume& volume, const ProgressiveResolution& resolution)
-  : projection_(volume), resolution_(resolution), refined_(emptyImage(resolution.at_rest))
+  : ProgressiveProjection(std::make_shared<const VolumeProjection>(volume), resolution)
+{
+}
+
+ProgressiveProjection::ProgressiveProjection(std::shared_ptr<const VolumeProjection> projection,
+                                             const ProgressiveResolution& resolution)
+  : projection_(std::move(projection)), resolution_(resolution), refined_(emptyImage(resolution.at_rest))
 {
   if (resolution.moving < 1 || resolution.moving > 4096 || resolution.rays_per_frame < 1)
     throw InputError("projection of the patient", "resolution",
@@ -19,8 +26,8 @@ void ProgressiveProjection::restart(const XRayGeometry& geometry)
 {
   started_ = true;
   pose_ = geometry.pose();
-  next_row_ = 0;
-  image_ = resampled(projection_.project(geometry, resolution_.moving), geometry.pixels());
+  next_row_ = resolution_.moving == resolution_.at_rest ? refined_.samples : 0;  // nothing to refine
+  image_ = resampled(projection_->project(geometry, resolution_.moving), geometry.pixels());
   ++revision_;
 }
 
@@ -35,7 +42,7 @@ const ArealDensityImage& ProgressiveProjection::frame(const XRayGeometry& geomet
     return image_;
   const int rows = std::max(1, resolution_.rays_per_frame / refined_.samples);
   const int end = std::min(next_row_ + rows, refined_.samples);
-  projection_.projectRows(geometry, next_row_, end, refined_);
+  projection_->projectRows(geometry, next_row_, end, refined_);
   next_row_ = end;
   if (isFinal())
   {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "fluoroscopy/patient/volume/lumen_mask.h"
 #include "fluoroscopy/patient/volume_projection.h"
 #include "fluoroscopy/projection/patient.h"
@@ -25,6 +27,10 @@ class ProgressiveProjection : public Patient
 public:
   explicit ProgressiveProjection(const DensityVolume& volume, const ProgressiveResolution& resolution = {});
 
+  /** @param projection of the patient's volume; shared by any number of sequences */
+  explicit ProgressiveProjection(std::shared_ptr<const VolumeProjection> projection,
+                                 const ProgressiveResolution& resolution = {});
+
   const ArealDensityImage& frame(const XRayGeometry& geometry) override;
 
   /** True if the last frame has the final resolution. */
@@ -38,7 +44,7 @@ public:
 private:
   void restart(const XRayGeometry& geometry);
 
-  VolumeProjection projection_;
+  std::shared_ptr<const VolumeProjection> projection_;
   ProgressiveResolution resolution_;
   bool started_ = false;
   CArmPose pose_;

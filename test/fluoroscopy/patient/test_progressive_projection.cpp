@@ -63,6 +63,20 @@ TEST(ProgressiveProjection, AtRestTheImageDoesNotDependOnEarlierMovements)
   EXPECT_EQ(moved.frame(geometry).bone, fresh.frame(geometry).bone);
 }
 
+TEST(ProgressiveProjection, IsFinalInItsFirstFrameWhereNothingIsToBeRefined)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(ball());
+  ProgressiveProjection still(projection, {32, 32, 1 << 20}), other(projection, {16, 32, 1 << 20});
+  const XRayGeometry geometry(pose(0.3));
+  const ArealDensityImage first = still.frame(geometry);
+  EXPECT_TRUE(still.isFinal());
+  still.frame(geometry);
+  EXPECT_EQ(still.revision(), 1);  // the image is kept
+  other.frame(geometry);
+  EXPECT_EQ(first.tissue, other.frame(geometry).tissue);
+  EXPECT_EQ(first.bone, other.frame(geometry).bone);
+}
+
 TEST(ProgressiveProjection, RefusesResolutionsWithoutRays)
 {
   EXPECT_THROW(ProgressiveProjection(ball(), {0, 32, 256}), InputError);
