@@ -163,7 +163,7 @@ void RunResult::setTreatment(const scene::Scene& scene, const simulation::Simula
   treatment_ = toJson(scene, simulation, lesions).dump();
 }
 
-std::string RunResult::json(simulation::Simulation& simulation, const WallForceMap* wall_forces) const
+std::string RunResult::json(const simulation::Simulation& simulation, const WallForceMap* wall_forces) const
 {
   const rod::State& state = simulation.state();
   const std::size_t n = state.position.size();

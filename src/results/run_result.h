@@ -42,7 +42,7 @@ public:
 
   /** Result as JSON (docs/SIMULATE.md).
    *  @param wall_forces wall forces of all steps; null without a vessel */
-  std::string json(simulation::Simulation& simulation, const WallForceMap* wall_forces = nullptr) const;
+  std::string json(const simulation::Simulation& simulation, const WallForceMap* wall_forces = nullptr) const;
 
   /** Adds the outcome of balloons and stents. */
   void setTreatment(const scene::Scene& scene, const simulation::Simulation& simulation,

@@ -1,25 +1,20 @@
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "contact/detector.h"
 #include "procedure/perturbation.h"
 #include "results/run_result.h"
-#include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
-#include "scene/scene_vessel.h"
-#include "simulation/local_deformable_wall.h"
-#include "simulation/simulation.h"
+#include "session/session.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -75,40 +70,28 @@ struct Outcome
   std::string failure;       ///< reason; empty after success
 };
 
-/** Runs the procedure once and writes its metrics.
- *  @param model wall of the vessel, shared by all runs */
-Outcome run(const scene::Scene& scene, const vessel::Vessel& vessel,
-            const std::shared_ptr<const contact::WallModel>& model, const std::string& folder)
+/** Runs the procedure from the beginning of the session, and writes its metrics. */
+Outcome run(session::Session& session, const std::string& folder)
 {
-  const scene::EntryPose entry = scene::resolveStart(scene, vessel);
-  contact::Detector wall(model, scene::wallLaw(*scene.vessel));
-  results::SessionRun session(scene, vessel, entry.position);
-  const std::unique_ptr<simulation::LocalDeformableWall> moving_wall =
-      simulation::makeLocalDeformableWall(scene, vessel, wall);
-  simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline, moving_wall.get());
-  std::vector<simulation::WallContact> contacts;
-  const auto steps = static_cast<std::uint64_t>(scene.duration / scene.solver.time_step);
-  const auto check_interval = static_cast<std::uint64_t>(std::max(1.0, kCheckPeriod / scene.solver.time_step));
-  results::RunResult result(scene, 0, 0);
-  while (simulation.steps() < steps && !session.isFinished())
+  while (session.step(1000) > 0)
   {
-    simulation.stepAll(session.commands(simulation));
-    simulation::wallContacts(simulation, contacts);
-    session.addStep(simulation, contacts);
-    result.addStep(simulation, 0.0);
-    if (simulation.steps() % check_interval == 0)
-      result.checkOutside(simulation, wall);
   }
-  createFolder(folder);
-  session.finish(simulation, moving_wall ? &moving_wall->opening().mesh() : nullptr);
-  session.write(folder);
-  Outcome outcome{simulation.time(), result.nodesOutside(), result.worstPenetration(),
-                  session.scriptedOperator()->failure()};
-  if (session.scriptedOperator()->progress() == procedure::Progress::kRunning)
+  session.finish(folder, session::RecordFiles::kMetrics);
+  const results::RunResult& result = session.record().result();
+  const procedure::Operator& scripted = *session.scriptedOperator();
+  Outcome outcome{session.observe().time(), result.nodesOutside(), result.worstPenetration(), scripted.failure()};
+  if (scripted.progress() == procedure::Progress::kRunning)
     outcome.failure = "not finished within the scene's duration";
   else if (outcome.nodes_outside > 0)
     outcome.failure = "nodes outside of the vessel";
   return outcome;
+}
+
+/** Prints warnings and notes of a vessel on the error stream. */
+void printVessel(const vessel::Vessel& vessel)
+{
+  tools::printWarnings("procedure_study", vessel.warnings);
+  tools::printNotes(vessel.source, vessel.notes);
 }
 
 int study(const Options& options)
@@ -119,9 +102,11 @@ int study(const Options& options)
     throw InputError(scene.file, "procedure", "missing; give procedure: FILE");
   if (!options.through.empty())
     scene = procedure::endingWith(std::move(scene), options.through);
-  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file,
-                                                   scene::CentrelineUse::kRequired, progressOnErrorStream());
-  const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
+  session::SessionSettings settings;
+  settings.results = true;
+  settings.outside_check = kCheckPeriod;
+  settings.spread = options.spread;
+  session::Session session(session::World::make(std::move(scene), progressOnErrorStream(), printVessel), settings);
   createFolder(options.out);
   std::ofstream table = tools::openFile(options.out + "/study.csv");
   table << "seed,success,time,nodes_outside,penetration,why\n";
@@ -129,8 +114,8 @@ int study(const Options& options)
   for (int k = 0; k < options.runs; ++k)
   {
     const auto seed = static_cast<std::uint64_t>(options.first) + static_cast<std::uint64_t>(k);
-    const Outcome outcome =
-        run(procedure::perturbed(scene, options.spread, seed), vessel, model, options.out + "/" + std::to_string(seed));
+    session.reset(seed);
+    const Outcome outcome = run(session, options.out + "/" + std::to_string(seed));
     const bool is_success = outcome.failure.empty();
     succeeded += is_success ? 1 : 0;
     table << seed << "," << is_success << "," << outcome.seconds << "," << outcome.nodes_outside << ","

@@ -1,18 +1,17 @@
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/progress.h"
-#include "results/session_run.h"
 #include "scene/facets_around.h"
 #include "scene/model/scene.h"
 #include "scene/numeric_keys.h"
 #include "scene/sampling_error.h"
 #include "scene/scene_file.h"
-#include "scene/scene_vessel.h"
-#include "simulation/x_ray_patient.h"
+#include "session/session.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -48,22 +47,25 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.require([&options] { return options.keys || !options.scene.empty() ? "" : "SCENE.yaml is required"; });
 }
 
+/** Prints warnings and notes of a vessel on the error stream. */
+void printVessel(const vessel::Vessel& vessel)
+{
+  tools::printWarnings("scene_check", vessel.warnings);
+  tools::printNotes(vessel.source, vessel.notes);
+}
+
 /** @throws InputError for a mesh, an entry or a branch that cannot be used */
 void checkVessel(const scene::Scene& scene)
 {
   if (!scene.vessel)
     return;
-  const vessel::Vessel vessel =
-      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progressOnErrorStream());
-  tools::printWarnings("scene_check", vessel.warnings);
-  tools::printNotes(vessel.source, vessel.notes);
+  const std::shared_ptr<const session::World> world = session::World::make(scene, progressOnErrorStream(), printVessel);
+  const vessel::Vessel& vessel = *world->vessel();
   if (scene.fluoroscopy)
-    for (const std::string& note : simulation::loadPatient(scene, vessel, simulation::kStillResolution).notes)
-      std::cerr << "patient: " << note << "\n";
-  const scene::EntryPose entry = scene::resolveStart(scene, vessel);
-  const results::SessionRun goals(scene, vessel, entry.position);
+    tools::printNotes("patient", world->patient().notes);
+  const session::Session start(world);  // checks the procedure and the instruments
   std::cerr << "scene_check: " << scene::facetsAround(vessel.mesh).text(scene.vessel->wall) << "\n";
-  std::cerr << "scene_check: " << scene::expectedSamplingError(scene, vessel, entry).text() << "\n";
+  std::cerr << "scene_check: " << scene::expectedSamplingError(scene, vessel, world->entry()).text() << "\n";
 }
 
 int check(const Options& options)

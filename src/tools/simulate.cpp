@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -15,24 +16,19 @@
 #include "common/output_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "contact/detector.h"
 #include "drive/command_file.h"
-#include "procedure/phase_pictures.h"
+#include "fluoroscopy/image/png_writer.h"
 #include "results/energy_audit_csv.h"
 #include "results/run_result.h"
-#include "results/session_run.h"
 #include "results/step_costs_csv.h"
 #include "results/trajectory_csv.h"
-#include "results/wall_force_map.h"
-#include "results/wall_force_report.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
-#include "scene/scene_vessel.h"
+#include "session/phase_pictures.h"
+#include "session/session.h"
 #include "simulation/driven_hands.h"
 #include "simulation/instrument_tip.h"
-#include "simulation/local_deformable_wall.h"
 #include "simulation/simulation.h"
-#include "simulation/still_image.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
@@ -220,91 +216,30 @@ private:
   results::AuditClosure closure_;
 };
 
-/** Vessel of a scene with all objects built from it. */
-struct Surroundings
-{
-  std::unique_ptr<contact::Detector> wall;
-  std::unique_ptr<simulation::LocalDeformableWall> moving_wall;  ///< null without a balloon
-  std::unique_ptr<results::WallForceMap> wall_forces;
-  std::unique_ptr<results::SessionRun> session;        ///< null without a vessel
-  std::unique_ptr<procedure::PhasePictures> pictures;  ///< null without --pictures
-  std::unique_ptr<simulation::StillImage> x_ray;       ///< null without --x-ray
-  scene::EntryPose entry;
-  vessel::CentrelineTree centreline;
-  std::vector<Eigen::Vector3d> wall_points;
-  std::uint64_t mesh_hash = 0;
-};
-
-Surroundings build(const scene::Scene& scene, const Options& options)
-{
-  const ProgressReport progress = options.quiet ? ProgressReport() : progressOnErrorStream();
-  Surroundings made;
-  if (!scene.vessel)
-  {
-    made.entry = scene::resolveEntry(scene.entry, scene.file);
-    if (options.x_ray)
-      made.x_ray = std::make_unique<simulation::StillImage>(scene, vessel::Vessel());
-    return made;
-  }
-  const vessel::Vessel vessel =
-      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene), progress);
-  tools::printWarnings("simulate", vessel.warnings);
-  for (const std::string& note : vessel.notes)
-    std::cerr << vessel.source << ": " << note << "\n";
-  made.entry = scene::resolveStart(scene, vessel);
-  made.centreline = vessel.centreline;
-  made.wall_points = vessel.mesh.vertices;
-  made.wall_forces = std::make_unique<results::WallForceMap>(scene.record.wall_force_threshold, vessel);
-  made.mesh_hash = vessel.mesh.hash();
-  reportProgress(progress, "search tree of the wall");
-  made.wall = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene.vessel));
-  made.moving_wall = simulation::makeLocalDeformableWall(scene, vessel, *made.wall);
-  made.session = std::make_unique<results::SessionRun>(scene, vessel, made.entry.position);
-  if (options.pictures)
-    made.pictures = std::make_unique<procedure::PhasePictures>(scene, vessel, options.out);
-  if (options.x_ray)
-    made.x_ray = std::make_unique<simulation::StillImage>(scene, vessel);
-  if (options.records("nodes"))
-    vessel::writeObj(vessel.mesh, options.out + "/vessel.obj");
-  return made;
-}
-
 std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
 {
   return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
 }
 
-/** Part of a saved state that belongs to the scripted operator. */
-std::function<void(Archive&)> sessionOf(const Surroundings& surroundings)
+void saveState(const std::string& path, session::Session& session)
 {
-  results::SessionRun* session = surroundings.session.get();
-  return [session](Archive& archive)
-  {
-    if (session != nullptr)
-      session->archive(archive);
-    if (archive.reading())
-      archive.skipRest();  // the drives of a state that rod_dynamics has saved
-  };
-}
-
-void saveState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
-{
+  const std::string state = session.save();
   std::ofstream stream(path, std::ios::binary);
-  if (stream)
-    simulation.save(stream, surroundings.mesh_hash, sessionOf(surroundings));
-  if (!stream.flush())
+  if (!stream.write(state.data(), static_cast<std::streamsize>(state.size())).flush())
     throw writeError(path);
 }
 
-void loadState(const std::string& path, simulation::Simulation& simulation, const Surroundings& surroundings)
+void loadState(const std::string& path, session::Session& session)
 {
   std::ifstream stream = openInputFile(path, "give the path of a state saved with --save-state", std::ios::binary);
-  simulation.load(stream, surroundings.mesh_hash, path, sessionOf(surroundings));
+  session.load({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, path);
 }
 
 /** Number of the last step; the steps before a loaded state count. */
-std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const simulation::Simulation& simulation)
+std::uint64_t lastStep(const Options& options, const session::Session& session)
 {
+  const scene::Scene& scene = session.scene();
+  const simulation::Simulation& simulation = session.simulation();
   const std::uint64_t last = std::isfinite(options.seconds) ? simulation.steps() + stepsIn(options.seconds, scene)
                                                             : stepsIn(scene.duration, scene);
   if (last <= simulation.steps())
@@ -318,35 +253,13 @@ std::uint64_t lastStep(const scene::Scene& scene, const Options& options, const 
   return last;
 }
 
-/** Present wall of the vessel; empty without a vessel. */
-geometry::TriangleMesh presentWall(const Surroundings& surroundings)
-{
-  if (surroundings.moving_wall)
-    return surroundings.moving_wall->opening().mesh();
-  return surroundings.session ? surroundings.session->vessel().mesh : geometry::TriangleMesh();
-}
-
-void takePicture(const Surroundings& surroundings, const simulation::Simulation& simulation)
-{
-  if (surroundings.pictures)
-    surroundings.pictures->update(simulation, *surroundings.session->scriptedOperator(), presentWall(surroundings));
-}
-
-/** Commands of the hands for step @p k: of the operator, else of the scene's drives. */
-std::vector<simulation::HandCommand> commandsFor(const scene::Scene& scene, const simulation::Simulation& simulation,
-                                                 const Surroundings& surroundings, std::uint64_t k)
-{
-  return surroundings.session ? surroundings.session->commands(simulation)
-                              : simulation::commandsAt(scene, static_cast<double>(k) * scene.solver.time_step);
-}
-
 /** Commands of a file to the instruments that clients drive. */
 class CommandedHands
 {
 public:
-  /** @param file path of the file; empty: the profiles of the scene drive these instruments too
+  /** @param file path of the file; empty: no commands
    *  @param end simulated time of the end of the run [s] */
-  CommandedHands(const scene::Scene& scene, const std::string& file, double end) : hands_(scene)
+  CommandedHands(const scene::Scene& scene, const std::string& file, double end)
   {
     if (file.empty())
       return;
@@ -355,14 +268,11 @@ public:
     tools::printWarnings("simulate", player_->warnings(end));
   }
 
-  /** @param others commands of the operator or of the scene's profiles */
-  std::vector<simulation::HandCommand> next(const simulation::Simulation& simulation,
-                                            const std::vector<simulation::HandCommand>& others)
+  /** Gives the commands of the coming step. */
+  void play(session::Session& session)
   {
-    if (!player_)
-      return others;
-    player_->play(simulation.time(), hands_);
-    return hands_.next(simulation, &others);
+    if (player_)
+      player_->play(session.observe().time(), session.hands());
   }
 
   void printRefusals() const
@@ -372,7 +282,6 @@ public:
   }
 
 private:
-  simulation::DrivenHands hands_;
   std::optional<simulation::CommandPlayer> player_;
 };
 
@@ -384,50 +293,39 @@ void showProgress(const scene::Scene& scene, std::uint64_t done, std::uint64_t a
   tools::drawProgress(static_cast<double>(done) / static_cast<double>(all), factor);
 }
 
-/** @param steps number of the last step */
-void run(const scene::Scene& scene, const Options& options, simulation::Simulation& simulation,
-         const Surroundings& surroundings, results::RunResult& result, std::uint64_t steps)
+/** Steps to the end, and writes tables, state and pictures on the way.
+ *  @param pictures null without --pictures */
+void run(const Options& options, session::Session& session, session::PhasePictures* pictures)
 {
+  const scene::Scene& scene = session.scene();
+  simulation::Simulation& simulation = session.simulation();
   Tables tables(scene, options);
-  CommandedHands hands(scene, options.commands, static_cast<double>(steps) * scene.solver.time_step);
+  CommandedHands hands(scene, options.commands, static_cast<double>(session.lastStep()) * scene.solver.time_step);
   if (options.audit)
     simulation.setAudit(tables.audit());
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
-  std::vector<simulation::WallContact> contacts;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
-  const std::uint64_t first = simulation.steps() + 1;
-  for (std::uint64_t k = first; k <= steps; ++k)
+  const std::uint64_t first = simulation.steps();
+  while (!session.isOver())
   {
-    if (surroundings.session && surroundings.session->isFinished())
-      break;
-    const std::vector<simulation::HandCommand> commands =
-        hands.next(simulation, commandsFor(scene, simulation, surroundings, k));
-    const Clock::time_point before = Clock::now();
-    simulation.stepAll(commands);
-    const double duration = std::chrono::duration<double>(Clock::now() - before).count();
-    result.addStep(simulation, duration);
-    tables.addStep(simulation, duration);
-    if (k == save_at)
-      saveState(options.save_state, simulation, surroundings);
-    if (surroundings.wall_forces)
-    {
-      simulation::wallContacts(simulation, contacts);
-      results::addStep(*surroundings.wall_forces, simulation, contacts, scene.solver.time_step);
-      surroundings.session->addStep(simulation, contacts);
-    }
-    takePicture(surroundings, simulation);
-    if (k % row_every != 0 && k != steps)
+    hands.play(session);
+    session.step();
+    tables.addStep(simulation, session.stepSeconds());
+    if (simulation.steps() == save_at)
+      saveState(options.save_state, session);
+    if (pictures != nullptr)
+      pictures->update(session);
+    if (simulation.steps() % row_every != 0 && simulation.steps() != session.lastStep())
       continue;
     tables.addRow(simulation);
-    if (surroundings.wall)
-      result.checkOutside(simulation, *surroundings.wall);
     if (progress)
-      showProgress(scene, k + 1 - first, steps + 1 - first, begin);
+      showProgress(scene, simulation.steps() - first, session.lastStep() - first, begin);
   }
-  takePicture(surroundings, simulation);
+  if (pictures != nullptr)
+    pictures->update(session);
   hands.printRefusals();
   if (progress)
     std::fputc('\n', stderr);
@@ -439,29 +337,9 @@ void run(const scene::Scene& scene, const Options& options, simulation::Simulati
     std::fprintf(stderr, "%s\n", tables.closure().text().c_str());
 }
 
-void writeWallForces(const std::string& folder, const Surroundings& surroundings)
-{
-  const results::WallForceMap& map = *surroundings.wall_forces;
-  std::vector<results::WallForceRow> rows;
-  for (const results::WallForce& force : map.touched())
-    rows.push_back({force, map.centre(force.triangle), map.regionName(force.region)});
-  tools::writeFile(folder + "/wall_forces.csv", results::wallForcesCsv(std::move(rows)));
-  tools::writeFile(folder + "/vessel_points.csv", results::vesselPointsCsv(surroundings.wall_points));
-}
-
-void finishSession(const simulation::Simulation& simulation, const Surroundings& surroundings)
-{
-  surroundings.session->metrics().setWallForces(surroundings.wall_forces->summary());
-  const simulation::LocalDeformableWall* wall = surroundings.moving_wall.get();
-  surroundings.session->finish(simulation, wall != nullptr ? &wall->opening().mesh() : nullptr);
-}
-
 /** Prints the steps of the scripted operator. */
-void printSteps(const Surroundings& surroundings)
+void printSteps(const procedure::Operator& scripted)
 {
-  if (!surroundings.session || !surroundings.session->scriptedOperator())
-    return;
-  const procedure::Operator& scripted = *surroundings.session->scriptedOperator();
   for (const procedure::StepRecord& step : scripted.records())
     std::fprintf(stderr, "%7.2f to %7.2f s: %s%s%s\n", step.begin, step.end, step.name.c_str(),
                  step.retries > 0 ? (" (" + std::to_string(step.retries) + " retries)").c_str() : "",
@@ -469,65 +347,78 @@ void printSteps(const Surroundings& surroundings)
 }
 
 /** True if the scripted operator has failed; prints the reason. */
-bool hasFailed(const Surroundings& surroundings)
+bool hasFailed(const session::Session& session)
 {
-  if (!surroundings.session || !surroundings.session->scriptedOperator())
+  const procedure::Operator* scripted = session.scriptedOperator();
+  if (scripted == nullptr || scripted->progress() != procedure::Progress::kFailed)
     return false;
-  const procedure::Operator& scripted = *surroundings.session->scriptedOperator();
-  if (scripted.progress() != procedure::Progress::kFailed)
-    return false;
-  std::cerr << "simulate: the procedure failed: " << scripted.failure() << "\n";
+  std::cerr << "simulate: the procedure failed: " << scripted->failure() << "\n";
   return true;
 }
 
-int simulate(const Options& options)
+/** Prints warnings and notes of a vessel on the error stream. */
+void printVessel(const vessel::Vessel& vessel)
 {
-  const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+  tools::printWarnings("simulate", vessel.warnings);
+  tools::printNotes(vessel.source, vessel.notes);
+}
+
+/** World of the scene, with its warnings and notes on the error stream. */
+std::shared_ptr<const session::World> worldOf(const Options& options)
+{
+  scene::Scene scene = scene::loadScene(options.scene, options.overrides);
   tools::printWarnings("simulate", scene.warnings);
   createFolder(options.out);
   if (options.pictures && !scene.procedure)
     throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
-  Surroundings surroundings = build(scene, options);
-  simulation::Simulation simulation(scene, surroundings.entry, surroundings.wall.get(), &surroundings.centreline,
-                                    surroundings.moving_wall.get());
-  if (!options.from_state.empty())
-    loadState(options.from_state, simulation, surroundings);
   if (options.audit && !scene.solver.traits().audits)
     throw InputError(options.scene, "solver.scheme", "'" + scene.solver.scheme + "' has no energy audit; use kkt");
-  const std::uint64_t steps = lastStep(scene, options, simulation);
-  results::RunResult result(scene, surroundings.mesh_hash, steps - simulation.steps());
-  run(scene, options, simulation, surroundings, result, steps);
-  if (surroundings.x_ray)
-  {
-    for (const std::string& note : surroundings.x_ray->notes())
-      std::cerr << "patient: " << note << "\n";
-    surroundings.x_ray->write(simulation, presentWall(surroundings), options.out + "/x_ray.png");
-  }
-  if (surroundings.session)
-    finishSession(simulation, surroundings);
-  if (simulation::hasBalloon(scene))
-    result.setTreatment(
-        scene, simulation,
-        surroundings.session ? surroundings.session->metrics().lesions() : std::vector<results::LesionOutcome>());
-  const std::string text = result.json(simulation, surroundings.wall_forces.get());
-  tools::writeFile(options.out + "/result.json", text);
-  tools::writeFile(options.out + "/scene.yaml", scene.resolved_yaml);
-  if (surroundings.wall_forces)
-  {
-    writeWallForces(options.out, surroundings);
-    surroundings.session->write(options.out);
-  }
+  std::shared_ptr<const session::World> world =
+      session::World::make(std::move(scene), options.quiet ? ProgressReport() : progressOnErrorStream(), printVessel);
+  if (world->vessel() != nullptr && options.records("nodes"))
+    vessel::writeObj(world->vessel()->mesh, options.out + "/vessel.obj");
+  return world;
+}
+
+void writeImage(session::Session& session, const std::string& file)
+{
+  tools::printNotes("patient", session.world().patient().notes);
+  const fluoroscopy::Frame& frame = session.image();
+  fluoroscopy::writePng(file, frame.pixels, frame.pixels, frame.image);
+}
+
+int simulate(const Options& options)
+{
+  const std::shared_ptr<const session::World> world = worldOf(options);
+  session::SessionSettings settings;
+  settings.results = true;
+  settings.clients = !options.commands.empty();
+  session::Session session(world, settings);
+  std::optional<session::PhasePictures> pictures;
+  if (options.pictures)
+    pictures.emplace(*world, options.out);
+  if (options.x_ray)
+    session.prepareImages();
+  if (!options.from_state.empty())
+    loadState(options.from_state, session);
+  session.setLastStep(lastStep(options, session));
+  run(options, session, pictures ? &*pictures : nullptr);
+  if (options.x_ray)
+    writeImage(session, options.out + "/x_ray.png");
+  session.finish(options.out);
   if (!options.no_plots)
     tools::runPlotScript("plot_results.py", {options.out});
   if (!options.quiet)
   {
-    std::cout << text;
-    printSteps(surroundings);
+    std::cout << session.record().resultJson();
+    if (session.scriptedOperator() != nullptr)
+      printSteps(*session.scriptedOperator());
   }
-  const bool failed = hasFailed(surroundings);
-  if (result.rejectedSteps() > 0)
-    std::cerr << "simulate: " << result.rejectedSteps() << " steps were rejected, in which the wire was held\n";
-  return failed || result.rejectedSteps() > 0 ? 1 : 0;
+  const bool failed = hasFailed(session);
+  const std::uint64_t rejected = session.record().result().rejectedSteps();
+  if (rejected > 0)
+    std::cerr << "simulate: " << rejected << " steps were rejected, in which the wire was held\n";
+  return failed || rejected > 0 ? 1 : 0;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,9 +18,7 @@
 
 #include "nodes/session/recorded_simulation.h"
 #include "nodes/session/session_bag.h"
-#include "results/session_run.h"
-#include "results/session_sample.h"
-#include "results/wall_force_map.h"
+#include "session/run_record.h"
 #include "simulation/contact_forces.h"
 #include "test/nodes/graph_testing.h"
 
@@ -86,27 +85,29 @@ Json offlineMetrics(const std::string& file)
 {
   const SessionBag recording = readSessionBag(file);
   EXPECT_EQ(incompleteness(recording), "");
-  RecordedSimulation session(recording, file);
-  const simulation::Simulation& simulation = session.simulation();
-  const double dt = session.scene().solver.time_step;
-  results::SessionRun run(session.scene(), session.vessel(), session.entry().position);
-  results::WallForceMap map(session.scene().record.wall_force_threshold, session.vessel());
+  RecordedSimulation recorded(recording, file);
+  const simulation::Simulation& simulation = recorded.simulation();
+  const std::shared_ptr<const session::World> world = session::World::make(recorded.scene(), recorded.vessel());
+  session::RunRecord record(world, {world, &world->scene()}, 0);
+  std::optional<procedure::Operator> hand;
+  if (world->scene().procedure)
+    hand.emplace(world->scene(), world->branches(), world->entry().position);
   for (const auto& [step, applied] : recording.steps)
   {
-    if (run.isFinished())
+    if (hand && hand->progress() != procedure::Progress::kRunning)
       break;
-    const std::vector<simulation::HandCommand> commands = run.commands(simulation);
+    const double end = static_cast<double>(step + 1) * world->scene().solver.time_step;
+    const std::vector<simulation::HandCommand> commands =
+        hand ? hand->next(simulation) : simulation::commandsAt(world->scene(), end);
     for (std::size_t k = 0; k < commands.size(); ++k)
       EXPECT_EQ(commands[k].insertion, applied->insertion[k]) << "step " << step;
-    session.step(*applied);
+    recorded.step(*applied);
     EXPECT_EQ(simulation.stateHash(), applied->state_hash) << "step " << step;
-    const std::vector<simulation::WallContact> contacts = simulation::wallContacts(simulation);
-    results::addStep(map, simulation, contacts, dt);
-    run.addStep(simulation, contacts);
+    record.addStep(simulation, simulation::wallContacts(simulation), 0.0);
   }
-  run.metrics().setWallForces(map.summary());
-  run.finish(simulation, session.wall() != nullptr ? &session.wall()->opening().mesh() : nullptr);
-  return run.metrics().json();
+  record.finish(simulation, hand ? &*hand : nullptr,
+                recorded.wall() != nullptr ? recorded.wall()->opening().mesh() : recorded.vessel().mesh);
+  return record.metrics()->json();
 }
 
 std::set<std::string> errorsOf(const Json& metrics)

@@ -17,7 +17,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "drive/command_file.h"
-#include "simulation/offline_session.h"
+#include "session/session.h"
 #include "test/nodes/graph_testing.h"
 #include "test/nodes/simulation_client.h"
 
@@ -179,9 +179,9 @@ TEST_F(Stepped, D_AWrongStateFileIsRefusedByName)
     return response.message;
   };
   const std::string other = folder_ / "other.state";
-  simulation::OfflineSession session(std::string(TEST_DATA_DIR) + "/wire_of_a_robot.yaml", {"drive.force_limit=0.4"});
+  session::Session session(std::string(TEST_DATA_DIR) + "/wire_of_a_robot.yaml", {"drive.force_limit=0.4"});
   std::ofstream stream(other, std::ios::binary);
-  session.simulation().save(stream, session.vessel()->mesh.hash());
+  session.simulation().save(stream, session.world().meshHash());
   stream.close();
   EXPECT_NE(refusal(other).find("was saved in another scene"), std::string::npos);
   EXPECT_NE(refusal(folder_ / "none.state").find("No such file"), std::string::npos);

@@ -1,13 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "contact/detector.h"
 #include "procedure/perturbation.h"
-#include "results/session_run.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
-#include "scene/scene_vessel.h"
-#include "simulation/local_deformable_wall.h"
-#include "simulation/simulation.h"
+#include "session/session.h"
 
 namespace endovascular_sim::procedure
 {
@@ -26,24 +22,20 @@ scene::Scene engagement()
 // One of the ten starts of `procedure_study --through Engagement`.
 TEST(Engagement, SucceedsFromAPerturbedStart)
 {
-  const scene::Scene scene = perturbed(engagement(), Spread(), 3);
-  const vessel::Vessel vessel =
-      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
-  const scene::EntryPose entry = scene::resolveEntry(scene.entry, vessel, scene.file);
-  contact::Detector wall(vessel.mesh, scene::wallLaw(*scene.vessel));
-  results::SessionRun run(scene, vessel, entry.position);
-  simulation::Simulation simulation(scene, entry, &wall, &vessel.centreline);
-  std::vector<simulation::WallContact> contacts;
-  while (simulation.time() < 120.0 && !run.isFinished())
+  session::SessionSettings settings;
+  settings.results = true;
+  session::Session session(session::World::make(engagement()), settings);
+  session.reset(3);
+  session.setLastStep(120000);
+  while (session.step(1000) > 0)
   {
-    simulation.stepAll(run.commands(simulation));
-    simulation::wallContacts(simulation, contacts);
-    run.addStep(simulation, contacts);
   }
-  EXPECT_EQ(run.scriptedOperator()->progress(), Progress::kDone) << run.scriptedOperator()->failure();
-  const InstrumentView& catheter = run.metrics().samples().back().observation.instruments[1];
-  EXPECT_EQ(run.metrics().locator().name(catheter.branch_position.branch), "left_main");
-  EXPECT_TRUE(run.metrics().wrongBranches().empty());
+  EXPECT_EQ(session.scriptedOperator()->progress(), Progress::kDone) << session.scriptedOperator()->failure();
+  const results::SessionMetrics& metrics = *session.record().metrics();
+  EXPECT_EQ(metrics.locator().name(metrics.samples().back().observation.instruments[1].branch_position.branch),
+            "left_main");
+  session.finish(testing::TempDir() + "engagement", session::RecordFiles::kMetrics);  // with the operator's records
+  EXPECT_TRUE(metrics.wrongBranches().empty());
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "results/metrics_files.h"
 #include "results/metrics_page.h"
-#include "results/session_run.h"
 #include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::results

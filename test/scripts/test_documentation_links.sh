@@ -1,6 +1,6 @@
 #!/bin/bash
 # Every relative link of the documentation names an existing file and heading. Every page can be reached from docs/index.md.
-# The pages that show the C++ loop quote test/install/plain_cmake/step_a_scene.cpp, which is compiled and run.
+# The pages that show C++ programs quote those of test/install/plain_cmake, which are compiled and run.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'
@@ -62,12 +62,11 @@ while waiting:
         if path in links and path not in reached:
             reached.add(path)
             waiting.append(path)
-with open("test/install/plain_cmake/step_a_scene.cpp") as source:
-    program = source.read()
+programs = {name: open("test/install/plain_cmake/%s.cpp" % name).read() for name in ("step_a_scene", "run_a_procedure")}
 for page in pages:
-    text = open(page).read()
-    if "OfflineSession session" in text and "```cpp\n%s```" % program not in text:
-        errors.append("%s: the program differs from test/install/plain_cmake/step_a_scene.cpp" % page)
+    for block in re.findall(r"```cpp\n(.*?)```", open(page).read(), re.DOTALL):
+        if "int main" in block and block not in programs.values():
+            errors.append("%s: a program differs from those of test/install/plain_cmake" % page)
 errors += ["%s cannot be reached from %s" % (page, start) for page in pages if page not in reached]
 print("\n".join(errors))
 sys.exit(1 if errors else 0)

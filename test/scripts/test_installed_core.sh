@@ -1,6 +1,6 @@
 #!/bin/bash
-# An installation is complete and can be moved. The projects of test/install are built against it: both compute the
-# trajectory of `simulate`, and the plain CMake program links no ROS library. The catkin project also builds in the devel space.
+# An installation is complete and can be moved. The projects of test/install are built against it: all compute the
+# trajectories of `simulate`, and the plain CMake programs link no ROS library. The catkin project also builds in the devel space.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 build=${ENDOVASCULAR_BUILD_DIR:-$repository/catkin_ws/build}
@@ -39,6 +39,15 @@ build_and_run() {
   grep -q "$prefix/lib/libendovascular_sim_core.so" "$folder/$name.ldd"
 }
 build_and_run plain_cmake "$installed" plain_cmake
+# Half a procedure, an X-ray image, and the other half in a second session that loads the state of the first one.
+"$installed/lib/endovascular_sim/simulate" "$installed/share/endovascular_sim/config/scenes/pci.yaml" --seconds 3 \
+  --no-plots --quiet --out "$folder/pci" || true  # the procedure is cut short
+"$folder/plain_cmake/run_a_procedure" duration=3 | tee "$folder/procedure.out"
+"$installed/lib/endovascular_sim/simulate" "$installed/share/endovascular_sim/config/scenes/pci.yaml" --seconds 1.5 \
+  --set "fluoroscopy.view=LAO 40" --x-ray --no-plots --quiet --out "$folder/half" || true
+cmp x_ray.png "$folder/half/x_ray.png" || { echo "run_a_procedure: the image is not that of simulate"; exit 1; }
+[ "$(hash_of "$folder/procedure.out")" = "$(hash_of "$folder/pci/result.json")" ] ||
+  { echo "run_a_procedure: the trajectory is not that of simulate"; exit 1; }
 build_and_run catkin "$installed" catkin
 build_and_run catkin "$devel" catkin_devel
 if grep -E 'libros|libxmlrpcpp|libcpp_common|libendovascular_sim_nodes' "$folder/plain_cmake.ldd"; then

@@ -9,7 +9,7 @@
 
 #include "common/error.h"
 #include "scene/scene_file.h"
-#include "simulation/offline_session.h"
+#include "session/session.h"
 
 // Scenes with wrong numbers: they run with finite positions, or are rejected by an InputError.
 
@@ -55,7 +55,7 @@ TEST(DamagedScene, RunsWithFinitePositionsOrIsRejected)
     SCOPED_TRACE(file + " " + change);
     try
     {
-      OfflineSession session(file, {change});
+      session::Session session(file, {change});
       for (int step = 0; step < 5 && !session.isOver(); ++step)
         session.step();
       ++ran;

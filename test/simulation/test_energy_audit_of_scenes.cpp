@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "simulation/offline_session.h"
+#include "session/session.h"
 
 // The energy audit of shipped scenes.
 
@@ -12,7 +12,7 @@ namespace
 /** Simulates the tube until its wire is in the bend. @param audit may be null */
 std::uint64_t runTube(rod::EnergyAudit* audit)
 {
-  OfflineSession session("tube", {"drive.speed=0.1", "drive.initial_insertion=0.04", "duration=0.5"});
+  session::Session session("tube", {"drive.speed=0.1", "drive.initial_insertion=0.04", "duration=0.5"});
   session.simulation().setAudit(audit);
   while (!session.isOver())
     session.step();
@@ -34,7 +34,7 @@ TEST(EnergyAuditOfScenes, ClosesInATubeAndLeavesTheTrajectoryUnchanged)
 
 TEST(EnergyAuditOfScenes, ClosesForACatheterOverAWireWithAdaptiveNodes)
 {
-  OfflineSession session("catheter", {"duration=3"});
+  session::Session session("catheter", {"duration=3"});
   rod::EnergyAudit audit;
   session.simulation().setAudit(&audit);
   while (!session.isOver())
@@ -45,7 +45,7 @@ TEST(EnergyAuditOfScenes, ClosesForACatheterOverAWireWithAdaptiveNodes)
 
 TEST(EnergyAuditOfScenes, SchemesWithoutAnAuditRefuseIt)
 {
-  OfflineSession session("straight_wire", {"solver.scheme=mixed"});
+  session::Session session("straight_wire", {"solver.scheme=mixed"});
   rod::EnergyAudit audit;
   EXPECT_THROW(session.simulation().setAudit(&audit), std::logic_error);
 }

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_file.h"
-#include "simulation/offline_session.h"
+#include "session/session.h"
 
 // Rotation and material frame of an instrument's tip.
 
@@ -40,7 +40,7 @@ void turnTo(Simulation& simulation, double rotation, double speed)
 
 TEST(InstrumentTip, OfAStraightWireInFreeSpaceTurnsWithTheHandle)
 {
-  OfflineSession session("straight_wire", {"drive.initial_insertion=0.1", "drive.travel=0.1"});
+  session::Session session("straight_wire", {"drive.initial_insertion=0.1", "drive.travel=0.1"});
   const Simulation& simulation = session.simulation();
   const Eigen::Matrix3d begin = tipFrame(simulation, 0);
   EXPECT_EQ(tipRotation(simulation, 0), 0.0);
@@ -60,8 +60,8 @@ TEST(InstrumentTip, OfAStraightWireInFreeSpaceTurnsWithTheHandle)
 // The tip's director follows the material: the rest curvature lies in a fixed direction of its frame.
 TEST(InstrumentTip, FrameOfACurvedTipTurnsWithItsBend)
 {
-  OfflineSession session("straight_wire", {"instrument=instruments/guidewire_035_j.yaml",
-                                           "drive.initial_insertion=0.08", "loads.damping=50"});
+  session::Session session("straight_wire", {"instrument=instruments/guidewire_035_j.yaml",
+                                             "drive.initial_insertion=0.08", "loads.damping=50"});
   const Simulation& simulation = session.simulation();
   const auto bendInFrame = [&simulation]() -> Eigen::Vector3d
   { return tipFrame(simulation, 0).transpose() * (pointAt(simulation, 0.08) - pointAt(simulation, 0.06)); };
@@ -76,8 +76,9 @@ TEST(InstrumentTip, FrameOfACurvedTipTurnsWithItsBend)
 
 TEST(InstrumentTip, OfACurvedTipThatFrictionHoldsLagsBehindTheHandle)
 {
-  OfflineSession session("tube", {"vessel.tube.pieces=[{length: 0.16}]", "instrument=instruments/guidewire_035_j.yaml",
-                                  "vessel.friction=0.4", "drive.travel=0", "drive.initial_insertion=0.1"});
+  session::Session session("tube",
+                           {"vessel.tube.pieces=[{length: 0.16}]", "instrument=instruments/guidewire_035_j.yaml",
+                            "vessel.friction=0.4", "drive.travel=0", "drive.initial_insertion=0.1"});
   const Simulation& simulation = session.simulation();
   turnTo(session.simulation(), 0.3, 0.3);
   EXPECT_GT(simulation.hand(0).torque, 1e-5);

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "common/error.h"
-#include "procedure/operator.h"
 #include "scene/scene_file.h"
 #include "scene/yaml/file_search.h"
-#include "simulation/offline_session.h"
+#include "session/session.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -47,25 +45,39 @@ double toAndFro(double time)
 class Hands
 {
 public:
-  explicit Hands(const simulation::OfflineSession& session) : scene_(session.scene())
+  explicit Hands(const scene::Scene& scene) : scene_(scene)
   {
-    if (scene_.procedure && session.vessel() != nullptr)
-      operator_.emplace(scene_, session.vessel()->centreline, session.simulation().entry().position);
     for (std::size_t k = 0; k < scene_.instruments.size(); ++k)
       if (scene_.instruments[k].drive.source == scene::DriveSource::kTopic)
         moved_.push_back({k, scene_.instruments[k].drive.initial_insertion});
   }
 
-  bool isOver() const { return operator_ && moved_.empty() && operator_->progress() != procedure::Progress::kRunning; }
-
-  std::vector<simulation::HandCommand> next(const simulation::Simulation& simulation)
+  /** True at the end of the scene; without instruments that clients drive also at that of its procedure. */
+  bool isOver(const session::Session& session) const
   {
-    const double time = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    if (operator_ && moved_.empty())
-      return operator_->next(simulation);
-    std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, time);
+    return moved_.empty() ? session.isOver() : session.observe().step() >= session.lastStep();
+  }
+
+  /** Advances by a step. */
+  void step(session::Session& session)
+  {
     if (moved_.empty())
-      return commands;
+      session.step();
+    else
+      session.step(next(session.observe().step()));
+  }
+
+private:
+  struct Moved
+  {
+    std::size_t instrument;
+    double insertion;  ///< [m]
+  };
+
+  std::vector<simulation::HandCommand> next(std::uint64_t step)
+  {
+    const double time = static_cast<double>(step + 1) * scene_.solver.time_step;
+    std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, time);
     const auto turn = static_cast<std::size_t>(time / kShare);
     moved_[moved_.size() - 1 - turn % moved_.size()].insertion += kSpeed * scene_.solver.time_step;
     for (const Moved& moved : moved_)
@@ -76,15 +88,7 @@ public:
     return commands;
   }
 
-private:
-  struct Moved
-  {
-    std::size_t instrument;
-    double insertion;  ///< [m]
-  };
-
   const scene::Scene& scene_;
-  std::optional<procedure::Operator> operator_;
   std::vector<Moved> moved_;
 };
 
@@ -120,13 +124,13 @@ void addScene(const std::string& name, const std::vector<std::string>& overrides
 std::vector<std::vector<HandReaction>> reactionsIn(const std::string& scene, const std::vector<std::string>& overrides,
                                                    double seconds)
 {
-  simulation::OfflineSession session(scene, overrides);
-  simulation::Simulation& simulation = session.simulation();
-  Hands hands(session);
+  session::Session session(scene, overrides);
+  const simulation::Simulation& simulation = session.simulation();
+  Hands hands(session.scene());
   std::vector<std::vector<HandReaction>> reactions(static_cast<std::size_t>(simulation.instruments()));
-  while (!session.isOver() && !hands.isOver() && simulation.time() < seconds)
+  while (!hands.isOver(session) && simulation.time() < seconds)
   {
-    simulation.stepAll(hands.next(simulation));
+    hands.step(session);
     for (int k = 0; k < simulation.instruments(); ++k)
     {
       const simulation::HandState hand = simulation.hand(k);

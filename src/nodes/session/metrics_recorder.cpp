@@ -9,7 +9,7 @@
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "results/lesson_mark.h"
-#include "results/session_run.h"
+#include "results/metrics_files.h"
 #include "results/treatment_report.h"
 #include "scene/scene_vessel.h"
 #include "simulation/balloon_treatments.h"

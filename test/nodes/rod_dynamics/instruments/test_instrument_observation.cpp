@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "simulation/offline_session.h"
+#include "session/session.h"
 
 namespace endovascular_sim::nodes
 {
@@ -20,7 +20,7 @@ Eigen::Quaterniond orientationOf(const geometry_msgs::Pose& pose)
 // The orientation was the shortest rotation to the tangent, whatever the handle's rotation.
 TEST(TipPose, TurnsByNinetyDegreesAboutTheTangentWithTheHandleInFreeSpace)
 {
-  simulation::OfflineSession session("straight_wire", {"drive.initial_insertion=0.1", "drive.travel=0.1"});
+  session::Session session("straight_wire", {"drive.initial_insertion=0.1", "drive.travel=0.1"});
   simulation::Simulation& simulation = session.simulation();
   const geometry_msgs::Pose begin = tipPose(simulation, 0);
   for (int k = 1; k <= 1000; ++k)

@@ -1,5 +1,5 @@
-#include "procedure/phase_pictures.h"
 #include "scene/scene_file.h"
+#include "session/phase_pictures.h"
 
 #include <unistd.h>
 
@@ -11,11 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "contact/detector.h"
-#include "results/session_run.h"
-#include "scene/scene_vessel.h"
 
-namespace endovascular_sim::procedure
+namespace endovascular_sim::session
 {
 namespace
 {
@@ -37,40 +34,16 @@ scene::Scene twoPhases(const std::string& fluoroscopy, const std::string& second
       "test scene");
 }
 
-/** Wire in a tube with a scripted operator. */
-struct World
-{
-  scene::Scene scene;
-  vessel::Vessel vessel;
-  contact::Detector wall;
-  scene::EntryPose entry;
-  simulation::Simulation simulation;
-  results::SessionRun session;
-
-  explicit World(const scene::Scene& the_scene)
-    : scene(the_scene),
-      vessel(scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene))),
-      wall(vessel.mesh, scene::wallLaw(*scene.vessel)),
-      entry(scene::resolveEntry(scene.entry, vessel, scene.file)),
-      simulation(scene, entry, &wall, &vessel.centreline),
-      session(scene, vessel, entry.position)
-  {
-  }
-};
-
 /** Runs a scene and writes its pictures into a folder. */
 void takePictures(const scene::Scene& scene, const std::string& folder)
 {
-  World world(scene);
-  PhasePictures pictures(world.scene, world.vessel, folder);
-  for (int k = 0; k < 3000 && !world.session.isFinished(); ++k)
-  {
-    world.simulation.stepAll(world.session.commands(world.simulation));
-    pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);
-  }
-  pictures.update(world.simulation, *world.session.scriptedOperator(), world.vessel.mesh);
-  ASSERT_EQ(world.session.scriptedOperator()->progress(), Progress::kDone)
-      << world.session.scriptedOperator()->failure();
+  Session session(World::make(scene));
+  PhasePictures pictures(session.world(), folder);
+  while (session.step() > 0)
+    pictures.update(session);
+  pictures.update(session);
+  ASSERT_EQ(session.scriptedOperator()->progress(), procedure::Progress::kDone)
+      << session.scriptedOperator()->failure();
 }
 
 std::string contentOf(const std::string& file)
@@ -104,12 +77,12 @@ TEST(PhasePictures, HaveTheViewOfTheirPhase)
 
 TEST(PhasePictures, ShowTheInsertedInstruments)
 {
-  World world(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n"));
+  const Session session(World::make(twoPhases("fluoroscopy: {pixels: 128, iodine: 0, isocentre: [0, 0, 0.04]}\n")));
   simulation::FluoroscopySystem system(
-      world.scene, fluoroscopy::MaterialLibrary::load(std::string(PROJECT_DIR) + "/config/xray/materials.yaml"));
-  system.fluoroscope().setVessel(world.vessel.mesh);
+      session.scene(), fluoroscopy::MaterialLibrary::load(std::string(PROJECT_DIR) + "/config/xray/materials.yaml"));
+  system.fluoroscope().setVessel(session.wall());
   const std::vector<std::uint16_t> empty = system.fluoroscope().render({}).raw;
-  const std::vector<fluoroscopy::XRayWire> wires = system.wires(world.simulation);
+  const std::vector<fluoroscopy::XRayWire> wires = system.wires(session.simulation());
   ASSERT_FALSE(wires.empty());
   system.fluoroscope().restart();  // equal noise
   const std::vector<std::uint16_t> seen = system.fluoroscope().render(wires).raw;
@@ -125,9 +98,9 @@ TEST(PhasePictures, ShowTheInsertedInstruments)
 
 TEST(PhasePictures, RequireASceneWithFluoroscopy)
 {
-  const scene::Scene scene = twoPhases("");
-  EXPECT_THROW(PhasePictures(scene, vessel::Vessel(), testing::TempDir()), InputError);
+  const std::shared_ptr<const World> world = World::make(twoPhases(""));
+  EXPECT_THROW(PhasePictures(*world, testing::TempDir()), InputError);
 }
 
 }  // namespace
-}  // namespace endovascular_sim::procedure
+}  // namespace endovascular_sim::session

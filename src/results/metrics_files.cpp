@@ -1,6 +1,5 @@
-#include "results/session_run.h"
+#include "results/metrics_files.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -11,41 +10,6 @@
 
 namespace endovascular_sim::results
 {
-SessionRun::SessionRun(const scene::Scene& scene, vessel::Vessel vessel, const Eigen::Vector3d& entry)
-  : scene_(scene), vessel_(std::move(vessel)), metrics_(scene, vessel_.centreline, entry)
-{
-  if (scene_.procedure)
-    operator_.emplace(scene_, vessel_.centreline, entry);
-}
-
-const std::vector<simulation::HandCommand>& SessionRun::commands(const simulation::Simulation& simulation)
-{
-  if (operator_)
-    return operator_->next(simulation);
-  commands_ = simulation::commandsAt(scene_, static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
-  return commands_;
-}
-
-void SessionRun::addStep(const simulation::Simulation& simulation, const std::vector<simulation::WallContact>& contacts)
-{
-  if (sampler_.addStep(scene_, simulation, contacts))
-    metrics_.add(sampler_.sample());
-}
-
-void SessionRun::finish(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall)
-{
-  if (operator_)
-    metrics_.setSteps(operator_->records(), operator_->failure());
-  metrics_.addTail(sampler_.pending());
-  for (const simulation::TimedEvent& event : simulation.events())
-    metrics_.addEvent(simulation::nameOf(event.event), event.instrument, event.time);
-  metrics_.setLesions(lesionOutcomes(vessel_, wall != nullptr ? *wall : vessel_.mesh, openedStents(simulation)));
-}
-
-void SessionRun::write(const std::string& folder) const
-{
-  writeMetrics(metrics_, folder);
-}
 
 std::string instrumentsCsv(const SessionMetrics& metrics)
 {

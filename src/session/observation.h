@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "procedure/branch_locator.h"
+#include "simulation/contact_forces.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::session
+{
+
+/** Distal end of an instrument. */
+struct Tip
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< patient frame; the introducer if the tip is outside [m]
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< columns tangent, d1, d2 of the material, patient frame
+  double rotation = 0.0;  ///< of the material about the centreline, as that of the handle [rad]
+};
+
+/** Observation of a session after its last step. It copies nothing and computes a quantity when it is asked for.
+ *
+ *  References that it returns hold until the session's next step, reset or load. */
+class Observation
+{
+public:
+  /** Both parameters belong to the session that owns the observation. */
+  Observation(const simulation::Simulation& simulation, const procedure::BranchLocator& branches)
+    : simulation_(simulation), branches_(branches)
+  {
+  }
+
+  std::uint64_t step() const { return simulation_.steps(); }  ///< number of steps so far
+  double time() const { return simulation_.time(); }          ///< simulated time [s]
+  int instruments() const { return simulation_.instruments(); }
+
+  /** Position of an instrument's handle, force and torque on the hand, pressure. */
+  simulation::HandState hand(int instrument) const { return simulation_.hand(instrument); }
+
+  Tip tip(int instrument) const;
+
+  /** Branch of an instrument's tip; −1 outside the vessel or the introducer. */
+  procedure::BranchPosition branch(int instrument) const;
+
+  /** Name of the branch of an instrument's tip; "outside" without one. */
+  const std::string& branchName(int instrument) const { return branches_.name(branch(instrument).branch); }
+
+  /** Nodes of the common centreline, proximal to distal, patient frame [m]. Those before firstNode() lie behind the
+   *  introducer's guide and are not simulated. */
+  const std::vector<Eigen::Vector3d>& nodes() const { return simulation_.state().position; }
+  int firstNode() const { return simulation_.state().first_node; }
+
+  /** Features of the wall near the wire. */
+  const contact::ContactSet& contacts() const { return simulation_.contactSet(); }
+
+  /** Forces between wall and wire, one per touching node; computed by the first call after a step. */
+  const std::vector<simulation::WallContact>& forces() const;
+
+  /** Events of balloons and stents so far. */
+  const std::vector<simulation::TimedEvent>& events() const { return simulation_.events(); }
+
+private:
+  const simulation::Simulation& simulation_;
+  const procedure::BranchLocator& branches_;
+  mutable std::vector<simulation::WallContact> forces_;
+  mutable std::uint64_t forces_step_ = std::numeric_limits<std::uint64_t>::max();  ///< step that forces_ belong to
+};
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,395 @@
+#include "session/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "common/archive.h"
+#include "common/output_file.h"
+#include "session/still_image.h"
+#include "simulation/local_deformable_wall.h"
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kNoWall = std::numeric_limits<std::uint64_t>::max();  // version of the wall in no image
+
+std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
+{
+  return static_cast<std::uint64_t>(std::max(0LL, std::llround(seconds / scene.solver.time_step)));
+}
+
+std::uint64_t stepsBetweenChecks(const SessionSettings& settings, const scene::Scene& scene)
+{
+  const double seconds = settings.outside_check > 0.0 ? settings.outside_check : 1.0 / scene.record.trajectory_rate;
+  return std::max<std::uint64_t>(1, stepsIn(seconds, scene));
+}
+
+}  // namespace
+
+/** All that changes during a run. */
+struct Session::Run
+{
+  Run(std::shared_ptr<const World> the_world, std::shared_ptr<const scene::Scene> the_scene,
+      const SessionSettings& settings)
+    : world(std::move(the_world)),
+      scene(std::move(the_scene)),
+      detector(world->vessel() != nullptr && !settings.contacts
+                   ? std::make_unique<contact::Detector>(world->wall(), scene::wallLaw(*scene->vessel))
+                   : nullptr),
+      wall(detector && !settings.wall ? simulation::makeLocalDeformableWall(*scene, *world->vessel(), *detector)
+                                      : nullptr),
+      simulation(*scene, world->entry(), settings.contacts ? settings.contacts.get() : detector.get(),
+                 world->vessel() != nullptr ? &world->vessel()->centreline : nullptr,
+                 settings.wall ? settings.wall.get() : wall.get()),
+      hands(*scene),
+      observation(simulation, *world->branches())
+  {
+    if (scene->procedure && world->vessel() != nullptr)
+      scripted.emplace(*scene, world->branches(), world->entry().position);
+  }
+
+  std::shared_ptr<const World> world;
+  std::shared_ptr<const scene::Scene> scene;
+  std::uint64_t seed = 0;
+  std::unique_ptr<contact::Detector> detector;
+  std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null unless an instrument has a balloon
+  simulation::Simulation simulation;
+  std::optional<procedure::Operator> scripted;
+  simulation::DrivenHands hands;
+  Observation observation;
+  std::optional<RunRecord> record;
+  std::vector<simulation::HandCommand> commands;
+  double seconds = 0.0;  ///< computing time of the last step [s]
+};
+
+/** X-ray system of a session. */
+struct Session::Imaging
+{
+  explicit Imaging(const World& world) : image(world.scene(), world.patient().projection) {}
+
+  StillImage image;
+  std::uint64_t wall = kNoWall;  ///< version of the wall in it
+};
+
+Session::Session(std::shared_ptr<const World> world, SessionSettings settings)
+  : world_(std::move(world)), settings_(std::move(settings))
+{
+  if (!world_)
+    throw std::invalid_argument("Session: needs a world");
+  if (world_->vessel() == nullptr && (settings_.contacts || settings_.wall))
+    throw std::invalid_argument("Session: contacts and wall need a scene with a vessel");
+  if (settings_.contacts && !settings_.wall && simulation::hasBalloon(world_->scene()))
+    throw std::invalid_argument("Session: with contacts of its own, a scene with a balloon needs a wall, too");
+  initial_wall_ = settings_.wall ? settings_.wall->version() : 0;
+  check_every_ = stepsBetweenChecks(settings_, world_->scene());
+  last_step_ = stepsIn(world_->scene().duration, world_->scene());
+  start(begin(0));
+}
+
+Session::Session(const std::string& scene, const std::vector<std::string>& overrides, SessionSettings settings,
+                 const ProgressReport& progress)
+  : Session(World::open(scene, overrides, progress), std::move(settings))
+{
+}
+
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Session::Run& Session::run()
+{
+  if (!run_)
+    throw std::logic_error("Session: was moved from");
+  return *run_;
+}
+
+const Session::Run& Session::run() const
+{
+  return const_cast<Session*>(this)->run();
+}
+
+/** New run from the beginning of the scene. */
+std::unique_ptr<Session::Run> Session::begin(std::uint64_t seed) const
+{
+  std::shared_ptr<const scene::Scene> scene(world_, &world_->scene());
+  if (seed != 0)
+  {
+    scene = std::make_shared<const scene::Scene>(procedure::perturbed(*scene, settings_.spread, seed));
+    world_->requireStart(*scene);
+  }
+  auto run = std::make_unique<Run>(world_, std::move(scene), settings_);
+  run->seed = seed;
+  return run;
+}
+
+/** Makes a run the present one. */
+void Session::start(std::unique_ptr<Run> run)
+{
+  const std::uint64_t done = run->simulation.steps();
+  if (settings_.results)
+    run->record.emplace(world_, run->scene, last_step_ - std::min(last_step_, done));
+  run_ = std::move(run);
+  if (imaging_)
+    imaging_->wall = kNoWall;
+}
+
+void Session::reset(std::uint64_t seed)
+{
+  run();
+  if (settings_.wall && settings_.wall->version() != initial_wall_)
+    throw std::logic_error("Session: a balloon has moved the wall, which the session does not own; open another one");
+  start(begin(seed));
+}
+
+std::uint64_t Session::seed() const
+{
+  return run().seed;
+}
+
+std::uint64_t Session::lastStep() const
+{
+  return last_step_;
+}
+
+void Session::setLastStep(std::uint64_t step)
+{
+  last_step_ = step;
+}
+
+bool Session::isOver() const
+{
+  const procedure::Operator* scripted = scriptedOperator();
+  return run().simulation.steps() >= last_step_ ||
+         (scripted != nullptr && scripted->progress() != procedure::Progress::kRunning);
+}
+
+/** Commands of the next step by the operator, clients and the scene's drives. */
+const std::vector<simulation::HandCommand>& Session::nextCommands()
+{
+  Run& run = this->run();
+  const std::vector<simulation::HandCommand>* scripted = run.scripted ? &run.scripted->next(run.simulation) : nullptr;
+  if (settings_.clients)
+    return run.hands.next(run.simulation, scripted);
+  if (scripted != nullptr)
+    return *scripted;
+  const double end = static_cast<double>(run.simulation.steps() + 1) * run.scene->solver.time_step;
+  run.commands = simulation::commandsAt(*run.scene, end);
+  return run.commands;
+}
+
+void Session::advance(const std::vector<simulation::HandCommand>& commands)
+{
+  Run& run = this->run();
+  const Clock::time_point before = Clock::now();
+  run.simulation.stepAll(commands);
+  run.seconds = std::chrono::duration<double>(Clock::now() - before).count();
+  if (!run.record)
+    return;
+  run.record->addStep(run.simulation, run.observation.forces(), run.seconds);
+  if (run.detector && run.simulation.steps() % check_every_ == 0)
+    run.record->checkOutside(run.simulation, *run.detector);
+}
+
+int Session::step(int steps)
+{
+  if (steps < 0)
+    throw std::invalid_argument("Session: the number of steps is negative");
+  int made = 0;
+  for (; made < steps && !isOver(); ++made)
+    advance(nextCommands());
+  return made;
+}
+
+void Session::requireValid(const std::vector<simulation::HandCommand>& commands) const
+{
+  const std::vector<scene::DrivenInstrument>& instruments = scene().instruments;
+  if (commands.size() != instruments.size())
+    throw std::invalid_argument("Session: " + std::to_string(commands.size()) + " commands for " +
+                                std::to_string(instruments.size()) + " instruments");
+  for (std::size_t k = 0; k < commands.size(); ++k)
+  {
+    const std::string of = "Session: the command of instrument '" + instruments[k].instrument.name + "' ";
+    if (!std::isfinite(commands[k].insertion) || !std::isfinite(commands[k].rotation) ||
+        !std::isfinite(commands[k].pressure))
+      throw std::invalid_argument(of + "is not finite");
+    if (commands[k].pressure != 0.0 && !instruments[k].instrument.balloon)
+      throw std::invalid_argument(of + "has a pressure, but it has no balloon");
+  }
+}
+
+void Session::step(const std::vector<simulation::HandCommand>& commands, int steps)
+{
+  requireValid(commands);
+  if (steps < 0)
+    throw std::invalid_argument("Session: the number of steps is negative");
+  Run& run = this->run();
+  for (int k = 0; k < steps; ++k)
+  {
+    if (run.scripted)
+      run.scripted->next(run.simulation);
+    advance(commands);
+  }
+}
+
+simulation::DrivenHands& Session::hands()
+{
+  if (!settings_.clients)
+    throw std::invalid_argument("Session: SessionSettings::clients is false: the instruments follow their profiles");
+  return run().hands;
+}
+
+drive::HandControl& Session::control(int instrument)
+{
+  const bool exists = instrument >= 0 && instrument < run().simulation.instruments();
+  drive::HandControl* control = exists ? hands().control(static_cast<std::size_t>(instrument)) : nullptr;
+  if (control == nullptr)
+    throw std::invalid_argument("Session: clients do not drive instrument " + std::to_string(instrument) +
+                                "; set its drive.source to topic");
+  return *control;
+}
+
+const Observation& Session::observe() const
+{
+  return run().observation;
+}
+
+void Session::prepareImages()
+{
+  run();
+  if (!imaging_)
+    imaging_ = std::make_unique<Imaging>(*world_);
+}
+
+const fluoroscopy::Frame& Session::image(const std::string& view)
+{
+  prepareImages();
+  Run& run = this->run();
+  imaging_->image.setView(view);
+  imaging_->image.restart();
+  const std::uint64_t version = run.wall ? run.wall->version() : 0;
+  const bool moved = std::exchange(imaging_->wall, version) != version;
+  return imaging_->image.frame(run.simulation, moved ? &wall() : nullptr);
+}
+
+const geometry::TriangleMesh& Session::wall() const
+{
+  static const geometry::TriangleMesh none;
+  if (run().wall)
+    return run().wall->opening().mesh();
+  return world_->vessel() != nullptr ? world_->vessel()->mesh : none;
+}
+
+std::string Session::save()
+{
+  Run& run = this->run();
+  std::ostringstream stream;
+  run.simulation.save(stream, world_->meshHash(),
+                      [this, &run](Archive& archive)
+                      {
+                        if (run.scripted)
+                          archive(*run.scripted);
+                        if (settings_.clients || run.seed != 0)
+                          archive(run.hands);
+                        if (run.seed != 0)
+                          archive(run.seed);
+                      });
+  return stream.str();
+}
+
+void Session::load(const std::string& state, const std::string& origin)
+{
+  run();
+  std::unique_ptr<Run> loaded;
+  std::uint64_t seed = this->seed();
+  do  // a second time if the state has another seed, of which its procedure depends
+  {
+    loaded = begin(seed);
+    std::istringstream stream(state);
+    loaded->simulation.load(stream, world_->meshHash(), origin,
+                            [&](Archive& archive)
+                            {
+                              seed = 0;
+                              if (loaded->scripted)
+                                archive(*loaded->scripted);
+                              if (archive.atEnd())
+                                loaded->hands.restAt(loaded->simulation);
+                              else
+                                archive(loaded->hands);
+                              if (!archive.atEnd())
+                                archive(seed);
+                            });
+  } while (seed != loaded->seed);
+  start(std::move(loaded));
+}
+
+void Session::finish(const std::string& folder, RecordFiles files)
+{
+  record();
+  Run& run = this->run();
+  if (run.detector && !run.record->isFinished())
+    run.record->checkOutside(run.simulation, *run.detector);
+  if (!run.record->isFinished())
+    run.record->finish(run.simulation, scriptedOperator(), wall());
+  createFolder(folder);
+  run.record->write(folder, files);
+}
+
+const RunRecord& Session::record() const
+{
+  if (!run().record)
+    throw std::logic_error("Session: gathers no results; set SessionSettings::results");
+  return *run().record;
+}
+
+double Session::stepSeconds() const
+{
+  return run().seconds;
+}
+
+const World& Session::world() const
+{
+  return *sharedWorld();
+}
+
+const std::shared_ptr<const World>& Session::sharedWorld() const
+{
+  run();
+  return world_;
+}
+
+const scene::Scene& Session::scene() const
+{
+  return *run().scene;
+}
+
+const simulation::Simulation& Session::simulation() const
+{
+  return run().simulation;
+}
+
+simulation::Simulation& Session::simulation()
+{
+  return run().simulation;
+}
+
+const procedure::Operator* Session::scriptedOperator() const
+{
+  return run().scripted ? &*run().scripted : nullptr;
+}
+
+const contact::Detector* Session::detector() const
+{
+  return run().detector.get();
+}
+
+}  // namespace endovascular_sim::session

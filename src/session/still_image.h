@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fluoroscopy/patient/volume_projection.h"
+#include "geometry/triangle_mesh.h"
+#include "simulation/fluoroscopy_system.h"
+#include "simulation/simulation.h"
+
+namespace endovascular_sim::session
+{
+
+/** Single X-ray images of a simulation, with the pose, technique and patient of its scene. With `follow_tip`, or
+ * without `isocentre`, the isocentre is the tip of the instrument that reaches farthest. */
+class StillImage
+{
+public:
+  /** @param scene scene with fluoroscopy
+   *  @param patient of the scene; null without one
+   *  @throws InputError if the scene has no fluoroscopy */
+  StillImage(const scene::Scene& scene, std::shared_ptr<const fluoroscopy::VolumeProjection> patient);
+
+  /** Sets the angles of a view in clinical notation (fluoroscopy::parseView()).
+   *  @param view empty: the angles of the scene
+   *  @throws InputError for an unknown view, which changes nothing */
+  void setView(const std::string& view);
+
+  /** Begins a new sequence: the next image does not depend on those before it. */
+  void restart() { system_.fluoroscope().restart(); }
+
+  /** Next image of a simulation, valid until the next call.
+   *  @param wall present wall of the vessel, empty without one; null: that of the image before */
+  const fluoroscopy::Frame& frame(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall);
+
+private:
+  simulation::FluoroscopySystem system_;
+  fluoroscopy::CArmPose scene_pose_, pose_;
+  bool at_tip_;
+};
+
+}  // namespace endovascular_sim::session

@@ -1,0 +1,99 @@
+#include "session/world.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "scene/scene_file.h"
+#include "scene/yaml/file_search.h"
+#include "simulation/x_ray_patient.h"
+
+namespace endovascular_sim::session
+{
+namespace
+{
+
+/** @p scene, or the bundled scene of that name where there is no such file. */
+std::string sceneFile(const std::string& scene)
+{
+  const std::string bundled = scene::configFolder() + "/scenes/" + scene + ".yaml";
+  std::error_code error;
+  return !std::filesystem::exists(scene, error) && std::filesystem::exists(bundled, error) ? bundled : scene;
+}
+
+std::optional<vessel::Vessel> vesselOf(const scene::Scene& scene, const ProgressReport& progress)
+{
+  if (!scene.vessel)
+    return std::nullopt;
+  const scene::CentrelineUse use = scene.procedure ? scene::CentrelineUse::kRequired : scene::centrelineUse(scene);
+  return scene::buildVessel(*scene.vessel, scene.entry, scene.file, use, progress);
+}
+
+}  // namespace
+
+std::shared_ptr<const World> World::open(const std::string& scene, const std::vector<std::string>& overrides,
+                                         const ProgressReport& progress)
+{
+  return make(scene::loadScene(sceneFile(scene), overrides), progress);
+}
+
+std::shared_ptr<const World> World::parse(const std::string& yaml, const std::string& origin,
+                                          const std::vector<std::string>& overrides, const ProgressReport& progress)
+{
+  return make(scene::parseScene(yaml, origin, overrides), progress);
+}
+
+std::shared_ptr<const World> World::make(scene::Scene scene, const ProgressReport& progress,
+                                         const std::function<void(const vessel::Vessel&)>& prepared)
+{
+  std::optional<vessel::Vessel> vessel = vesselOf(scene, progress);
+  if (vessel && prepared)
+    prepared(*vessel);
+  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), progress));
+}
+
+std::shared_ptr<const World> World::make(scene::Scene scene, std::optional<vessel::Vessel> vessel)
+{
+  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), {}));
+}
+
+World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress)
+  : scene_(std::move(scene)), vessel_(std::move(vessel))
+{
+  vessel::CentrelineTree tree;
+  if (vessel_)
+  {
+    entry_ = scene::resolveStart(scene_, *vessel_);
+    mesh_hash_ = vessel_->mesh.hash();
+    tree = vessel_->centreline;
+    reportProgress(progress, "search tree of the wall");
+    wall_ = contact::WallModel::create(vessel_->mesh, scene_.vessel->wall);
+  }
+  else
+    entry_ = scene::resolveEntry(scene_.entry, scene_.file);
+  branches_ = std::make_shared<const procedure::BranchLocator>(
+      tree, scene_.procedure ? scene_.procedure->branches : std::vector<scene::NamedBranch>());
+}
+
+const XRayVolume& World::patient() const
+{
+  std::call_once(patient_loaded_,
+                 [this]
+                 {
+                   fluoroscopy::PatientVolume loaded =
+                       simulation::patientVolume(scene_, vessel_ ? *vessel_ : vessel::Vessel());
+                   if (loaded.volume)
+                     patient_.projection = std::make_shared<const fluoroscopy::VolumeProjection>(*loaded.volume);
+                   patient_.notes = std::move(loaded.notes);
+                 });
+  return patient_;
+}
+
+void World::requireStart(const scene::Scene& scene) const
+{
+  if (!vessel_)
+    return;
+  std::call_once(free_length_known_, [this] { free_length_ = scene::freeLength(entry_, *vessel_); });
+  scene::requireFreeStart(scene, free_length_);
+}
+
+}  // namespace endovascular_sim::session
