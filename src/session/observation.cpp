@@ -16,7 +16,8 @@ Tip Observation::tip(int instrument) const
 procedure::BranchPosition Observation::branch(int instrument) const
 {
   const double insertion = hand(instrument).insertion;
-  return insertion > 0.0 ? branches_.at(simulation::pointAt(simulation_, insertion)) : procedure::BranchPosition();
+  return insertion > 0.0 ? world_.branches()->at(simulation::pointAt(simulation_, insertion))
+                         : procedure::BranchPosition();
 }
 
 const std::vector<simulation::WallContact>& Observation::forces() const

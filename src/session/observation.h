@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "procedure/branch_locator.h"
+#include "session/world.h"
 #include "simulation/contact_forces.h"
 #include "simulation/simulation.h"
 
@@ -29,10 +30,7 @@ class Observation
 {
 public:
   /** Both parameters belong to the session that owns the observation. */
-  Observation(const simulation::Simulation& simulation, const procedure::BranchLocator& branches)
-    : simulation_(simulation), branches_(branches)
-  {
-  }
+  Observation(const simulation::Simulation& simulation, const World& world) : simulation_(simulation), world_(world) {}
 
   std::uint64_t step() const { return simulation_.steps(); }  ///< number of steps so far
   double time() const { return simulation_.time(); }          ///< simulated time [s]
@@ -47,7 +45,7 @@ public:
   procedure::BranchPosition branch(int instrument) const;
 
   /** Name of the branch of an instrument's tip; "outside" without one. */
-  const std::string& branchName(int instrument) const { return branches_.name(branch(instrument).branch); }
+  const std::string& branchName(int instrument) const { return world_.branches()->name(branch(instrument).branch); }
 
   /** Nodes of the common centreline, proximal to distal, patient frame [m]. Those before firstNode() lie behind the
    *  introducer's guide and are not simulated. */
@@ -65,7 +63,7 @@ public:
 
 private:
   const simulation::Simulation& simulation_;
-  const procedure::BranchLocator& branches_;
+  const World& world_;
   mutable std::vector<simulation::WallContact> forces_;
   mutable std::uint64_t forces_step_ = std::numeric_limits<std::uint64_t>::max();  ///< step that forces_ belong to
 };

@@ -52,7 +52,7 @@ struct Session::Run
                  world->vessel() != nullptr ? &world->vessel()->centreline : nullptr,
                  settings.wall ? settings.wall.get() : wall.get()),
       hands(*scene),
-      observation(simulation, *world->branches())
+      observation(simulation, *world)
   {
     if (scene->procedure && world->vessel() != nullptr)
       scripted.emplace(*scene, world->branches(), world->entry().position);
@@ -106,16 +106,11 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
-Session::Run& Session::run()
+Session::Run& Session::run() const
 {
   if (!run_)
     throw std::logic_error("Session: was moved from");
   return *run_;
-}
-
-const Session::Run& Session::run() const
-{
-  return const_cast<Session*>(this)->run();
 }
 
 /** New run from the beginning of the scene. */

@@ -169,8 +169,7 @@ private:
   struct Imaging;
 
   std::unique_ptr<Run> begin(std::uint64_t seed) const;
-  const Run& run() const;
-  Run& run();
+  Run& run() const;
   void start(std::unique_ptr<Run> run);
   const std::vector<simulation::HandCommand>& nextCommands();
   void requireValid(const std::vector<simulation::HandCommand>& commands) const;

@@ -1,6 +1,7 @@
 #include "session/world.h"
 
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "scene/scene_file.h"
@@ -56,22 +57,56 @@ std::shared_ptr<const World> World::make(scene::Scene scene, std::optional<vesse
   return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), {}));
 }
 
-World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress)
-  : scene_(std::move(scene)), vessel_(std::move(vessel))
+std::shared_ptr<const World> World::make(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
+                                         std::shared_ptr<const contact::WallModel> wall, const scene::EntryPose& entry)
 {
-  vessel::CentrelineTree tree;
-  if (vessel_)
+  if (!vessel || !wall || !scene.vessel)
+    throw std::invalid_argument("World: needs a vessel, its wall and a scene with a vessel");
+  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), std::move(wall), entry));
+}
+
+std::shared_ptr<const World> World::with(scene::Scene scene) const
+{
+  std::shared_ptr<const World> made = make(std::move(scene), vessel_, wall_, entry_);
+  made->requireStart(made->scene());
+  return made;
+}
+
+World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress)
+  : scene_(std::move(scene))
+{
+  if (!vessel)
   {
-    entry_ = scene::resolveStart(scene_, *vessel_);
-    mesh_hash_ = vessel_->mesh.hash();
-    tree = vessel_->centreline;
-    reportProgress(progress, "search tree of the wall");
-    wall_ = contact::WallModel::create(vessel_->mesh, scene_.vessel->wall);
-  }
-  else
     entry_ = scene::resolveEntry(scene_.entry, scene_.file);
-  branches_ = std::make_shared<const procedure::BranchLocator>(
-      tree, scene_.procedure ? scene_.procedure->branches : std::vector<scene::NamedBranch>());
+    return;
+  }
+  entry_ = scene::resolveStart(scene_, *vessel);
+  mesh_hash_ = vessel->mesh.hash();
+  reportProgress(progress, "search tree of the wall");
+  wall_ = contact::WallModel::create(vessel->mesh, scene_.vessel->wall);
+  vessel_ = std::make_shared<const vessel::Vessel>(std::move(*vessel));
+}
+
+World::World(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
+             std::shared_ptr<const contact::WallModel> wall, const scene::EntryPose& entry)
+  : scene_(std::move(scene)),
+    vessel_(std::move(vessel)),
+    mesh_hash_(vessel_->mesh.hash()),
+    entry_(entry),
+    wall_(std::move(wall))
+{
+}
+
+const std::shared_ptr<const procedure::BranchLocator>& World::branches() const
+{
+  std::call_once(branches_known_,
+                 [this]
+                 {
+                   branches_ = std::make_shared<const procedure::BranchLocator>(
+                       vessel_ ? vessel_->centreline : vessel::CentrelineTree(),
+                       scene_.procedure ? scene_.procedure->branches : std::vector<scene::NamedBranch>());
+                 });
+  return branches_;
 }
 
 const XRayVolume& World::patient() const

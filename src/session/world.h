@@ -56,13 +56,28 @@ public:
    *  @throws InputError when the entry or an initial insertion does not fit the vessel */
   static std::shared_ptr<const World> make(scene::Scene scene, std::optional<vessel::Vessel> vessel);
 
+  /** World of a loaded scene with given parts, e.g. to vary the scene of a vessel.
+   *  @param vessel not null
+   *  @param wall of the vessel's mesh, with the shape of the scene's wall
+   *  @param entry pose of the introducer, which replaces that of the scene
+   *  @throws std::invalid_argument for a missing part, or a scene without a vessel */
+  static std::shared_ptr<const World> make(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
+                                           std::shared_ptr<const contact::WallModel> wall,
+                                           const scene::EntryPose& entry);
+
+  /** World of another scene with the same vessel, e.g. with other instruments, friction or sampling. It shares vessel
+   *  and wall with this one, and has the same entry.
+   *  @throws std::invalid_argument unless both scenes have a vessel
+   *  @throws InputError if an instrument would penetrate the wall at the start */
+  std::shared_ptr<const World> with(scene::Scene scene) const;
+
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   const scene::Scene& scene() const { return scene_; }
 
   /** Undeformed vessel; null without one. */
-  const vessel::Vessel* vessel() const { return vessel_ ? &*vessel_ : nullptr; }
+  const vessel::Vessel* vessel() const { return vessel_.get(); }
 
   /** Content hash of the vessel's mesh; 0 without a vessel. */
   std::uint64_t meshHash() const { return mesh_hash_; }
@@ -73,8 +88,8 @@ public:
   /** Pose of the introducer, or of the proximal end without one. */
   const scene::EntryPose& entry() const { return entry_; }
 
-  /** Branches of the vessel with the procedure's names; without branches where the vessel has no centreline. */
-  const std::shared_ptr<const procedure::BranchLocator>& branches() const { return branches_; }
+  /** Branches of the vessel with the procedure's names, prepared by the first call; none without a centreline. */
+  const std::shared_ptr<const procedure::BranchLocator>& branches() const;
 
   /** Patient of the X-ray image, loaded by the first call.
    *  @throws InputError when the patient cannot be loaded; a further call tries again */
@@ -86,14 +101,16 @@ public:
 
 private:
   World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress);
+  World(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
+        std::shared_ptr<const contact::WallModel> wall, const scene::EntryPose& entry);
 
   scene::Scene scene_;
-  std::optional<vessel::Vessel> vessel_;
+  std::shared_ptr<const vessel::Vessel> vessel_;  ///< null without one
   std::uint64_t mesh_hash_ = 0;
   scene::EntryPose entry_;
   std::shared_ptr<const contact::WallModel> wall_;
-  std::shared_ptr<const procedure::BranchLocator> branches_;
-  mutable std::once_flag patient_loaded_, free_length_known_;
+  mutable std::once_flag branches_known_, patient_loaded_, free_length_known_;
+  mutable std::shared_ptr<const procedure::BranchLocator> branches_;
   mutable XRayVolume patient_;
   mutable double free_length_ = 0.0;  ///< from the entry to the wall along its direction [m]
 };

@@ -23,7 +23,7 @@ namespace
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /** Tube with a scripted operator: the wire is pushed, then turned. */
-std::shared_ptr<const World> tubeWithOperator()
+std::shared_ptr<const World> tubeWithOperator(const std::vector<std::string>& overrides = {})
 {
   return World::parse(
       "duration: 2\n"
@@ -35,7 +35,7 @@ std::shared_ptr<const World> tubeWithOperator()
       "  steps:\n"
       "    - {phase: First, advance: wire, until: {insertion: 0.06}, speed: 0.05}\n"
       "    - {phase: Second, rotate: wire, until: {turned: 1.0}}\n",
-      "tube with an operator");
+      "tube with an operator", overrides);
 }
 
 std::shared_ptr<const World> tube()
@@ -99,6 +99,33 @@ TEST(Session, SharesOneWallWithOtherSessionsOfItsWorld)
   EXPECT_EQ(tube()->wall().use_count(), before + 2);
   EXPECT_EQ(first.detector()->model(), second.detector()->model());
   EXPECT_EQ(hashAfter(first, 50), hashAfter(second, 50));
+}
+
+TEST(World, SharesVesselAndWallWithAnotherSceneOfTheVessel)
+{
+  const std::shared_ptr<const World> world = tubeWithOperator();
+  scene::Scene rough = world->scene();
+  rough.vessel->friction = 0.5;
+  const std::shared_ptr<const World> other = world->with(rough);
+  EXPECT_EQ(other->wall(), world->wall());
+  EXPECT_EQ(other->vessel(), world->vessel());
+  EXPECT_EQ(other->meshHash(), world->meshHash());
+  Session unchanged(world);
+  Session shared(other);
+  Session opened(tubeWithOperator({"vessel.friction=0.5"}));
+  const std::uint64_t expected = hashAfter(opened, 600);
+  EXPECT_EQ(hashAfter(shared, 600), expected);
+  EXPECT_NE(hashAfter(unchanged, 600), expected);
+}
+
+TEST(World, RefusesASceneThatDoesNotFitTheVessel)
+{
+  scene::Scene scene = tube()->scene();
+  scene.instruments.front().drive.initial_insertion = 10.0;
+  EXPECT_THROW(tube()->with(scene), InputError);
+  scene.vessel.reset();
+  EXPECT_THROW(tube()->with(scene), std::invalid_argument);
+  EXPECT_THROW(World::open("straight_wire")->with(tube()->scene()), std::invalid_argument);
 }
 
 TEST(Session, KeepsItsWorldAlive)
@@ -304,12 +331,13 @@ TEST(Session, ObservesHandsTipsNodesContactsForcesAndBranches)
 
 TEST(Session, ComputesTheForcesOfEveryStepOnce)
 {
-  Session session(tube());
-  session.step(100);
+  Session session(tubeWithOperator());
+  session.step(400);
   const std::vector<simulation::WallContact>& forces = session.observe().forces();
   EXPECT_EQ(&forces, &session.observe().forces());
-  session.step(100);
+  session.step(300);
   const std::vector<simulation::WallContact> expected = simulation::wallContacts(session.simulation());
+  ASSERT_FALSE(expected.empty());
   ASSERT_EQ(session.observe().forces().size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k)
     EXPECT_EQ(session.observe().forces()[k].normal_force, expected[k].normal_force);
