@@ -1,20 +1,17 @@
 #include "benchmark/harness/bench_run.h"
-#include "scene/scene_file.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "results/run_result.h"
-#include "scene/scene_vessel.h"
 
 namespace endovascular_sim::benchmark
 {
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kCheckInterval = 0.1;    // simulated time between checks with the exact distance [s]
 constexpr double kBeyondAllBounds = 1e3;  // coordinates of a diverged state [m]
@@ -44,48 +41,35 @@ bool isFinite(const rod::State& state)
 }  // namespace
 
 BenchRun::BenchRun(const std::string& scene_text, const std::vector<std::string>& overrides)
-  : scene_(scene::parseScene(scene_text, "benchmark", overrides))
+  : session_(session::World::parse(scene_text, "benchmark", overrides))
 {
-  scene::EntryPose entry;
-  vessel::Vessel vessel;
-  if (scene_.vessel)
-  {
-    vessel = scene::buildVessel(*scene_.vessel, scene_.entry, scene_.file, scene::centrelineUse(scene_));
-    entry = scene::resolveEntry(scene_.entry, vessel, scene_.file);
-    wall_ = std::make_unique<contact::Detector>(vessel.mesh, scene::wallLaw(*scene_.vessel));
-  }
-  else
-    entry = scene::resolveEntry(scene_.entry, scene_.file);
-  simulation_ = std::make_unique<simulation::Simulation>(scene_, entry, wall_.get(), &vessel.centreline);
+  session_.setLastStep(std::numeric_limits<std::uint64_t>::max());
   resetEnergyBalance();
 }
 
 void BenchRun::resetEnergyBalance()
 {
-  last_insertion_ = simulation_->state().inserted_length;
-  last_rotation_ = simulation_->state().rotation;
-  const rod::Energy energy = simulation_->energy();
-  first_energy_ = energy.bending + energy.twist + kineticEnergy(*simulation_);
+  last_insertion_ = simulation().state().inserted_length;
+  last_rotation_ = simulation().state().rotation;
+  const rod::Energy energy = simulation().energy();
+  first_energy_ = energy.bending + energy.twist + kineticEnergy(simulation());
   work_ = 0.0;
-  last_mass_ = simulatedMass(*simulation_);
+  last_mass_ = simulatedMass(simulation());
 }
 
 RunSummary BenchRun::advance(double seconds)
 {
   RunSummary summary;
-  const auto steps = static_cast<int>(std::llround(seconds / scene_.solver.time_step));
-  const auto check_every = std::max(1, static_cast<int>(std::llround(kCheckInterval / scene_.solver.time_step)));
+  const auto steps = static_cast<int>(std::llround(seconds / scene().solver.time_step));
+  const auto check_every = std::max(1, static_cast<int>(std::llround(kCheckInterval / scene().solver.time_step)));
   std::vector<double> times;
   std::array<std::vector<double>, kPhaseCount> phases;
   for (int k = 0; k < steps && summary.finite; ++k)
   {
-    const double end_time = simulation_->time() + scene_.solver.time_step;
-    const std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, end_time);
-    const Clock::time_point before = Clock::now();
-    simulation_->stepAll(commands);
-    times.push_back(std::chrono::duration<double>(Clock::now() - before).count());
+    session_.step();
+    times.push_back(session_.stepSeconds());
     for (std::size_t p = 0; p < kPhaseCount; ++p)
-      phases[p].push_back(simulation_->timer().seconds(static_cast<Phase>(p)));
+      phases[p].push_back(simulation().timer().seconds(static_cast<Phase>(p)));
     ++summary.steps;
     observe(summary);
     if (k % check_every == 0 || k + 1 == steps)
@@ -104,19 +88,19 @@ RunSummary BenchRun::advance(double seconds)
 
 void BenchRun::observe(RunSummary& summary)
 {
-  const rod::State& state = simulation_->state();
-  const rod::StepReport& report = simulation_->report();
+  const rod::State& state = simulation().state();
+  const rod::StepReport& report = simulation().report();
   summary.rejected += report.solved ? 0 : 1;
   summary.bisections += report.bisections;
   summary.truncated += report.truncations;
   summary.solves += report.solves;
   summary.max_strain = std::max(summary.max_strain, report.max_strain);
-  summary.worst_penetration = std::max(summary.worst_penetration, simulation_->surfacePenetration());
+  summary.worst_penetration = std::max(summary.worst_penetration, simulation().surfacePenetration());
   summary.mean_hand_force += state.hand_force;
   summary.finite = isFinite(state);
   // Trapezoidal rule, because the force changes during the step.
-  const double speed = (state.inserted_length - last_insertion_) / scene_.solver.time_step;
-  const double mass = simulatedMass(*simulation_);
+  const double speed = (state.inserted_length - last_insertion_) / scene().solver.time_step;
+  const double mass = simulatedMass(simulation());
   work_ += 0.5 * (last_force_ + state.hand_force) * (state.inserted_length - last_insertion_) +
            0.5 * (last_torque_ + state.hand_torque) * (state.rotation - last_rotation_);
   // Wire entering the guide has received its kinetic energy outside.
@@ -132,15 +116,15 @@ void BenchRun::checkEnergy(RunSummary& summary)
 {
   if (!summary.finite)
     return;
-  const rod::Energy elastic = simulation_->energy();
-  const double energy = elastic.bending + elastic.twist + kineticEnergy(*simulation_) - first_energy_;
+  const rod::Energy elastic = simulation().energy();
+  const double energy = elastic.bending + elastic.twist + kineticEnergy(simulation()) - first_energy_;
   summary.largest_energy = std::max(summary.largest_energy, energy);
   summary.energy_excess = std::max(summary.energy_excess, energy - work_);
-  if (!wall_)
+  if (wall() == nullptr)
     return;
-  const rod::State& state = simulation_->state();
-  for (int i = results::firstInsertedNode(*simulation_); i < simulation_->discretisation().nodes(); ++i)
-    summary.nodes_outside += wall_->signedDistance(state.position[i]) < 0.0;
+  const rod::State& state = simulation().state();
+  for (int i = results::firstInsertedNode(simulation()); i < simulation().discretisation().nodes(); ++i)
+    summary.nodes_outside += wall()->signedDistance(state.position[i]) < 0.0;
 }
 
 std::vector<Eigen::Vector3d> centreline(const simulation::Simulation& simulation, double spacing)

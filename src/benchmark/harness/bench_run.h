@@ -1,13 +1,10 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "contact/detector.h"
-#include "scene/model/scene.h"
-#include "simulation/simulation.h"
+#include "session/session.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -47,17 +44,15 @@ public:
   /** Resets the energy balance after an external change of the state. */
   void resetEnergyBalance();
 
-  simulation::Simulation& simulation() { return *simulation_; }
-  const scene::Scene& scene() const { return scene_; }
-  const contact::Detector* wall() const { return wall_.get(); }  ///< null without a vessel
+  simulation::Simulation& simulation() { return session_.simulation(); }
+  const scene::Scene& scene() const { return session_.scene(); }
+  const contact::Detector* wall() const { return session_.detector(); }  ///< null without a vessel
 
 private:
   void observe(RunSummary& summary);
   void checkEnergy(RunSummary& summary);
 
-  scene::Scene scene_;
-  std::unique_ptr<contact::Detector> wall_;
-  std::unique_ptr<simulation::Simulation> simulation_;
+  session::Session session_;
   double work_ = 0.0;  ///< work of the hand [J]
   double last_insertion_ = 0.0;
   double last_rotation_ = 0.0;

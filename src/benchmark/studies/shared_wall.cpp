@@ -4,23 +4,24 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "benchmark/harness/processor_time.h"
-#include "contact/detector.h"
-#include "scene/scene_file.h"
-#include "scene/scene_vessel.h"
-#include "scene/yaml/file_search.h"
-#include "simulation/simulation.h"
-#include "vessel/model/vessel.h"
+#include "session/session.h"
 
 namespace endovascular_sim::benchmark
 {
 namespace
 {
 
-constexpr int kSimulations = 10;  // number of averaged simulations
-constexpr int kSteps = 100;       // steps before memory is read, which build the neighbour lists
+using WorldPointer = std::shared_ptr<const session::World>;
+
+constexpr int kSessions = 10;          // number of averaged sessions
+constexpr int kSteps = 100;            // steps before memory is read, which build the neighbour lists
+constexpr int kLoads = 20;             // number of averaged resets and loads
+constexpr int kDemoSteps = 3000;       // before the state of `demo` is saved
+constexpr int kInflationSteps = 6500;  // before that of `stent`: its balloon is inflated
 
 /** Heap memory in use [B]. */
 double heapInUse()
@@ -29,39 +30,40 @@ double heapInUse()
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-struct Instance
+/** Mean processor time of a call [s]. */
+double meanTime(int calls, const std::function<void()>& call)
 {
-  std::unique_ptr<contact::Detector> detector;
-  std::unique_ptr<simulation::Simulation> simulation;
-};
-
-struct Cost
-{
-  double bytes = 0.0;
-  double seconds = 0.0;  ///< processor time of the construction
-};
-
-/** Mean cost of a simulation.
- *  @param detector returns the detector of one simulation */
-Cost costOf(const std::function<std::unique_ptr<contact::Detector>()>& detector, const scene::Scene& scene,
-            const scene::EntryPose& entry, const vessel::Vessel& vessel, int simulations)
-{
-  std::vector<Instance> instances(static_cast<std::size_t>(simulations));
-  const double before = heapInUse();
   const double begin = processorSeconds();
-  for (Instance& instance : instances)
-  {
-    instance.detector = detector();
-    instance.simulation =
-        std::make_unique<simulation::Simulation>(scene, entry, instance.detector.get(), &vessel.centreline);
-  }
-  Cost cost;
-  cost.seconds = (processorSeconds() - begin) / simulations;
-  for (Instance& instance : instances)
-    for (int step = 0; step < kSteps; ++step)
-      instance.simulation->stepAll(simulation::commandsAt(scene, instance.simulation->time()));
-  cost.bytes = (heapInUse() - before) / simulations;
-  return cost;
+  for (int k = 0; k < calls; ++k)
+    call();
+  return (processorSeconds() - begin) / calls;
+}
+
+/** Adds the row of a scene.
+ *  @param world returns the world of one session
+ *  @param state to be loaded */
+void addRow(const std::string& scene, const std::string& name, const std::function<WorldPointer()>& world, int sessions,
+            const std::string& state, Section& section)
+{
+  std::vector<session::Session> opened;
+  opened.reserve(static_cast<std::size_t>(sessions));
+  const double before = heapInUse();
+  const double construction = meanTime(sessions, [&] { opened.emplace_back(world()); });
+  for (session::Session& session : opened)
+    session.step(kSteps);
+  const double bytes = (heapInUse() - before) / sessions;
+  const double reset = meanTime(kLoads, [&] { opened.front().reset(); });
+  const double load = meanTime(kLoads, [&] { opened.front().load(state); });
+  section.table.add({scene, name, number(1e-6 * bytes), number(1e3 * construction), number(1e3 * reset),
+                     number(1e3 * load), number(1e-6 * static_cast<double>(state.size()))});
+}
+
+/** State of a scene after some steps. */
+std::string stateOf(const WorldPointer& world, int steps)
+{
+  session::Session session(world);
+  session.step(steps);
+  return session.save();
 }
 
 }  // namespace
@@ -69,31 +71,30 @@ Cost costOf(const std::function<std::unique_ptr<contact::Detector>()>& detector,
 TableSpec sharedWallTable()
 {
   return {"speed_shared_wall",
-          "A further simulation in the same anatomy",
-          {"wall model", "memory [MB]", "processor time of the construction [ms]"},
+          "A further session of a scene",
+          {"scene", "world", "memory [MB]", "processor time of the construction [ms]", "of a reset [ms]",
+           "of loading a state [ms]", "state [MB]"},
           ""};
 }
 
 Section sharedWallCost(const Progress& progress)
 {
-  progress(0.99, "memory of a further simulation");
+  progress(0.99, "memory of a further session");
   Section section({sharedWallTable()}, "speed_shared_wall");
   section.text =
-      "The scene `demo`; means per simulation. Detectors with a shared wall model own their neighbour lists only. "
-      "Memory is "
-      "read after " +
-      std::to_string(kSteps) + " steps.";
-  const scene::Scene scene = scene::loadScene(scene::configFolder() + "/scenes/demo.yaml", {});
-  const vessel::Vessel vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::centrelineUse(scene));
-  const scene::EntryPose entry = scene::resolveStart(scene, vessel);
-  const contact::WallLaw law = scene::wallLaw(*scene.vessel);
-  const std::shared_ptr<const contact::WallModel> model = contact::WallModel::create(vessel.mesh);
-  const auto add = [&section](const std::string& name, const Cost& cost) {
-    section.table.add({name, number(1e-6 * cost.bytes), number(1e3 * cost.seconds)});
-  };
-  add("shared",
-      costOf([&] { return std::make_unique<contact::Detector>(model, law); }, scene, entry, vessel, kSimulations));
-  add("own", costOf([&] { return std::make_unique<contact::Detector>(vessel.mesh, law); }, scene, entry, vessel, 1));
+      "Means per session (`session::Session`). A world holds scene, vessel and wall model. Memory is read after " +
+      std::to_string(kSteps) +
+      " steps. The state of `demo` is that of 3 s, the state of `stent` that of 6.5 s with an inflated balloon, "
+      "which has moved the wall.";
+  const WorldPointer demo = session::World::open("demo");
+  const std::string demo_state = stateOf(demo, kDemoSteps);
+  addRow(
+      "demo", "shared", [&demo] { return demo; }, kSessions, demo_state, section);
+  addRow(
+      "demo", "own", [] { return session::World::open("demo"); }, 1, demo_state, section);
+  const WorldPointer stent = session::World::open("stent");
+  addRow(
+      "stent", "shared", [&stent] { return stent; }, kSessions, stateOf(stent, kInflationSteps), section);
   return section;
 }
 
