@@ -70,12 +70,12 @@ std::unique_ptr<FuzzVessel> randomChannel(FuzzRandom& random)
   {
     const vessel::TubeShape shape = randomShape(random);
     auto made = std::make_unique<FuzzVessel>();
-    made->vessel.mesh = vessel::tubeMesh(shape);
-    made->check = std::make_unique<WireCheck>(made->vessel.mesh);
-    if (!isPlain(*made->check, made->vessel.mesh, shape))
+    made->vessel->mesh = vessel::tubeMesh(shape);
+    made->check = std::make_unique<WireCheck>(made->vessel->mesh);
+    if (!isPlain(*made->check, made->vessel->mesh, shape))
       continue;
     made->name = "channel";
-    made->vessel.centreline = vessel::tubeCentreline(shape);
+    made->vessel->centreline = vessel::tubeCentreline(shape);
     made->narrowest = shape.radius * std::cos(M_PI / shape.facets_around);
     double curvature = 0.0;
     for (const vessel::TubePiece& piece : shape.pieces)
@@ -146,13 +146,14 @@ void setWall(FuzzVessel& vessel, bool smooth)
 {
   if (!smooth)
   {
-    vessel.check = std::make_unique<WireCheck>(vessel.vessel.mesh);
+    vessel.check = std::make_unique<WireCheck>(vessel.vessel->mesh);
+    vessel.wall = contact::WallModel::create(vessel.vessel->mesh);
     return;
   }
-  vessel.law.shape = contact::WallShape::kSmooth;
-  vessel.vessel.mesh = contact::refinedForSmoothWall(std::move(vessel.vessel.mesh));
-  const contact::Wall wall(vessel.vessel.mesh);
-  const contact::SmoothWall surface(wall);
+  vessel.vessel->mesh = contact::refinedForSmoothWall(std::move(vessel.vessel->mesh));
+  vessel.wall = contact::WallModel::create(vessel.vessel->mesh, contact::WallShape::kSmooth);
+  const contact::Wall& wall = vessel.wall->wall();
+  const contact::SmoothWall& surface = *vessel.wall->smooth();
   std::vector<double> deviations;
   for (int t = 0; t < static_cast<int>(wall.triangles.size()); ++t)
     deviations.push_back(surface.deviationOf(t));
@@ -201,9 +202,9 @@ FuzzVessel& FuzzVessels::retain(const std::string& name, vessel::Vessel vessel)
 {
   auto made = std::make_unique<FuzzVessel>();
   made->name = name;
-  made->vessel = std::move(vessel);
+  *made->vessel = std::move(vessel);
   setWall(*made, smooth_);
-  made->narrowest = narrowest(made->vessel.centreline);
+  made->narrowest = narrowest(made->vessel->centreline);
   return *(retained_[name] = std::move(made));
 }
 
@@ -238,10 +239,10 @@ scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, doubl
   if (vessel.name == "channel")
   {
     scene::EntryPose pose;  // the mesh starts behind the origin
-    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
+    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel->mesh);
     return pose;
   }
-  const std::vector<vessel::CentrelineEnd> ends = vessel::centrelineEnds(vessel.vessel.centreline);
+  const std::vector<vessel::CentrelineEnd> ends = vessel::centrelineEnds(vessel.vessel->centreline);
   for (int attempt = 0; attempt < kTries && !ends.empty(); ++attempt)
   {
     const vessel::CentrelineEnd& end = ends[random.integer(0, static_cast<int>(ends.size()) - 1)];
@@ -252,7 +253,7 @@ scene::EntryPose randomEntry(const FuzzVessel& vessel, FuzzRandom& random, doubl
     bool free = true;
     for (int k = 0; k <= 10 && free; ++k)
       free = vessel.check->signedDistance(pose.position + 0.1 * k * length * pose.direction) > clearance;
-    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel.mesh);
+    pose.wall_distance = scene::distanceToWall(pose.position, vessel.vessel->mesh);
     if (free)
       return pose;
   }

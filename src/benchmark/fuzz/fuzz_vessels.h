@@ -8,7 +8,7 @@
 
 #include "benchmark/fuzz/fuzz_random.h"
 #include "benchmark/fuzz/wire_check.h"
-#include "contact/detector.h"
+#include "contact/wall_model.h"
 #include "scene/scene_vessel.h"
 #include "vessel/model/vessel.h"
 
@@ -20,14 +20,12 @@ struct FuzzVessel
 {
   std::string name;
   std::string detail;  ///< description of a vessel generated for one episode
-  vessel::Vessel vessel;
-  contact::WallLaw law;            ///< its shape: facets, or the smooth wall of the mesh
-  geometry::TriangleMesh checked;  ///< tessellation of a smooth wall, for the check
+  std::shared_ptr<vessel::Vessel> vessel = std::make_shared<vessel::Vessel>();
+  std::shared_ptr<const contact::WallModel> wall;  ///< of facets, or the smooth wall of the mesh
+  geometry::TriangleMesh checked;                  ///< tessellation of a smooth wall, for the check
   std::unique_ptr<WireCheck> check;
-  std::unique_ptr<contact::Detector> detector;  ///< detector of the rigid wall
-  int uses = 0;                                 ///< number of uses of the detector
-  double narrowest = 1.0;                       ///< radius of the narrowest lumen that the wire may enter [m]
-  double tightest = 1.0;                        ///< smallest known radius of curvature [m]
+  double narrowest = 1.0;  ///< radius of the narrowest lumen that the wire may enter [m]
+  double tightest = 1.0;   ///< smallest known radius of curvature [m]
 };
 
 /** Vessels of the fuzz: random channels, random bifurcations, the generated anatomy, and all given meshes that can be

@@ -6,11 +6,10 @@
 #include <stdexcept>
 
 #include "benchmark/harness/table.h"
-#include "contact/detector.h"
 #include "results/run_result.h"
 #include "rod/kkt/kkt_stepper.h"
 #include "scene/scene_file.h"
-#include "simulation/simulation.h"
+#include "session/session.h"
 #include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::benchmark
@@ -26,7 +25,6 @@ constexpr double kLargestTipMoment =
 constexpr double kSuspicious = 50e-6;    // depth in the solver that triggers a check [m]
 constexpr int kCheckInterval = 10;       // steps between checks
 constexpr int kBruteForceInterval = 10;  // checks between brute-force searches for one node
-constexpr int kDetectorLife = 200;       // episodes between replacements of a detector
 constexpr double kDisagreement = 1e-9;   // largest difference of both searches [m]
 
 /** Random choices that define the scene of an episode. */
@@ -48,7 +46,7 @@ double largestRadius(const FuzzVessel& vessel)
   if (vessel.name == "channel")
     return 0.4 * vessel.narrowest;
   double widest_end = 0.0;
-  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel.centreline))
+  for (const vessel::CentrelineEnd& end : vessel::centrelineEnds(vessel.vessel->centreline))
     widest_end = std::max(widest_end, end.radius);
   return 0.5 * widest_end;
 }
@@ -200,42 +198,16 @@ private:
   double turn_ = 0.0;
 };
 
-/** Detector of a vessel with a different wall law. */
-class WallSource : public contact::ContactSource
+/** Session of an episode in a vessel of the fuzz. */
+session::Session sessionOf(const FuzzVessel& vessel, const Setup& setup, const FuzzSettings& settings,
+                           const scene::EntryPose& entry)
 {
-public:
-  WallSource(contact::Detector& detector, double stiffness, double friction)
-    : detector_(detector), stiffness_(stiffness), friction_(friction)
-  {
-  }
-
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    detector_.detect(query, set);
-    for (contact::Feature& feature : set.features)
-    {
-      feature.stiffness = stiffness_;
-      feature.friction = friction_;
-    }
-  }
-
-  void freeDistances(const contact::Query& query, double wanted, contact::ContactSet& set) override
-  {
-    detector_.freeDistances(query, wanted, set);
-  }
-
-private:
-  contact::Detector& detector_;
-  double stiffness_;
-  double friction_;
-};
-
-/** Detector of the vessel, replaced periodically: its caches change no result, but take memory. */
-contact::Detector& detectorOf(FuzzVessel& vessel)
-{
-  if (!vessel.detector || ++vessel.uses % kDetectorLife == 0)
-    vessel.detector = std::make_unique<contact::Detector>(vessel.vessel.mesh, vessel.law);
-  return *vessel.detector;
+  scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
+  scene.vessel.emplace();
+  scene.vessel->wall = settings.smooth ? contact::WallShape::kSmooth : contact::WallShape::kFacets;
+  scene.vessel->stiffness = setup.stiffness;
+  scene.vessel->friction = setup.friction;
+  return session::Session(session::World::make(std::move(scene), vessel.vessel, vessel.wall, entry));
 }
 
 /** Nodes from the introducer to the tip. Up to its travel, the depth of a soft wall counts as compliance. */
@@ -294,12 +266,10 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   FuzzRandom random(settings.seed, number);
   FuzzVessel& vessel = vessels.get(vessels.kinds()[number % vessels.kinds().size()], random);
   const Setup setup = randomSetup(vessel, random, settings.coaxial);
-  scene::Scene scene = scene::parseScene(sceneText(setup), "fuzz", settings.overrides);
-  scene.solver.stepper.curved_wall = settings.smooth;
   const double widest = setup.radius + (setup.coaxial ? setup.clearance + setup.thickness : 0.0);
   const scene::EntryPose entry = randomEntry(vessel, random, widest, 1.5 * kInitialInsertion);
-  WallSource wall(detectorOf(vessel), setup.stiffness, setup.friction);
-  simulation::Simulation simulation(scene, entry, &wall, &vessel.vessel.centreline);
+  session::Session session = sessionOf(vessel, setup, settings, entry);
+  const simulation::Simulation& simulation = session.simulation();
 
   FuzzEpisode episode;
   episode.number = number;
@@ -313,7 +283,7 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
     std::vector<simulation::HandCommand> commands;
     for (RandomHand& hand : hands)
       commands.push_back(hand.next());
-    simulation.stepAll(commands);
+    session.step(commands);
     ++episode.steps;
     const rod::StepReport& report = simulation.report();
     episode.rejected += !report.solved;
