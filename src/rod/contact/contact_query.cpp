@@ -13,13 +13,9 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kWideMargin = 5e-6;      // m
-constexpr double kWideMotions = 4.0;      // times the recent motion
-constexpr double kWideDecay = 0.5;        // per step
-constexpr int kCrowd = 8;                 // features of a node, of a wire in a tube wider than the margin one to three
-constexpr double kCrowdedMargin = 20e-6;  // m
-constexpr double kCrowdedMotions = 2.0;   // times the recent motion
-constexpr std::uint64_t kCrowdedSteps = 256;
+constexpr double kWideMargin = 5e-6;  // m
+constexpr double kWideMotions = 4.0;  // times the recent motion
+constexpr double kWideDecay = 0.5;    // per step
 constexpr double kSnapMotion = 0.6;   // margins in one solve
 constexpr double kSnapMargin = 3.0;   // margins
 constexpr int kNeighboursOfSnap = 2;  // on either side
@@ -45,8 +41,6 @@ void ContactQueryBuilder::beginStep(const StepInput& input, contact::ContactSour
   pass_ = &pass;
   timer_ = &timer;
   wide_motion_ *= kWideDecay;
-  crowded_motion_ *= kWideDecay;
-  unbounded_ = false;
   snap_before_ = snap_;
   snap_ = {};
   step_ = input.step;
@@ -70,42 +64,6 @@ void ContactQueryBuilder::noteWideMotion(double distance)
 void ContactQueryBuilder::noteWideGrowth(double growth)
 {
   wide_motion_ = std::max(wide_motion_, growth);
-}
-
-void ContactQueryBuilder::noteCrowdedMotion(const NodalMotion& motion, int first, double factor)
-{
-  unbounded_ = unbounded_ || factor < 1.0;
-  for (int i = first; i < static_cast<int>(crowded_.size()); ++i)
-    if (crowded_[i] != 0)
-      crowded_motion_ = std::max(crowded_motion_, factor * motion[i].norm());
-}
-
-/** True where the margin of a crowded node is bounded in the present step. */
-bool ContactQueryBuilder::isBounded(int node) const
-{
-  return !unbounded_ && node < static_cast<int>(crowded_.size()) && crowded_[node] != 0 &&
-         (step_ + static_cast<std::uint64_t>(node)) % kCrowdedSteps != 0;
-}
-
-void ContactQueryBuilder::boundCrowdedMargins()
-{
-  const double bound = kCrowdedMargin + kCrowdedMotions * crowded_motion_;
-  for (std::size_t i = 0; i < query_.margin.size(); ++i)
-    if (isBounded(query_.first_node + static_cast<int>(i)))
-      query_.margin[i] = std::min(query_.margin[i], bound);
-}
-
-/** Finds the crowded nodes among those that had the whole margin. */
-void ContactQueryBuilder::findCrowded(const contact::ContactSet& answer)
-{
-  features_.assign(static_cast<std::size_t>(rod_.nodes()), 0);
-  for (const contact::Feature& feature : answer.features)
-    ++features_[static_cast<std::size_t>(feature.edge) + (feature.parameter > 0.5 ? 1 : 0)];
-  if (crowded_.size() != features_.size())
-    crowded_.assign(features_.size(), 0);
-  for (std::size_t i = 0; i < features_.size(); ++i)
-    if (!isBounded(static_cast<int>(i)))
-      crowded_[i] = features_[i] >= kCrowd ? 1 : 0;
 }
 
 void ContactQueryBuilder::updateMarginRule()
@@ -143,7 +101,6 @@ void ContactQueryBuilder::detect(const State& state, contact::ContactSet& answer
   send(0.0, answer, report);
   if (answer.stale)
     return;
-  findCrowded(answer);
   // The first queried point is the mouth, inside an edge: parameters on the queried part are mapped to the whole edge.
   for (contact::Feature& feature : answer.features)
     if (feature.edge == query_.first_node)
@@ -168,7 +125,6 @@ void ContactQueryBuilder::send(double wanted_free_distance, contact::ContactSet&
   query_.pass = *pass_;
   query_.vessel_version = vessel_version_;
   margin_rule_.apply(query_);
-  boundCrowdedMargins();
   // After a missing answer, the rest of the step uses the earlier set, so that a replay needs one number only.
   answer.stale = step_is_stale_;
   if (!step_is_stale_ && wanted_free_distance > 0.0)
@@ -185,7 +141,6 @@ void ContactQueryBuilder::resample(const NodeRenumbering& renumbering)
 {
   for (NodeRange* range : {&snap_, &snap_before_, &margin_rule_.snap})
     renumbering.apply(*range);
-  crowded_.clear();
   mouth_edge_ = renumbering.isShift() && mouth_edge_ >= 0 ? mouth_edge_ + renumbering.shift() : -1;
 }
 
@@ -197,8 +152,7 @@ void ContactQueryBuilder::archiveStaleness(Archive& archive)
 void ContactQueryBuilder::archive(Archive& archive)
 {
   archive(snap_, snap_before_, wide_motion_, step_, substep_, vessel_version_, query_.first_node,
-          margin_rule_.widest_margin, margin_rule_.snap_margin, margin_rule_.snap, mouth_, mouth_edge_, crowded_,
-          crowded_motion_);
+          margin_rule_.widest_margin, margin_rule_.snap_margin, margin_rule_.snap, mouth_, mouth_edge_);
   if (!archive.reading())
     return;
   for (const NodeRange& range : {snap_, snap_before_, margin_rule_.snap})
@@ -208,9 +162,6 @@ void ContactQueryBuilder::archive(Archive& archive)
   }
   requireIndex(query_.first_node, 0, rod_.nodes() + 1);
   requireIndex(mouth_edge_, -1, rod_.nodes() - 1);
-  requireLoaded(crowded_.empty() || crowded_.size() == static_cast<std::size_t>(rod_.nodes()),
-                "holds crowded nodes of another wire");
-  requireFinite(crowded_motion_);
   requireNumbers(wide_motion_, margin_rule_.widest_margin, margin_rule_.snap_margin, mouth_);
 }
 

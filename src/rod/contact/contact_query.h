@@ -21,12 +21,10 @@ namespace endovascular_sim::rod
 
 /** Builds the queries of a contact solver and sends them.
  *
- *  The margin of each node is the contact margin, with three exceptions. Where a solve of this or the last step would
+ *  The margin of each node is the contact margin, with two exceptions. Where a solve of this or the last step would
  *  have moved nodes by more than 0.6 margins (a snap-through), these nodes and two on either side have three margins:
  *  fewer solves are truncated. Wide bodies, once a balloon is filled, have at most 5 µm + 4·v: v is their largest
- *  recent motion or growth per step, halved from step to step. Crowded nodes, which have facets all around within the
- *  margin, have at most 20 µm + 2·v. They have the whole margin after a solve that is truncated, until the end of the
- *  step, and in one step of 256, to see if they are crowded still. */
+ *  recent motion or growth per step, halved from step to step. */
 class ContactQueryBuilder
 {
 public:
@@ -58,8 +56,6 @@ public:
   void noteSnapThrough(const NodalMotion& motion, int first);
   void noteWideMotion(double distance);  ///< largest motion of the wide bodies in a solve [m]
   void noteWideGrowth(double growth);    ///< growth of a wide body's radius [m]
-  /** Notes the motion of the crowded nodes in a solve. @param factor share of the motion that is done */
-  void noteCrowdedMotion(const NodalMotion& motion, int first, double factor);
 
   /** The last query. */
   const contact::Query& query() const { return query_; }
@@ -77,9 +73,6 @@ public:
 private:
   double describeNodes(const State& state);
   void updateMarginRule();
-  bool isBounded(int node) const;
-  void boundCrowdedMargins();
-  void findCrowded(const contact::ContactSet& answer);
   void send(double wanted_free_distance, contact::ContactSet& answer, StepReport& report);
 
   const Discretisation& rod_;
@@ -91,10 +84,6 @@ private:
   NodeRange snap_;                                                ///< nodes in a snap-through in this step
   NodeRange snap_before_;                                         ///< nodes in a snap-through in the last step
   double wide_motion_ = std::numeric_limits<double>::infinity();  ///< recent peak motion of wide bodies [m]
-  std::vector<char> crowded_;                                     ///< per node; empty after a change of the nodes
-  std::vector<int> features_;                                     ///< number of features at every node
-  bool unbounded_ = false;                                        ///< a solve of the step was truncated
-  double crowded_motion_ = 0.0;                                   ///< recent peak motion of the crowded nodes [m]
   double mouth_ = 0.0;
   int mouth_edge_ = -1;
   contact::ContactSource* source_ = nullptr;

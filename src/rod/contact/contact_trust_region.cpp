@@ -99,7 +99,6 @@ double ContactTrustRegion::truncation(const State& state, const NodalMotion& mot
   const double reaches = motionInReaches(motion, state.first_node);
   factor = freshTruncation(state, motion, factor, reaches, contacts, report);
   query_.noteWideMotion(wideMotion(motion, state.first_node, factor));
-  query_.noteCrowdedMotion(motion, state.first_node, factor);
   // If the next contact set is stale, this motion counts as well.
   stale_motion_budget_ = std::max(0.0, 1.0 - factor * reaches);
   return factor;

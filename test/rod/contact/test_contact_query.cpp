@@ -129,45 +129,6 @@ TEST_F(QueriesOverAFloor, AreNotSentAfterAMissingAnswerUntilTheNextStep)
   EXPECT_FALSE(set.stale);
 }
 
-/** A floor with eight facets at one node, as in a tube that is little wider than the wire. */
-class CrowdedFloor : public PlaneWall
-{
-public:
-  CrowdedFloor() : PlaneWall(0.0) {}
-
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    PlaneWall::detect(query, set);
-    contact::Feature feature;
-    feature.edge = 5;
-    set.features.insert(set.features.end(), margins[5] >= 0.1e-3 ? 8 : 2, feature);
-  }
-};
-
-// The whole margin of one step in 256 finds out whether a node is crowded still.
-TEST_F(QueriesOverAFloor, BoundTheMarginOfACrowdedNodeByItsRecentMotion)
-{
-  CrowdedFloor crowded;
-  const double usual = settings_.contact_margin;
-  const auto marginsIn = [&](std::uint64_t step, double share = 1.0)
-  {
-    StepInput input;
-    input.step = step;
-    query_.beginStep(input, &crowded, passes_, timer_);
-    query_.noteCrowdedMotion(motionOf(5, 8e-6), 0, share);
-    contact::ContactSet set;
-    query_.detect(state_, set, report_);
-    return crowded.margins;
-  };
-  EXPECT_EQ(marginsIn(1)[5], usual);
-  EXPECT_NEAR(marginsIn(2)[5], 20e-6 + 2.0 * 8e-6, 1e-12);
-  EXPECT_EQ(marginsIn(3)[6], usual);
-  EXPECT_EQ(marginsIn(251)[5], usual);  // (251 + 5) / 256
-  EXPECT_NEAR(marginsIn(252)[5], 20e-6 + 2.0 * 8e-6, 1e-12);
-  EXPECT_EQ(marginsIn(253, 0.5)[5], usual);  // a truncated solve
-  EXPECT_NEAR(marginsIn(254)[5], 20e-6 + 2.0 * 8e-6, 1e-12);
-}
-
 TEST_F(QueriesOverAFloor, RenumberTheNodesOfASnapThrough)
 {
   nextStep();
