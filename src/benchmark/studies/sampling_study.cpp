@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "benchmark/harness/processor_time.h"
-#include "contact/detector.h"
 #include "results/run_result.h"
 #include "scene/scene_file.h"
-#include "simulation/simulation.h"
+#include "session/session.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -81,24 +80,23 @@ struct Setting
 {
   explicit Setting(const SamplingCase& study) : scene(scene::parseScene(study.scene_yaml, study.name))
   {
-    vessel = scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired);
-    entry = scene::resolveEntry(scene.entry, vessel, scene.file);
-    wall = contact::WallModel::create(vessel.mesh);
+    world = session::World::make(
+        scene, scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired));
     steps = static_cast<std::size_t>(std::llround(study.duration / scene.solver.time_step));
   }
 
+  /** Session of a scene that differs from the case in its sampling. */
+  session::Session open(const scene::Scene& varied) const
+  {
+    session::Session session(world->with(varied));
+    session.setLastStep(steps);
+    return session;
+  }
+
   scene::Scene scene;
-  vessel::Vessel vessel;
-  std::shared_ptr<const contact::WallModel> wall;  ///< shared by all runs
-  scene::EntryPose entry;
+  std::shared_ptr<const session::World> world;  ///< its vessel and wall are shared by all runs
   std::size_t steps = 0;
 };
-
-simulation::HandCommand commandAt(const scene::Scene& scene, std::size_t step)
-{
-  const double end = static_cast<double>(step + 1) * scene.solver.time_step;
-  return {scene.instruments.front().drive.insertionAt(end), scene.instruments.front().drive.rotationAt(end)};
-}
 
 Shape shapeOf(const simulation::Simulation& simulation)
 {
@@ -115,17 +113,16 @@ Shape shapeOf(const simulation::Simulation& simulation)
 
 Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string& name)
 {
-  contact::Detector wall(setting.wall, scene::wallLaw(*scene.vessel));
-  simulation::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
+  session::Session session = setting.open(scene);
+  const simulation::Simulation& simulation = session.simulation();
   Run run;
   run.result.sampling = name;
   const auto shape_interval = static_cast<std::size_t>(std::llround(kShapeInterval / scene.solver.time_step));
   std::vector<double> before = simulation.discretisation().position;
   for (std::size_t k = 0; k < setting.steps; ++k)
   {
-    const simulation::HandCommand command = commandAt(scene, k);
     const double begin = processorSeconds();
-    simulation.step(command);
+    session.step();
     run.result.step_time += processorSeconds() - begin;
     run.result.sampling_time += simulation.timer().seconds(Phase::kSampling);
     const rod::Discretisation& wire = simulation.discretisation();
@@ -244,15 +241,11 @@ void compareForces(const Run& reference, Run& run, double time_step)
 /** Force of a step without the resampling before it. */
 double forceWithoutResampling(const Setting& setting, const scene::Scene& scene, std::size_t step)
 {
-  contact::Detector wall(setting.wall, scene::wallLaw(*scene.vessel));
-  simulation::Simulation simulation(scene, setting.entry, &wall, &setting.vessel.centreline);
-  for (std::size_t k = 0; k <= step; ++k)
-  {
-    if (k == step)
-      simulation.keepSampling();
-    simulation.step(commandAt(scene, k));
-  }
-  return simulation.state().hand_force;
+  session::Session session = setting.open(scene);
+  session.step(static_cast<int>(step));
+  session.simulation().keepSampling();
+  session.step();
+  return session.simulation().state().hand_force;
 }
 
 /** Measures the effect of the resamplings with the largest change of the force. */
