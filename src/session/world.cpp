@@ -18,7 +18,8 @@ std::string sceneFile(const std::string& scene)
 {
   const std::string bundled = scene::configFolder() + "/scenes/" + scene + ".yaml";
   std::error_code error;
-  return !std::filesystem::exists(scene, error) && std::filesystem::exists(bundled, error) ? bundled : scene;
+  // A folder of results may have the name of its scene.
+  return !std::filesystem::is_regular_file(scene, error) && std::filesystem::exists(bundled, error) ? bundled : scene;
 }
 
 std::optional<vessel::Vessel> vesselOf(const scene::Scene& scene, const ProgressReport& progress)
