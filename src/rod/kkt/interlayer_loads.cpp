@@ -13,7 +13,7 @@ namespace
 constexpr std::size_t kLeastNodes = 5;      // of the solution in a bore
 constexpr double kLargestTension = 1e3;     // N, beyond every hand
 constexpr double kMostYield = 5e-5;         // m, of the bore under a whole node, in a shift of the last step
-constexpr double kTensionTolerance = 1e-3;  // N, mean change of the tension that needs no further solution
+constexpr double kTensionTolerance = 1e-3;  // N, change of the tension that needs no further solution
 constexpr double kRelativeTolerance = 0.01;
 constexpr int kMaxSolutions = 12;
 
@@ -209,7 +209,7 @@ double InterlayerLoads::tensionBefore(std::size_t i, double tension, double afte
 
 /** Updates tension and loads from the end to the introducer: T' = −M'·κ less the friction, for M and κ of the shifted
  *  wire.
- *  @return mean change of the tension [N]; at a tip alone it may be large, and move no hand */
+ *  @return largest change of the tension [N] */
 double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
                                       const std::vector<double>& vessel_share)
 {
@@ -222,10 +222,10 @@ double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
   Eigen::Vector2d here = moment(last);
   for (std::size_t i = last;; --i)
   {
-    change += std::abs(tension - nodes_[i].tension);
+    change = std::max(change, std::abs(tension - nodes_[i].tension));
     nodes_[i].tension = tension;
     if (i == 0)
-      return change / static_cast<double>(last + 1);
+      return change;
     const int node = first + static_cast<int>(i);
     const Eigen::Vector2d before = moment(i - 1);
     const Eigen::Vector2d curvature = nodes_[i].curvature + BoreContact::bend(nodes_, i);
