@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmark/harness/processor_time.h"
 #include "benchmark/reference/smooth_walls.h"
+#include "common/time/processor_time.h"
 #include "contact/detector.h"
 #include "rod/kkt/kkt_stepper.h"
 #include "vessel/anatomy/tube.h"

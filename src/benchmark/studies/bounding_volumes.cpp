@@ -10,8 +10,8 @@
 #include <fcl/math/bv/OBB.h>
 #include <fcl/math/bv/kDOP.h>
 
-#include "benchmark/harness/processor_time.h"
 #include "common/error.h"
+#include "common/time/processor_time.h"
 #include "geometry/closest_point_on_triangle.h"
 
 namespace endovascular_sim::benchmark

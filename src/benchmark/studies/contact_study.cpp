@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "benchmark/harness/bench_run.h"
-#include "benchmark/harness/processor_time.h"
 #include "benchmark/studies/bounding_volumes.h"
 #include "common/error.h"
+#include "common/time/processor_time.h"
 #include "contact/detector.h"
 #include "geometry/loop_subdivision.h"
 #include "geometry/mesh_distance.h"

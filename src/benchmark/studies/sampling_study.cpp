@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/harness/processor_time.h"
+#include "common/time/processor_time.h"
 #include "results/run_result.h"
 #include "scene/scene_file.h"
 #include "session/session.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/harness/processor_time.h"
+#include "common/time/processor_time.h"
 #include "session/session.h"
 
 namespace endovascular_sim::benchmark

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "benchmark/harness/processor_time.h"
 #include "benchmark/x_ray/coronary_view.h"
+#include "common/time/processor_time.h"
 #include "fluoroscopy/projection/vessel_projection.h"
 #include "fluoroscopy/projection/wire_projection.h"
 #include "geometry/loop_subdivision.h"

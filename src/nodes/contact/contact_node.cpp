@@ -6,6 +6,7 @@
 #include <boost/make_shared.hpp>
 
 #include "common/error.h"
+#include "common/time/processor_time.h"
 #include "endovascular_sim/GetVessel.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/message_checks.h"
@@ -14,7 +15,6 @@
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/line/message_frame.h"
 #include "nodes/runtime/node_program.h"
-#include "nodes/runtime/processor/thread_time.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_vessel.h"
 
@@ -198,16 +198,16 @@ void ContactNode::respond(const RodStateConstPtr& message)
     return;
   }
   fromMessage(*message, query_);
-  const double begin = threadProcessorTime();
+  const double begin = processorSeconds();
   if (message->wanted_free_distance > 0.0)
     detector_->freeDistances(query_, message->wanted_free_distance, response_.set);
   else
     detector_->detect(query_, response_.set);
-  detection_time_ = detection_time_ + threadProcessorTime() - begin;
+  detection_time_ = detection_time_ + processorSeconds() - begin;
   response_.header.stamp = ros::Time::now();
   response_.header.frame_id = names::kPatientFrame;
   publishResponse();
-  response_time_ = threadProcessorTime();
+  response_time_ = processorSeconds();
   ++responses_;
   countProgress();
   features_ = response_.set.features.size();

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstddef>
 
-#include "nodes/runtime/processor/thread_time.h"
+#include "common/time/processor_time.h"
 
 namespace endovascular_sim::nodes
 {
@@ -61,7 +61,7 @@ private:
   void enter(int phase)
   {
     const auto now = std::chrono::steady_clock::now();
-    const double processor = threadProcessorTime();
+    const double processor = processorSeconds();
     if (present_ >= 0)
     {
       const auto k = static_cast<std::size_t>(present_);

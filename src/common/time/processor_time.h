@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace endovascular_sim::benchmark
+namespace endovascular_sim
 {
 
 /** Processor time of the calling thread [s]; unlike wall-clock time it excludes other programs. */
@@ -13,4 +13,4 @@ inline double processorSeconds()
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace endovascular_sim::benchmark
+}  // namespace endovascular_sim
