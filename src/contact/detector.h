@@ -46,6 +46,9 @@ public:
   void moveVertices(const std::vector<int>& indices, const std::vector<Eigen::Vector3d>& positions,
                     std::uint64_t vessel_version);
 
+  /** Copies a model that is shared, which the first movement does otherwise. */
+  void ownModel() { WallModel::writable(model_); }
+
   /** Number of neighbour lists that the last query has built. */
   std::size_t builtLists() const { return built_lists_; }
 

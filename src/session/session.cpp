@@ -265,6 +265,12 @@ void Session::prepareImages()
     imaging_ = std::make_unique<Imaging>(*world_);
 }
 
+void Session::prepareInflation()
+{
+  if (run().wall)
+    run().detector->ownModel();
+}
+
 const fluoroscopy::Frame& Session::image(const std::string& view)
 {
   prepareImages();

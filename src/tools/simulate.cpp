@@ -399,6 +399,7 @@ int simulate(const Options& options)
     pictures.emplace(*world, options.out);
   if (options.x_ray)
     session.prepareImages();
+  session.prepareInflation();
   if (!options.from_state.empty())
     loadState(options.from_state, session);
   session.setLastStep(lastStep(options, session));

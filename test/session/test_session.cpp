@@ -269,6 +269,19 @@ TEST(Session, ContinuesAndBeginsAgainWithAWallThatABalloonDeforms)
   EXPECT_EQ(Session(world).save(), first.save());
 }
 
+TEST(Session, CopiesNoWallInAnInflationThatWasPrepared)
+{
+  const std::shared_ptr<const World> world = World::open(TEST_DATA_DIR "/scenes/good_inflation.yaml");
+  Session prepared(world);
+  prepared.prepareInflation();
+  const contact::WallModel* const wall = prepared.detector()->model().get();
+  Session other(world);
+  EXPECT_NE(wall, other.detector()->model().get());
+  EXPECT_EQ(hashAfter(prepared, 500), hashAfter(other, 500));
+  EXPECT_NE(prepared.wall().vertices, world->vessel()->mesh.vertices);
+  EXPECT_EQ(prepared.detector()->model().get(), wall);
+}
+
 TEST(Session, TakesOverNothingOfARefusedState)
 {
   Session session(tube());
