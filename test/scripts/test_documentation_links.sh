@@ -1,9 +1,11 @@
 #!/bin/bash
 # Every relative link of the documentation names an existing file and heading. Every page can be reached from docs/index.md.
+# Every path of the repository in backticks exists; NAME, TARGET and the like stand for any name.
 # The pages that show C++ programs quote those of test/install/plain_cmake, which are compiled and run.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'
+import glob
 import os
 import re
 import subprocess
@@ -54,6 +56,18 @@ for page in pages:
         elif anchor and path.endswith(".md") and anchor not in anchors(path):
             errors.append("%s: no such heading: %s" % (page, target))
         links[page].add(path)
+
+TOP = "src|test|config|msg|srv|launch|docs|rviz|catkin_ws|python|examples"
+for page in pages:
+    for path in re.findall(r"`((?:%s)/[\w./*-]+)`" % TOP, open(page).read()):
+        if path.startswith(("catkin_ws/build", "catkin_ws/devel", "catkin_ws/sanitized")):
+            continue
+        pattern = re.sub(r"[A-Z]{3,}(_[A-Z]+)*", "*", path) if not os.path.exists(path) else path
+        if not glob.glob(pattern):
+            errors.append("%s: no such file of the repository: %s" % (page, path))
+    for path in re.findall(r"`((?:%s)/[\w./]+\.(?:h|cpp))`" % "|".join(os.listdir("src")), open(page).read()):
+        if not os.path.exists("src/" + path):
+            errors.append("%s: no such file: src/%s" % (page, path))
 
 start = "docs/index.md"
 reached, waiting = {start}, [start]

@@ -1,0 +1,202 @@
+#!/usr/bin/python3
+"""Draws the figures of CONTACT, PHYSICS and ARCHITECTURE as SVG files beside this script.
+
+  docs/figures/draw.py            writes the files
+  docs/figures/draw.py --check    compares the files with what it would write; exit code 1 if one differs
+"""
+import argparse
+import io
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon, Wedge
+
+WALL, LUMEN, WIRE, GUIDE, MARK = "#8c6d62", "#f7efe9", "#2b5c8a", "#777777", "#b3261e"
+plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "figures", "font.family": "sans-serif", "font.size": 10})
+
+
+def canvas(width, height, x, y):
+    figure, axes = plt.subplots(figsize=(width, height))
+    axes.set_xlim(*x)
+    axes.set_ylim(*y)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    figure.subplots_adjust(0, 0, 1, 1)
+    return figure, axes
+
+
+def arrow(axes, begin, end, style="-|>", colour="black", width=1.2, **more):
+    axes.add_patch(FancyArrowPatch(begin, end, arrowstyle=style, color=colour, linewidth=width, mutation_scale=11,
+                                   shrinkA=0, shrinkB=0, **more))
+
+
+def label(axes, x, y, text, colour="black", **more):
+    axes.text(x, y, text, color=colour, **{"ha": "center", "va": "center", **more})
+
+
+def features():
+    """Features at a ridge: the face's normal, and the normal cone of a reflex edge."""
+    figure, axes = canvas(7.2, 3.4, (-6, 6.2), (-1.6, 4.3))
+    left, ridge, right = np.array([-6, -0.2]), np.array([0, 1.0]), np.array([6.2, -0.24])
+    axes.add_patch(Polygon([left, ridge, right, [6.2, -1.6], [-6, -1.6]], facecolor=WALL, alpha=0.35, edgecolor="none"))
+    axes.plot(*zip(left, ridge, right), color=WALL, linewidth=2.5)
+    label(axes, 0, -0.8, "wall", WALL)
+    normals = []
+    for a, b in ((left, ridge), (ridge, right)):
+        along = (b - a) / np.linalg.norm(b - a)
+        normals.append(np.array([-along[1], along[0]]))
+    angles = [np.degrees(np.arctan2(n[1], n[0])) for n in normals]
+    axes.add_patch(Wedge(ridge, 3.0, angles[1], angles[0], facecolor=MARK, alpha=0.13, edgecolor="none"))
+    for n in normals:
+        axes.plot(*zip(ridge, ridge + 3.0 * n), color=MARK, linewidth=0.9, linestyle="--")
+    for node, foot, name in ((np.array([-3.6, 1.9]), None, "face"), (np.array([0.12, 3.2]), ridge, "edge"),
+                             (np.array([3.4, 2.1]), None, "face")):
+        if foot is None:
+            a, n = (left, normals[0]) if node[0] < 0 else (ridge, normals[1])
+            foot = node - np.dot(node - a, n) * n
+        arrow(axes, foot, node - 0.42 * (node - foot) / np.linalg.norm(node - foot), colour=MARK)
+        axes.add_patch(Circle(node, 0.42, facecolor="white", edgecolor=WIRE, linewidth=2))
+        axes.plot(*node, "o", color=WIRE, markersize=3)
+        axes.plot(*foot, "o", color=MARK, markersize=4)
+        label(axes, node[0], node[1] + 0.68, name)
+    label(axes, 1.45, 3.7, "normal cone", MARK, fontsize=9)
+    label(axes, -3.75, 0.95, "n", MARK, style="italic")
+    return figure
+
+
+def distances():
+    """Gap, margin and free distance of an edge of the instrument."""
+    figure, axes = canvas(7.2, 3.9, (-1.2, 11.4), (-0.9, 5.95))
+    wall = np.array([[-1.2, 0.35], [3.2, 0.0], [6.2, 0.35], [8.6, 1.0], [11.4, 1.1]])
+    axes.add_patch(Polygon([*wall, [11.4, -0.9], [-1.2, -0.9]], facecolor=WALL, alpha=0.35, edgecolor="none"))
+    axes.plot(*wall.T, color=WALL, linewidth=2.5)
+    label(axes, 10.5, -0.3, "wall", WALL)
+    nodes = np.array([[0.6, 1.45], [4.4, 1.75], [8.4, 4.3]])
+    radius, margin = 0.6, 1.0
+    for node in nodes:
+        axes.add_patch(Circle(node, radius + margin, facecolor="none", edgecolor=GUIDE, linestyle=":", linewidth=1.1))
+    for a, b in zip(nodes, nodes[1:]):
+        along = (b - a) / np.linalg.norm(b - a)
+        side = radius * np.array([-along[1], along[0]])
+        axes.add_patch(Polygon([a + side, b + side, b - side, a - side], facecolor="#dbe7f2", edgecolor=WIRE, linewidth=1.3))
+    for node in nodes:
+        axes.add_patch(Circle(node, radius, facecolor="#dbe7f2", edgecolor=WIRE, linewidth=1.3))
+    axes.plot(*nodes.T, "-o", color=WIRE, markersize=4, linewidth=1)
+    foot = np.array([4.27, 0.12])
+    normal = (nodes[1] - foot) / np.linalg.norm(nodes[1] - foot)
+    arrow(axes, foot, nodes[1] - radius * normal, "<|-|>", MARK)
+    axes.plot(*foot, "o", color=MARK, markersize=4)
+    label(axes, 4.65, 0.62, "g", MARK, style="italic")
+    direction = np.array([np.cos(np.radians(125)), np.sin(np.radians(125))])
+    arrow(axes, nodes[1] + radius * direction, nodes[1] + (radius + margin) * direction, "<|-|>", GUIDE)
+    label(axes, 3.05, 3.35, "margin", GUIDE)
+    middle = 0.36 * nodes[1] + 0.64 * nodes[2]
+    corner = wall[3]
+    toward = (corner - middle) / np.linalg.norm(corner - middle)
+    arrow(axes, middle + radius * toward, corner, "<|-|>", "black")
+    label(axes, 9.15, 2.25, "free distance\nof the edge", ha="left", fontsize=9)
+    label(axes, 6.0, 3.55, "$e_i$", WIRE)
+    label(axes, 4.4, 2.03, "$x_i$", WIRE)
+    label(axes, 8.4, 4.62, "$x_{i+1}$", WIRE)
+    return figure
+
+
+def box(axes, x, y, w, h, text, colour="#eef3f8", edge=WIRE, **more):
+    axes.add_patch(FancyBboxPatch((x - w / 2, y - h / 2), w, h, boxstyle="round,pad=0,rounding_size=0.12",
+                                  facecolor=colour, edgecolor=edge, linewidth=1.2))
+    label(axes, x, y, text, **more)
+
+
+def step():
+    """Data flow of one step of the scheme kkt."""
+    figure, axes = canvas(7.6, 5.4, (0, 15.2), (0, 10.8))
+    box(axes, 2.4, 9.9, 4.2, 1.1, "commands of the hands", "white", GUIDE)
+    box(axes, 7.4, 9.9, 3.8, 1.1, "handle: grip, slip, stops")
+    box(axes, 12.5, 9.9, 4.0, 1.1, "insertion, rotation", "white", GUIDE)
+    box(axes, 12.5, 7.7, 4.0, 1.2, "twist of the layers\n(quasi-static)")
+    box(axes, 12.5, 5.5, 4.0, 1.2, "linear system\nbending, inertia, drag")
+    box(axes, 7.4, 5.5, 3.8, 1.2, "active set, friction\n(at most 16 passes)")
+    box(axes, 2.4, 5.5, 4.2, 1.2, "trust region:\nmargin, free distance, turn")
+    box(axes, 2.4, 7.7, 4.2, 1.2, "contact set:\ngaps, normals, margins")
+    box(axes, 7.4, 3.2, 3.8, 1.2, "length correction")
+    box(axes, 12.5, 3.2, 4.0, 1.2, "loads between layers,\nreactions of wall and hand")
+    box(axes, 12.5, 1.0, 4.0, 1.1, "state, force at the hands", "white", GUIDE)
+    box(axes, 7.4, 7.7, 3.8, 1.2, "detector, in this\nor its own process", "#f7efe9", WALL)
+    for begin, end in (((4.5, 9.9), (5.5, 9.9)), ((9.3, 9.9), (10.5, 9.9)), ((12.5, 9.35), (12.5, 8.3)),
+                       ((12.5, 7.1), (12.5, 6.1)), ((10.5, 5.5), (9.3, 5.5)), ((5.5, 5.5), (4.5, 5.5)),
+                       ((9.3, 3.2), (10.5, 3.2)), ((12.5, 2.6), (12.5, 1.55))):
+        arrow(axes, begin, end)
+    arrow(axes, (2.4, 6.1), (2.4, 7.1))
+    label(axes, 2.2, 6.6, "truncated:\nagain", ha="right", fontsize=9)
+    arrow(axes, (4.5, 7.7), (5.5, 7.7), "<|-|>", WALL)
+    label(axes, 5.0, 8.55, "query, set", WALL, fontsize=9)
+    arrow(axes, (4.5, 7.2), (10.5, 5.95))
+    arrow(axes, (3.4, 4.9), (5.5, 3.2), connectionstyle="arc3,rad=0.2")
+    label(axes, 3.4, 3.55, "whole", fontsize=9)
+    return figure
+
+
+def layers():
+    """Layers of the source tree, upper ones include lower ones."""
+    rows = [
+        ("nodes · tools · rviz_plugin", "ROS, command line, rviz", "#f5e3e1"),
+        ("benchmark · python", "studies, bindings", "#eef3f8"),
+        ("session", "a run of a scene: what every program opens", "#dbe7f2"),
+        ("procedure · results", "operator, metrics", "#eef3f8"),
+        ("simulation", "one time step of a scene", "#eef3f8"),
+        ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
+        ("drive · robot · haptics · fluoroscopy · intervention", "what acts on instruments or sees them", "#eef3f8"),
+        ("vessel · segmentation · phantom · instrument", "anatomy and devices", "#eef3f8"),
+        ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),
+        ("common · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
+    ]
+    figure, axes = canvas(7.4, 4.6, (-0.3, 14.5), (0, 9.2))
+    for k, (folders, what, colour) in enumerate(rows):
+        y = 8.75 - 0.9 * k
+        axes.add_patch(FancyBboxPatch((0.6, y - 0.37), 13.6, 0.74, boxstyle="round,pad=0,rounding_size=0.1",
+                                      facecolor=colour, edgecolor=WIRE, linewidth=1))
+        label(axes, 0.85, y, folders, ha="left", family="monospace", fontsize=8)
+        label(axes, 13.95, y, what, ha="right", fontsize=8.5, colour="#444444")
+    arrow(axes, (0.3, 9.0), (0.3, 0.3))
+    label(axes, 0.0, 4.6, "includes", rotation=90, fontsize=8.5)
+    return figure
+
+
+FIGURES = {"contact_features": features, "contact_distances": distances, "step": step, "layers": layers}
+
+
+def svg(draw):
+    figure = draw()
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+    return out.getvalue()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="compare only")
+    arguments = parser.parse_args()
+    folder = os.path.dirname(os.path.abspath(__file__))
+    different = []
+    for name, draw in FIGURES.items():
+        path = os.path.join(folder, name + ".svg")
+        text = svg(draw)
+        if arguments.check:
+            if not os.path.exists(path) or open(path, encoding="utf-8").read() != text:
+                different.append(path)
+        else:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+    for path in different:
+        print("%s is not what docs/figures/draw.py draws; run it" % path, file=sys.stderr)
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

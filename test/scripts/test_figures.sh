@@ -1,0 +1,4 @@
+#!/bin/bash
+# The figures of the documentation are those that docs/figures/draw.py draws.
+set -eu
+exec "$(dirname "$0")/../../docs/figures/draw.py" --check
