@@ -30,7 +30,7 @@ struct Response
  *
  *  Nodes are equidistant for tissue, and at squares of equidistant numbers for bone and iodine. Interpolation is linear
  * in each direction, and is continued linearly beyond the last node. Its error is below 0.2 % of the signal within the
- * table (docs/FLUOROSCOPY.md, "Beam"). */
+ * table (docs/XRAY_IMAGES.md, "Beam"). */
 class SignalTable
 {
 public:

@@ -18,7 +18,7 @@ constexpr double kClinicalAnodeAngle = 0.20943951;  ///< 12°, usual for angiogr
  *
  *  with the mass stopping power S, and four K lines with the yield k·A_K (T₀/E_K − 1)^n at depths of parabolic density.
  * The polynomial B, S, A_K and n are the paper's; C is the paper's table times c. Three constants are fitted: c = 1.15,
- * s and k (docs/FLUOROSCOPY.md, "Beam").
+ * s and k (docs/XRAY_IMAGES.md, "Beam").
  *
  *  @param voltage constant tube voltage, 20 to 150 [kV]
  *  @param anode_angle angle θ between anode surface and central ray [rad] */

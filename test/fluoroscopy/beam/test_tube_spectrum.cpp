@@ -59,7 +59,7 @@ TEST(TubeSpectrum, ReproducesTheHalfValueLayersOfPtbsCatalogue)
 
 TEST(TubeSpectrum, ReproducesTheHalfValueLayersOfTheRqrBeams)
 {
-  // Filtrations: docs/FLUOROSCOPY.md, "Beam".
+  // Filtrations: docs/XRAY_IMAGES.md, "Beam".
   const struct
   {
     double voltage, aluminium, half_value_layer;  // [kV], [mm]
