@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "benchmark/reference/bore_equilibrium.h"
 #include "benchmark/reference/reference_wire.h"
 #include "benchmark/reference/smooth_walls.h"
 #include "contact/detector.h"
@@ -313,6 +314,15 @@ double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamRef
     ++count;
   }
   return sum / count;
+}
+
+double staticForceInRigidTube(const JamCase& at, const JamSample& sample, double spacing)
+{
+  double length = 0.0;
+  for (std::size_t i = 1; i < sample.axis.size(); ++i)
+    length += (sample.axis[i] - sample.axis[i - 1]).norm();
+  const BoreAxis axis = boreAxis(sample.axis, length - sample.insertion, length - kProtrusion, spacing);
+  return pushThroughBore({kStiffness, at.clearance, at.friction}, axis, sample.tip_load);
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -71,4 +71,8 @@ JamReference referenceFor(const JamCase& at);
  *  against the load of the sample on its tip [N]. Without friction it is that load. */
 double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference);
 
+/** As forceInRigidTube(), by pushThroughBore().
+ *  @param spacing of the stations [m] */
+double staticForceInRigidTube(const JamCase& at, const JamSample& sample, double spacing = 5e-4);
+
 }  // namespace endovascular_sim::benchmark

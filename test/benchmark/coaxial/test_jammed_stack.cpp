@@ -48,6 +48,8 @@ TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
     const JamSample pushed = runJam(at).pushed;
     const double reference = forceInRigidTube(at, pushed, referenceFor(at));
     EXPECT_NEAR(pushed.wire, reference, 0.05 * reference + 5e-3) << at.name;
+    const double still = staticForceInRigidTube(at, pushed);
+    EXPECT_NEAR(pushed.wire, still, 0.05 * still + 5e-3) << at.name << ", static";
   }
 }
 
