@@ -38,6 +38,15 @@ TEST(BoreEquilibrium, AHelixInAStraightBoreHasTheLoadOfTheClosedForm)
   EXPECT_NEAR(1.0 / shorter - 1.0 / longer, slope * 0.06, 0.02 * slope * 0.06);
 }
 
+TEST(BoreEquilibrium, TheForceOfABuckledWireDoesNotDependOnTheStations)
+{
+  const BoreWire wire = {kStiffness, 4e-4, 0.1};
+  const double coarse = pushThroughBore(wire, straight(0.1, 1e-3), 10.0);
+  const double fine = pushThroughBore(wire, straight(0.1, 2.5e-4), 10.0);
+  EXPECT_GT(fine, 12.0);
+  EXPECT_NEAR(coarse, fine, 0.01 * fine);
+}
+
 TEST(BoreEquilibrium, ACompliantWireInABendHasTheForceOfACapstan)
 {
   std::vector<Eigen::Vector3d> points;
