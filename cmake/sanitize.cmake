@@ -16,7 +16,7 @@ if(ENDOVASCULAR_SANITIZE)
     add_compile_definitions(_GLIBCXX_ASSERTIONS)
     # Coverage of all sources would slow the tests down.
     file(GLOB PARSERS CONFIGURE_DEPENDS src/common/text/*.cpp src/vessel/io/*.cpp src/vessel/anatomy/anatomy_reader.cpp src/scene/*.cpp
-      src/scene/yaml/*.cpp src/scene/schema/*.cpp src/haptics/rosserial/*.cpp src/haptics/serial/*.cpp
+      src/yaml/*.cpp src/scene/schema/*.cpp src/haptics/rosserial/*.cpp src/haptics/serial/*.cpp
       src/haptics/host/*.cpp src/drive/*_command.cpp src/drive/command_file.cpp src/haptics/device/*.cpp src/simulation/*archive*.cpp src/nodes/conversions/*.cpp
       src/nodes/session/session_bag.cpp)
     set_source_files_properties(${PARSERS} PROPERTIES COMPILE_OPTIONS -fsanitize=fuzzer-no-link)

@@ -135,6 +135,7 @@ constexpr Quantity kDirection{"components of a direction", "1", D::kOther, 0.0, 
 constexpr Quantity kRotationMatrix{"components of a rotation", "1", D::kOther, 0.0, 1.001, 0.0, 2.0};
 constexpr Quantity kBlend{"blending ranges", "1", D::kOther, 0.05, 3.0, 0.01, 10.0};
 constexpr Quantity kHeatScale{"scales of the force map", "1", D::kOther, 1e-4, 100.0, 1e-7, 1e4};
+constexpr Quantity kNumber{"numbers", "1", D::kOther, 0.0, 1e300, 0.0, 1e300};  // of any magnitude
 constexpr Quantity kScale{"factors", "1", D::kOther, 0.1, 10.0, 1e-3, 1e3};
 
 }  // namespace endovascular_sim::quantities

@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "common/error.h"
+#include "common/text/words.h"
+#include "scene/file_search.h"
 #include "scene/schema/scene_schema.h"
-#include "scene/yaml/file_search.h"
-#include "scene/yaml/yaml_reader.h"
+#include "yaml/reader.h"
 
 namespace endovascular_sim::scene
 {
@@ -22,14 +23,7 @@ fs::path libraryFolder()
 
 std::string unknownName(const std::string& name)
 {
-  const std::vector<std::string> names = libraryNames();
-  const std::string nearest = nearestWord(name, names);
-  if (!nearest.empty())
-    return "no instrument \"" + name + "\" in the library; did you mean \"" + nearest + "\"?";
-  std::string all;
-  for (const std::string& each : names)
-    all += (all.empty() ? "" : ", ") + each;
-  return "no instrument \"" + name + "\" in the library; known: " + all;
+  return "no instrument \"" + name + "\" in the library; " + suggestion(name, libraryNames(), "known: ");
 }
 
 fs::path pathInLibrary(const std::string& name)
@@ -43,7 +37,7 @@ bool isInLibrary(const std::string& name)
   return fs::path(name).filename() == name && fs::is_regular_file(pathInLibrary(name), error);
 }
 
-SceneNode* fieldOf(SceneNode& map, const std::string& key)
+yaml::Node* fieldOf(yaml::Node& map, const std::string& key)
 {
   for (auto& field : map.fields)
     if (field.first == key)
@@ -52,14 +46,14 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
 }
 
 /** Merges @p top into @p base; fields of @p top override. */
-void overlay(SceneNode& base, const SceneNode& top)
+void overlay(yaml::Node& base, const yaml::Node& top)
 {
   for (const auto& [key, value] : top.fields)
   {
-    SceneNode* existing = fieldOf(base, key);
+    yaml::Node* existing = fieldOf(base, key);
     if (existing == nullptr)
       base.fields.emplace_back(key, value);
-    else if (existing->kind == SceneNode::Kind::kMap && value.kind == SceneNode::Kind::kMap)
+    else if (existing->kind == yaml::Node::Kind::kMap && value.kind == yaml::Node::Kind::kMap)
       overlay(*existing, value);
     else
       *existing = value;
@@ -72,19 +66,19 @@ std::string joined(const std::string& path, const std::string& key)
 }
 
 /** Removes `use` or `file` from a map and reads the named file into @p base. @return false if the map has neither */
-bool extractBase(SceneNode& node, const std::string& path, const std::string& scene_file, SceneNode& base)
+bool extractBase(yaml::Node& node, const std::string& path, const std::string& scene_file, yaml::Node& base)
 {
-  if (node.kind != SceneNode::Kind::kMap)
+  if (node.kind != yaml::Node::Kind::kMap)
     return false;
-  const SceneNode* use = node.find("use");
-  const SceneNode* file = node.find("file");
+  const yaml::Node* use = node.find("use");
+  const yaml::Node* file = node.find("file");
   if (use == nullptr && file == nullptr)
     return false;
   if (use != nullptr && file != nullptr)
     throw InputError(file->file, joined(path, "file") + file->location(), "conflicts with use; keep one of the two");
-  const SceneNode& name = use != nullptr ? *use : *file;
+  const yaml::Node& name = use != nullptr ? *use : *file;
   const std::string key = joined(path, use != nullptr ? "use" : "file");
-  if (use != nullptr && (use->kind != SceneNode::Kind::kScalar || !isInLibrary(use->text)))
+  if (use != nullptr && (use->kind != yaml::Node::Kind::kScalar || !isInLibrary(use->text)))
     throw InputError(use->file, key + use->location(), unknownName(use->text));
   const std::string found = use != nullptr ? pathInLibrary(use->text).string() : findSceneFile(*file, key, scene_file);
   // An override (--set) has no line number. It names another instrument, so the keys for the previous one are dropped.
@@ -92,21 +86,21 @@ bool extractBase(SceneNode& node, const std::string& path, const std::string& sc
   const auto is_stale = [overridden](const auto& field)
   { return field.first == "use" || field.first == "file" || (overridden && field.second.line != 0); };
   node.fields.erase(std::remove_if(node.fields.begin(), node.fields.end(), is_stale), node.fields.end());
-  base = readSceneTree(found);
+  base = yaml::readTree(found);
   return true;
 }
 
-void expandStent(SceneNode& instrument, const std::string& path, const std::string& scene_file)
+void expandStent(yaml::Node& instrument, const std::string& path, const std::string& scene_file)
 {
-  SceneNode* stent = fieldOf(instrument, "stent");
-  SceneNode file;
+  yaml::Node* stent = fieldOf(instrument, "stent");
+  yaml::Node file;
   if (stent == nullptr || !extractBase(*stent, path, scene_file, file))
     return;
-  const SceneNode* base = file.find("stent");
-  if (base == nullptr || base->kind != SceneNode::Kind::kMap)
+  const yaml::Node* base = file.find("stent");
+  if (base == nullptr || base->kind != yaml::Node::Kind::kMap)
     throw InputError(stent->file, path + stent->location(),
                      "\"" + file.file + "\" is not a stent; give a file with kind: stent");
-  SceneNode merged = *base;
+  yaml::Node merged = *base;
   merged.file = stent->file;
   merged.line = stent->line;
   overlay(merged, *stent);
@@ -115,33 +109,33 @@ void expandStent(SceneNode& instrument, const std::string& path, const std::stri
 
 }  // namespace
 
-void expandInstrument(SceneNode& node, const std::string& path, const std::string& scene_file)
+void expandInstrument(yaml::Node& node, const std::string& path, const std::string& scene_file)
 {
-  if (node.kind == SceneNode::Kind::kScalar)
-    node = readSceneTree(findSceneFile(node, path, scene_file));
-  SceneNode base;
+  if (node.kind == yaml::Node::Kind::kScalar)
+    node = yaml::readTree(findSceneFile(node, path, scene_file));
+  yaml::Node base;
   if (extractBase(node, path, scene_file, base))
   {
     overlay(base, node);
     node = base;
   }
-  if (node.kind == SceneNode::Kind::kMap)
+  if (node.kind == yaml::Node::Kind::kMap)
     expandStent(node, joined(path, "stent"), scene_file);
 }
 
 instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides,
                                       std::vector<std::string>* warnings)
 {
-  SceneNode root = readSceneTree(file);
+  yaml::Node root = yaml::readTree(file);
   expandInstrument(root, "", file);
   for (const std::string& override_text : overrides)
   {
-    overrideSceneTree(root, override_text, file);
+    yaml::overrideTree(root, override_text, file);
     expandInstrument(root, "", file);
   }
   instrument::Instrument instrument;
-  ReadingReport report;
-  SceneReader reader(&root, root, "", &report);
+  yaml::ReadingReport report;
+  yaml::Reader reader(root, &report);
   visitInstrument(reader, instrument);
   reader.finish();
   if (warnings != nullptr)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "instrument/instrument.h"
-#include "scene/yaml/yaml_tree.h"
+#include "yaml/tree.h"
 
 namespace endovascular_sim::scene
 {
@@ -22,7 +22,7 @@ namespace endovascular_sim::scene
  *  @param scene_file scene file, whose folder is searched first
  *  @throws InputError for a missing file, for an unknown name (suggesting the nearest one), or if both `use` and `file`
  *          are given */
-void expandInstrument(SceneNode& node, const std::string& path, const std::string& scene_file);
+void expandInstrument(yaml::Node& node, const std::string& path, const std::string& scene_file);
 
 /** Loads one instrument.
  *  @param file path of the YAML file

@@ -1,10 +1,10 @@
 #include "scene/mesh_trial.h"
 
 #include "common/error.h"
+#include "scene/file_search.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
-#include "scene/yaml/file_search.h"
 #include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::scene

@@ -75,27 +75,28 @@ std::string shortPath(const std::string& path)
 
 }  // namespace
 
-std::vector<NumericKey> numericKeys()
+std::vector<yaml::NumericKey> numericKeys()
 {
-  std::vector<NumericKey> keys;
+  std::vector<yaml::NumericKey> keys;
   for (const std::string& text : kScenes)
   {
-    const SceneNode root = parseSceneTree(text, "schema");
+    const yaml::Node root = yaml::parseTree(text, "schema");
     Scene scene;
     scene.name = "schema";
-    ReadingReport report;
-    SceneReader reader(&root, root, "", &report);
+    yaml::ReadingReport report;
+    yaml::Reader reader(root, &report);
     visitScene(reader, scene);
     reader.finish();
-    for (NumericKey& key : report.keys)
+    for (yaml::NumericKey& key : report.keys)
     {
       key.path = shortPath(key.path);
-      if (std::none_of(keys.begin(), keys.end(), [&key](const NumericKey& other) { return other.path == key.path; }))
+      if (std::none_of(keys.begin(), keys.end(),
+                       [&key](const yaml::NumericKey& other) { return other.path == key.path; }))
         keys.push_back(key);
     }
   }
   std::stable_sort(keys.begin(), keys.end(),
-                   [](const NumericKey& a, const NumericKey& b)
+                   [](const yaml::NumericKey& a, const yaml::NumericKey& b)
                    { return a.path.substr(0, a.path.find('.')) < b.path.substr(0, b.path.find('.')); });
   return keys;
 }
@@ -103,7 +104,7 @@ std::vector<NumericKey> numericKeys()
 std::string numericKeysTable()
 {
   std::string table = "| key | unit | usual | accepted |\n|---|---|---|---|\n";
-  for (const NumericKey& key : numericKeys())
+  for (const yaml::NumericKey& key : numericKeys())
     table += "| `" + key.path + "` | " + (key.unit.empty() ? "–" : key.unit) + " | " + key.usual + " | " +
              key.accepted + " |\n";
   return table;

@@ -5,18 +5,18 @@
 #include "common/error.h"
 #include "common/file_name.h"
 #include "robot/urdf_reader.h"
+#include "scene/file_search.h"
 #include "scene/instrument_library.h"
 #include "scene/schema/scene_schema.h"
-#include "scene/yaml/file_search.h"
-#include "scene/yaml/yaml_reader.h"
-#include "scene/yaml/yaml_writer.h"
+#include "yaml/reader.h"
+#include "yaml/writer.h"
 
 namespace endovascular_sim::scene
 {
 namespace
 {
 
-SceneNode* fieldOf(SceneNode& map, const std::string& key)
+yaml::Node* fieldOf(yaml::Node& map, const std::string& key)
 {
   for (auto& field : map.fields)
     if (field.first == key)
@@ -25,32 +25,32 @@ SceneNode* fieldOf(SceneNode& map, const std::string& key)
 }
 
 /** Replaces the path of a procedure with the content of the file. */
-void expandProcedure(SceneNode& procedure, const std::string& file)
+void expandProcedure(yaml::Node& procedure, const std::string& file)
 {
-  if (procedure.kind == SceneNode::Kind::kScalar)
-    procedure = readSceneTree(findSceneFile(procedure, "procedure", file));
+  if (procedure.kind == yaml::Node::Kind::kScalar)
+    procedure = yaml::readTree(findSceneFile(procedure, "procedure", file));
 }
 
 /** Treats `part: none` as a missing key. */
-void removeIfNone(SceneNode* part)
+void removeIfNone(yaml::Node* part)
 {
-  if (part != nullptr && part->kind == SceneNode::Kind::kScalar && part->text == "none")
-    part->kind = SceneNode::Kind::kNull;
+  if (part != nullptr && part->kind == yaml::Node::Kind::kScalar && part->text == "none")
+    part->kind = yaml::Node::Kind::kNull;
 }
 
 /** Expands references to instrument and procedure files, and removes optional parts that are `none`. */
-void normalise(SceneNode& root, const std::string& file)
+void normalise(yaml::Node& root, const std::string& file)
 {
-  if (SceneNode* instrument = fieldOf(root, "instrument"))
+  if (yaml::Node* instrument = fieldOf(root, "instrument"))
     expandInstrument(*instrument, "instrument", file);
-  if (SceneNode* instruments = fieldOf(root, "instruments"))
+  if (yaml::Node* instruments = fieldOf(root, "instruments"))
     for (std::size_t k = 0; k < instruments->items.size(); ++k)
-      if (SceneNode* instrument = fieldOf(instruments->items[k], "instrument"))
+      if (yaml::Node* instrument = fieldOf(instruments->items[k], "instrument"))
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
-  if (SceneNode* procedure = fieldOf(root, "procedure"))
+  if (yaml::Node* procedure = fieldOf(root, "procedure"))
     expandProcedure(*procedure, file);
   removeIfNone(fieldOf(root, "vessel"));
-  SceneNode* fluoroscopy = fieldOf(root, "fluoroscopy");
+  yaml::Node* fluoroscopy = fieldOf(root, "fluoroscopy");
   removeIfNone(fluoroscopy);
   if (fluoroscopy != nullptr)
     removeIfNone(fieldOf(*fluoroscopy, "patient"));
@@ -58,20 +58,20 @@ void normalise(SceneNode& root, const std::string& file)
 
 /** Resolves the paths of the vessel's files and of the CT. The resolved text retains the paths as written, so that the
  *  hash of the scene does not depend on the machine. */
-void resolvePaths(Scene& scene, const SceneNode& root)
+void resolvePaths(Scene& scene, const yaml::Node& root)
 {
-  const SceneNode* x_ray = root.find("fluoroscopy");
-  const SceneNode* patient = x_ray == nullptr ? nullptr : x_ray->find("patient");
-  if (const SceneNode* ct = patient == nullptr ? nullptr : patient->find("ct"))
+  const yaml::Node* x_ray = root.find("fluoroscopy");
+  const yaml::Node* patient = x_ray == nullptr ? nullptr : x_ray->find("patient");
+  if (const yaml::Node* ct = patient == nullptr ? nullptr : patient->find("ct"))
     scene.fluoroscopy->patient->ct = findSceneFile(*ct, "fluoroscopy.patient.ct", scene.file);
-  const SceneNode* vessel = root.find("vessel");
+  const yaml::Node* vessel = root.find("vessel");
   if (vessel == nullptr)
     return;
-  if (const SceneNode* mesh = vessel->find("mesh"))
+  if (const yaml::Node* mesh = vessel->find("mesh"))
     scene.vessel->mesh = findSceneFile(*mesh, "vessel.mesh", scene.file);
-  if (const SceneNode* centreline = vessel->find("centreline"))
+  if (const yaml::Node* centreline = vessel->find("centreline"))
     scene.vessel->centreline = findSceneFile(*centreline, "vessel.centreline", scene.file);
-  if (const SceneNode* anatomy = vessel->find("anatomy"))
+  if (const yaml::Node* anatomy = vessel->find("anatomy"))
     scene.vessel->anatomy = findAnatomy(*anatomy, "vessel.anatomy", scene.file);
 }
 
@@ -85,12 +85,12 @@ double startOf(const DriveScene& drive, robot::Motion motion)
 
 /** Reads the robot's URDF, checks its joints, and adds their limits to those of the instruments. The resolved text has
  *  these limits, so that a recording needs no URDF. */
-void resolveRobot(Scene& scene, const SceneNode& root)
+void resolveRobot(Scene& scene, const yaml::Node& root)
 {
   if (!scene.robot)
     return;
   RobotScene& robot = *scene.robot;
-  const SceneNode& node = *root.find("robot");
+  const yaml::Node& node = *root.find("robot");
   robot.model = robot::readUrdf(findSceneFile(*node.find("urdf"), "robot.urdf", scene.file));
   std::vector<DriveScene*> drives;
   std::vector<double> starts;
@@ -105,8 +105,8 @@ void resolveRobot(Scene& scene, const SceneNode& root)
       }
   if (const std::optional<robot::LinkFault> fault = robot::findFault(robot.model, robot.joints, starts))
   {
-    const SceneNode& link = node.find("joints")->items[fault->link];
-    const SceneNode* value = link.find(fault->key);
+    const yaml::Node& link = node.find("joints")->items[fault->link];
+    const yaml::Node* value = link.find(fault->key);
     throw InputError(scene.file,
                      "robot.joints." + std::to_string(fault->link) + "." + fault->key +
                          (value != nullptr ? *value : link).location(),
@@ -128,26 +128,26 @@ enum class Origin
   kRecording,  ///< values were judged before recording; the recording contains the vessel
 };
 
-Scene buildScene(SceneNode root, const std::string& file, const std::vector<std::string>& overrides,
+Scene buildScene(yaml::Node root, const std::string& file, const std::vector<std::string>& overrides,
                  Origin origin = Origin::kUser)
 {
   normalise(root, file);
   for (const std::string& override_text : overrides)
   {
-    overrideSceneTree(root, override_text, file);
+    yaml::overrideTree(root, override_text, file);
     normalise(root, file);
   }
   Scene scene;
   scene.file = file;
   scene.name = fileNameOf(std::filesystem::path(file).stem().string());
-  ReadingReport report;
-  SceneReader reader(&root, root, "", origin == Origin::kUser ? &report : nullptr);
+  yaml::ReadingReport report;
+  yaml::Reader reader(root, origin == Origin::kUser ? &report : nullptr);
   visitScene(reader, scene);
   reader.finish();
   scene.warnings = report.warnings;
   if (origin == Origin::kUser)
     resolveRobot(scene, root);
-  SceneWriter writer;
+  yaml::Writer writer;
   visitScene(writer, scene);
   scene.resolved_yaml = writer.yaml();
   if (origin == Origin::kUser)
@@ -159,17 +159,17 @@ Scene buildScene(SceneNode root, const std::string& file, const std::vector<std:
 
 Scene loadScene(const std::string& file, const std::vector<std::string>& overrides)
 {
-  return buildScene(readSceneTree(file), file, overrides);
+  return buildScene(yaml::readTree(file), file, overrides);
 }
 
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides)
 {
-  return buildScene(parseSceneTree(yaml, origin), origin, overrides);
+  return buildScene(yaml::parseTree(yaml, origin), origin, overrides);
 }
 
 Scene parseRecordedScene(const std::string& yaml, const std::string& origin)
 {
-  return buildScene(parseSceneTree(yaml, origin), origin, {}, Origin::kRecording);
+  return buildScene(yaml::parseTree(yaml, origin), origin, {}, Origin::kRecording);
 }
 
 }  // namespace endovascular_sim::scene

@@ -6,7 +6,7 @@
 #include "common/error.h"
 #include "fluoroscopy/gantry/view.h"
 #include "fluoroscopy/patient/progressive_projection.h"
-#include "scene/yaml/file_search.h"
+#include "scene/file_search.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::session

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/file_search.h"
 #include "scene/scene_file.h"
-#include "scene/yaml/file_search.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::session

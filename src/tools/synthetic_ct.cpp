@@ -10,7 +10,7 @@
 #include "image/volume_file.h"
 #include "phantom/phantom.h"
 #include "phantom/true_clicks.h"
-#include "scene/yaml/file_search.h"
+#include "scene/file_search.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy.h"

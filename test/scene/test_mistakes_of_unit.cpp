@@ -122,9 +122,9 @@ TEST(MistakesOfUnit, DoNotOccurInTheShippedFiles)
 
 TEST(NumericKeys, EachHasAUnitAndAnInterval)
 {
-  const std::vector<NumericKey> keys = numericKeys();
+  const std::vector<yaml::NumericKey> keys = numericKeys();
   EXPECT_GT(keys.size(), 150U);
-  for (const NumericKey& key : keys)
+  for (const yaml::NumericKey& key : keys)
   {
     EXPECT_FALSE(key.usual.empty()) << key.path;
     EXPECT_FALSE(key.accepted.empty()) << key.path;

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "scene/file_search.h"
 #include "scene/sampling_error.h"
 #include "scene/scene_file.h"
-#include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::scene
 {

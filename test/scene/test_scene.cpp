@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "common/error.h"
+#include "scene/file_search.h"
 #include "scene/scene_vessel.h"
-#include "scene/yaml/file_search.h"
 
 namespace endovascular_sim::scene
 {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "common/error.h"
+#include "scene/file_search.h"
 #include "scene/scene_file.h"
-#include "scene/yaml/file_search.h"
 #include "session/session.h"
 
 namespace endovascular_sim::benchmark

@@ -11,7 +11,7 @@
 #include "common/error.h"
 #include "contact/wall/smooth_wall.h"
 #include "geometry/loop_subdivision.h"
-#include "scene/yaml/file_search.h"
+#include "scene/file_search.h"
 #include "vessel/anatomy/anatomy.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/anatomy/tube.h"

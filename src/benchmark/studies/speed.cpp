@@ -8,7 +8,7 @@
 #include "benchmark/reference/static_cases.h"
 #include "benchmark/studies/shared_wall.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "scene/yaml/file_search.h"
+#include "scene/file_search.h"
 #include "visualization/tube_mesh.h"
 
 #if defined(__x86_64__)

@@ -5,9 +5,9 @@
 
 #include "common/error.h"
 #include "fluoroscopy/projection/coaxial_stack.h"
+#include "scene/file_search.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
-#include "scene/yaml/file_search.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::benchmark

@@ -1,15 +1,12 @@
 #include "fluoroscopy/beam/material_library.h"
 
 #include <xraylib/xraylib.h>
-#include <yaml-cpp/yaml.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "common/error.h"
-#include "common/input_file.h"
 #include "common/quantities.h"
-#include "common/text/yaml_text.h"
+#include "yaml/reader.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -41,47 +38,40 @@ double mixture(const Composition& composition, double energy, double (*coefficie
   return sum * kSquareCentimetrePerGram;
 }
 
-double positiveNumber(const YAML::Node& node, const std::string& file, const std::string& key)
+/** Key `composition`: a compound, or a map from compounds to mass fractions. */
+Composition readComposition(yaml::Fields& fields)
 {
-  double value = 0.0;
-  if (!node || !YAML::convert<double>::decode(node, value) || !std::isfinite(value) || value <= 0.0)
-    throw InputError(file, key, "must be a positive number");
-  return value;
-}
-
-Composition readComposition(const YAML::Node& node, const std::string& file, const std::string& key)
-{
+  const std::string key = "composition";
   Composition composition;
-  if (node && node.IsScalar())
-    composition[node.as<std::string>()] = 1.0;
-  else if (node && node.IsMap() && node.size() > 0)
+  if (!fields.hasMap(key))
   {
-    double sum = 0.0;
-    for (const auto& part : node)
-    {
-      const auto compound = part.first.as<std::string>();
-      sum += composition[compound] = positiveNumber(part.second, file, key + "." + compound);
-    }
-    if (std::abs(sum - 1.0) > kFractionTolerance)
-      throw InputError(file, key, "has mass fractions with the sum " + std::to_string(sum) + "; they must add up to 1");
+    std::string compound;
+    fields.text(key, compound, yaml::Need::kRequired);
+    composition[compound] = 1.0;
   }
   else
-    throw InputError(file, key, "must be a compound, or a map from compounds to mass fractions");
+    fields.map(key,
+               [&](yaml::Fields& parts)
+               {
+                 double sum = 0.0;
+                 for (const std::string& compound : parts.keys())
+                 {
+                   parts.number(compound, composition[compound], quantities::kNumber, yaml::Range::positive());
+                   sum += composition[compound];
+                 }
+                 if (std::abs(sum - 1.0) > kFractionTolerance)
+                   parts.reject("",
+                                "has mass fractions with the sum " + std::to_string(sum) + "; they must add up to 1");
+               });
   try
   {
     massAttenuation(composition, 60.0);
   }
   catch (const InputError& error)
   {
-    throw InputError(file, key, error.what());
+    fields.reject(key, error.what());
   }
   return composition;
-}
-
-YAML::Node parse(const std::string& file)
-{
-  std::ifstream stream = openInputFile(file, "give a file of materials as config/xray/materials.yaml");
-  return parseYamlText({std::istreambuf_iterator<char>(stream), {}}, file);
 }
 
 }  // namespace
@@ -98,36 +88,23 @@ double massEnergyAbsorption(const Composition& composition, double energy)
 
 MaterialLibrary MaterialLibrary::load(const std::string& file)
 {
-  const YAML::Node root = parse(file);
-  if (!root.IsMap() || root.size() == 0)
-    throw InputError(file, "", "must map the name of each material to density and composition");
+  const yaml::Node root = yaml::readTree(file, "give a file of materials as config/xray/materials.yaml");
+  yaml::ReadingReport report;
+  yaml::Reader reader(root, &report);
   MaterialLibrary library;
   library.file_ = file;
-  for (const auto& entry : root)
-  {
-    const auto name = entry.first.as<std::string>();
-    const YAML::Node& node = entry.second;
-    if (!node.IsMap())
-      throw InputError(file, name, "must contain density and composition");
-    if (node["mass_attenuation"])
-      throw InputError(file, name + ".mass_attenuation", "is not used; give the composition instead");
-    Material material;
-    const double density = positiveNumber(node["density"], file, name + ".density");
-    library.judge(name + ".density", quantities::kMaterialDensity, density);
-    material.density = density * kGramPerCubicCentimetre;
-    material.composition = readComposition(node["composition"], file, name + ".composition");
-    library.materials_[name] = material;
-  }
+  for (const std::string& name : reader.keys())
+    reader.map(name,
+               [&](yaml::Fields& fields)
+               {
+                 Material& material = library.materials_[name];
+                 fields.number("density", material.density, quantities::kMaterialDensity, yaml::Range::positive(),
+                               yaml::Need::kRequired);
+                 material.density *= kGramPerCubicCentimetre;
+                 material.composition = readComposition(fields);
+               });
+  library.warnings_ = report.warnings;
   return library;
-}
-
-void MaterialLibrary::judge(const std::string& key, const Quantity& quantity, double value)
-{
-  const Plausibility result = plausibility(quantity, value);
-  if (result == Plausibility::kImpossible)
-    throw InputError(file_, key, plausibilityMessage(quantity, value));
-  if (result == Plausibility::kUnusual)
-    warnings_.push_back(file_ + ": " + key + ": " + plausibilityMessage(quantity, value));
 }
 
 const MaterialLibrary::Material& MaterialLibrary::find(const std::string& material) const

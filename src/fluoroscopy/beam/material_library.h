@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "common/quantity.h"
-
 namespace endovascular_sim::fluoroscopy
 {
 
@@ -58,9 +56,6 @@ private:
   };
 
   const Material& find(const std::string& material) const;
-  /** Warns of an unusual value.
-   *  @throws InputError for an impossible value */
-  void judge(const std::string& key, const Quantity& quantity, double value);
 
   std::string file_;
   std::map<std::string, Material> materials_;

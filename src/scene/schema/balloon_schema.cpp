@@ -17,7 +17,7 @@ std::string inMillimetres(double length)
 
 /** Visits a table of two columns, stored as a vector of structures with two numbers. */
 template <typename Row>
-void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& table, double Row::*x, double Row::*y,
+void visitTable(yaml::Fields& fields, const std::string& key, std::vector<Row>& table, double Row::*x, double Row::*y,
                 const Quantity& x_quantity, const Quantity& y_quantity)
 {
   std::vector<std::vector<double>> rows;
@@ -37,7 +37,7 @@ void visitTable(SceneFields& fields, const std::string& key, std::vector<Row>& t
   }
 }
 
-void checkCompliance(const SceneFields& fields, const instrument::Balloon& balloon)
+void checkCompliance(const yaml::Fields& fields, const instrument::Balloon& balloon)
 {
   if (balloon.compliance.size() < 2)
     fields.reject("compliance", "needs two rows or more of [pressure in Pa, diameter in m]");
@@ -57,7 +57,7 @@ void checkCompliance(const SceneFields& fields, const instrument::Balloon& ballo
   }
 }
 
-void checkPressures(const SceneFields& fields, const instrument::Balloon& balloon)
+void checkPressures(const yaml::Fields& fields, const instrument::Balloon& balloon)
 {
   if (balloon.nominal_pressure < balloon.compliance.front().pressure ||
       balloon.nominal_pressure > balloon.compliance.back().pressure)
@@ -68,7 +68,7 @@ void checkPressures(const SceneFields& fields, const instrument::Balloon& balloo
     fields.reject("burst_pressure", "must be at least rated_burst_pressure");
 }
 
-void checkStent(const SceneFields& fields, const instrument::Stent& stent)
+void checkStent(const yaml::Fields& fields, const instrument::Stent& stent)
 {
   for (std::size_t k = 0; k < stent.expansion.size(); ++k)
   {
@@ -95,13 +95,13 @@ void checkStent(const SceneFields& fields, const instrument::Stent& stent)
 
 }  // namespace
 
-void visitBalloon(SceneFields& fields, instrument::Instrument& instrument)
+void visitBalloon(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   if (!instrument.balloon)
     instrument.balloon.emplace();
   instrument::Balloon& balloon = *instrument.balloon;
   const double shaft = instrument.wire.length();
-  const auto visit = [&balloon, shaft](SceneFields& keys)
+  const auto visit = [&balloon, shaft](yaml::Fields& keys)
   {
     const Range positive = Range::positive();
     keys.number("from_tip", balloon.from_tip, quantities::kFromTip, Range::nonNegative(), Need::kRequired);
@@ -125,12 +125,12 @@ void visitBalloon(SceneFields& fields, instrument::Instrument& instrument)
   fields.map("balloon", visit);
 }
 
-void visitStent(SceneFields& fields, instrument::Instrument& instrument)
+void visitStent(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   if (!instrument.stent)
     instrument.stent.emplace();
   instrument::Stent& stent = *instrument.stent;
-  const auto visit = [&instrument, &stent](SceneFields& keys)
+  const auto visit = [&instrument, &stent](yaml::Fields& keys)
   {
     const Range positive = Range::positive();
     keys.number("crimped_diameter", stent.crimped_diameter, quantities::kBalloonDiameter, positive, Need::kRequired);

@@ -12,13 +12,13 @@ const std::vector<std::string> kEndConditions = {"free", "pinned", "clamped"};
 const std::vector<std::string> kTwists = {"free", "held"};
 
 /** Rejects a profile that is not zero at time 0. The wire is straight at the start. */
-void requireZeroStart(const SceneFields& fields, const std::string& key, const DriveProfile& profile)
+void requireZeroStart(const yaml::Fields& fields, const std::string& key, const DriveProfile& profile)
 {
   if (profile.at(0.0) != 0.0)
     fields.reject(key, "is not 0 at time 0, but the wire is straight at the start; start the profile at [0, 0]");
 }
 
-void checkDistalEnd(SceneFields& fields, const Scene& scene)
+void checkDistalEnd(yaml::Fields& fields, const Scene& scene)
 {
   const DistalScene& distal = scene.distal;
   const bool clamped = scene.distal_end == rod::EndHold::kClamped;
@@ -36,7 +36,7 @@ void checkDistalEnd(SceneFields& fields, const Scene& scene)
   requireZeroStart(fields, "tilt", distal.tilt);
 }
 
-void visitDistalEnd(SceneFields& fields, Scene& scene)
+void visitDistalEnd(yaml::Fields& fields, Scene& scene)
 {
   DistalScene& distal = scene.distal;
   fields.option("hold", scene.distal_end, kEndConditions, Need::kRequired);
@@ -44,19 +44,19 @@ void visitDistalEnd(SceneFields& fields, Scene& scene)
   fields.choice("twist", twist, kTwists);
   distal.twist_held = twist == 1;
   fields.map("displacement",
-             [&distal](SceneFields& motion)
+             [&distal](yaml::Fields& motion)
              {
                visitProfile(motion, distal.displacement, quantities::kDisplacement);
                motion.vector3("direction", distal.direction, quantities::kDirection);
              });
   fields.map("tilt",
-             [&distal](SceneFields& motion)
+             [&distal](yaml::Fields& motion)
              {
                visitProfile(motion, distal.tilt, quantities::kAngle);
                motion.vector3("axis", distal.tilt_axis, quantities::kDirection);
              });
   fields.map("rotation",
-             [&distal](SceneFields& motion) { visitProfile(motion, distal.rotation, quantities::kRotation); });
+             [&distal](yaml::Fields& motion) { visitProfile(motion, distal.rotation, quantities::kRotation); });
   if (fields.reading())
     checkDistalEnd(fields, scene);
 }
@@ -74,7 +74,7 @@ bool hasBendingCause(const Scene& scene, const Eigen::Vector3d& along)
 
 /** Rejects a displacement that would stretch the inextensible wire, or that compresses a perfectly straight one. The
  *  buckling direction of a perfectly straight wire is undefined. */
-void checkDisplacement(const SceneFields& fields, const Scene& scene)
+void checkDisplacement(const yaml::Fields& fields, const Scene& scene)
 {
   const double length = scene.longest();
   const Eigen::Vector3d along = scene.entry.direction.normalized();
@@ -93,16 +93,16 @@ void checkDisplacement(const SceneFields& fields, const Scene& scene)
 
 }  // namespace
 
-void visitEnds(SceneFields& fields, Scene& scene)
+void visitEnds(yaml::Fields& fields, Scene& scene)
 {
   fields.option("proximal_end", scene.proximal_end, kEndConditions);
   if (fields.reading() ? fields.hasMap("distal_end") : scene.distal.isDriven())
-    fields.map("distal_end", [&scene](SceneFields& end) { visitDistalEnd(end, scene); });
+    fields.map("distal_end", [&scene](yaml::Fields& end) { visitDistalEnd(end, scene); });
   else
     fields.option("distal_end", scene.distal_end, kEndConditions);
 }
 
-void checkEnds(const SceneFields& fields, const Scene& scene)
+void checkEnds(const yaml::Fields& fields, const Scene& scene)
 {
   if (scene.introducer && scene.distal_end != rod::EndHold::kFree && !scene.solver.traits().holds_inserted_end)
     fields.reject("distal_end",

@@ -8,7 +8,7 @@ namespace
 {
 
 /** Registration of a CT: rotation, or head and left, and translation. */
-void visitRegistration(SceneFields& fields, PatientScene& patient)
+void visitRegistration(yaml::Fields& fields, PatientScene& patient)
 {
   bool given = !fields.reading();
   for (const char* key : {"rotation", "head", "left", "translation"})
@@ -23,7 +23,7 @@ void visitRegistration(SceneFields& fields, PatientScene& patient)
   patient.patient_from_ct = transform;
 }
 
-void visitPatient(SceneFields& fields, PatientScene& patient)
+void visitPatient(yaml::Fields& fields, PatientScene& patient)
 {
   if (fields.reading() ? fields.has("ct") : !patient.ct.empty())
   {
@@ -41,7 +41,7 @@ void visitPatient(SceneFields& fields, PatientScene& patient)
 
 }  // namespace
 
-void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+void visitFluoroscopy(yaml::Fields& fields, FluoroscopyScene& fluoroscopy)
 {
   fields.number("rate", fluoroscopy.rate, quantities::kFrameRate, {0.0, 60.0, true, false});
   fields.integer("pixels", fluoroscopy.pixels, 16, 4096);
@@ -78,7 +78,7 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
   {
     if (!fluoroscopy.patient)
       fluoroscopy.patient.emplace();
-    fields.map("patient", [&fluoroscopy](SceneFields& patient) { visitPatient(patient, *fluoroscopy.patient); });
+    fields.map("patient", [&fluoroscopy](yaml::Fields& patient) { visitPatient(patient, *fluoroscopy.patient); });
     if (fields.reading() && fields.has("tissue_thickness"))
       fields.reject("tissue_thickness", "conflicts with patient; keep one of the two");
   }
@@ -87,7 +87,7 @@ void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy)
   fields.boolean("follow_tip", fluoroscopy.follow_tip);
 }
 
-void checkPatient(const SceneFields& fields, const Scene& scene)
+void checkPatient(const yaml::Fields& fields, const Scene& scene)
 {
   if (scene.fluoroscopy && scene.fluoroscopy->patient && scene.fluoroscopy->patient->body && !scene.vessel)
     fields.reject("fluoroscopy.patient.body",

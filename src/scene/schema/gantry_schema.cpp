@@ -12,7 +12,7 @@ namespace
 
 constexpr double kSmallestField = 0.02;  // [m]
 
-void visitRange(SceneFields& fields, const std::string& key, fluoroscopy::LengthRange& range, const Quantity& quantity)
+void visitRange(yaml::Fields& fields, const std::string& key, fluoroscopy::LengthRange& range, const Quantity& quantity)
 {
   double values[2] = {range.min, range.max};
   fields.numbers(key, values, 2, quantity);
@@ -21,7 +21,7 @@ void visitRange(SceneFields& fields, const std::string& key, fluoroscopy::Length
     fields.reject(key, "must be [smallest, largest], both positive [m]");
 }
 
-void visitGantryLimits(SceneFields& fields, fluoroscopy::GantryLimits& limits)
+void visitGantryLimits(yaml::Fields& fields, fluoroscopy::GantryLimits& limits)
 {
   fields.number("primary_limit", limits.primary, quantities::kImagingAngle, Range::between(0.0, M_PI));
   fields.number("secondary_limit", limits.secondary, quantities::kImagingAngle, Range::between(0.0, 0.5 * M_PI));
@@ -36,7 +36,7 @@ void visitGantryLimits(SceneFields& fields, fluoroscopy::GantryLimits& limits)
   fields.number("table_speed", limits.table_speed, quantities::kSpeed, Range::positive());
 }
 
-void visitField(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+void visitField(yaml::Fields& fields, FluoroscopyScene& fluoroscopy)
 {
   if (!(fields.reading() ? fields.has("field") : fluoroscopy.field_width != 0.0 || fluoroscopy.field_height != 0.0))
     return;
@@ -51,7 +51,7 @@ void visitField(SceneFields& fields, FluoroscopyScene& fluoroscopy)
 
 }  // namespace
 
-void visitAngulation(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+void visitAngulation(yaml::Fields& fields, FluoroscopyScene& fluoroscopy)
 {
   const Range turn = Range::between(-M_PI, M_PI);
   if (!(fields.reading() ? fields.has("view") : !fluoroscopy.view.empty()))
@@ -73,12 +73,12 @@ void visitAngulation(SceneFields& fields, FluoroscopyScene& fluoroscopy)
   fluoroscopy.secondary_angle = view->secondary_angle;
 }
 
-void visitGantry(SceneFields& fields, FluoroscopyScene& fluoroscopy)
+void visitGantry(yaml::Fields& fields, FluoroscopyScene& fluoroscopy)
 {
   // Defaults are not written: the texts and hashes of scenes without these keys stay as they are.
   visitField(fields, fluoroscopy);
   if (fields.reading() ? fields.has("gantry") : fluoroscopy.gantry != fluoroscopy::GantryLimits())
-    fields.map("gantry", [&fluoroscopy](SceneFields& gantry) { visitGantryLimits(gantry, fluoroscopy.gantry); });
+    fields.map("gantry", [&fluoroscopy](yaml::Fields& gantry) { visitGantryLimits(gantry, fluoroscopy.gantry); });
   if (!fields.reading())
     return;
   const fluoroscopy::CArmPose pose = fluoroscopy.pose();
@@ -89,7 +89,7 @@ void visitGantry(SceneFields& fields, FluoroscopyScene& fluoroscopy)
                   violation->remedy + ", or change fluoroscopy.gantry");
 }
 
-void checkView(const SceneFields& fields, const std::string& key, const std::string& view, const Scene& scene)
+void checkView(const yaml::Fields& fields, const std::string& key, const std::string& view, const Scene& scene)
 {
   const std::optional<fluoroscopy::View> angles = fluoroscopy::parseView(view);
   if (!angles || !scene.fluoroscopy)

@@ -18,7 +18,7 @@ const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "po
 const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
 
 /** Reads EI, GJ and EA. Each is given directly or derived for a hollow cylinder with this lumen. */
-void readStiffness(SceneFields& fields, rod::Section& section, double inner_radius)
+void readStiffness(yaml::Fields& fields, rod::Section& section, double inner_radius)
 {
   const auto exactly_one = [&fields](const std::vector<std::string>& keys)
   {
@@ -53,14 +53,14 @@ void readStiffness(SceneFields& fields, rod::Section& section, double inner_radi
   fields.number("axial_stiffness", section.axial_stiffness, quantities::kAxialStiffness, Range::positive());
 }
 
-void visitRestCurvature(SceneFields& fields, rod::Section& section)
+void visitRestCurvature(yaml::Fields& fields, rod::Section& section)
 {
   const std::string key = "rest_curvature";
   if (!fields.hasMap(key))
     fields.numbers(key, section.rest_curvature.data(), 2, quantities::kWireCurvature);
   else
     fields.map(key,
-               [&section](SceneFields& arc)
+               [&section](yaml::Fields& arc)
                {
                  double radius = 0.0;
                  double direction = 0.0;
@@ -72,7 +72,7 @@ void visitRestCurvature(SceneFields& fields, rod::Section& section)
     fields.reject(key, "exceeds the curvature limit of the wire; must be less than 1/radius in 1/m");
 }
 
-void visitSection(SceneFields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
+void visitSection(yaml::Fields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
 {
   fields.number("length", section.length, quantities::kSectionLength, Range::positive(), Need::kRequired);
   fields.number("radius", section.radius, quantities::kWireRadius, Range::positive(), Need::kRequired);
@@ -95,7 +95,7 @@ void visitSection(SceneFields& fields, rod::Section& section, instrument::Materi
 
 /** Reads the shape of the tip and converts it to rest curvature of the distal sections. The resolved text contains the
  *  rest curvature only. */
-void readTip(SceneFields& fields, instrument::Instrument& instrument)
+void readTip(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   const std::vector<std::string> shapes = {"straight", "angled", "semicircle", "j"};
   int shape = 0;
@@ -128,14 +128,14 @@ void readTip(SceneFields& fields, instrument::Instrument& instrument)
   }
 }
 
-void visitMarkers(SceneFields& fields, instrument::Instrument& instrument)
+void visitMarkers(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   auto& markers = instrument.markers;
   if (!fields.reading() && markers.empty())
     return;
   fields.list(
       "markers", markers.size(), [&markers](std::size_t size) { markers.resize(size); },
-      [&](SceneFields& ring, std::size_t k)
+      [&](yaml::Fields& ring, std::size_t k)
       {
         instrument::Marker& marker = markers[k];
         ring.number("from_tip", marker.from_tip, quantities::kFromTip, Range::nonNegative(), Need::kRequired);
@@ -154,7 +154,7 @@ bool isTopicName(const std::string& name)
                      [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
 }
 
-void visitShaft(SceneFields& fields, instrument::Instrument& instrument)
+void visitShaft(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   const bool solid = instrument.kind == instrument::Kind::kGuidewire;
   if (!solid)
@@ -169,17 +169,17 @@ void visitShaft(SceneFields& fields, instrument::Instrument& instrument)
         wire.sections.resize(size);
         instrument.materials.resize(size);
       },
-      [&](SceneFields& section, std::size_t k)
+      [&](yaml::Fields& section, std::size_t k)
       { visitSection(section, wire.sections[k], instrument.materials[k], instrument.inner_radius); },
       Need::kRequired);
   if (fields.has("tip"))
-    fields.map("tip", [&instrument](SceneFields& tip) { readTip(tip, instrument); });
+    fields.map("tip", [&instrument](yaml::Fields& tip) { readTip(tip, instrument); });
   visitMarkers(fields, instrument);
 }
 
 }  // namespace
 
-void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
+void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   fields.text("name", instrument.name, Need::kRequired);
   if (fields.reading() && !isTopicName(instrument.name))
@@ -199,7 +199,7 @@ void visitInstrument(SceneFields& fields, instrument::Instrument& instrument)
     fields.reject("stent", "requires a balloon; set kind: balloon_catheter, or stent");
 }
 
-void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument)
+void visitDrivenInstrument(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   visitInstrument(fields, instrument);
   if (fields.reading() && instrument.kind == instrument::Kind::kStent)

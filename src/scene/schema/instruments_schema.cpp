@@ -13,12 +13,12 @@ namespace
 // Initial insertion of one of several instruments [m]. A negative value keeps the instrument outside the introducer.
 const Range kStackInsertion = {-1.0, std::numeric_limits<double>::max(), false, false};
 
-void visitLayer(SceneFields& fields, DrivenInstrument& driven)
+void visitLayer(yaml::Fields& fields, DrivenInstrument& driven)
 {
   if (fields.reading() && !fields.has("instrument"))
     fields.reject("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
-  fields.map("instrument", [&driven](SceneFields& wire) { visitDrivenInstrument(wire, driven.instrument); });
-  fields.map("drive", [&driven](SceneFields& drive)
+  fields.map("instrument", [&driven](yaml::Fields& wire) { visitDrivenInstrument(wire, driven.instrument); });
+  fields.map("drive", [&driven](yaml::Fields& drive)
              { visitDrive(drive, driven.drive, kStackInsertion, driven.instrument.balloon.has_value()); });
   fields.number("friction", driven.friction, quantities::kFriction, Range::nonNegative());
   fields.number("fit_load", driven.fit_load, quantities::kFitLoad, Range::nonNegative());
@@ -30,7 +30,7 @@ std::string number(std::size_t k)
 }
 
 /** Rejects two instruments that are both in the vessel at the start and do not fit into each other. */
-void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, std::size_t outer)
+void checkFit(const yaml::Fields& fields, const Scene& scene, std::size_t inner, std::size_t outer)
 {
   const DrivenInstrument& in = scene.instruments[inner];
   const DrivenInstrument& out = scene.instruments[outer];
@@ -46,7 +46,7 @@ void checkFit(const SceneFields& fields, const Scene& scene, std::size_t inner, 
 
 }  // namespace
 
-void visitInstruments(SceneFields& fields, Scene& scene)
+void visitInstruments(yaml::Fields& fields, Scene& scene)
 {
   if (fields.reading() ? !fields.has("instruments") : scene.instruments.size() == 1)
   {
@@ -54,8 +54,8 @@ void visitInstruments(SceneFields& fields, Scene& scene)
     DrivenInstrument& only = scene.instruments.front();
     if (fields.reading() && !fields.has("instrument"))
       fields.reject("instrument", "missing; give a file, e.g. instrument: {use: guidewire_035_j}, or its keys");
-    fields.map("instrument", [&only](SceneFields& wire) { visitDrivenInstrument(wire, only.instrument); });
-    fields.map("drive", [&only](SceneFields& drive)
+    fields.map("instrument", [&only](yaml::Fields& wire) { visitDrivenInstrument(wire, only.instrument); });
+    fields.map("drive", [&only](yaml::Fields& drive)
                { visitDrive(drive, only.drive, Range::nonNegative(), only.instrument.balloon.has_value()); });
     return;
   }
@@ -65,7 +65,7 @@ void visitInstruments(SceneFields& fields, Scene& scene)
                     "conflicts with instruments; list all of them there (instruments.N.instrument, counted from 0)");
   fields.list(
       "instruments", scene.instruments.size(), [&scene](std::size_t size) { scene.instruments.resize(size); },
-      [&scene](SceneFields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });
+      [&scene](yaml::Fields& layer, std::size_t k) { visitLayer(layer, scene.instruments[k]); });
   if (fields.reading() && scene.instruments.empty())
     fields.reject("instruments", "is empty; list at least one, from the inside out");
 }
@@ -75,7 +75,7 @@ std::string drivePath(const Scene& scene, std::size_t k)
   return scene.instruments.size() == 1 ? "" : number(k) + ".";
 }
 
-void checkStack(const SceneFields& fields, const Scene& scene)
+void checkStack(const yaml::Fields& fields, const Scene& scene)
 {
   int devices = 0;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)

@@ -12,7 +12,7 @@ namespace
 const std::vector<std::string> kBeyond = {"refuse", "clamp"};  // order of drive::BeyondLimit
 
 /** Schema of an interval [low, high]. */
-void visitInterval(SceneFields& fields, const std::string& key, drive::Interval& interval, const Quantity& quantity)
+void visitInterval(yaml::Fields& fields, const std::string& key, drive::Interval& interval, const Quantity& quantity)
 {
   double values[2] = {interval.low, interval.high};
   fields.numbers(key, values, 2, quantity);
@@ -22,7 +22,7 @@ void visitInterval(SceneFields& fields, const std::string& key, drive::Interval&
 }
 
 /** Schema of a number without which another key applies. */
-void visitOptional(SceneFields& fields, const std::string& key, std::optional<double>& value, const Quantity& quantity)
+void visitOptional(yaml::Fields& fields, const std::string& key, std::optional<double>& value, const Quantity& quantity)
 {
   double number = value.value_or(std::numeric_limits<double>::quiet_NaN());
   fields.optionalNumber(key, number, quantity, Range::positive());
@@ -32,7 +32,7 @@ void visitOptional(SceneFields& fields, const std::string& key, std::optional<do
 
 }  // namespace
 
-void visitLimits(SceneFields& fields, drive::DriveLimits& limits, bool balloon)
+void visitLimits(yaml::Fields& fields, drive::DriveLimits& limits, bool balloon)
 {
   fields.option("beyond", limits.beyond, kBeyond);
   if (fields.reading() ? fields.has("insertion") : limits.insertion.has_value())

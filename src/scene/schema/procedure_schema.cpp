@@ -15,7 +15,7 @@ namespace
 // Keys of the actions, in the order of StepAction.
 const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait"};
 
-void visitGoal(SceneFields& fields, GoalScene& goal)
+void visitGoal(yaml::Fields& fields, GoalScene& goal)
 {
   if (fields.reading() || !goal.tip_in.empty())
     fields.text("tip_in", goal.tip_in);
@@ -42,7 +42,7 @@ bool isEmpty(const GoalScene& goal)
          std::isnan(goal.by) && std::isnan(goal.turned);
 }
 
-void visitRetry(SceneFields& fields, StepScene& step)
+void visitRetry(yaml::Fields& fields, StepScene& step)
 {
   RetryScene& retry = step.retry;
   fields.number("back", retry.back, quantities::kInsertion, Range::nonNegative());
@@ -55,7 +55,7 @@ void visitRetry(SceneFields& fields, StepScene& step)
     fields.reject("deepest", "is not deeper than until.insertion; give a larger value, or remove it");
 }
 
-void visitSupport(SceneFields& fields, SupportScene& support)
+void visitSupport(yaml::Fields& fields, SupportScene& support)
 {
   fields.text("instrument", support.instrument, Need::kRequired);
   fields.text("tip_in", support.tip_in, Need::kRequired);
@@ -64,7 +64,7 @@ void visitSupport(SceneFields& fields, SupportScene& support)
 }
 
 /** Visits the key that names the action of a step and its instrument. */
-void visitAction(SceneFields& fields, StepScene& step)
+void visitAction(yaml::Fields& fields, StepScene& step)
 {
   if (fields.reading())
   {
@@ -89,7 +89,7 @@ void visitAction(SceneFields& fields, StepScene& step)
     fields.text(key, step.instrument, Need::kRequired);
 }
 
-void visitStep(SceneFields& fields, StepScene& step)
+void visitStep(yaml::Fields& fields, StepScene& step)
 {
   if (fields.reading() || !step.phase.empty())
     fields.text("phase", step.phase);
@@ -111,7 +111,7 @@ void visitStep(SceneFields& fields, StepScene& step)
   }
   if (step.action == StepAction::kExchange)
     fields.text("for", step.replacement, Need::kRequired);
-  fields.map("until", [&step](SceneFields& goal) { visitGoal(goal, step.until); });
+  fields.map("until", [&step](yaml::Fields& goal) { visitGoal(goal, step.until); });
   if (fields.reading() && isEmpty(step.until))
     fields.reject("until", "missing; give the goal of the step, e.g. until: {tip_in: aortic_arch}");
   if (step.action != StepAction::kRotate)
@@ -124,12 +124,12 @@ void visitStep(SceneFields& fields, StepScene& step)
     fields.reject("steer", "needs advance with until.tip_in: the tip is turned along the path to that branch");
   fields.number("time_limit", step.time_limit, quantities::kDuration, Range::positive());
   fields.boolean("any_branch", step.any_branch);
-  fields.map("retry", [&step](SceneFields& retry) { visitRetry(retry, step); });
+  fields.map("retry", [&step](yaml::Fields& retry) { visitRetry(retry, step); });
   if (fields.reading() ? fields.has("support") : !step.support.instrument.empty())
-    fields.map("support", [&step](SceneFields& support) { visitSupport(support, step.support); });
+    fields.map("support", [&step](yaml::Fields& support) { visitSupport(support, step.support); });
 }
 
-void visitHand(SceneFields& fields, HandScene& hand)
+void visitHand(yaml::Fields& fields, HandScene& hand)
 {
   fields.number("max_speed", hand.max_speed, quantities::kSpeed, Range::positive());
   fields.number("max_turn", hand.max_turn, quantities::kAngularSpeed, Range::positive());
@@ -142,7 +142,7 @@ void visitHand(SceneFields& fields, HandScene& hand)
   fields.number("speed_scale", hand.speed_scale, quantities::kSpeedScale, Range::positive());
 }
 
-void visitPassMarks(SceneFields& fields, PassMarks& pass)
+void visitPassMarks(yaml::Fields& fields, PassMarks& pass)
 {
   fields.optionalNumber("time", pass.time, quantities::kDuration, Range::positive());
   fields.optionalNumber("wall_force", pass.wall_force, quantities::kWallForce, Range::positive());
@@ -172,7 +172,7 @@ const DrivenInstrument* scripted(const Scene& scene, const std::string& instrume
   return nullptr;
 }
 
-void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
+void checkSupport(const yaml::Fields& fields, const Scene& scene, std::size_t k)
 {
   const std::vector<StepScene>& steps = scene.procedure->steps;
   const SupportScene& support = steps[k].support;
@@ -196,29 +196,29 @@ void checkSupport(const SceneFields& fields, const Scene& scene, std::size_t k)
 
 }  // namespace
 
-void visitProcedure(SceneFields& fields, ProcedureScene& procedure)
+void visitProcedure(yaml::Fields& fields, ProcedureScene& procedure)
 {
   if (fields.reading() || !procedure.name.empty())
     fields.text("name", procedure.name);
   if (fields.reading() || procedure.guided)
     fields.boolean("guided", procedure.guided);
   if (fields.reading() || hasMarks(procedure.pass))
-    fields.map("pass", [&procedure](SceneFields& pass) { visitPassMarks(pass, procedure.pass); });
-  fields.map("hand", [&procedure](SceneFields& hand) { visitHand(hand, procedure.hand); });
+    fields.map("pass", [&procedure](yaml::Fields& pass) { visitPassMarks(pass, procedure.pass); });
+  fields.map("hand", [&procedure](yaml::Fields& hand) { visitHand(hand, procedure.hand); });
   if (fields.reading() || !procedure.branches.empty())
     fields.list(
         "branches", procedure.branches.size(), [&procedure](std::size_t size) { procedure.branches.resize(size); },
-        [&procedure](SceneFields& branch, std::size_t k)
+        [&procedure](yaml::Fields& branch, std::size_t k)
         {
           branch.text("name", procedure.branches[k].name, Need::kRequired);
           branch.vector3("at", procedure.branches[k].at, quantities::kPosition, Need::kRequired);
         });
   fields.list(
       "steps", procedure.steps.size(), [&procedure](std::size_t size) { procedure.steps.resize(size); },
-      [&procedure](SceneFields& step, std::size_t k) { visitStep(step, procedure.steps[k]); }, Need::kRequired);
+      [&procedure](yaml::Fields& step, std::size_t k) { visitStep(step, procedure.steps[k]); }, Need::kRequired);
 }
 
-void checkProcedure(const SceneFields& fields, const Scene& scene)
+void checkProcedure(const yaml::Fields& fields, const Scene& scene)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kProcedure && !scene.procedure)

@@ -12,7 +12,7 @@ namespace
 const std::vector<std::string> kFrames = {"introducer", "patient"};               // order of RobotFrame
 const std::vector<std::string> kMotions = {"insertion", "rotation", "pressure"};  // order of robot::Motion
 
-void visitPose(SceneFields& fields, RobotScene& robot)
+void visitPose(yaml::Fields& fields, RobotScene& robot)
 {
   fields.option("frame", robot.frame, kFrames);
   fields.vector3("position", robot.position, quantities::kPosition);
@@ -20,7 +20,7 @@ void visitPose(SceneFields& fields, RobotScene& robot)
 }
 
 /** Rejects a motion that the instrument does not have, or that no command moves. */
-void checkInstrument(const SceneFields& fields, const Scene& scene, const robot::JointLink& link)
+void checkInstrument(const yaml::Fields& fields, const Scene& scene, const robot::JointLink& link)
 {
   std::string names;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
@@ -41,7 +41,7 @@ void checkInstrument(const SceneFields& fields, const Scene& scene, const robot:
 }
 
 /** Rejects a joint that is listed twice, and a second joint of one motion. */
-void checkUnique(const SceneFields& fields, const std::vector<robot::JointLink>& links, std::size_t k)
+void checkUnique(const yaml::Fields& fields, const std::vector<robot::JointLink>& links, std::size_t k)
 {
   for (std::size_t other = 0; other < k; ++other)
   {
@@ -56,7 +56,7 @@ void checkUnique(const SceneFields& fields, const std::vector<robot::JointLink>&
   }
 }
 
-void visitLink(SceneFields& fields, const Scene& scene, std::vector<robot::JointLink>& links, std::size_t k)
+void visitLink(yaml::Fields& fields, const Scene& scene, std::vector<robot::JointLink>& links, std::size_t k)
 {
   robot::JointLink& link = links[k];
   fields.text("joint", link.joint, Need::kRequired);
@@ -76,17 +76,17 @@ void visitLink(SceneFields& fields, const Scene& scene, std::vector<robot::Joint
 
 }  // namespace
 
-void visitRobot(SceneFields& fields, Scene& scene)
+void visitRobot(yaml::Fields& fields, Scene& scene)
 {
   if (!scene.robot)
     scene.robot.emplace();
   RobotScene& robot = *scene.robot;
   fields.text("urdf", robot.urdf, Need::kRequired);
-  fields.map("pose", [&robot](SceneFields& pose) { visitPose(pose, robot); });
+  fields.map("pose", [&robot](yaml::Fields& pose) { visitPose(pose, robot); });
   std::vector<robot::JointLink>& links = robot.joints;
   fields.list(
       "joints", links.size(), [&links](std::size_t size) { links.resize(size); },
-      [&scene, &links](SceneFields& joint, std::size_t k) { visitLink(joint, scene, links, k); }, Need::kRequired);
+      [&scene, &links](yaml::Fields& joint, std::size_t k) { visitLink(joint, scene, links, k); }, Need::kRequired);
 }
 
 }  // namespace endovascular_sim::scene

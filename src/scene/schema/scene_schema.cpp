@@ -23,7 +23,7 @@ constexpr double kSmoothEdge = 0.25;      // largest ratio without ripple of the
 constexpr double kAtmosphere = 101325.0;  // standard atmosphere [Pa]
 constexpr double kShortestEdge = 2e-5;    // smallest ratio of edge length to wire length
 
-void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_length)
+void visitSampling(yaml::Fields& fields, SamplingScene& sampling, double wire_length)
 {
   fields.option("kind", sampling.kind, kSamplingKinds);
   const bool adaptive = sampling.kind == SamplingKind::kAdaptive;
@@ -53,7 +53,7 @@ void visitSampling(SceneFields& fields, SamplingScene& sampling, double wire_len
                   "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) + " m");
 }
 
-void visitRecord(SceneFields& fields, RecordScene& record)
+void visitRecord(yaml::Fields& fields, RecordScene& record)
 {
   fields.number("pose_rate", record.pose_rate, quantities::kRate, Range::positive());
   fields.number("trajectory_rate", record.trajectory_rate, quantities::kRate, Range::positive());
@@ -62,7 +62,7 @@ void visitRecord(SceneFields& fields, RecordScene& record)
 }
 
 /** Schema of the scene's name, which names the folder of the results. */
-void visitName(SceneFields& fields, std::string& name)
+void visitName(yaml::Fields& fields, std::string& name)
 {
   fields.text("name", name);
   if (fields.reading() && name != fileNameOf(name))
@@ -73,7 +73,7 @@ void visitName(SceneFields& fields, std::string& name)
 
 /** Rejects a drive that inserts a wire beyond its length, or that pulls a single wire out of the introducer.
  *  @param path path of the map that contains `drive`, with a final dot; empty for a single instrument */
-void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, const std::string& path)
+void checkInsertion(const yaml::Fields& fields, const DrivenInstrument& driven, const std::string& path)
 {
   const DriveScene& drive = driven.drive;
   const bool by_speed = !std::isnan(drive.speed);
@@ -88,7 +88,7 @@ void checkInsertion(const SceneFields& fields, const DrivenInstrument& driven, c
 }
 
 /** Rejects an insertion in a bench scene. Without an introducer, the drive can only rotate the proximal clamp. */
-void checkBenchDrive(const SceneFields& fields, const Scene& scene)
+void checkBenchDrive(const yaml::Fields& fields, const Scene& scene)
 {
   const DriveScene& drive = scene.instruments.front().drive;
   if (!std::isnan(drive.speed) || !drive.insertion.isTrivial() || drive.initial_insertion != 0.0)
@@ -102,7 +102,7 @@ void checkBenchDrive(const SceneFields& fields, const Scene& scene)
  *
  *  Nodes leave the guide one after another. An edge must be longer than the travel per sub-step. A guide that holds
  *  fewer than two edges releases the wire in jumps. */
-void checkEdges(const SceneFields& fields, const Scene& scene)
+void checkEdges(const yaml::Fields& fields, const Scene& scene)
 {
   if (!scene.introducer)
     return;
@@ -131,7 +131,7 @@ void checkEdges(const SceneFields& fields, const Scene& scene)
 }
 
 /** Warns of edges with which the force at the hand ripples while nodes leave the introducer's guide. */
-void judgeEdges(const SceneFields& fields, const Scene& scene)
+void judgeEdges(const yaml::Fields& fields, const Scene& scene)
 {
   const double longest = kSmoothEdge * scene.solver.guide_length;
   const bool uniform = scene.sampling.kind == SamplingKind::kUniform;
@@ -149,7 +149,7 @@ void judgeEdges(const SceneFields& fields, const Scene& scene)
 }
 
 /** Rejects a smooth wall that a balloon would move. */
-void checkWall(const SceneFields& fields, const Scene& scene)
+void checkWall(const yaml::Fields& fields, const Scene& scene)
 {
   if (!scene.vessel || scene.vessel->wall != contact::WallShape::kSmooth)
     return;
@@ -160,7 +160,7 @@ void checkWall(const SceneFields& fields, const Scene& scene)
                     "facets, or use an instrument without a balloon");
 }
 
-void checkScene(const SceneFields& fields, const Scene& scene)
+void checkScene(const yaml::Fields& fields, const Scene& scene)
 {
   checkEdges(fields, scene);
   judgeEdges(fields, scene);
@@ -204,7 +204,7 @@ void checkScene(const SceneFields& fields, const Scene& scene)
 
 }  // namespace
 
-void visitProfile(SceneFields& fields, DriveProfile& profile, const Quantity& quantity)
+void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& quantity)
 {
   std::vector<std::vector<double>> rows;
   for (const DriveProfile::Point& point : profile.points)
@@ -242,16 +242,17 @@ namespace
 {
 
 /** Schema of the pressure at a balloon's inflator. */
-void visitPressure(SceneFields& fields, DriveProfile& pressure)
+void visitPressure(yaml::Fields& fields, DriveProfile& pressure)
 {
-  fields.map("pressure", [&pressure](SceneFields& profile) { visitProfile(profile, pressure, quantities::kPressure); });
+  fields.map("pressure",
+             [&pressure](yaml::Fields& profile) { visitProfile(profile, pressure, quantities::kPressure); });
   if (fields.reading() && bounds(pressure).first < -kAtmosphere)
     fields.reject("pressure", "is less than a vacuum; must be at least -101325 Pa");
 }
 
 }  // namespace
 
-void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
+void visitDrive(yaml::Fields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon)
 {
   fields.option("source", drive.source, kDriveSources);
   fields.optionalNumber("speed", drive.speed, quantities::kSpeed, Range::nonNegative());
@@ -267,9 +268,9 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
                   "conflicts with speed; keep one of the two (null removes a key: --set drive.insertion=null)");
   if (!by_speed)
     fields.map("insertion",
-               [&drive](SceneFields& profile) { visitProfile(profile, drive.insertion, quantities::kInsertion); });
+               [&drive](yaml::Fields& profile) { visitProfile(profile, drive.insertion, quantities::kInsertion); });
   fields.map("rotation",
-             [&drive](SceneFields& profile) { visitProfile(profile, drive.rotation, quantities::kRotation); });
+             [&drive](yaml::Fields& profile) { visitProfile(profile, drive.rotation, quantities::kRotation); });
   if (balloon)
     visitPressure(fields, drive.pressure);
   else if (fields.has("pressure"))
@@ -280,7 +281,7 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
   if (fields.reading() || drive.grip != drive::Grip::kFingers)
     fields.option("grip", drive.grip, kGrips);
   if (fields.reading() ? fields.has("limits") : drive.limits != drive::DriveLimits())
-    fields.map("limits", [&drive, balloon](SceneFields& limits) { visitLimits(limits, drive.limits, balloon); });
+    fields.map("limits", [&drive, balloon](yaml::Fields& limits) { visitLimits(limits, drive.limits, balloon); });
   if (fields.reading() && drive.limits.insertion && !drive.limits.insertion->contains(drive.insertionAt(0.0)))
     fields.reject("limits.insertion",
                   "does not contain the insertion at the start, " + std::to_string(drive.insertionAt(0.0)) + " m");
@@ -290,7 +291,7 @@ void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_ins
     fields.reject("source", "is none, but a motion is given; set source: script");
 }
 
-void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
+void visitLoads(yaml::Fields& fields, LoadScene& loads, double wire_length)
 {
   fields.vector3("gravity", loads.gravity, quantities::kGravity);
   fields.number("fluid_density", loads.fluid_density, quantities::kFluidDensity, Range::nonNegative());
@@ -298,7 +299,7 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
   fields.number("damping", loads.damping, quantities::kMassDamping, Range::nonNegative());
   fields.list(
       "point_loads", loads.point_loads.size(), [&loads](std::size_t size) { loads.point_loads.resize(size); },
-      [&loads, wire_length](SceneFields& load_fields, std::size_t k)
+      [&loads, wire_length](yaml::Fields& load_fields, std::size_t k)
       {
         PointLoad& load = loads.point_loads[k];
         if (load_fields.reading())
@@ -317,7 +318,7 @@ void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length)
       });
 }
 
-void visitSolver(SceneFields& fields, SolverScene& solver)
+void visitSolver(yaml::Fields& fields, SolverScene& solver)
 {
   std::vector<std::string> names;
   for (const rod::SchemeTraits& traits : rod::schemes())
@@ -336,7 +337,7 @@ void visitSolver(SceneFields& fields, SolverScene& solver)
   fields.number("guide_length", solver.guide_length, quantities::kGuideLength, Range::nonNegative());
 }
 
-void visitScene(SceneFields& fields, Scene& scene)
+void visitScene(yaml::Fields& fields, Scene& scene)
 {
   visitName(fields, scene.name);
   fields.bigInteger("seed", scene.seed);
@@ -345,34 +346,34 @@ void visitScene(SceneFields& fields, Scene& scene)
   {
     if (!scene.vessel)
       scene.vessel.emplace();
-    fields.map("vessel", [&scene](SceneFields& vessel) { visitVessel(vessel, *scene.vessel); });
+    fields.map("vessel", [&scene](yaml::Fields& vessel) { visitVessel(vessel, *scene.vessel); });
   }
-  fields.map("entry", [&scene](SceneFields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
+  fields.map("entry", [&scene](yaml::Fields& entry) { visitEntry(entry, scene.entry, scene.vessel); });
   visitInstruments(fields, scene);
   if (fields.reading() ? fields.has("procedure") : scene.procedure.has_value())
   {
     if (!scene.procedure)
       scene.procedure.emplace();
-    fields.map("procedure", [&scene](SceneFields& procedure) { visitProcedure(procedure, *scene.procedure); });
+    fields.map("procedure", [&scene](yaml::Fields& procedure) { visitProcedure(procedure, *scene.procedure); });
   }
   if (fields.reading())
     scene.introducer = scene.instruments.front().drive.source != DriveSource::kNone;
   fields.boolean("introducer", scene.introducer);
   visitEnds(fields, scene);
   const double wire_length = scene.longest();
-  fields.map("loads", [&](SceneFields& loads) { visitLoads(loads, scene.loads, wire_length); });
-  fields.map("sampling", [&](SceneFields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
-  fields.map("solver", [&scene](SceneFields& solver) { visitSolver(solver, scene.solver); });
+  fields.map("loads", [&](yaml::Fields& loads) { visitLoads(loads, scene.loads, wire_length); });
+  fields.map("sampling", [&](yaml::Fields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
+  fields.map("solver", [&scene](yaml::Fields& solver) { visitSolver(solver, scene.solver); });
   if (fields.reading() ? fields.has("fluoroscopy") : scene.fluoroscopy.has_value())
   {
     if (!scene.fluoroscopy)
       scene.fluoroscopy.emplace();
-    fields.map("fluoroscopy", [&scene](SceneFields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
+    fields.map("fluoroscopy", [&scene](yaml::Fields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
   }
   fields.boolean("haptic_device", scene.haptic_device);
   if (fields.reading() ? fields.has("robot") : scene.robot.has_value())
-    fields.map("robot", [&scene](SceneFields& robot) { visitRobot(robot, scene); });
-  fields.map("record", [&scene](SceneFields& record) { visitRecord(record, scene.record); });
+    fields.map("robot", [&scene](yaml::Fields& robot) { visitRobot(robot, scene); });
+  fields.map("record", [&scene](yaml::Fields& record) { visitRecord(record, scene.record); });
   if (fields.reading())
     checkScene(fields, scene);
 }

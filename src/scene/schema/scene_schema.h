@@ -5,68 +5,71 @@
 
 #include "common/quantities.h"
 #include "scene/model/scene.h"
-#include "scene/yaml/fields.h"
+#include "yaml/fields.h"
 
 namespace endovascular_sim::scene
 {
 
+using yaml::Need;
+using yaml::Range;
+
 /** Schema of a scene: visits each key and, while reading, rejects inconsistent values. docs/SCENES.md documents the
  *  same keys for the user. */
-void visitScene(SceneFields& fields, Scene& scene);
+void visitScene(yaml::Fields& fields, Scene& scene);
 
 /** Parts of the schema. */
-void visitVessel(SceneFields& fields, VesselScene& vessel);
+void visitVessel(yaml::Fields& fields, VesselScene& vessel);
 /** Key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. If optional, it may remain NaN. */
-void visitFriction(SceneFields& fields, double& friction, Need need);
-void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
+void visitFriction(yaml::Fields& fields, double& friction, Need need);
+void visitEntry(yaml::Fields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
 /** Schema of any instrument of the library. */
-void visitInstrument(SceneFields& fields, instrument::Instrument& instrument);
+void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument);
 /** Schema of an instrument with a drive: any kind except a separate stent. */
-void visitDrivenInstrument(SceneFields& fields, instrument::Instrument& instrument);
+void visitDrivenInstrument(yaml::Fields& fields, instrument::Instrument& instrument);
 /** Schema of the balloon of a balloon catheter. */
-void visitBalloon(SceneFields& fields, instrument::Instrument& instrument);
+void visitBalloon(yaml::Fields& fields, instrument::Instrument& instrument);
 /** Schema of a stent, on a balloon or separate. */
-void visitStent(SceneFields& fields, instrument::Instrument& instrument);
+void visitStent(yaml::Fields& fields, instrument::Instrument& instrument);
 /** Schema of `instrument` and `drive` of a single instrument, or of the list `instruments`. */
-void visitInstruments(SceneFields& fields, Scene& scene);
+void visitInstruments(yaml::Fields& fields, Scene& scene);
 /** Path of the map that contains the drive of an instrument: empty for a single one, otherwise `instruments.<k>.`. */
 std::string drivePath(const Scene& scene, std::size_t k);
 /** Rejects invalid combinations of concentric instruments. */
-void checkStack(const SceneFields& fields, const Scene& scene);
+void checkStack(const yaml::Fields& fields, const Scene& scene);
 /** Schema of `robot`. Checks what does not depend on the URDF; the joints are checked when it has been read. */
-void visitRobot(SceneFields& fields, Scene& scene);
+void visitRobot(yaml::Fields& fields, Scene& scene);
 /** Schema of a drive.
  *  @param initial_insertion valid range of the initial insertion [m]
  *  @param balloon true if the instrument has a balloon that the drive can inflate */
-void visitDrive(SceneFields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
+void visitDrive(yaml::Fields& fields, DriveScene& drive, const Range& initial_insertion, bool balloon);
 /** Schema of the limits of a drive, keys `drive.limits`. */
-void visitLimits(SceneFields& fields, drive::DriveLimits& limits, bool balloon);
-void visitProfile(SceneFields& fields, DriveProfile& profile, const Quantity& quantity);
-void visitEnds(SceneFields& fields, Scene& scene);
-void visitLoads(SceneFields& fields, LoadScene& loads, double wire_length);
-void visitSolver(SceneFields& fields, SolverScene& solver);
-void visitFluoroscopy(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+void visitLimits(yaml::Fields& fields, drive::DriveLimits& limits, bool balloon);
+void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& quantity);
+void visitEnds(yaml::Fields& fields, Scene& scene);
+void visitLoads(yaml::Fields& fields, LoadScene& loads, double wire_length);
+void visitSolver(yaml::Fields& fields, SolverScene& solver);
+void visitFluoroscopy(yaml::Fields& fields, FluoroscopyScene& fluoroscopy);
 /** Rejects a body without a vessel. */
-void checkPatient(const SceneFields& fields, const Scene& scene);
+void checkPatient(const yaml::Fields& fields, const Scene& scene);
 /** Keys `rotation`, or `head` and `left`: rotation from the frame of a file to the patient frame. */
-void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform);
+void visitRotation(yaml::Fields& fields, Eigen::Isometry3d& transform);
 /** Keys of the initial angles: `view`, or `primary_angle` and `secondary_angle`. */
-void visitAngulation(SceneFields& fields, FluoroscopyScene& fluoroscopy);
+void visitAngulation(yaml::Fields& fields, FluoroscopyScene& fluoroscopy);
 /** Keys `field` and `gantry`. Rejects an initial pose beyond the limits. */
-void visitGantry(SceneFields& fields, FluoroscopyScene& fluoroscopy);
-void visitProcedure(SceneFields& fields, ProcedureScene& procedure);
+void visitGantry(yaml::Fields& fields, FluoroscopyScene& fluoroscopy);
+void visitProcedure(yaml::Fields& fields, ProcedureScene& procedure);
 
 /** Rejects a view beyond the limits of the scene's gantry.
  *  @param key path of the view */
-void checkView(const SceneFields& fields, const std::string& key, const std::string& view, const Scene& scene);
+void checkView(const yaml::Fields& fields, const std::string& key, const std::string& view, const Scene& scene);
 
 /** Rejects a procedure that is inconsistent with the scene. */
-void checkProcedure(const SceneFields& fields, const Scene& scene);
+void checkProcedure(const yaml::Fields& fields, const Scene& scene);
 
 /** Lower and upper bound of a profile. */
 std::pair<double, double> bounds(const DriveProfile& profile);
 
 /** Rejects inconsistent end conditions, wires and loads. */
-void checkEnds(const SceneFields& fields, const Scene& scene);
+void checkEnds(const yaml::Fields& fields, const Scene& scene);
 
 }  // namespace endovascular_sim::scene

@@ -19,7 +19,7 @@ constexpr Quantity kSelectingPoint{"points that select an end", "m", Dimension::
 const std::vector<std::string> kWallShapes = {"facets", "smooth"};  // order of contact::WallShape
 
 /** Rotation from the frame of the mesh to the patient frame, from the directions head and left in the mesh frame. */
-Eigen::Matrix3d rotationFromBody(SceneFields& fields)
+Eigen::Matrix3d rotationFromBody(yaml::Fields& fields)
 {
   Eigen::Vector3d head = Eigen::Vector3d::Zero();
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
@@ -34,7 +34,7 @@ Eigen::Matrix3d rotationFromBody(SceneFields& fields)
   return rotation;
 }
 
-void visitTube(SceneFields& fields, VesselScene::Tube& tube)
+void visitTube(yaml::Fields& fields, VesselScene::Tube& tube)
 {
   fields.number("radius", tube.radius, quantities::kVesselRadius, Range::positive(), Need::kRequired);
   if (fields.reading())
@@ -43,7 +43,7 @@ void visitTube(SceneFields& fields, VesselScene::Tube& tube)
   fields.integer("facets_around", tube.facets_around, 6, 1024);
   fields.list(
       "pieces", tube.pieces.size(), [&tube](std::size_t size) { tube.pieces.resize(size); },
-      [&tube](SceneFields& piece_fields, std::size_t k)
+      [&tube](yaml::Fields& piece_fields, std::size_t k)
       {
         VesselScene::TubePiece& piece = tube.pieces[k];
         piece_fields.number("length", piece.length, quantities::kVesselLength, Range::positive(), Need::kRequired);
@@ -55,7 +55,7 @@ void visitTube(SceneFields& fields, VesselScene::Tube& tube)
       Need::kRequired);
 }
 
-void visitMesh(SceneFields& fields, VesselScene& vessel)
+void visitMesh(yaml::Fields& fields, VesselScene& vessel)
 {
   fields.text("mesh", vessel.mesh);
   if (fields.reading() && !fields.has("unit"))
@@ -70,14 +70,14 @@ void visitMesh(SceneFields& fields, VesselScene& vessel)
     fields.text("centreline", vessel.centreline);
 }
 
-void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
+void visitFrictionRegions(yaml::Fields& fields, VesselScene& vessel)
 {
   std::vector<VesselScene::FrictionRegion>& regions = vessel.friction_regions;
   if (!fields.reading() && regions.empty())
     return;
   fields.list(
       "friction_regions", regions.size(), [&regions](std::size_t size) { regions.resize(size); },
-      [&regions](SceneFields& region, std::size_t k)
+      [&regions](yaml::Fields& region, std::size_t k)
       {
         region.vector3("centre", regions[k].centre, quantities::kPosition, Need::kRequired);
         region.number("radius", regions[k].radius, quantities::kRegionRadius, Range::positive(), Need::kRequired);
@@ -85,7 +85,7 @@ void visitFrictionRegions(SceneFields& fields, VesselScene& vessel)
       });
 }
 
-void visitPosition(SceneFields& keys, vessel::Lesion& lesion)
+void visitPosition(yaml::Fields& keys, vessel::Lesion& lesion)
 {
   if (keys.reading() ? keys.has("at") : lesion.at.has_value())
   {
@@ -105,14 +105,14 @@ void visitPosition(SceneFields& keys, vessel::Lesion& lesion)
     keys.number("fraction", lesion.fraction, quantities::kFraction, Range::between(0.0, 1.0));
 }
 
-void visitLesions(SceneFields& fields, VesselScene& vessel)
+void visitLesions(yaml::Fields& fields, VesselScene& vessel)
 {
   std::vector<vessel::Lesion>& lesions = vessel.lesions;
   if (!fields.reading() && lesions.empty())
     return;
   fields.list(
       "lesions", lesions.size(), [&lesions](std::size_t size) { lesions.resize(size); },
-      [&lesions](SceneFields& keys, std::size_t k)
+      [&lesions](yaml::Fields& keys, std::size_t k)
       {
         vessel::Lesion& lesion = lesions[k];
         visitPosition(keys, lesion);
@@ -124,14 +124,14 @@ void visitLesions(SceneFields& fields, VesselScene& vessel)
 }
 
 /** Rejects keys that apply to a mesh file only, with a more specific message than for unknown keys. */
-void rejectMeshKeys(SceneFields& fields)
+void rejectMeshKeys(yaml::Fields& fields)
 {
   for (const char* key : {"unit", "rotation", "head", "left", "translation", "repair", "centreline"})
     if (fields.has(key))
       fields.reject(key, "applies to a mesh file only; remove it, or give vessel.mesh");
 }
 
-void readDirection(SceneFields& fields, EntryScene& entry)
+void readDirection(yaml::Fields& fields, EntryScene& entry)
 {
   fields.vector3("direction", entry.direction, quantities::kDirection);
   if (entry.direction.norm() < 1e-9)
@@ -148,7 +148,7 @@ void readDirection(SceneFields& fields, EntryScene& entry)
 
 }  // namespace
 
-void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
+void visitRotation(yaml::Fields& fields, Eigen::Isometry3d& transform)
 {
   if (fields.has("head") || fields.has("left"))
   {
@@ -174,7 +174,7 @@ void visitRotation(SceneFields& fields, Eigen::Isometry3d& transform)
     fields.reject("rotation", "is not a rotation; rows must be right-handed, unit vectors at right angles");
 }
 
-void visitVessel(SceneFields& fields, VesselScene& vessel)
+void visitVessel(yaml::Fields& fields, VesselScene& vessel)
 {
   const bool reading = fields.reading();
   const bool is_mesh = reading ? fields.has("mesh") : !vessel.mesh.empty();
@@ -194,7 +194,7 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   {
     if (!vessel.tube)
       vessel.tube = VesselScene::Tube{};
-    fields.map("tube", [&vessel](SceneFields& tube) { visitTube(tube, *vessel.tube); });
+    fields.map("tube", [&vessel](yaml::Fields& tube) { visitTube(tube, *vessel.tube); });
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);
   if (fields.reading() || vessel.wall != contact::WallShape::kFacets)
@@ -206,7 +206,7 @@ void visitVessel(SceneFields& fields, VesselScene& vessel)
   visitLesions(fields, vessel);
 }
 
-void visitFriction(SceneFields& fields, double& friction, Need need)
+void visitFriction(yaml::Fields& fields, double& friction, Need need)
 {
   if (fields.reading() && fields.hasWord("friction"))
   {
@@ -220,7 +220,7 @@ void visitFriction(SceneFields& fields, double& friction, Need need)
     fields.optionalNumber("friction", friction, quantities::kFriction, Range::nonNegative());
 }
 
-void visitEntry(SceneFields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)
+void visitEntry(yaml::Fields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel)
 {
   const bool real_vessel = vessel && !vessel->tube;
   fields.text("centreline_end", entry.centreline_end);

@@ -1,16 +1,13 @@
 #include "segmentation/clicks/click_set.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 
 #include "common/error.h"
-#include "common/input_file.h"
-#include "common/text/yaml_text.h"
+#include "common/quantities.h"
 #include "segmentation/clicks/slicer_markups.h"
+#include "yaml/reader.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -18,107 +15,54 @@ namespace
 {
 
 constexpr auto kRemedy = "give a file of clicks: .yaml, or markups of 3D Slicer (.mrk.json, .fcsv)";
-constexpr double kFarthest = 10.0;   ///< of a click from the origin [m]
-constexpr double kSamePlace = 1e-4;  ///< distance of two clicks that are one [m]
+constexpr double kFarthest = 10.0;      ///< of a click from the origin [m]
+constexpr double kSamePlace = 1e-4;     ///< distance of two clicks that are one [m]
+constexpr double kLargestRadius = 0.1;  ///< of a lumen [m]
 
-std::string placeOf(const YAML::Node& node)
+/** Frame and unit of a file of clicks. */
+struct Frame
 {
-  return "line " + std::to_string(node.Mark().line + 1);
+  bool is_ras = false;
+  double unit = 1e-3;  ///< [m]
+};
+
+BranchClicks readBranch(yaml::Fields& fields, const Frame& frame)
+{
+  BranchClicks branch;
+  fields.text("name", branch.name, yaml::Need::kRequired);
+  fields.number("largest_radius", branch.largest_radius, quantities::kNumber,
+                yaml::Range::between(0.0, kLargestRadius / frame.unit));
+  branch.largest_radius *= frame.unit;
+  std::vector<std::vector<double>> points;
+  fields.rows("clicks", points, {3, quantities::kNumber});
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    Click click;
+    click.position = frame.unit * Eigen::Map<const Eigen::Vector3d>(points[k].data());
+    if (frame.is_ras)
+      click.position.head<2>() *= -1.0;
+    click.where = fields.place("clicks." + std::to_string(k));
+    branch.clicks.push_back(click);
+  }
+  return branch;
 }
 
-/** YAML file of clicks. */
-class YamlClicks
+ClickSet readYaml(const std::string& file)
 {
-public:
-  explicit YamlClicks(const std::string& file) : file_(file) {}
-
-  ClickSet read()
-  {
-    ClickSet set;
-    set.file = file_;
-    std::ifstream in = openInputFile(file_, kRemedy);
-    try
-    {
-      const YAML::Node root = parseYamlText({std::istreambuf_iterator<char>(in), {}}, file_);
-      allow(root, {"frame", "unit", "branches"});
-      readFrame(root);
-      if (!root["branches"] || !root["branches"].IsSequence() || root["branches"].size() == 0)
-        throw InputError(file_, "branches", "must list the branches, each with name and clicks");
-      for (const YAML::Node& branch : root["branches"])
-        set.branches.push_back(branchOf(branch));
-    }
-    catch (const YAML::Exception& error)
-    {
-      throw InputError(file_, "line " + std::to_string(error.mark.line + 1), "is not valid YAML: " + error.msg);
-    }
-    return set;
-  }
-
-private:
-  void allow(const YAML::Node& node, const std::set<std::string>& keys) const
-  {
-    if (!node.IsMap())
-      throw InputError(file_, placeOf(node), "must hold keys and values");
-    for (const auto& entry : node)
-      if (keys.count(entry.first.as<std::string>()) == 0)
-      {
-        std::string known;
-        for (const std::string& key : keys)
-          known += (known.empty() ? "" : ", ") + key;
-        throw InputError(file_, placeOf(entry.first),
-                         "unknown key '" + entry.first.as<std::string>() + "'; expected one of " + known);
-      }
-  }
-
-  void readFrame(const YAML::Node& root)
-  {
-    if (root["frame"])
-    {
-      const auto frame = root["frame"].as<std::string>();
-      if (frame != "LPS" && frame != "RAS")
-        throw InputError(file_, placeOf(root["frame"]), "frame must be LPS or RAS, not '" + frame + "'");
-      is_ras_ = frame == "RAS";
-    }
-    if (root["unit"])
-      unit_ = root["unit"].as<double>();
-    if (!(unit_ > 0.0 && unit_ <= 1.0))
-      throw InputError(file_, "unit", "must be metres per unit: 0.001 for millimetres, 1 for metres");
-  }
-
-  BranchClicks branchOf(const YAML::Node& node) const
-  {
-    allow(node, {"name", "clicks", "largest_radius"});
-    BranchClicks branch;
-    if (!node["name"])
-      throw InputError(file_, placeOf(node), "the branch has no name");
-    branch.name = node["name"].as<std::string>();
-    if (node["largest_radius"])
-      branch.largest_radius = unit_ * node["largest_radius"].as<double>();
-    if (!(branch.largest_radius >= 0.0 && branch.largest_radius <= 0.1))
-      throw InputError(file_, placeOf(node["largest_radius"]), "largest_radius must be between 0 and 100 mm");
-    if (node["clicks"])
-      for (const YAML::Node& point : node["clicks"])
-        branch.clicks.push_back(clickOf(point));
-    return branch;
-  }
-
-  Click clickOf(const YAML::Node& node) const
-  {
-    if (!node.IsSequence() || node.size() != 3)
-      throw InputError(file_, placeOf(node), "a click must be [x, y, z]");
-    Click click;
-    for (int axis = 0; axis < 3; ++axis)
-      click.position[axis] = unit_ * node[axis].as<double>();
-    if (is_ras_)
-      click.position.head<2>() *= -1.0;
-    click.where = placeOf(node);
-    return click;
-  }
-
-  std::string file_;
-  bool is_ras_ = false;
-  double unit_ = 1e-3;
-};
+  const yaml::Node root = yaml::readTree(file, kRemedy);
+  yaml::Reader fields(root, nullptr, yaml::ItemLabel::kName);
+  ClickSet set;
+  set.file = file;
+  Frame frame;
+  fields.option("frame", frame.is_ras, {"LPS", "RAS"});
+  fields.number("unit", frame.unit, quantities::kMeshUnit, yaml::Range::positiveUpTo(1.0), yaml::Need::kOptional);
+  fields.list(
+      "branches", 0, [](std::size_t) {},
+      [&](yaml::Fields& branch, std::size_t) { set.branches.push_back(readBranch(branch, frame)); },
+      yaml::Need::kRequired);
+  fields.finish();
+  return set;
+}
 
 bool endsWith(const std::string& text, const std::string& end)
 {
@@ -171,7 +115,7 @@ ClickSet readClicks(const std::string& file)
   else if (endsWith(file, ".fcsv"))
     set = readFiducialCsv(file);
   else if (endsWith(file, ".yaml") || endsWith(file, ".yml"))
-    set = YamlClicks(file).read();
+    set = readYaml(file);
   else
     throw InputError(file, "", kRemedy);
   check(set);

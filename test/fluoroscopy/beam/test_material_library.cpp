@@ -73,36 +73,46 @@ TEST(MaterialLibrary, RejectsUnknownMaterialsByName)
   EXPECT_THROW(table.linear("kryptonite", 60.0), InputError);
 }
 
-TEST(MaterialLibrary, RejectsInvalidFilesByKey)
+/** Message of the error of a library with this text; empty for a valid one. */
+std::string messageOf(const std::string& text)
 {
   const std::string file = testing::TempDir() + "materials.yaml";
-  const auto message = [&](const std::string& text) -> std::string
+  std::ofstream(file) << text;
+  try
   {
-    std::ofstream(file) << text;
-    try
-    {
-      MaterialLibrary::load(file);
-      return "";
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-  };
+    MaterialLibrary::load(file);
+    return "";
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+}
+
+TEST(MaterialLibrary, RejectsInvalidFilesByKey)
+{
   const auto names = [&](const std::string& text, const std::string& key)
-  { return message(text).find(key) != std::string::npos; };
-  EXPECT_EQ(message("a: {density: 1, composition: H2O}"), "");
-  EXPECT_EQ(message("a: {density: 1, composition: {H2O: 0.4, 'Water, Liquid': 0.6}}"), "");
+  { return messageOf(text).find(key) != std::string::npos; };
+  EXPECT_EQ(messageOf("a: {density: 1, composition: H2O}"), "");
+  EXPECT_EQ(messageOf("a: {density: 1, composition: {H2O: 0.4, 'Water, Liquid': 0.6}}"), "");
   EXPECT_TRUE(names("a: {density: -1, composition: H2O}", "a.density"));
   EXPECT_TRUE(names("a: {density: 1, composition: Kryptonite}", "a.composition"));
   EXPECT_TRUE(names("a: {density: 1, composition: {H2O: 0.4, C: 0.5}}", "add up to 1"));
   EXPECT_TRUE(names("a: {density: 1, composition: {H2O: x}}", "a.composition.H2O"));
   EXPECT_TRUE(names("a: {density: 1}", "a.composition"));
-  EXPECT_TRUE(names("a: {density: 1, energy: [30, 40], mass_attenuation: [2, 1]}", "give the composition instead"));
-  EXPECT_TRUE(names("a: 5", "must contain"));
-  EXPECT_TRUE(names("", "must map"));
+  EXPECT_TRUE(names("a: {density: 1, energy: [30, 40], mass_attenuation: [2, 1]}", "a.composition (line 1): missing"));
+  EXPECT_TRUE(names("a: 5", "a (line 1): expected a map"));
+  EXPECT_TRUE(names("", "has no keys"));
   EXPECT_TRUE(names("a: [", "YAML"));
   EXPECT_THROW(MaterialLibrary::load("/nowhere.yaml"), InputError);
+}
+
+TEST(MaterialLibrary, RejectsAnUnknownKeyWithFileLineAndTheNearestKey)
+{
+  EXPECT_EQ(messageOf("a:\n  density: 1\n  composition: H2O\n  densty: 2\n"),
+            testing::TempDir() + "materials.yaml: a.densty (line 4): unknown key; did you mean \"density\"?");
+  EXPECT_EQ(messageOf("a: {density: 1, composition: H2O, colour: red}\n"),
+            testing::TempDir() + "materials.yaml: a.colour (line 1): unknown key; known keys: density, composition");
 }
 
 }  // namespace

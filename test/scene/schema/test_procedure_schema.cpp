@@ -120,7 +120,7 @@ TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
   catch (const InputError& error)
   {
     EXPECT_STREQ(error.what(),
-                 "scene.yaml: instruments.0.drive.source (line 2): is procedure, but the scene has no procedure; give "
+                 "scene.yaml: instruments.0.drive.source (line 3): is procedure, but the scene has no procedure; give "
                  "procedure: FILE, or another source");
   }
 }

@@ -52,7 +52,7 @@ const std::vector<Refusal> kRefusals = {
     {"bad_distal_moved_at_the_start.yaml", "distal_end.displacement (line 15)", "[0, 0]"},
     {"bad_distal_stretches_the_wire.yaml", "distal_end.displacement (line 15)", "no further apart"},
     {"bad_distal_shortened_without_side.yaml", "distal_end.displacement (line 15)", "add loads.gravity"},
-    {"bad_distal_torque_on_a_held_twist.yaml", "loads.point_loads.0.torque (line 17)", "distal_end.twist: free"},
+    {"bad_distal_torque_on_a_held_twist.yaml", "loads.point_loads.0.torque (line 18)", "distal_end.twist: free"},
     {"bad_distal_held_behind_an_introducer.yaml", "distal_end (line 13)", "solver.scheme: kkt"},
     {"bad_offset_of_a_pose.yaml", "entry.offset (line 13)", "move position"},
     {"bad_infinite_duration.yaml", "duration (line 2)", "must be positive"},

@@ -155,16 +155,19 @@ TEST_F(Clicks, OfFiducialListsMayHaveQuotedLabelsWithCommas)
 TEST_F(Clicks, AreRefusedWithPlaceAndRemedy)
 {
   EXPECT_NE(errorOf("a.txt", "").find("3D Slicer"), std::string::npos);
-  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    click: []\n").find("line 3: unknown key 'click'"),
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    click: []\n")
+                .find("branches[a].click (line 3): unknown key; did you mean \"clicks\"?"),
             std::string::npos);
   EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, 3]]\n").find("a: has 1 click(s)"),
             std::string::npos);
   EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2], [1, 2, 3]]\n")
-                .find("line 3: a click must be [x, y, z]"),
+                .find("branches[a].clicks.0 (line 3): expected a list of 3 numbers"),
             std::string::npos);
-  EXPECT_NE(errorOf("a.yaml", "frame: ITK\nbranches: [{name: a, clicks: [[1, 2, 3], [4, 5, 6]]}]\n").find("LPS or RAS"),
+  EXPECT_NE(errorOf("a.yaml", "frame: ITK\nbranches: [{name: a, clicks: [[1, 2, 3], [4, 5, 6]]}]\n")
+                .find("frame (line 1): is \"ITK\"; must be one of LPS, RAS"),
             std::string::npos);
-  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, .nan], [4, 5, 6]]\n").find("no position"),
+  EXPECT_NE(errorOf("a.yaml", "branches:\n  - name: a\n    clicks: [[1, 2, .nan], [4, 5, 6]]\n")
+                .find("branches[a].clicks.0.2 (line 3): is not a number (NaN)"),
             std::string::npos);
   EXPECT_NE(errorOf("a.yaml", "branches: [").find("not valid YAML"), std::string::npos);
   EXPECT_NE(errorOf("a.mrk.json", "{}").find("no markups file"), std::string::npos);

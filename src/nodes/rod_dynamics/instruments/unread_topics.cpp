@@ -5,10 +5,10 @@
 #include <ros/master.h>
 #include <ros/this_node.h>
 
+#include "common/text/words.h"
 #include "drive/joint_command.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/schema/scene_schema.h"
-#include "scene/yaml/yaml_reader.h"
 #include "simulation/driven_hands.h"
 
 namespace endovascular_sim::nodes
@@ -28,11 +28,11 @@ std::string remedyFor(const scene::Scene& scene, const std::string& prefix, cons
     known.push_back(driven.instrument.name);
   const auto found = std::find(known.begin(), known.end(), instrument);
   const bool is_input = std::find(kInputs.begin(), kInputs.end(), input) != kInputs.end();
-  const std::string nearest_input = scene::nearestWord(input, kInputs);
+  const std::string nearest_input = nearestWord(input, kInputs);
   const std::string right_input = is_input ? input : nearest_input.empty() ? kInputs.front() : nearest_input;
   if (found == known.end())
   {
-    const std::string nearest = scene::nearestWord(instrument, known);
+    const std::string nearest = nearestWord(instrument, known);
     return "the scene has no instrument '" + instrument + "'; publish to " + prefix +
            (nearest.empty() ? known.front() : nearest) + "/" + right_input;
   }

@@ -1,10 +1,10 @@
-#include "common/text/yaml_text.h"
+#include "yaml/text.h"
 
 #include <gtest/gtest.h>
 
 #include "common/error.h"
 
-namespace endovascular_sim
+namespace endovascular_sim::yaml
 {
 namespace
 {
@@ -84,4 +84,4 @@ TEST(YamlText, NamesATabInTheIndentation)
 }
 
 }  // namespace
-}  // namespace endovascular_sim
+}  // namespace endovascular_sim::yaml

@@ -1,4 +1,4 @@
-#include "scene/yaml/file_search.h"
+#include "scene/file_search.h"
 
 #include <dlfcn.h>
 #include <link.h>
@@ -62,9 +62,9 @@ std::string configFolder()
   return folder.empty() ? configAbove(ownFile()).string() : folder;
 }
 
-std::string findSceneFile(const SceneNode& node, const std::string& path, const std::string& scene_file)
+std::string findSceneFile(const yaml::Node& node, const std::string& path, const std::string& scene_file)
 {
-  if (node.kind != SceneNode::Kind::kScalar || node.text.empty())
+  if (node.kind != yaml::Node::Kind::kScalar || node.text.empty())
     throw InputError(node.file, path + node.location(), "expected the path of a file");
   std::error_code error;
   const fs::path current = fs::current_path(error);
@@ -91,9 +91,9 @@ std::string findSceneFile(const SceneNode& node, const std::string& path, const 
           "; give the path of an existing file");
 }
 
-std::string findAnatomy(const SceneNode& node, const std::string& path, const std::string& scene_file)
+std::string findAnatomy(const yaml::Node& node, const std::string& path, const std::string& scene_file)
 {
-  const bool is_word = node.kind == SceneNode::Kind::kScalar && !node.text.empty() &&
+  const bool is_word = node.kind == yaml::Node::Kind::kScalar && !node.text.empty() &&
                        node.text.find_first_of("./\\") == std::string::npos;
   if (!is_word)
     return findSceneFile(node, path, scene_file);

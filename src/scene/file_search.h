@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scene/yaml/yaml_tree.h"
+#include "yaml/tree.h"
 
 namespace endovascular_sim::scene
 {
@@ -19,12 +19,12 @@ std::string configFolder();
  *  @param path key path of the value
  *  @param scene_file the scene
  *  @throws InputError naming the folders when there is no such file */
-std::string findSceneFile(const SceneNode& node, const std::string& path, const std::string& scene_file);
+std::string findSceneFile(const yaml::Node& node, const std::string& path, const std::string& scene_file);
 
 /** Finds an anatomy file. A single word such as `natural` names a file of the package's folder config/anatomies,
  * without
  *  `.yaml`; any other text is a path as in findSceneFile.
  *  @throws InputError listing the anatomies of the package for an unknown word */
-std::string findAnatomy(const SceneNode& node, const std::string& path, const std::string& scene_file);
+std::string findAnatomy(const yaml::Node& node, const std::string& path, const std::string& scene_file);
 
 }  // namespace endovascular_sim::scene

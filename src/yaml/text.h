@@ -5,7 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-namespace endovascular_sim
+namespace endovascular_sim::yaml
 {
 
 /** Maximum number of values of a YAML text. Those of an alias (`*name`) count at each of its uses. */
@@ -21,4 +21,4 @@ constexpr std::size_t kMaxYamlDepth = 32;
  *          that contains itself, more than kMaxYamlValues values, or more than kMaxYamlDepth levels */
 YAML::Node parseYamlText(const std::string& text, const std::string& origin, const std::string& where = "");
 
-}  // namespace endovascular_sim
+}  // namespace endovascular_sim::yaml

@@ -1,4 +1,4 @@
-#include "scene/yaml/yaml_reader.h"
+#include "yaml/reader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,10 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/quantities.h"
+#include "common/text/words.h"
 
-namespace endovascular_sim::scene
+namespace endovascular_sim::yaml
 {
 namespace
 {
@@ -24,17 +26,7 @@ std::string inUnit(const Quantity& quantity)
   return isPureNumber(quantity) ? "" : std::string(" in ") + quantity.unit;
 }
 
-const Quantity kCount{"counts", "1", Dimension::kOther, 0.0, 1e300, 0.0, 1e300};
-
-std::string listed(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-[[noreturn]] void rejectNode(const SceneNode& node, const std::string& path, const std::string& remedy)
+[[noreturn]] void rejectNode(const Node& node, const std::string& path, const std::string& remedy)
 {
   throw InputError(node.file, path + node.location(), remedy);
 }
@@ -46,7 +38,7 @@ std::string withoutIndices(const std::string& path)
   std::istringstream words(path);
   for (std::string word; std::getline(words, word, '.');)
   {
-    const bool is_index = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    const bool is_index = !word.empty() && std::isdigit(static_cast<unsigned char>(word.front())) != 0;
     result += (result.empty() ? "" : ".") + (is_index ? "N" : word);
   }
   return result;
@@ -71,9 +63,9 @@ std::string acceptedText(const Quantity& quantity, const Range& range)
   return (zero ? "0, " : "") + number(low) + " to " + number(high) + infinity;
 }
 
-double toNumber(const SceneNode& node, const std::string& path, const Quantity& quantity, const Range& range)
+double toNumber(const Node& node, const std::string& path, const Quantity& quantity, const Range& range)
 {
-  if (node.kind != SceneNode::Kind::kScalar)
+  if (node.kind != Node::Kind::kScalar)
     rejectNode(node, path, "expected one number" + inUnit(quantity));
   const std::string& text = node.text;
   const bool signed_text = !text.empty() && (text[0] == '+' || text[0] == '-');
@@ -121,33 +113,14 @@ std::string inUnits(const std::vector<Quantity>& columns)
 }
 
 /** @param columns quantity of each number */
-std::vector<double> toNumbers(const SceneNode& node, const std::string& path, const std::vector<Quantity>& columns)
+std::vector<double> toNumbers(const Node& node, const std::string& path, const std::vector<Quantity>& columns)
 {
-  if (node.kind != SceneNode::Kind::kSequence || node.items.size() != columns.size())
+  if (node.kind != Node::Kind::kSequence || node.items.size() != columns.size())
     rejectNode(node, path, "expected a list of " + std::to_string(columns.size()) + " numbers" + inUnits(columns));
   std::vector<double> values;
   for (std::size_t i = 0; i < node.items.size(); ++i)
     values.push_back(toNumber(node.items[i], path + "." + std::to_string(i), columns[i], Range::any()));
   return values;
-}
-
-std::size_t editDistance(const std::string& a, const std::string& b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j)
-    row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -178,30 +151,19 @@ std::string Range::description() const
   return text.str();
 }
 
-std::string nearestWord(const std::string& word, const std::vector<std::string>& known)
+Reader::Reader(const Node& root, ReadingReport* report, ItemLabel label)
+  : node_(&root), parent_(root), report_(report), label_(label)
 {
-  std::string nearest;
-  std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
-  for (const std::string& candidate : known)
-  {
-    const std::size_t distance = editDistance(word, candidate);
-    if (distance < best)
-    {
-      best = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
 }
 
-SceneReader::SceneReader(const SceneNode* node, const SceneNode& parent, std::string path, ReadingReport* report)
-  : node_(node), parent_(parent), path_(std::move(path)), report_(report)
+Reader::Reader(const Node* node, const Node& parent, std::string path, const Reader& above)
+  : node_(node), parent_(parent), path_(std::move(path)), report_(above.report_), label_(above.label_)
 {
-  if (node_ != nullptr && node_->kind != SceneNode::Kind::kMap)
+  if (node_ != nullptr && node_->kind != Node::Kind::kMap)
     rejectNode(*node_, path_, "expected a map of `key: value` lines");
 }
 
-void SceneReader::finish() const
+void Reader::finish() const
 {
   if (node_ == nullptr)
     return;
@@ -209,23 +171,20 @@ void SceneReader::finish() const
   {
     if (std::find(known_.begin(), known_.end(), key) != known_.end())
       continue;
-    const std::string nearest = nearestWord(key, known_);
-    rejectNode(
-        value, pathOf(key),
-        "unknown key; " + (nearest.empty() ? "known keys: " + listed(known_) : "did you mean \"" + nearest + "\"?"));
+    rejectNode(value, pathOf(key), "unknown key; " + suggestion(key, known_, "known keys: "));
   }
 }
 
-std::string SceneReader::pathOf(const std::string& key) const
+std::string Reader::pathOf(const std::string& key) const
 {
   return path_.empty() ? key : path_ + "." + key;
 }
 
-const SceneNode* SceneReader::visit(const std::string& key, Need need, const std::string& expected)
+const Node* Reader::visit(const std::string& key, Need need, const std::string& expected)
 {
   if (std::find(known_.begin(), known_.end(), key) == known_.end())
     known_.push_back(key);
-  const SceneNode* found = node_ == nullptr ? nullptr : node_->find(key);
+  const Node* found = node_ == nullptr ? nullptr : node_->find(key);
   if (found == nullptr && need == Need::kRequired)
   {
     reject(key, "missing; give " + expected);
@@ -233,25 +192,34 @@ const SceneNode* SceneReader::visit(const std::string& key, Need need, const std
   return found;
 }
 
-bool SceneReader::has(const std::string& key)
+bool Reader::has(const std::string& key)
 {
   return visit(key, Need::kOptional, "") != nullptr;
 }
 
-bool SceneReader::hasMap(const std::string& key)
+bool Reader::hasMap(const std::string& key)
 {
-  const SceneNode* node = visit(key, Need::kOptional, "");
-  return node != nullptr && node->kind == SceneNode::Kind::kMap;
+  const Node* node = visit(key, Need::kOptional, "");
+  return node != nullptr && node->kind == Node::Kind::kMap;
 }
 
-bool SceneReader::hasWord(const std::string& key)
+bool Reader::hasWord(const std::string& key)
 {
-  const SceneNode* node = visit(key, Need::kOptional, "");
-  return node != nullptr && node->kind == SceneNode::Kind::kScalar && !node->text.empty() &&
+  const Node* node = visit(key, Need::kOptional, "");
+  return node != nullptr && node->kind == Node::Kind::kScalar && !node->text.empty() &&
          std::isalpha(static_cast<unsigned char>(node->text.front())) != 0;
 }
 
-void SceneReader::list(const std::string& key, const Quantity& quantity, const Range& range)
+std::vector<std::string> Reader::keys()
+{
+  std::vector<std::string> keys;
+  if (node_ != nullptr)
+    for (const auto& field : node_->fields)
+      keys.push_back(field.first);
+  return keys;
+}
+
+void Reader::list(const std::string& key, const Quantity& quantity, const Range& range)
 {
   if (report_ != nullptr)
     report_->keys.push_back({withoutIndices(pathOf(key)), isPureNumber(quantity) ? "" : quantity.unit,
@@ -259,40 +227,47 @@ void SceneReader::list(const std::string& key, const Quantity& quantity, const R
                              acceptedText(quantity, range)});
 }
 
-void SceneReader::judge(const SceneNode& node, const std::string& path, const Quantity& quantity, double value)
+void Reader::judge(const Node& node, const std::string& path, const Quantity& quantity, double value,
+                   const std::string& prefix, const std::string& suffix) const
 {
   if (report_ == nullptr || plausibility(quantity, value) == Plausibility::kUsual)
     return;
-  const std::string message = plausibilityMessage(quantity, value);
+  const std::string message = prefix + plausibilityMessage(quantity, value) + suffix;
   if (plausibility(quantity, value) == Plausibility::kImpossible)
     rejectNode(node, path, message);
   report_->warnings.push_back(node.file + ": " + path + node.location() + ": " + message);
 }
 
-void SceneReader::number(const std::string& key, double& value, const Quantity& quantity, const Range& range, Need need)
+void Reader::judge(const std::string& key, const Quantity& quantity, double value) const
+{
+  judge(deepestOn(key), pathOf(key), quantity, value, std::string("in ") + quantity.unit + " ",
+        "; check it and the unit of the file");
+}
+
+void Reader::number(const std::string& key, double& value, const Quantity& quantity, const Range& range, Need need)
 {
   list(key, quantity, range);
-  const SceneNode* node = visit(key, need, "a number" + inUnit(quantity));
+  const Node* node = visit(key, need, "a number" + inUnit(quantity));
   if (node == nullptr)
     return;
   value = toNumber(*node, pathOf(key), quantity, range);
   judge(*node, pathOf(key), quantity, value);
 }
 
-void SceneReader::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
+void Reader::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
 {
   number(key, value, quantity, range, Need::kOptional);
 }
 
-void SceneReader::integer(const std::string& key, int& value, int min, int max, Need need)
+void Reader::integer(const std::string& key, int& value, int min, int max, Need need)
 {
   const std::string interval = std::to_string(min) + " to " + std::to_string(max);
   if (report_ != nullptr)
     report_->keys.push_back({withoutIndices(pathOf(key)), "", interval, interval});
-  const SceneNode* node = visit(key, need, "a whole number");
+  const Node* node = visit(key, need, "a whole number");
   if (node == nullptr)
     return;
-  const double number = toNumber(*node, pathOf(key), kCount, Range::any());
+  const double number = toNumber(*node, pathOf(key), quantities::kNumber, Range::any());
   if (number != std::floor(number) || number < min || number > max)
     rejectNode(
         *node, pathOf(key),
@@ -300,55 +275,55 @@ void SceneReader::integer(const std::string& key, int& value, int min, int max, 
   value = static_cast<int>(number);
 }
 
-void SceneReader::bigInteger(const std::string& key, std::uint64_t& value)
+void Reader::bigInteger(const std::string& key, std::uint64_t& value)
 {
   if (report_ != nullptr)
     report_->keys.push_back({withoutIndices(pathOf(key)), "", "0 to 2^64 - 1", "0 to 2^64 - 1"});
-  const SceneNode* node = visit(key, Need::kOptional, "");
+  const Node* node = visit(key, Need::kOptional, "");
   if (node == nullptr)
     return;
   const std::string& text = node->text;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (node->kind != SceneNode::Kind::kScalar || text.empty() || result.ec != std::errc() || result.ptr != end)
+  if (node->kind != Node::Kind::kScalar || text.empty() || result.ec != std::errc() || result.ptr != end)
     rejectNode(*node, pathOf(key), "must be a whole number, zero or positive, below 2^64");
 }
 
-void SceneReader::boolean(const std::string& key, bool& value)
+void Reader::boolean(const std::string& key, bool& value)
 {
-  const SceneNode* node = visit(key, Need::kOptional, "");
+  const Node* node = visit(key, Need::kOptional, "");
   if (node == nullptr)
     return;
-  if (node->kind != SceneNode::Kind::kScalar || (node->text != "true" && node->text != "false"))
+  if (node->kind != Node::Kind::kScalar || (node->text != "true" && node->text != "false"))
     rejectNode(*node, pathOf(key), "is \"" + node->text + "\"; must be true or false");
   value = node->text == "true";
 }
 
-void SceneReader::text(const std::string& key, std::string& value, Need need)
+void Reader::text(const std::string& key, std::string& value, Need need)
 {
-  const SceneNode* node = visit(key, need, "a word");
+  const Node* node = visit(key, need, "a word");
   if (node == nullptr)
     return;
-  if (node->kind != SceneNode::Kind::kScalar || node->text.empty())
+  if (node->kind != Node::Kind::kScalar || node->text.empty())
     rejectNode(*node, pathOf(key), "expected one word or path");
   value = node->text;
 }
 
-void SceneReader::choice(const std::string& key, int& value, const std::vector<std::string>& words, Need need)
+void Reader::choice(const std::string& key, int& value, const std::vector<std::string>& words, Need need)
 {
-  const SceneNode* node = visit(key, need, "one of " + listed(words));
+  const Node* node = visit(key, need, "one of " + listed(words));
   if (node == nullptr)
     return;
   const auto found = std::find(words.begin(), words.end(), node->text);
-  if (node->kind != SceneNode::Kind::kScalar || found == words.end())
+  if (node->kind != Node::Kind::kScalar || found == words.end())
     rejectNode(*node, pathOf(key), "is \"" + node->text + "\"; must be one of " + listed(words));
   value = static_cast<int>(found - words.begin());
 }
 
-void SceneReader::numbers(const std::string& key, double* values, int size, const Quantity& quantity, Need need)
+void Reader::numbers(const std::string& key, double* values, int size, const Quantity& quantity, Need need)
 {
   list(key, quantity, Range::any());
-  const SceneNode* node = visit(key, need, "a list of " + std::to_string(size) + " numbers" + inUnit(quantity));
+  const Node* node = visit(key, need, "a list of " + std::to_string(size) + " numbers" + inUnit(quantity));
   if (node == nullptr)
     return;
   const std::vector<Quantity> components(static_cast<std::size_t>(size), quantity);
@@ -359,16 +334,16 @@ void SceneReader::numbers(const std::string& key, double* values, int size, cons
         *std::max_element(read.begin(), read.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
 }
 
-void SceneReader::rows(const std::string& key, std::vector<std::vector<double>>& values,
-                       const std::vector<Quantity>& columns, Need need)
+void Reader::rows(const std::string& key, std::vector<std::vector<double>>& values,
+                  const std::vector<Quantity>& columns, Need need)
 {
   for (std::size_t column = 0; column < columns.size(); ++column)
     list(key + "[" + std::to_string(column) + "]", columns[column], Range::any());
   const std::string expected = "a list of lists of " + std::to_string(columns.size()) + " numbers" + inUnits(columns);
-  const SceneNode* node = visit(key, need, expected);
+  const Node* node = visit(key, need, expected);
   if (node == nullptr)
     return;
-  if (node->kind != SceneNode::Kind::kSequence)
+  if (node->kind != Node::Kind::kSequence)
     rejectNode(*node, pathOf(key), "expected " + expected);
   values.clear();
   for (std::size_t i = 0; i < node->items.size(); ++i)
@@ -380,59 +355,62 @@ void SceneReader::rows(const std::string& key, std::vector<std::vector<double>>&
   }
 }
 
-void SceneReader::map(const std::string& key, const Visit& visit_fields)
+void Reader::map(const std::string& key, const Visit& visit_fields)
 {
-  const SceneNode* node = visit(key, Need::kOptional, "");
-  SceneReader child(node, node_ == nullptr ? parent_ : *node_, pathOf(key), report_);
+  const Node* node = visit(key, Need::kOptional, "");
+  Reader child(node, node_ == nullptr ? parent_ : *node_, pathOf(key), *this);
   visit_fields(child);
   child.finish();
 }
 
-void SceneReader::list(const std::string& key, std::size_t /*size*/, const std::function<void(std::size_t)>& resize,
-                       const std::function<void(SceneFields&, std::size_t)>& visit_fields, Need need)
+void Reader::list(const std::string& key, std::size_t /*size*/, const std::function<void(std::size_t)>& resize,
+                  const std::function<void(Fields&, std::size_t)>& visit_fields, Need need)
 {
-  const SceneNode* node = visit(key, need, "a list, one `- ` entry each");
+  const Node* node = visit(key, need, "a list, one `- ` entry each");
   if (node == nullptr)
     return;
-  if (node->kind != SceneNode::Kind::kSequence || (need == Need::kRequired && node->items.empty()))
+  if (node->kind != Node::Kind::kSequence || (need == Need::kRequired && node->items.empty()))
     rejectNode(*node, pathOf(key), "expected a list, one `- ` entry each");
   resize(node->items.size());
   for (std::size_t i = 0; i < node->items.size(); ++i)
   {
-    SceneReader child(&node->items[i], *node, pathOf(key) + "." + std::to_string(i), report_);
+    const Node& item = node->items[i];
+    const Node* name = label_ == ItemLabel::kName ? item.find("name") : nullptr;
+    const bool is_named = name != nullptr && name->kind == Node::Kind::kScalar;
+    Reader child(&item, *node, pathOf(key) + (is_named ? "[" + name->text + "]" : "." + std::to_string(i)), *this);
     visit_fields(child, i);
     child.finish();
   }
 }
 
-void SceneReader::reject(const std::string& key, const std::string& remedy) const
+void Reader::reject(const std::string& key, const std::string& remedy) const
 {
   rejectMisspeltKey();
-  const SceneNode& deepest = deepestOn(key);
+  const Node& deepest = deepestOn(key);
   throw InputError(deepest.file, (key.empty() ? path_ : pathOf(key)) + deepest.location(), remedy);
 }
 
-void SceneReader::warn(const std::string& key, const std::string& remedy) const
+void Reader::warn(const std::string& key, const std::string& remedy) const
 {
   if (report_ == nullptr)
     return;
-  const SceneNode& deepest = deepestOn(key);
+  const Node& deepest = deepestOn(key);
   report_->warnings.push_back(InputError(deepest.file, pathOf(key) + deepest.location(), remedy).what());
 }
 
-const SceneNode& SceneReader::deepestOn(const std::string& path) const
+const Node& Reader::deepestOn(const std::string& path) const
 {
-  const SceneNode* deepest = node_ == nullptr ? &parent_ : node_;
+  const Node* deepest = node_ == nullptr ? &parent_ : node_;
   std::istringstream words(path);
   for (std::string word; std::getline(words, word, '.');)
-    if (const SceneNode* next = deepest->find(word))
+    if (const Node* next = deepest->below(word))
       deepest = next;
     else
       break;
   return *deepest;
 }
 
-void SceneReader::rejectMisspeltKey() const
+void Reader::rejectMisspeltKey() const
 {
   if (node_ == nullptr)
     return;
@@ -444,4 +422,4 @@ void SceneReader::rejectMisspeltKey() const
         rejectNode(value, pathOf(key), "unknown key; did you mean \"" + known + "\"?");
 }
 
-}  // namespace endovascular_sim::scene
+}  // namespace endovascular_sim::yaml

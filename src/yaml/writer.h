@@ -2,17 +2,17 @@
 
 #include <string>
 
-#include "scene/yaml/fields.h"
+#include "yaml/fields.h"
 
-namespace endovascular_sim::scene
+namespace endovascular_sim::yaml
 {
 
 /** Writer of fields as canonical YAML: schema order, all values explicit, numbers in the shortest form that reads back
  *  to the same bits. */
-class SceneWriter : public SceneFields
+class Writer : public Fields
 {
 public:
-  explicit SceneWriter(int depth = 0) : depth_(depth) {}
+  explicit Writer(int depth = 0) : depth_(depth) {}
 
   const std::string& yaml() const { return yaml_; }
 
@@ -20,6 +20,7 @@ public:
   bool has(const std::string& /*key*/) override { return false; }
   bool hasMap(const std::string& /*key*/) override { return false; }
   bool hasWord(const std::string& /*key*/) override { return false; }
+  std::vector<std::string> keys() override { return {}; }
   void number(const std::string& key, double& value, const Quantity& quantity, const Range& range, Need need) override;
   void optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range) override;
   void integer(const std::string& key, int& value, int min, int max, Need need) override;
@@ -32,9 +33,12 @@ public:
             Need need) override;
   void map(const std::string& key, const Visit& visit) override;
   void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
-            const std::function<void(SceneFields&, std::size_t)>& visit, Need need) override;
+            const std::function<void(Fields&, std::size_t)>& visit, Need need) override;
   [[noreturn]] void reject(const std::string& key, const std::string& remedy) const override;
-  void warn(const std::string& key, const std::string& remedy) const override;
+  /** Does nothing: values were judged when they were read. */
+  void warn(const std::string& /*key*/, const std::string& /*remedy*/) const override {}
+  void judge(const std::string& /*key*/, const Quantity& /*quantity*/, double /*value*/) const override {}
+  std::string place(const std::string& /*key*/) const override { return ""; }
 
 private:
   void line(const std::string& key, const std::string& value);
@@ -43,4 +47,4 @@ private:
   std::string yaml_;
 };
 
-}  // namespace endovascular_sim::scene
+}  // namespace endovascular_sim::yaml

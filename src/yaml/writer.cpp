@@ -1,4 +1,4 @@
-#include "scene/yaml/yaml_writer.h"
+#include "yaml/writer.h"
 
 #include <array>
 #include <charconv>
@@ -6,7 +6,7 @@
 
 #include "common/error.h"
 
-namespace endovascular_sim::scene
+namespace endovascular_sim::yaml
 {
 namespace
 {
@@ -47,59 +47,59 @@ std::string quoted(const std::string& value)
 
 }  // namespace
 
-void SceneWriter::line(const std::string& key, const std::string& value)
+void Writer::line(const std::string& key, const std::string& value)
 {
   yaml_ +=
       std::string(static_cast<std::size_t>(depth_) * 2, ' ') + key + ":" + (value.empty() ? "" : " ") + value + "\n";
 }
 
-void SceneWriter::number(const std::string& key, double& value, const Quantity& /*quantity*/, const Range& range,
-                         Need /*need*/)
+void Writer::number(const std::string& key, double& value, const Quantity& /*quantity*/, const Range& range,
+                    Need /*need*/)
 {
   if (!range.contains(value))
     reject(key, "is " + std::to_string(value) + "; must be " + range.description());
   line(key, formatted(value));
 }
 
-void SceneWriter::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
+void Writer::optionalNumber(const std::string& key, double& value, const Quantity& quantity, const Range& range)
 {
   if (!std::isnan(value))
     number(key, value, quantity, range, Need::kOptional);
 }
 
-void SceneWriter::integer(const std::string& key, int& value, int /*min*/, int /*max*/, Need /*need*/)
+void Writer::integer(const std::string& key, int& value, int /*min*/, int /*max*/, Need /*need*/)
 {
   line(key, std::to_string(value));
 }
 
-void SceneWriter::bigInteger(const std::string& key, std::uint64_t& value)
+void Writer::bigInteger(const std::string& key, std::uint64_t& value)
 {
   line(key, std::to_string(value));
 }
 
-void SceneWriter::boolean(const std::string& key, bool& value)
+void Writer::boolean(const std::string& key, bool& value)
 {
   line(key, value ? "true" : "false");
 }
 
-void SceneWriter::text(const std::string& key, std::string& value, Need /*need*/)
+void Writer::text(const std::string& key, std::string& value, Need /*need*/)
 {
   if (!value.empty())
     line(key, quoted(value));
 }
 
-void SceneWriter::choice(const std::string& key, int& value, const std::vector<std::string>& words, Need /*need*/)
+void Writer::choice(const std::string& key, int& value, const std::vector<std::string>& words, Need /*need*/)
 {
   line(key, words.at(static_cast<std::size_t>(value)));
 }
 
-void SceneWriter::numbers(const std::string& key, double* values, int size, const Quantity& /*quantity*/, Need /*need*/)
+void Writer::numbers(const std::string& key, double* values, int size, const Quantity& /*quantity*/, Need /*need*/)
 {
   line(key, formatted(values, static_cast<std::size_t>(size)));
 }
 
-void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>& values,
-                       const std::vector<Quantity>& /*columns*/, Need /*need*/)
+void Writer::rows(const std::string& key, std::vector<std::vector<double>>& values,
+                  const std::vector<Quantity>& /*columns*/, Need /*need*/)
 {
   std::string text;
   for (const std::vector<double>& row : values)
@@ -107,33 +107,30 @@ void SceneWriter::rows(const std::string& key, std::vector<std::vector<double>>&
   line(key, "[" + text + "]");
 }
 
-void SceneWriter::map(const std::string& key, const Visit& visit)
+void Writer::map(const std::string& key, const Visit& visit)
 {
-  SceneWriter child(depth_ + 1);
+  Writer child(depth_ + 1);
   visit(child);
   line(key, child.yaml_.empty() ? "{}" : "");
   yaml_ += child.yaml_;
 }
 
-void SceneWriter::list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& /*resize*/,
-                       const std::function<void(SceneFields&, std::size_t)>& visit, Need /*need*/)
+void Writer::list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& /*resize*/,
+                  const std::function<void(Fields&, std::size_t)>& visit, Need /*need*/)
 {
   line(key, size == 0 ? "[]" : "");
   for (std::size_t i = 0; i < size; ++i)
   {
-    SceneWriter child(depth_ + 2);
+    Writer child(depth_ + 2);
     visit(child, i);
     child.yaml_[static_cast<std::size_t>(depth_) * 2 + 2] = '-';
     yaml_ += child.yaml_;
   }
 }
 
-/** A scene was judged when it was read. */
-void SceneWriter::warn(const std::string& /*key*/, const std::string& /*remedy*/) const {}
-
-void SceneWriter::reject(const std::string& key, const std::string& remedy) const
+void Writer::reject(const std::string& key, const std::string& remedy) const
 {
-  throw InputError("scene", key, remedy);
+  throw InputError("values to write", key, remedy);
 }
 
-}  // namespace endovascular_sim::scene
+}  // namespace endovascular_sim::yaml

@@ -1,15 +1,16 @@
-#include "scene/yaml/yaml_tree.h"
+#include "yaml/tree.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "common/error.h"
-#include "common/text/yaml_text.h"
+#include "yaml/text.h"
 
-namespace endovascular_sim::scene
+namespace endovascular_sim::yaml
 {
 namespace
 {
@@ -19,9 +20,9 @@ std::string joined(const std::string& path, const std::string& key)
   return path.empty() ? key : path + "." + key;
 }
 
-SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::string& path)
+Node convert(const YAML::Node& yaml, const std::string& file, const std::string& path)
 {
-  SceneNode node;
+  Node node;
   node.file = file;
   node.line = yaml.Mark().line + 1;
   std::map<std::string, int> lines;  // of the keys of a map
@@ -31,16 +32,16 @@ SceneNode convert(const YAML::Node& yaml, const std::string& file, const std::st
     case YAML::NodeType::Null:
       break;
     case YAML::NodeType::Scalar:
-      node.kind = SceneNode::Kind::kScalar;
+      node.kind = Node::Kind::kScalar;
       node.text = yaml.Scalar();
       break;
     case YAML::NodeType::Sequence:
-      node.kind = SceneNode::Kind::kSequence;
+      node.kind = Node::Kind::kSequence;
       for (std::size_t i = 0; i < yaml.size(); ++i)
         node.items.push_back(convert(yaml[i], file, joined(path, std::to_string(i))));
       break;
     case YAML::NodeType::Map:
-      node.kind = SceneNode::Kind::kMap;
+      node.kind = Node::Kind::kMap;
       for (const auto& entry : yaml)
       {
         if (!entry.first.IsScalar())
@@ -68,47 +69,53 @@ bool isPlainText(const std::string& text)
 }
 
 /** Value of an override. A plain text is taken as a whole: in a path, ` #` begins no comment and `: ` no map. */
-SceneNode valueOf(const std::string& text, const std::string& origin, const std::string& where)
+Node valueOf(const std::string& text, const std::string& origin, const std::string& where)
 {
   const bool needs_quotes = text.find(": ") != std::string::npos || text.find(" #") != std::string::npos;
   if (!isPlainText(text) || !needs_quotes)
     return convert(parseYamlText(text, origin, where), origin, where);
-  SceneNode node;
+  Node node;
   node.file = origin;
-  node.kind = SceneNode::Kind::kScalar;
+  node.kind = Node::Kind::kScalar;
   node.text = text;
   return node;
 }
 
-void markAsOverride(SceneNode& node)
+void markAsOverride(Node& node)
 {
   node.line = 0;
-  for (SceneNode& item : node.items)
+  for (Node& item : node.items)
     markAsOverride(item);
   for (auto& field : node.fields)
     markAsOverride(field.second);
 }
 
-SceneNode& descend(SceneNode& node, const std::string& key, const std::string& where, const std::string& origin)
+/** Index of a list; empty for a word that is none. */
+std::optional<std::size_t> indexOf(const std::string& word)
 {
-  if (node.kind == SceneNode::Kind::kSequence)
+  const bool is_index = !word.empty() && word.size() < 7 &&
+                        std::all_of(word.begin(), word.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
+  return is_index ? std::optional<std::size_t>(std::stoul(word)) : std::nullopt;
+}
+
+Node& descend(Node& node, const std::string& key, const std::string& where, const std::string& origin)
+{
+  if (node.kind == Node::Kind::kSequence)
   {
-    const bool is_index = !key.empty() && key.size() < 7 &&
-                          std::all_of(key.begin(), key.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
-    const std::size_t index = is_index ? std::stoul(key) : node.items.size();
+    const std::size_t index = indexOf(key).value_or(node.items.size());
     if (index >= node.items.size())
       throw InputError(origin, where,
                        "\"" + key + "\" is not an index of this list; it has " + std::to_string(node.items.size()) +
                            " elements, counted from 0");
     return node.items[index];
   }
-  if (node.kind == SceneNode::Kind::kScalar)
+  if (node.kind == Node::Kind::kScalar)
     throw InputError(origin, where, "\"" + key + "\" is below the scalar \"" + node.text + "\", which has no keys");
-  node.kind = SceneNode::Kind::kMap;
+  node.kind = Node::Kind::kMap;
   for (auto& field : node.fields)
     if (field.first == key)
       return field.second;
-  SceneNode fresh;
+  Node fresh;
   fresh.file = origin;
   node.fields.emplace_back(key, fresh);
   return node.fields.back().second;
@@ -116,7 +123,7 @@ SceneNode& descend(SceneNode& node, const std::string& key, const std::string& w
 
 }  // namespace
 
-const SceneNode* SceneNode::find(const std::string& key) const
+const Node* Node::find(const std::string& key) const
 {
   for (const auto& field : fields)
     if (field.first == key)
@@ -124,41 +131,49 @@ const SceneNode* SceneNode::find(const std::string& key) const
   return nullptr;
 }
 
-std::string SceneNode::location() const
+const Node* Node::below(const std::string& word) const
 {
-  return line > 0 ? " (line " + std::to_string(line) + ")" : " (--set)";
+  if (kind != Kind::kSequence)
+    return find(word);
+  const std::optional<std::size_t> index = indexOf(word);
+  return index && *index < items.size() && items[*index].kind != Kind::kNull ? &items[*index] : nullptr;
 }
 
-SceneNode parseSceneTree(const std::string& yaml, const std::string& origin)
+std::string Node::place() const
 {
-  SceneNode root = convert(parseYamlText(yaml, origin), origin, "");
-  if (root.kind != SceneNode::Kind::kMap)
-    throw InputError(origin, "line 1", "has no keys; expected `key: value` lines, see docs/SCENES.md");
+  return line > 0 ? "line " + std::to_string(line) : "--set";
+}
+
+Node parseTree(const std::string& yaml, const std::string& origin)
+{
+  Node root = convert(parseYamlText(yaml, origin), origin, "");
+  if (root.kind != Node::Kind::kMap)
+    throw InputError(origin, "line 1", "has no keys; expected `key: value` lines");
   return root;
 }
 
-SceneNode readSceneTree(const std::string& file)
+Node readTree(const std::string& file, const std::string& remedy)
 {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    throw InputError(file, "", "no such file; give the path of a YAML file");
+    throw InputError(file, "", "no such file; " + remedy);
   if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(file, "", "is not a file; give the path of a YAML file");
+    throw InputError(file, "", "is not a file; " + remedy);
   std::ifstream stream(file);
   if (!stream)
     throw InputError(file, "", "cannot be read; check its permissions");
   std::ostringstream text;
   text << stream.rdbuf();
-  return parseSceneTree(text.str(), file);
+  return parseTree(text.str(), file);
 }
 
-void overrideSceneTree(SceneNode& root, const std::string& override_text, const std::string& origin)
+void overrideTree(Node& root, const std::string& override_text, const std::string& origin)
 {
   const std::string where = "--set " + override_text;
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(origin, where, "expected key.path=value, e.g. --set drive.speed=0.02");
-  SceneNode* node = &root;
+  Node* node = &root;
   std::istringstream path(override_text.substr(0, equals));
   for (std::string key; std::getline(path, key, '.');)
     node = &descend(*node, key, where, origin);
@@ -166,4 +181,4 @@ void overrideSceneTree(SceneNode& root, const std::string& override_text, const 
   markAsOverride(*node);
 }
 
-}  // namespace endovascular_sim::scene
+}  // namespace endovascular_sim::yaml

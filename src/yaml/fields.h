@@ -10,7 +10,7 @@
 
 #include "common/quantity.h"
 
-namespace endovascular_sim::scene
+namespace endovascular_sim::yaml
 {
 
 /** Interval of valid values. */
@@ -38,15 +38,15 @@ enum class Need
   kRequired,  ///< a missing key is an error
 };
 
-/** Visitor of the fields of one map of a scene.
+/** Visitor of the fields of one map of a YAML file.
  *
- *  The schema is written once against this interface, for both reading and writing. Reading throws InputError for a
+ *  A schema is written once against this interface, for both reading and writing. Reading throws InputError for a
  *  value that is missing, of the wrong type or out of range. Each key that the schema visits counts as known. Units are
  *  SI. The quantity of a number gives its unit, and its usual magnitudes for messages about mistakes of unit. */
-class SceneFields
+class Fields
 {
 public:
-  virtual ~SceneFields() = default;
+  virtual ~Fields() = default;
 
   virtual bool reading() const = 0;
   /** True if the map contains a value for @p key; false while writing. */
@@ -55,6 +55,8 @@ public:
   virtual bool hasMap(const std::string& key) = 0;
   /** True if the value of @p key is a word, i.e. text that begins with a letter. */
   virtual bool hasWord(const std::string& key) = 0;
+  /** Keys of the map, in the order of the file; empty while writing. For maps from names of the user's choice. */
+  virtual std::vector<std::string> keys() = 0;
 
   virtual void number(const std::string& key, double& value, const Quantity& quantity, const Range& range,
                       Need need = Need::kOptional) = 0;
@@ -74,18 +76,26 @@ public:
   virtual void rows(const std::string& key, std::vector<std::vector<double>>& values,
                     const std::vector<Quantity>& columns, Need need = Need::kOptional) = 0;
 
-  using Visit = std::function<void(SceneFields&)>;
+  using Visit = std::function<void(Fields&)>;
   /** Visits a map. A missing map is visited as an empty one, so that its missing required keys are reported. */
   virtual void map(const std::string& key, const Visit& visit) = 0;
   /** Visits a list of maps. @p resize is called with the length while reading; @p size is the length while writing. */
   virtual void list(const std::string& key, std::size_t size, const std::function<void(std::size_t)>& resize,
-                    const std::function<void(SceneFields&, std::size_t)>& visit, Need need = Need::kOptional) = 0;
+                    const std::function<void(Fields&, std::size_t)>& visit, Need need = Need::kOptional) = 0;
 
   /** Throws InputError for @p key, which may be a path below this map; an empty key denotes the map itself. */
   [[noreturn]] virtual void reject(const std::string& key, const std::string& remedy) const = 0;
 
   /** Adds a warning about @p key, as reject() names it. */
   virtual void warn(const std::string& key, const std::string& remedy) const = 0;
+
+  /** Judges a value that follows from @p key and the unit of the file; adds a warning if it is unusual.
+   *  @param value value in the unit of the quantity
+   *  @throws InputError for an impossible value */
+  virtual void judge(const std::string& key, const Quantity& quantity, double value) const = 0;
+
+  /** Line of the value of @p key, which may be a path below this map, e.g. "line 7"; empty while writing. */
+  virtual std::string place(const std::string& key) const = 0;
 
   void vector3(const std::string& key, Eigen::Vector3d& value, const Quantity& quantity, Need need = Need::kOptional)
   {
@@ -101,4 +111,4 @@ public:
   }
 };
 
-}  // namespace endovascular_sim::scene
+}  // namespace endovascular_sim::yaml

@@ -1,4 +1,4 @@
-#include "common/text/yaml_text.h"
+#include "yaml/text.h"
 
 #include <yaml-cpp/eventhandler.h>
 
@@ -9,7 +9,7 @@
 
 #include "common/error.h"
 
-namespace endovascular_sim
+namespace endovascular_sim::yaml
 {
 namespace
 {
@@ -191,4 +191,4 @@ YAML::Node parseYamlText(const std::string& text, const std::string& origin, con
   }
 }
 
-}  // namespace endovascular_sim
+}  // namespace endovascular_sim::yaml
