@@ -1,8 +1,10 @@
 #include "common/quantity.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "common/text/format.h"
+#include "common/units.h"
 
 namespace endovascular_sim
 {
@@ -10,16 +12,10 @@ namespace
 {
 
 constexpr double kUnbounded = std::numeric_limits<double>::max();
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kInch = 0.0254;
-constexpr double kFrench = 1e-3 / 3.0;  // diameter of one French [m]
-
-std::string text(double value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
+using units::kAtmosphere;
+using units::kDegree;
+using units::kFrench;
+using units::kInch;
 
 bool isJudged(double value)
 {
@@ -28,7 +24,7 @@ bool isJudged(double value)
 
 std::string withUnit(double value, const Quantity& quantity)
 {
-  return std::string(quantity.unit) == "1" ? text(value) : text(value) + " " + quantity.unit;
+  return std::string(quantity.unit) == "1" ? shortNumber(value, 4) : shortNumber(value, 4) + " " + quantity.unit;
 }
 
 }  // namespace
@@ -42,14 +38,15 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
   static const std::vector<OtherUnit> time = {{"ms", 1e-3}, {"µs", 1e-6}, {"min", 60.0}};
   static const std::vector<OtherUnit> frequency = {{"1/min", 1.0 / 60.0}, {"kHz", 1e3}, {"mHz", 1e-3}};
   static const std::vector<OtherUnit> speed = {{"mm/s", 1e-3}, {"cm/s", 1e-2}};
-  static const std::vector<OtherUnit> angular_speed = {{"deg/s", kDegree}, {"rpm", M_PI / 30.0}};
-  static const std::vector<OtherUnit> acceleration = {{"mm/s²", 1e-3}, {"cm/s²", 1e-2}, {"g", 9.80665}};
+  static const std::vector<OtherUnit> angular_speed = {{"deg/s", kDegree}, {"rpm", units::kPi / 30.0}};
+  static const std::vector<OtherUnit> acceleration = {{"mm/s²", 1e-3}, {"cm/s²", 1e-2}, {"g", units::kGravity}};
   static const std::vector<OtherUnit> density = {{"g/cm³", 1e3}, {"g/m³", 1e-3}, {"kg/mm³", 1e9}};
-  static const std::vector<OtherUnit> force = {{"mN", 1e-3}, {"gf", 9.80665e-3}, {"µN", 1e-6}, {"kN", 1e3}};
+  static const std::vector<OtherUnit> force = {{"mN", 1e-3}, {"gf", 1e-3 * units::kGravity}, {"µN", 1e-6}, {"kN", 1e3}};
   static const std::vector<OtherUnit> torque = {{"N·mm", 1e-3}, {"mN·mm", 1e-6}};
   static const std::vector<OtherUnit> line_load = {{"N/mm", 1e3}, {"mN/m", 1e-3}};
-  static const std::vector<OtherUnit> pressure = {{"atm", 101325.0},  {"bar", 1e5}, {"kPa", 1e3},
-                                                  {"mmHg", 133.3224}, {"MPa", 1e6}, {"psi", 6894.757}};
+  static const std::vector<OtherUnit> pressure = {{"atm", kAtmosphere}, {"bar", 1e5},
+                                                  {"kPa", 1e3},         {"mmHg", units::kMillimetreOfMercury},
+                                                  {"MPa", 1e6},         {"psi", 6894.757}};
   static const std::vector<OtherUnit> modulus = {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}};
   static const std::vector<OtherUnit> rigidity = {{"N·mm²", 1e-6}, {"N·cm²", 1e-4}};
   static const std::vector<OtherUnit> stiffness = {{"N/mm", 1e3}, {"mN/m", 1e-3}};
@@ -132,7 +129,8 @@ std::string unitQuestion(const Quantity& quantity, double value)
   const std::optional<OtherUnit> unit = likelyUnit(quantity, value);
   if (!unit)
     return "";
-  return "did you mean " + text(value) + " " + unit->name + " = " + withUnit(value * unit->factor, quantity) + "?";
+  return "did you mean " + shortNumber(value, 4) + " " + unit->name + " = " + withUnit(value * unit->factor, quantity) +
+         "?";
 }
 
 std::string plausibilityMessage(const Quantity& quantity, double value)
@@ -140,20 +138,20 @@ std::string plausibilityMessage(const Quantity& quantity, double value)
   const double magnitude = std::abs(value);
   const std::string question = unitQuestion(quantity, value);
   const std::string unit = std::string(quantity.unit) == "1" ? "" : std::string("in ") + quantity.unit + ", ";
-  std::string message = "is " + text(value) + ": " + question + (question.empty() ? "" : " ") + quantity.name +
-                        " are " + unit + "usually " + intervalText(quantity.low, quantity.high);
+  std::string message = "is " + shortNumber(value, 4) + ": " + question + (question.empty() ? "" : " ") +
+                        quantity.name + " are " + unit + "usually " + intervalText(quantity.low, quantity.high);
   if (isJudged(value) && magnitude > quantity.highest)
-    message += "; at most " + text(quantity.highest) + " is accepted";
+    message += "; at most " + shortNumber(quantity.highest, 4) + " is accepted";
   if (isJudged(value) && magnitude < quantity.lowest)
-    message += "; at least " + text(quantity.lowest) + " is accepted";
+    message += "; at least " + shortNumber(quantity.lowest, 4) + " is accepted";
   return message;
 }
 
 std::string intervalText(double low, double high)
 {
   if (high >= kUnbounded)
-    return low <= 0.0 ? "any" : "at least " + text(low);
-  return low <= 0.0 ? "at most " + text(high) : text(low) + " to " + text(high);
+    return low <= 0.0 ? "any" : "at least " + shortNumber(low, 4);
+  return low <= 0.0 ? "at most " + shortNumber(high, 4) : shortNumber(low, 4) + " to " + shortNumber(high, 4);
 }
 
 }  // namespace endovascular_sim

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/text/format.h"
+#include "common/units.h"
 
 namespace endovascular_sim::image
 {
@@ -18,13 +19,6 @@ constexpr double kSpacing = 1e-3;    // relative difference of the spacings of o
 constexpr double kSamePlace = 0.02;  // share of the distance of slices
 constexpr double kRegular = 0.05;    // largest relative deviation of the distance between slices
 constexpr double kTilt = 0.5e-3;     // rad between the normal and the direction from slice to slice
-
-std::string text(const char* format, double value)
-{
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 Eigen::Vector3d normalOf(const Slice& slice)
 {
@@ -71,8 +65,8 @@ void requireRegular(const std::vector<Slice>& slices, const std::vector<double>&
     if (std::abs(step - distance) > kRegular * distance)
       throw InputError(
           source, "",
-          "slices are " + text("%.3f", 1e3 * distance) + " mm apart, but " + text("%.3f", 1e3 * step) + " mm between " +
-              slices[k - 1].file + " and " + slices[k].file +
+          "slices are " + formatted("%.3f", 1e3 * distance) + " mm apart, but " + formatted("%.3f", 1e3 * step) +
+              " mm between " + slices[k - 1].file + " and " + slices[k].file +
               ": slices are missing, or the spacing varies; export the complete series with equal spacing");
   }
 }
@@ -97,7 +91,7 @@ SliceStack stackSlices(std::vector<Slice> slices, const std::string& source)
   const double tilt = std::atan2(through.cross(normal).norm(), through.dot(normal));
   if (tilt > kTilt)
     throw InputError(source, "ImagePositionPatient",
-                     "the slices are shifted sideways: a gantry tilt of " + text("%.2f", tilt * 180.0 / M_PI) +
+                     "the slices are shifted sideways: a gantry tilt of " + formatted("%.2f", tilt / units::kDegree) +
                          "°; resample the series to a straight grid first");
   SliceStack stack;
   stack.grid.size = {slices.front().size.x(), slices.front().size.y(), static_cast<int>(slices.size())};

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "common/error.h"
+#include "common/text/format.h"
+#include "common/units.h"
 
 namespace endovascular_sim::procedure
 {
@@ -18,20 +19,6 @@ constexpr double kSlowdownShare = 0.6;    // share of the force limit from which
 
 using scene::StepAction;
 using scene::StepScene;
-
-std::string inMillimetres(const Eigen::Vector3d& point)
-{
-  char text[80];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f) mm", 1e3 * point.x(), 1e3 * point.y(), 1e3 * point.z());
-  return text;
-}
-
-std::string formatted(const char* format, double value)
-{
-  char text[80];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /** @return @p from moved towards @p to by at most @p limit */
 double towards(double from, double to, double limit)
@@ -117,7 +104,7 @@ std::string Operator::nameOf(const StepScene& step) const
     case StepAction::kRotate:
       return goal("rotate");
     case StepAction::kInflate:
-      return "inflate " + step.instrument + formatted(" to %.1f atm", step.pressure / 101325.0);
+      return "inflate " + step.instrument + formatted(" to %.1f atm", step.pressure / units::kAtmosphere);
     case StepAction::kExchange:
     case StepAction::kWait:
       break;

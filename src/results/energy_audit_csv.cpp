@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/output_file.h"
+#include "common/text/format.h"
 
 namespace endovascular_sim::results
 {
@@ -89,15 +89,12 @@ std::string AuditClosure::text() const
   if (ends_.empty())
     return "energy audit: no step";
   const Amount amount = inSecond(worstIndex());
-  char line[300];
-  std::snprintf(
-      line, sizeof line,
+  return formatted(
       "energy audit: %s; largest unexplained share %.2g %% of the turnover of second %d, %.2f of the tolerated "
       "(%.3g J of %.3g J); in sum %.2g %% of the run's %.3g J, tolerated %.0f %%",
       accepted() ? "within" : "beyond", amount.error == 0.0 ? 0.0 : 100.0 * amount.error / amount.turnover,
       worstSecond() + 1, worst(), amount.error, amount.turnover, 100.0 * shareOfRun(), ends_.back().turnover,
       100.0 * kShareOfRun);
-  return line;
 }
 
 }  // namespace endovascular_sim::results

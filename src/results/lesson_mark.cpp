@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::results
 {
@@ -15,9 +16,8 @@ const char* const kMissingSteps = "steps not done";
 
 std::string text(double value, const std::string& unit)
 {
-  char number[48];
-  std::snprintf(number, sizeof number, unit == "N" ? "%.2f" : unit.empty() ? "%.0f" : "%.1f", value);
-  return unit.empty() ? number : std::string(number) + " " + unit;
+  const std::string number = formatted(unit == "N" ? "%.2f" : unit.empty() ? "%.0f" : "%.1f", value);
+  return unit.empty() ? number : number + " " + unit;
 }
 
 double largestHandForce(const SessionMetrics& metrics)

@@ -1,12 +1,12 @@
 #include "results/metrics_page.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <functional>
 
 #include <nlohmann/json.hpp>
 
+#include "common/text/format.h"
+#include "common/units.h"
 #include "results/lesson_mark.h"
 #include "results/svg_plot.h"
 
@@ -30,9 +30,7 @@ h1 { font-size: 22px; } h2 { font-size: 17px; margin-top: 1.6em; }
 
 std::string number(const char* format, double value)
 {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+  return formatted(format, value);
 }
 
 /** HTML table. Cells that begin with a digit or a minus sign are aligned as numbers. */
@@ -236,7 +234,8 @@ std::string timePlots(const SessionMetrics& metrics)
   html += plot("Force on the wall, largest of every 50 ms", "[N]", {sum, largest});
   if (inflated)
     html += plot("Pressure at the inflator", "[atm]",
-                 overTime(metrics, [&hand](const Sample& s, std::size_t k) { return hand(s, k).pressure / 101325.0; }));
+                 overTime(metrics, [&hand](const Sample& s, std::size_t k)
+                          { return hand(s, k).pressure / units::kAtmosphere; }));
   return html;
 }
 

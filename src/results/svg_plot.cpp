@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/text/format.h"
+
 namespace endovascular_sim::results
 {
 namespace
@@ -19,16 +21,9 @@ struct Axis
   double at(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };
 
-std::string format(const char* pattern, double a)
-{
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), pattern, a);
-  return text.data();
-}
-
 std::string number(double value)
 {
-  return format("%.1f", value);
+  return formatted("%.1f", value);
 }
 
 /** Tick spacing of 1, 2 or 5 times a power of ten with about @p count ticks in the range. */
@@ -80,12 +75,12 @@ std::string axes(const Axis& x, const Axis& y)
   const double dx = roundStep(x.high - x.low, 9);
   for (double value = std::ceil(x.low / dx) * dx; value <= x.high; value += dx)
     svg += line(x.at(value), y.from, x.at(value), y.to, "#e4e4e4") +
-           textAt(x.at(value), y.from + 14.0, format("%g", std::abs(value) < 1e-9 * dx ? 0.0 : value),
+           textAt(x.at(value), y.from + 14.0, formatted("%g", std::abs(value) < 1e-9 * dx ? 0.0 : value),
                   "text-anchor=\"middle\"");
   const double dy = roundStep(y.high - y.low, 5);
   for (double value = std::ceil(y.low / dy) * dy; value <= y.high; value += dy)
     svg += line(x.from, y.at(value), x.to, y.at(value), "#e4e4e4") +
-           textAt(x.from - 5.0, y.at(value) + 4.0, format("%g", std::abs(value) < 1e-9 * dy ? 0.0 : value),
+           textAt(x.from - 5.0, y.at(value) + 4.0, formatted("%g", std::abs(value) < 1e-9 * dy ? 0.0 : value),
                   "text-anchor=\"end\"");
   return svg + line(x.from, y.from, x.to, y.from, "#444") + line(x.from, y.from, x.from, y.to, "#444");
 }

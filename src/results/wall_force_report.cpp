@@ -1,10 +1,10 @@
 #include "results/wall_force_report.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::results
 {
@@ -45,12 +45,8 @@ std::string csvText(const std::string& text)
 std::string numbers(const std::vector<double>& values)
 {
   std::string text;
-  std::array<char, 32> number{};
   for (const double value : values)
-  {
-    std::snprintf(number.data(), number.size(), "%s%.9g", text.empty() ? "" : ",", value);
-    text += number.data();
-  }
+    text += (text.empty() ? "" : ",") + shortNumber(value, 9);
   return text;
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::robot
 {
@@ -11,13 +12,6 @@ namespace
 {
 
 constexpr double kSamePosition = 1e-9;  // of joints [m, rad]
-
-std::string text(double value)
-{
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
 
 /** Error of a joint that cannot be commanded; empty if it can. */
 std::string faultOf(const RobotModel& model, const std::string& name)
@@ -58,10 +52,10 @@ std::optional<LinkFault> findFault(const RobotModel& model, const std::vector<Jo
     const double position = link.toPosition(starts[k]);
     if (joint.range && (position < joint.range->low - kSamePosition || position > joint.range->high + kSamePosition))
       return LinkFault{k, "offset",
-                       "puts joint '" + link.joint + "' at " + text(position) + " at the start, beyond its limits " +
-                           text(joint.range->low) + " to " + text(joint.range->high) + " in " + model.file +
-                           "; an offset of " + text(starts[k] - link.ratio * joint.range->low) +
-                           " puts it at its lower limit"};
+                       "puts joint '" + link.joint + "' at " + shortNumber(position) +
+                           " at the start, beyond its limits " + shortNumber(joint.range->low) + " to " +
+                           shortNumber(joint.range->high) + " in " + model.file + "; an offset of " +
+                           shortNumber(starts[k] - link.ratio * joint.range->low) + " puts it at its lower limit"};
   }
   return std::nullopt;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "common/text/format.h"
 #include "robot/backlash.h"
 
 namespace endovascular_sim::robot
@@ -36,13 +36,6 @@ bool isAbsolute(CommandKind kind)
 std::size_t indexOf(Motion motion)
 {
   return static_cast<std::size_t>(motion);
-}
-
-std::string text(double value)
-{
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
 }
 
 /** Severity of a state; the robot has the worst one. */
@@ -172,8 +165,8 @@ CommandVerdict RobotControl::examineLimits(std::size_t link, CommandKind kind, d
     value = permitted->nearest(wanted) - origin;
     return CommandVerdict::kAccepted;
   }
-  reason = "joint '" + joint.name + "': " + text(wanted) + " is beyond the limits " + text(permitted->low) + " to " +
-           text(permitted->high) + " of the URDF";
+  reason = "joint '" + joint.name + "': " + shortNumber(wanted) + " is beyond the limits " +
+           shortNumber(permitted->low) + " to " + shortNumber(permitted->high) + " of the URDF";
   return CommandVerdict::kOutOfRange;
 }
 

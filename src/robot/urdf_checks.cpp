@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "robot/ros_package.h"
 
 namespace endovascular_sim::robot
@@ -31,13 +32,6 @@ std::string attribute(const TiXmlElement* element, const char* name)
 {
   const char* value = element == nullptr ? nullptr : element->Attribute(name);
   return value == nullptr ? "" : value;
-}
-
-std::string text(double value)
-{
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
 }
 
 /** True if a text consists of finite numbers in C notation, divided by spaces, and has as many as wanted. */
@@ -185,15 +179,15 @@ void checkLimits(const Joint& joint, const std::string& file)
 {
   if (joint.range && joint.range->low > joint.range->high)
     throw InputError(file, nameOf(joint),
-                     "lower limit " + text(joint.range->low) + " exceeds the upper limit " + text(joint.range->high) +
-                         "; exchange lower and upper");
+                     "lower limit " + shortNumber(joint.range->low) + " exceeds the upper limit " +
+                         shortNumber(joint.range->high) + "; exchange lower and upper");
   if (joint.speed && *joint.speed < 0.0)
     throw InputError(file, nameOf(joint),
-                     "limit velocity=\"" + text(*joint.speed) +
+                     "limit velocity=\"" + shortNumber(*joint.speed) +
                          "\" is negative; give the largest speed, which is positive in both directions");
   if (joint.effort && *joint.effort < 0.0)
     throw InputError(file, nameOf(joint),
-                     "limit effort=\"" + text(*joint.effort) +
+                     "limit effort=\"" + shortNumber(*joint.effort) +
                          "\" is negative; give the largest force or torque, which is positive in both directions");
 }
 
@@ -322,7 +316,7 @@ std::vector<std::string> rangeWarnings(const RobotModel& model)
   for (const Joint& joint : model.joints)
     if (joint.kind == JointKind::kRevolute && joint.range && joint.range->high - joint.range->low > kMostTurns * kTurn)
       warnings.push_back(model.file + ": " + nameOf(joint) + ": its limits permit " +
-                         text((joint.range->high - joint.range->low) / kTurn) +
+                         shortNumber((joint.range->high - joint.range->low) / kTurn) +
                          " turns: are they in degrees? URDF uses rad");
   return warnings;
 }

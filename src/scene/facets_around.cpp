@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "common/text/format.h"
 #include "contact/wall/wall.h"
 
 namespace endovascular_sim::scene
@@ -52,10 +52,8 @@ std::string FacetsAround::text(contact::WallShape wall) const
 {
   if (fewest == 0)
     return "facets around the lumen: unknown";
-  char text[320];
-  std::snprintf(text, sizeof text, "facets around the lumen: %d (median), at least %d in nine tenths of the wall",
-                median, fewest);
-  std::string result = text;
+  std::string result =
+      formatted("facets around the lumen: %d (median), at least %d in nine tenths of the wall", median, fewest);
   const bool smooth = wall == contact::WallShape::kSmooth;
   if (!smooth && fewest < kFewFacets)
     result += "; facets disturb force and torque at the hand below " + std::to_string(kFewFacets) +

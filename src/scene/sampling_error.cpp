@@ -1,8 +1,8 @@
 #include "scene/sampling_error.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/text/format.h"
 #include "vessel/centreline/centreline_curvature.h"
 
 namespace endovascular_sim::scene
@@ -85,21 +85,17 @@ double SamplingError::atMouth() const
 std::string SamplingError::text() const
 {
   std::string text = "expected error of the hand force by the sampling:";
-  char part[200];
   if (free_length <= 0.0 && bend_radius <= 0.0)
     text += " not known, because no bend is wider than the wire and the wire touches the wall where it begins";
   if (free_length > 0.0)
   {
-    std::snprintf(part, sizeof part, " %.1f %% at the introducer (edges of %.2f mm, free length %.0f mm)",
-                  100.0 * atMouth(), 1e3 * mouth_edge, 1e3 * free_length);
-    text += part;
+    text += formatted(" %.1f %% at the introducer (edges of %.2f mm, free length %.0f mm)", 100.0 * atMouth(),
+                      1e3 * mouth_edge, 1e3 * free_length);
   }
   if (bend_radius > 0.0)
   {
-    std::snprintf(part, sizeof part,
-                  "%s %.2g %% in the narrowest bend (edges of %.2f mm, radius %.1f mm, clearance %.1f mm)",
-                  free_length > 0.0 ? "," : "", 100.0 * inBend(), 1e3 * edge, 1e3 * bend_radius, 1e3 * clearance);
-    text += part;
+    text += formatted("%s %.2g %% in the narrowest bend (edges of %.2f mm, radius %.1f mm, clearance %.1f mm)",
+                      free_length > 0.0 ? "," : "", 100.0 * inBend(), 1e3 * edge, 1e3 * bend_radius, 1e3 * clearance);
   }
   return text;
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "contact/wall/smooth_wall.h"
 #include "geometry/closest_point_on_triangle.h"
 #include "geometry/loop_subdivision.h"
@@ -155,8 +155,7 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
   if (geometry::windingNumber(vessel.mesh, pose.position) > 0.5)
     return;
   const geometry::ClosestPoint wall = geometry::MeshDistance(vessel.mesh).closest(pose.position);
-  char distance[32];
-  std::snprintf(distance, sizeof distance, "%.3g mm", 1e3 * wall.distance);
+  const std::string distance = formatted("%.3g mm", 1e3 * wall.distance);
   throw InputError(origin, "entry.position",
                    vessel::formatLocation(pose.position) + " is not inside the vessel: it lies " + distance +
                        " outside the wall, with nearest point " + vessel::formatLocation(wall.point) +
@@ -276,8 +275,7 @@ void requireFreeStart(const Scene& scene, double free_length)
   {
     if (scene.instruments[k].drive.insertionAt(0.0) < free_length)
       continue;
-    char limit[32];
-    std::snprintf(limit, sizeof limit, "%.3g m", free_length);
+    const std::string limit = formatted("%.3g m", free_length);
     throw InputError(scene.file, drivePath(scene, k) + "drive.initial_insertion",
                      "makes the initially straight instrument penetrate the wall; must be less than " +
                          std::string(limit) + " along entry.direction from entry.position");

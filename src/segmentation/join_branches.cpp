@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/numerics/parallel_for.h"
+#include "common/text/format.h"
 #include "segmentation/lumen/click_check.h"
 #include "segmentation/lumen/lumen_fit.h"
 #include "segmentation/lumen/minimal_path.h"
@@ -191,7 +192,7 @@ private:
       throw InputError(clicks_.file, branch.name,
                        "is " + std::to_string(static_cast<int>(1e3 * attachment.distance)) +
                            " mm away from the nearest branch, and the path between them leaves the contrast at " +
-                           locationText(scan_.toPatient(way.gap_location)) +
+                           inMillimetres(scan_.toPatient(way.gap_location)) +
                            "; add the branch between them, or click closer to its ostium");
     path.insert(path.end(), way.points.begin() + 1, way.points.end());
     for (std::size_t s = 1; s < branch.sections.size(); ++s)

@@ -1,6 +1,6 @@
 #include "segmentation/metal_check.h"
 
-#include <cstdio>
+#include "common/text/format.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -57,9 +57,7 @@ std::vector<std::string> metalWarnings(const Scan& scan, const std::vector<Lumen
     if (nearest >= kFarthest)
       continue;
     const Eigen::Vector3d place = 1e3 * scan.toPatient(at);
-    char text[250];
-    std::snprintf(
-        text, sizeof text,
+    const std::string text = formatted(
         ": metal at (%.1f, %.1f, %.1f) mm, %.0f mm from its axis at %.0f mm: streaks may displace the contour; "
         "check it in the straightened view, or use a reconstruction with metal artefact reduction",
         place.x(), place.y(), place.z(), 1e3 * nearest, 1e3 * branch.arc()[beside]);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/error.h"
+#include "common/text/format.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -15,13 +15,6 @@ constexpr double kShortest = 1.0;       ///< length of a path, in diameters of t
 constexpr double kShortestAlone = 1.6;  ///< likewise, of a vessel of one branch: below, its cut ends meet
 constexpr double kBeside = 4.0;       ///< distance along the path at which both sides of a click are compared, in radii
 constexpr double kLeastBeside = 2.0;  ///< least one, where the path is short, in radii
-
-std::string millimetres(double length)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * length);
-  return text;
-}
 
 double lengthOf(const std::vector<Eigen::Vector3d>& points)
 {
@@ -77,8 +70,8 @@ void requireCourse(const ClickPath& path, const CheckedBranch& branch, bool is_a
   const double length = lengthOf(path.points);
   if (length < (is_alone ? kShortestAlone : kShortest) * diameter)
     throw InputError(file, branch.name,
-                     "its clicks are only " + millimetres(length) + " apart in a lumen of " + millimetres(diameter) +
-                         "; click near each end of a longer stretch");
+                     "its clicks are only " + formatted("%.1f mm", 1e3 * length) + " apart in a lumen of " +
+                         formatted("%.1f mm", 1e3 * diameter) + "; click near each end of a longer stretch");
   for (std::size_t k = 1; k + 1 < path.clicks.size(); ++k)
     if (turnsBack(path, path.clicks[k], branch.clicks[k].radius))
       throw InputError(

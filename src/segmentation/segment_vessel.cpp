@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/numerics/parallel_for.h"
+#include "common/text/format.h"
 #include "segmentation/lumen/click_check.h"
 #include "segmentation/lumen/minimal_path.h"
 #include "segmentation/path_check.h"
@@ -48,7 +49,7 @@ ClickPath pathOf(const Scan& scan, const ClickSet& clicks, const CheckedBranch& 
                        "clicks " + std::to_string(k + 1) + " and " + std::to_string(k + 2) +
                            " lie in two vessels: the path between them leaves the contrast for " +
                            std::to_string(path.longest_gap * 1e3).substr(0, 4) + " mm at " +
-                           locationText(scan.toPatient(path.gap_location)) +
+                           inMillimetres(scan.toPatient(path.gap_location)) +
                            "; correct a click, add one between them, or end the branch at an occlusion");
     result.points.insert(result.points.end(), path.points.begin() + 1, path.points.end());
     result.clicks.push_back(result.points.size() - 1);
@@ -84,7 +85,7 @@ void warnOfVanishingLumen(const Scan& scan, const LumenBranch& branch, std::vect
     const double to_end = std::min(arc[s], arc.back() - arc[s]);
     if ((section.edges > 0.0 || to_end < 2.0 * section.diameter()) && section.diameter() > scan.spacing().minCoeff())
       continue;
-    warnings.push_back(branch.name + ": the lumen vanishes at " + locationText(scan.toPatient(section.centre)) +
+    warnings.push_back(branch.name + ": the lumen vanishes at " + inMillimetres(scan.toPatient(section.centre)) +
                        "; check the straightened view, add a click there, or end the branch before it");
     return;
   }

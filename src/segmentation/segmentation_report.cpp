@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -131,9 +132,9 @@ std::string segmentationText(const Scan& scan, const std::vector<LumenBranch>& b
     double calcium = 0.0;
     for (const Stretch& stretch : f.calcium)
       calcium += stretch.to - stretch.from;
-    char line[250];
-    std::snprintf(line, sizeof line, "%-26s %6.1f mm        %6.2f %5.2f %6.2f %5.1f mm %5.0f %6.1f %% %5.1f mm\n",
-                  f.name.c_str(), 1e3 * f.length, 1e3 * f.first_diameter, 1e3 * f.last_diameter, 1e3 * f.least_diameter,
+    const std::string line =
+        formatted("%-26s %6.1f mm        %6.2f %5.2f %6.2f %5.1f mm %5.0f %6.1f %% %5.1f mm\n", f.name.c_str(),
+                  1e3 * f.length, 1e3 * f.first_diameter, 1e3 * f.last_diameter, 1e3 * f.least_diameter,
                   1e3 * f.least_at, f.lumen, 100.0 * f.rays_without_edge, 1e3 * calcium);
     text += line;
   }

@@ -1,8 +1,7 @@
 #include "session/phase_pictures.h"
 
-#include <cstdio>
-
 #include "common/output_file.h"
+#include "common/text/format.h"
 #include "fluoroscopy/image/png_writer.h"
 
 namespace endovascular_sim::session
@@ -32,8 +31,7 @@ void PhasePictures::update(const Session& session)
 void PhasePictures::writeImage(const Session& session)
 {
   image_.setView(view_);
-  char name[32];
-  std::snprintf(name, sizeof name, "/phase_%02d.png", ++images_);
+  const std::string name = formatted("/phase_%02d.png", ++images_);
   const fluoroscopy::Frame& frame = image_.frame(session.simulation(), &session.wall());
   fluoroscopy::writePng(folder_ + name, frame.pixels, frame.pixels, frame.image);
 }

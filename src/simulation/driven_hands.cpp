@@ -7,6 +7,7 @@
 
 #include "common/archive.h"
 #include "common/error.h"
+#include "common/text/format.h"
 #include "scene/schema/scene_schema.h"
 
 namespace endovascular_sim::simulation
@@ -173,9 +174,7 @@ std::string CommandPlayer::pausesOf(std::size_t instrument, double end) const
   judge(end);
   if (pauses == 0)
     return "";
-  char text[280];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = formatted(
       "%s: no command follows %d of the velocities and forces within drive.limits.time_out (%.3g s; pauses of up "
       "to %.3g s), so that the instrument stops; about %.1f mm of the commanded travel are lost; repeat "
       "commands faster, or raise the time-out",
@@ -190,9 +189,8 @@ std::vector<std::string> CommandPlayer::warnings(double end) const
                                  [end](const Entry& entry) { return entry.command.time >= end - kSameTime; });
   if (late != entries_.end())
   {
-    char text[160];
-    std::snprintf(text, sizeof text, "line %d and %td later ones lie at or after the end of the run at %g s",
-                  late->command.line, entries_.end() - late - 1, end);
+    const std::string text = formatted("line %d and %td later ones lie at or after the end of the run at %g s",
+                                       late->command.line, entries_.end() - late - 1, end);
     warnings.push_back(file_ + ": " + text);
   }
   for (std::size_t k = 0; k < scene_->instruments.size(); ++k)
@@ -208,11 +206,10 @@ void CommandPlayer::requireCommandsBefore(double end) const
   if (entries_.front().command.time < std::min(end - kSameTime, kCalendar))
     return;
   const bool is_calendar = entries_.front().command.time > kCalendar;
-  char text[240];
-  std::snprintf(text, sizeof text, "the first command acts at %.10g s, after the end of the run at %g s; %s",
-                entries_.front().command.time, end,
-                is_calendar ? "times are simulated seconds from the start of the scene: subtract that of the first row"
-                            : "run longer");
+  const std::string text = formatted(
+      "the first command acts at %.10g s, after the end of the run at %g s; %s", entries_.front().command.time, end,
+      is_calendar ? "times are simulated seconds from the start of the scene: subtract that of the first row"
+                  : "run longer");
   throw InputError(file_, "line " + std::to_string(entries_.front().command.line), text);
 }
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -26,6 +25,7 @@
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/quantities.h"
+#include "common/text/format.h"
 #include "haptics/device/device_simulator.h"
 #include "haptics/device/motion_script.h"
 #include "haptics/serial/serial_port.h"
@@ -307,11 +307,10 @@ public:
       return;
     samples_ = device.samples();
     const auto& force = device.renderedForce();
-    std::array<char, 160> row{};
-    std::snprintf(row.data(), row.size(), "%.6f,%.9g,%.9g,%.9g,%.9g,%d\n", now, device.hand().insertion,
-                  device.hand().rotation, static_cast<double>(force.force), static_cast<double>(force.torque),
-                  static_cast<int>(force.state));
-    stream_ << row.data();
+    const std::string row =
+        formatted("%.6f,%.9g,%.9g,%.9g,%.9g,%d\n", now, device.hand().insertion, device.hand().rotation,
+                  static_cast<double>(force.force), static_cast<double>(force.torque), static_cast<int>(force.state));
+    stream_ << row;
     if (samples_ % kRowsPerFlush == 0)
       flush();
   }

@@ -10,6 +10,7 @@
 #include "common/input_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
+#include "common/units.h"
 #include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "fluoroscopy/image/png_writer.h"
@@ -194,7 +195,7 @@ geometry::TriangleMesh readVessel(const Options& options, const Eigen::Matrix3d&
 fluoroscopy::CArmPose makePose(const Options& options, const geometry::TriangleMesh& mesh,
                                const std::vector<Eigen::Vector3d>& wire)
 {
-  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  using units::kDegree;
   fluoroscopy::CArmPose pose;
   pose.primary_angle = options.lao * kDegree;
   pose.secondary_angle = options.cranial * kDegree;

@@ -16,6 +16,7 @@
 #include "common/output_file.h"
 #include "common/progress.h"
 #include "common/quantities.h"
+#include "common/text/format.h"
 #include "drive/command_file.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "results/energy_audit_csv.h"
@@ -139,10 +140,9 @@ void writeHandForce(std::ofstream& file, const simulation::Simulation& simulatio
 {
   const rod::State& state = simulation.state();
   const rod::HandForceParts& parts = state.hand_parts;
-  char line[240];
-  std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
-                state.inserted_length, state.hand_force, parts.bending, parts.friction, parts.inertia, parts.drag,
-                parts.load, parts.valve, parts.configurational);
+  const std::string line = formatted("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.time(),
+                                     state.inserted_length, state.hand_force, parts.bending, parts.friction,
+                                     parts.inertia, parts.drag, parts.load, parts.valve, parts.configurational);
   file << line;
 }
 
@@ -288,8 +288,7 @@ private:
 void showProgress(const scene::Scene& scene, std::uint64_t done, std::uint64_t all, Clock::time_point begin)
 {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  char factor[40];
-  std::snprintf(factor, sizeof factor, "%.1fx real time", static_cast<double>(done) * scene.solver.time_step / seconds);
+  const std::string factor = formatted("%.1fx real time", static_cast<double>(done) * scene.solver.time_step / seconds);
   tools::drawProgress(static_cast<double>(done) / static_cast<double>(all), factor);
 }
 

@@ -16,6 +16,7 @@
 #include "common/numerics/parallel_for.h"
 #include "common/progress.h"
 #include "common/quantities.h"
+#include "common/text/format.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
 #include "scene/mesh_trial.h"
@@ -293,9 +294,7 @@ struct VesselFiles
 /** Position [m] as an argument of --set, quoted for a shell. */
 std::string positionArgument(const Eigen::Vector3d& position)
 {
-  char text[96];
-  std::snprintf(text, sizeof text, "'[%.4f, %.4f, %.4f]'", position.x(), position.y(), position.z());
-  return text;
+  return formatted("'[%.4f, %.4f, %.4f]'", position.x(), position.y(), position.z());
 }
 
 /** Error of a vessel that scenes would refuse. */

@@ -5,13 +5,15 @@
 
 #include <Eigen/Geometry>
 
+#include "common/units.h"
+
 namespace endovascular_sim::visualization
 {
 
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 constexpr double kCoinciding = 1e-9;  // distance below which adjacent nodes count as coinciding [m]
 
 /** Tangents at the nodes: bisectors of the adjacent edges. */

@@ -5,12 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "common/units.h"
+
 namespace endovascular_sim::visualization
 {
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 constexpr double kCoinciding = 1e-9;   ///< distance below which adjacent points coincide [m]
 constexpr double kLargestValue = 1e3;  ///< of coordinates and radii [m]; single precision holds their squares
 

@@ -4,11 +4,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <iomanip>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/quantities.h"
+#include "common/text/format.h"
 #include "common/text/words.h"
 
 namespace endovascular_sim::yaml
@@ -44,23 +44,16 @@ std::string withoutIndices(const std::string& path)
   return result;
 }
 
-std::string number(double value)
-{
-  std::ostringstream text;
-  text << std::setprecision(4) << value;
-  return text.str();
-}
-
 /** Values that pass both the validity range and the accepted magnitudes of the quantity. */
 std::string acceptedText(const Quantity& quantity, const Range& range)
 {
   const std::string infinity = range.infinite ? ", .inf" : "";
   const double high = std::min(range.max, quantity.highest);
   if (range.min < 0.0)
-    return number(std::max(range.min, -quantity.highest)) + " to " + number(high) + infinity;
+    return shortNumber(std::max(range.min, -quantity.highest), 4) + " to " + shortNumber(high, 4) + infinity;
   const double low = std::max(range.min, quantity.lowest);
   const bool zero = range.min == 0.0 && !range.open && low > 0.0;
-  return (zero ? "0, " : "") + number(low) + " to " + number(high) + infinity;
+  return (zero ? "0, " : "") + shortNumber(low, 4) + " to " + shortNumber(high, 4) + infinity;
 }
 
 double toNumber(const Node& node, const std::string& path, const Quantity& quantity, const Range& range)

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "common/units.h"
 #include "instrument/instrument.h"
 #include "intervention/shaft_line.h"
 #include "intervention/vessel_dilatation.h"
@@ -17,7 +18,7 @@ namespace endovascular_sim::intervention
 
 constexpr double kTubeRadius = 1.5e-3;  // [m]
 constexpr double kLesion = 0.03;        // arc length of the throat [m]
-constexpr double kAtmosphere = 1.01325e5;
+using units::kAtmosphere;
 
 /** Straight tube of 3 mm diameter along z with a lesion of 10 mm. Its centreline begins at the cap. */
 inline vessel::Vessel tubeWithLesion(double grade, double radius = kTubeRadius)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/units.h"
 #include "rod/twist/twist.h"
 #include "test/rod/rod_fixtures.h"
 
@@ -11,7 +12,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kStiffness = 1e-3;  // EI and GJ of the bend's wire [N·m²]
 
 /** Wire on a planar centreline with equal turning angles at its last nodes, held at the middle of its first edge. */

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "benchmark/coaxial/coaxial_runs.h"
+#include "common/units.h"
 
 namespace endovascular_sim::benchmark
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kRelativeTolerance = 0.03;
 constexpr double kTolerance = 2e-3;  // N
 

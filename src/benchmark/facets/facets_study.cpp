@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "benchmark/force_quality/force_quality_study.h"
 #include "benchmark/harness/bench_run.h"
+#include "common/text/format.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -26,8 +26,7 @@ constexpr double kArchStep = 1e-3;  // s: time step of peer_wire.yaml
 /** A soft wire of 100 mm with a 3 mm J, 60 mm of it in a straight tube of 6 mm. */
 std::string sceneOf(int facets_around, bool smooth, double friction, double time_step)
 {
-  char text[1600];
-  std::snprintf(text, sizeof text, R"(
+  return formatted(R"(
 name: j_tip
 duration: 100.0
 vessel:
@@ -49,9 +48,8 @@ drive:
 sampling: {kind: uniform, nodes: 100}
 solver: {time_step: %g}
 )",
-                facets_around, smooth ? "smooth" : "facets", friction, kInsertion, kInsertion + kRest,
-                kInsertion + kRest + kTurning, kTurning * kRate, time_step);
-  return text;
+                   facets_around, smooth ? "smooth" : "facets", friction, kInsertion, kInsertion + kRest,
+                   kInsertion + kRest + kTurning, kTurning * kRate, time_step);
 }
 
 /** The push of peer_wire.yaml, turned the other way, between facets, on them after smoothing, and on a smooth wall. */

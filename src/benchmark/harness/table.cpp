@@ -1,7 +1,8 @@
 #include "benchmark/harness/table.h"
 
 #include <cmath>
-#include <sstream>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -46,12 +47,7 @@ std::string Table::markdown() const
 
 std::string number(double value, int digits)
 {
-  if (std::isnan(value))
-    return "";
-  std::ostringstream text;
-  text.precision(digits);
-  text << value;
-  return text.str();
+  return std::isnan(value) ? "" : shortNumber(value, digits);
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -7,6 +7,7 @@
 
 #include "benchmark/harness/bench_run.h"
 #include "benchmark/mouth/mouth_reference.h"
+#include "common/text/format.h"
 #include "simulation/stepper_factory.h"
 
 namespace endovascular_sim::benchmark
@@ -25,17 +26,13 @@ constexpr double kPlane = 0.05e-3;  // lateral offset of a wire that has left it
 
 std::string sceneOf(const MouthMotion& motion)
 {
-  char text[1200];
-  char pieces[200];
-  if (motion.bend_curvature != 0.0)
-    std::snprintf(pieces, sizeof pieces, "{length: %g}, {length: %g, curvature: %g, plane_angle: %g}", kStraight,
-                  motion.travel, motion.bend_curvature, -M_PI / 2.0);
-  else
-    std::snprintf(pieces, sizeof pieces, "{length: %g}", motion.travel + 0.05);
-  char sampling[100] = "{kind: adaptive}";
-  if (motion.nodes > 0)
-    std::snprintf(sampling, sizeof sampling, "{kind: uniform, nodes: %d}", motion.nodes);
-  std::snprintf(text, sizeof text, R"(
+  const std::string pieces = motion.bend_curvature != 0.0
+                                 ? formatted("{length: %g}, {length: %g, curvature: %g, plane_angle: %g}", kStraight,
+                                             motion.travel, motion.bend_curvature, -M_PI / 2.0)
+                                 : formatted("{length: %g}", motion.travel + 0.05);
+  const std::string sampling =
+      motion.nodes > 0 ? formatted("{kind: uniform, nodes: %d}", motion.nodes) : "{kind: adaptive}";
+  return formatted(R"(
 name: mouth
 duration: 1000.0
 vessel:
@@ -46,8 +43,8 @@ instrument: {use: %s}
 drive: {source: script, initial_insertion: %g, speed: %g, travel: %g, force_limit: 100.0}
 sampling: %s
 )",
-                kTube, pieces, motion.instrument.c_str(), kBegin, motion.speed, motion.travel, sampling);
-  return text;
+                   kTube, pieces.c_str(), motion.instrument.c_str(), kBegin, motion.speed, motion.travel,
+                   sampling.c_str());
 }
 
 MouthProblem problemOf(const scene::Scene& scene, const MouthMotion& motion)

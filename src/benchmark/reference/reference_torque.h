@@ -1,11 +1,12 @@
 #pragma once
 
+#include "common/units.h"
 #include "rod/twist/twist.h"
 
 namespace endovascular_sim::benchmark
 {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+using units::kDegree;
 
 /** Torque transmission of a pre-curved wire on a planar bend of the same curvature, √(EI κ κ0/GJ)·L = lambda. */
 class Transmission

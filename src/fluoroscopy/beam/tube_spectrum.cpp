@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.h"
+
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 constexpr int kSteps = 200;  // of the integrals over electron energy and depth
 
 // Fitted constants.

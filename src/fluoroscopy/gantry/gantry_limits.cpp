@@ -1,23 +1,17 @@
 #include "fluoroscopy/gantry/gantry_limits.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "common/text/format.h"
+#include "common/units.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kTolerance = 1e-9;  // of rounded limits, e.g. 2.0943951 for 120° [m, rad]
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values)
-{
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 bool isWithin(double value, double min, double max)
 {

@@ -4,12 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "common/units.h"
+
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kLargestPrimary = 180.0, kLargestSecondary = 90.0;  // [°]
 
 struct NamedView

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/units.h"
 #include "common/wide_vectors.h"
 
 namespace endovascular_sim::fluoroscopy
@@ -11,7 +12,7 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 constexpr double kSpread = 0.45e-6;  // H [m²]
 constexpr double kSmallest = 1e-3;   // of the taps that are retained
 constexpr int kLargestRadius = 12;

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/units.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 constexpr int kMaxPixels = 4096;
 constexpr double kSmallestField = 0.02;  // [m]
 

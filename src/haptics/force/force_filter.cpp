@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.h"
+
 namespace endovascular_sim::haptics
 {
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 
 }  // namespace
 

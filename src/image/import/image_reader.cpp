@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/units.h"
 #include "image/import/complete_file.h"
 #include "image/import/image_values.h"
 #include "image/import/itk_image.h"
@@ -24,7 +25,7 @@ namespace endovascular_sim::image
 namespace
 {
 
-constexpr double kMillimetre = 1e-3;
+using units::kMillimetre;
 
 std::string megabytes(std::uint64_t bytes)
 {

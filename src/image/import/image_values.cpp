@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <map>
 
 #include "common/error.h"
+#include "common/text/format.h"
 
 namespace endovascular_sim::image
 {
@@ -17,13 +17,6 @@ constexpr double kLeast = -32768.0;   // stored value
 constexpr double kLargest = 32767.0;  // stored value
 constexpr double kImplausible = 1e9;  // magnitude that no scanner gives
 constexpr float kBelowFat = -500.0F;  // HU; every CT holds air around the patient or in the lungs
-
-std::string text(const char* format, double value)
-{
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 /** @throws InputError for values that are not finite, or beyond those of any scanner */
 void requirePlausible(const std::vector<float>& values, const std::string& path)
@@ -39,7 +32,7 @@ void requirePlausible(const std::vector<float>& values, const std::string& path)
     throw InputError(path, "", std::to_string(invalid) + " values are not finite; replace them before the import");
   if (largest > kImplausible)
     throw InputError(path, "",
-                     "has a value of magnitude " + text("%.3g", largest) +
+                     "has a value of magnitude " + formatted("%.3g", largest) +
                          ", which no scanner gives; replace such values before the import");
 }
 
@@ -119,8 +112,8 @@ void requireNotRaised(const std::vector<float>& values, const std::string& path)
   if (100 * air < values.size() || 20 * tissue < values.size() || tissue < between)
     return;
   throw InputError(path, "",
-                   "seems to be a CT whose values are raised by 1024: air at " + text("%.0f", of_air) + ", tissue at " +
-                       text("%.0f", of_tissue) +
+                   "seems to be a CT whose values are raised by 1024: air at " + formatted("%.0f", of_air) +
+                       ", tissue at " + formatted("%.0f", of_tissue) +
                        "; give --subtract 1024 for Hounsfield units, or --modality other if it is no CT");
 }
 
@@ -136,7 +129,7 @@ void requireHounsfieldUnits(const ImageValues& image, const std::string& path)
   const auto [least, largest] = std::minmax_element(image.values.begin(), image.values.end());
   if (*least < kLeast || *largest > kLargest)
     throw InputError(path, "",
-                     "has values from " + text("%g", *least) + " to " + text("%g", *largest) +
+                     "has values from " + formatted("%g", *least) + " to " + formatted("%g", *largest) +
                          ", which are no Hounsfield units; replace them before the import, or give --modality other");
 }
 

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 
 #include "common/error.h"
+#include "common/text/format.h"
+#include "common/units.h"
 #include "image/import/complete_file.h"
 
 namespace endovascular_sim::image
@@ -155,13 +156,6 @@ void append(int type, const char* bytes, std::size_t count, double slope, double
   }
 }
 
-std::string text(const char* format, double value)
-{
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 }  // namespace
 
 bool NiftiFile::recognises(const std::string& file)
@@ -270,7 +264,7 @@ VolumeGrid NiftiFile::gridOf(const Eigen::Matrix4d& form, const char* name) cons
   if (shear > kSheared)
     throw InputError(file_, name,
                      "its axes are not orthogonal: a gantry tilt or shear of " +
-                         text("%.2f", std::asin(std::min(shear, 1.0)) * 180.0 / M_PI) +
+                         formatted("%.2f", std::asin(std::min(shear, 1.0)) / units::kDegree) +
                          "°; resample the image to a straight grid first");
   requireValid(grid, file_);
   return grid;
@@ -288,7 +282,7 @@ void NiftiFile::requireAgreement(const VolumeGrid& sform, const VolumeGrid& qfor
   if (farthest > 0.5 * sform.spacing.minCoeff())
     throw InputError(
         file_, "qform and sform",
-        "place a corner of the image " + text("%.1f", 1e3 * farthest) +
+        "place a corner of the image " + formatted("%.1f", 1e3 * farthest) +
             " mm apart, so its position in the patient is unknown; set the code of the wrong form to 0, or "
             "export the image again");
 }
@@ -321,7 +315,8 @@ std::uint64_t NiftiFile::offsetOfValues() const
 {
   const double offset = number(kOffsetOfValues);
   if (!(offset >= static_cast<double>(kHeader) && offset <= kMostHeader))
-    throw InputError(file_, "vox_offset", "is " + text("%g", offset) + "; must be 352 or more; export the image again");
+    throw InputError(file_, "vox_offset",
+                     "is " + formatted("%g", offset) + "; must be 352 or more; export the image again");
   return static_cast<std::uint64_t>(offset);
 }
 

@@ -1,7 +1,6 @@
 #include "nodes/session/session_recorder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "common/version.h"
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/SessionEnd.h"
@@ -374,10 +374,9 @@ void SessionRecorder::savePicture(const sensor_msgs::ImageConstPtr& image)
 {
   if (image->encoding != sensor_msgs::image_encodings::MONO8 || image->step != image->width)
     return;
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "frame_%06llu.png", static_cast<unsigned long long>(recording_->frames - 1));
+  const std::string name = formatted("frame_%06llu.png", static_cast<unsigned long long>(recording_->frames - 1));
   recording_->results.report().addFluoroscopyPicture();
-  const std::string file = recording_->path("fluoroscopy/") + name.data();
+  const std::string file = recording_->path("fluoroscopy/") + name;
   recording_->bag.run(
       [image, file]
       { fluoroscopy::writePng(file, static_cast<int>(image->width), static_cast<int>(image->height), image->data); });

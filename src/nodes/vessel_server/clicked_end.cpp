@@ -1,8 +1,9 @@
 #include "nodes/vessel_server/clicked_end.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::nodes
 {
@@ -13,9 +14,7 @@ std::string coordinates(const Eigen::Vector3d& position)
 {
   constexpr double kResolution = 1e-5;                                                     // m
   const Eigen::Vector3d p = kResolution * (position / kResolution).array().round() + 0.0;  // without negative zeros
-  char text[100];
-  std::snprintf(text, sizeof text, "%.5f,%.5f,%.5f", p.x(), p.y(), p.z());
-  return text;
+  return formatted("%.5f,%.5f,%.5f", p.x(), p.y(), p.z());
 }
 
 }  // namespace
@@ -30,9 +29,8 @@ std::string clickedEndText(const vessel::CentrelineTree& tree, const scene::Vess
       *std::min_element(ends.begin(), ends.end(),
                         [&point](const vessel::CentrelineEnd& a, const vessel::CentrelineEnd& b)
                         { return (a.position - point).norm() < (b.position - point).norm(); });
-  char distances[100];
-  std::snprintf(distances, sizeof distances, ", %.1f mm from the click, radius of the lumen %.1f mm.",
-                1e3 * (end.position - point).norm(), 1e3 * end.radius);
+  const std::string distances = formatted(", %.1f mm from the click, radius of the lumen %.1f mm.",
+                                          1e3 * (end.position - point).norm(), 1e3 * end.radius);
   std::string text =
       "clicked point: nearest is the end of " + tree.branches[static_cast<std::size_t>(end.branch)].name + distances;
   if (!scene.mesh.empty())

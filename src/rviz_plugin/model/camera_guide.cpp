@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/units.h"
 #include "rviz_plugin/model/message_points.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -17,7 +18,7 @@ constexpr double kTipDistance = 0.08;     ///< of the camera from the tip [m]
 constexpr double kDistanceBehind = 0.05;  ///< of the camera behind the tip, along the wire [m]
 constexpr double kRim = 1.08;             ///< picture relative to the vessel
 constexpr double kLegendStrip = 0.1;      ///< share of the height of the overview below the vessel, for the legends
-constexpr double kSteepest = 85.0 / 180.0 * M_PI;
+constexpr double kSteepest = 85.0 * units::kDegree;
 
 /** Direction from the focus to the camera. */
 Eigen::Vector3d directionOf(const ViewSetting& setting)

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "common/text/format.h"
+#include "common/units.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -17,9 +19,7 @@ std::string number(double value, int decimals, const char* unit)
 {
   if (!std::isfinite(value) || std::abs(value) > 1e9)
     return kDash;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
-  return text;
+  return formatted("%.*f %s", decimals, value, unit);
 }
 
 double at(const std::vector<double>& values, std::size_t index)
@@ -77,7 +77,7 @@ PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
   const RodStateVisual& wire = state.wire;
   const double force = at(wire.hand_force, instrument);
   texts.insertion = number(1e3 * at(wire.insertion, instrument), 1, "mm");
-  texts.rotation = number(180.0 / M_PI * at(wire.rotation, instrument), 0, "°");
+  texts.rotation = number(at(wire.rotation, instrument) / units::kDegree, 0, "°");
   texts.force = number(force, 2, "N");
   texts.torque = number(1e3 * at(wire.hand_torque, instrument), 2, "mN·m");
   texts.time = number(state.has_wire ? wire.time : std::nan(""), 1, "s");
@@ -92,7 +92,7 @@ PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
         texts.gauge = static_cast<int>(std::lround(100.0 * std::min(std::abs(force) / summary.force_limit, 1.0)));
     }
     if (summary.has_balloon)
-      texts.pressure = number(at(wire.pressure, instrument) / 101325.0, 1, "atm");
+      texts.pressure = number(at(wire.pressure, instrument) / units::kAtmosphere, 1, "atm");
   }
   texts.branch = state.branch.empty() ? kDash : state.branch;
   texts.step = stepText(state);

@@ -17,16 +17,18 @@
 #include <QSlider>
 #include <QVBoxLayout>
 
+#include "common/units.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-constexpr int kStatusWidth = 160;         // [pixels]
-constexpr int kRefreshPeriod = 50;        // [ms]
-constexpr double kAtmosphere = 101325.0;  // [Pa]
-constexpr double kVacuum = -0.8e5;        // gauge pressure of a deflated balloon [Pa]
-constexpr std::size_t kMostTexts = 3;     // of the shown errors, and of the warnings
+constexpr int kStatusWidth = 160;   // [pixels]
+constexpr int kRefreshPeriod = 50;  // [ms]
+using units::kAtmosphere;
+constexpr double kVacuum = -0.8e5;     // gauge pressure of a deflated balloon [Pa]
+constexpr std::size_t kMostTexts = 3;  // of the shown errors, and of the warnings
 const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", "LAO 40 CRA 20",
                               "AP CRA 30", "spider", "lateral"};
 

@@ -1,6 +1,6 @@
-#include <cstdio>
 #include <string>
 
+#include "common/text/format.h"
 #include "scene/schema/scene_schema.h"
 
 namespace endovascular_sim::scene
@@ -10,9 +10,7 @@ namespace
 
 std::string inMillimetres(double length)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4ge-3 m", 1e3 * length);
-  return text;
+  return formatted("%.4ge-3 m", 1e3 * length);
 }
 
 /** Visits a table of two columns, stored as a vector of structures with two numbers. */

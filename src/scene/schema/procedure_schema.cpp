@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/units.h"
 #include "fluoroscopy/gantry/view.h"
 #include "scene/schema/scene_schema.h"
 
@@ -104,8 +105,8 @@ void visitStep(yaml::Fields& fields, StepScene& step)
     return;
   if (step.action == StepAction::kInflate)
   {
-    fields.number("pressure", step.pressure, quantities::kPressure, {-101325.0, std::numeric_limits<double>::max()},
-                  Need::kRequired);
+    fields.number("pressure", step.pressure, quantities::kPressure,
+                  {-units::kAtmosphere, std::numeric_limits<double>::max()}, Need::kRequired);
     fields.number("for", step.duration, quantities::kWait, Range::nonNegative(), Need::kRequired);
     return;
   }

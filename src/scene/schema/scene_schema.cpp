@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/file_name.h"
+#include "common/units.h"
 
 namespace endovascular_sim::scene
 {
@@ -16,12 +17,12 @@ const std::vector<std::string> kGrips = {"fingers", "chuck"};  // order of drive
 const std::vector<std::string> kSamplingKinds = {"uniform", "adaptive"};
 const std::vector<std::string> kLinearSolvers = {"banded", "suitesparse"};  // order of rod::LinearSolver
 
-constexpr double kSameLength = 1e-9;      // tolerance for the equality of lengths [m]
-constexpr double kTravelsPerEdge = 4.0;   // smallest ratio of edge length to travel per sub-step
-constexpr double kEdgePerGuide = 0.5;     // largest ratio of edge length to guide length
-constexpr double kSmoothEdge = 0.25;      // largest ratio without ripple of the hand force
-constexpr double kAtmosphere = 101325.0;  // standard atmosphere [Pa]
-constexpr double kShortestEdge = 2e-5;    // smallest ratio of edge length to wire length
+constexpr double kSameLength = 1e-9;     // tolerance for the equality of lengths [m]
+constexpr double kTravelsPerEdge = 4.0;  // smallest ratio of edge length to travel per sub-step
+constexpr double kEdgePerGuide = 0.5;    // largest ratio of edge length to guide length
+constexpr double kSmoothEdge = 0.25;     // largest ratio without ripple of the hand force
+using units::kAtmosphere;
+constexpr double kShortestEdge = 2e-5;  // smallest ratio of edge length to wire length
 
 void visitSampling(yaml::Fields& fields, SamplingScene& sampling, double wire_length)
 {

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/file_name.h"
 #include "common/input_file.h"
+#include "common/units.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -16,7 +17,7 @@ namespace
 {
 
 constexpr auto kRemedy = "save the markups in 3D Slicer as .mrk.json or .fcsv";
-constexpr double kMillimetre = 1e-3;
+using units::kMillimetre;
 
 /** Labels that 3D Slicer gives by itself. */
 const std::set<std::string> kDefaultLabels = {

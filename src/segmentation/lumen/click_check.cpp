@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "common/error.h"
+#include "common/text/format.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -78,11 +78,10 @@ double radiusAt(const Scan& scan, const Eigen::Vector3d& p, double threshold)
   return 0.5 * shortest;
 }
 
-std::string format(const char* text, const Eigen::Vector3d& p, double value)
+/** Corner of the image [m] in whole millimetres. */
+std::string cornerText(const Eigen::Vector3d& p)
 {
-  char line[200];
-  std::snprintf(line, sizeof line, text, 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z(), value);
-  return line;
+  return formatted("(%.0f, %.0f, %.0f)", 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
 }
 
 /** Checks of one set of clicks. */
@@ -111,8 +110,8 @@ private:
   {
     const auto number = &click - branch.clicks.data() + 1;
     throw InputError(clicks_.file,
-                     branch.name + ", click " + std::to_string(number) + " (" + click.where + ")" +
-                         format(" at (%.1f, %.1f, %.1f) mm", click.position, 0.0),
+                     branch.name + ", click " + std::to_string(number) + " (" + click.where + ")" + " at " +
+                         inMillimetres(click.position),
                      reason);
   }
 
@@ -122,8 +121,8 @@ private:
       return;
     const Eigen::AlignedBox3d box = scan_.volume().grid.bounds();
     const Eigen::Vector3d swapped(-click.position.x(), -click.position.y(), click.position.z());
-    std::string remedy = format("lies outside of the image, which extends from (%.0f, %.0f, %.0f)", box.min(), 0.0) +
-                         format(" to (%.0f, %.0f, %.0f) mm", box.max(), 0.0);
+    std::string remedy = "lies outside of the image, which extends from " + cornerText(box.min()) + " to " +
+                         cornerText(box.max()) + " mm";
     remedy += scan_.contains(scan_.toGrid(swapped))
                   ? "; as RAS it would lie inside: correct the frame of the clicks (LPS or RAS)"
                   : "; check the frame (LPS or RAS), the unit, and that the clicks belong to this image";
@@ -210,7 +209,8 @@ private:
     const std::optional<Eigen::Vector3d> lumen = nearestLumen(p);
     if (!lumen)
       return "; there is no lumen within 10 mm: click again";
-    return format("; the nearest lumen is at (%.1f, %.1f, %.1f) mm (%.0f)", scan_.toPatient(*lumen), scan_.at(*lumen));
+    return "; the nearest lumen is at " + inMillimetres(scan_.toPatient(*lumen)) +
+           formatted(" (%.0f)", scan_.at(*lumen));
   }
 
   void requireLumen(const BranchClicks& branch, const Click& click, double value, double background) const

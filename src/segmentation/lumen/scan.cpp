@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace endovascular_sim::segmentation
@@ -110,13 +109,6 @@ Eigen::Vector3i Scan::voxelOf(const Eigen::Vector3d& p) const
     voxel[axis] =
         static_cast<int>(std::lround(std::clamp(p[axis] * inverse_spacing_[axis], 0.0, volume_.grid.size[axis] - 1.0)));
   return voxel;
-}
-
-std::string locationText(const Eigen::Vector3d& p)
-{
-  char text[100];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f) mm", 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
-  return text;
 }
 
 }  // namespace endovascular_sim::segmentation

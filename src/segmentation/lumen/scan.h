@@ -60,8 +60,4 @@ private:
 /** Volume with its voxels in the order that comes closest to the patient frame. The positions of the voxels stay. */
 image::Volume canonical(image::Volume volume);
 
-/** Text of a place for messages, in mm.
- *  @param p patient frame [m] */
-std::string locationText(const Eigen::Vector3d& p);
-
 }  // namespace endovascular_sim::segmentation

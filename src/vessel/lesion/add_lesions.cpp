@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -10,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "geometry/mesh_distance.h"
 #include "vessel/centreline/branch_finder.h"
 #include "vessel/centreline/lumen_section.h"
@@ -33,13 +33,6 @@ std::string branchNames(const CentrelineTree& tree)
   for (const CentrelineBranch& branch : tree.branches)
     names += (names.empty() ? "" : ", ") + branch.name;
   return names;
-}
-
-std::string inMillimetres(double length)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g mm", 1e3 * length);
-  return text;
 }
 
 /** Replaces a point in the lumen by its branch and arc length. */

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
+
+#include "common/text/format.h"
 
 namespace endovascular_sim::vessel
 {
@@ -20,9 +21,7 @@ constexpr std::size_t kMaxEnds = 40;
 template <typename... Values>
 std::string line(const char* format, Values... values)
 {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return std::string(text) + "\n";
+  return formatted(format, values...) + "\n";
 }
 
 Json point(const Eigen::Vector3d& p)

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "vessel/repair/mesh_size.h"
 #include "vessel/repair/wall_probes.h"
 
@@ -93,14 +93,11 @@ bool ThickWall::found() const
 
 std::string ThickWall::text() const
 {
-  char text[400];
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "the surface is a wall %.2g mm thick around a lumen %.2g mm wide, so that instruments would run inside the "
       "wall; make its inner side the vessel: vessel_prepare --hollow --open all, with a --plug at each opening "
       "(docs/VESSELS.md, \"Thick walls\")",
       1e3 * thickness, 1e3 * width);
-  return text;
 }
 
 ThickWall findThickWall(const geometry::TriangleMesh& mesh, const MeshReport& report)

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "geometry/mesh_topology.h"
 
 namespace endovascular_sim::vessel
@@ -143,9 +143,7 @@ void append(std::string& text, const MeshDefect& defect, const std::string& what
 
 std::string formatLocation(const Eigen::Vector3d& location)
 {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g) mm", 1e3 * location.x(), 1e3 * location.y(), 1e3 * location.z());
-  return text;
+  return formatted("(%.5g, %.5g, %.5g) mm", 1e3 * location.x(), 1e3 * location.y(), 1e3 * location.z());
 }
 
 bool MeshReport::clean() const

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "vessel/repair/wall_probes.h"
 
 namespace endovascular_sim::vessel
@@ -25,12 +25,7 @@ constexpr double kSinglePrecision = 5.96e-8;
 
 std::string lengthText(double metres)
 {
-  char text[32];
-  if (metres >= 0.5)
-    std::snprintf(text, sizeof text, "%.3g m", metres);
-  else
-    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
-  return text;
+  return metres >= 0.5 ? shortNumber(metres, 3) + " m" : shortNumber(1e3 * metres, 3) + " mm";
 }
 
 /** Unit of length of mesh files. */
@@ -70,8 +65,7 @@ std::string proposal(double size, double width)
   std::string text;
   for (const Unit& unit : likelyUnits(size, width))
   {
-    char number[32];
-    std::snprintf(number, sizeof number, "%g", unit.metres);
+    const std::string number = formatted("%g", unit.metres);
     text += (text.empty() ? "; it looks like " : ", or ") + std::string(unit.name) + ": set vessel.unit: " + number;
     if (width > 0.0)
       text += " (lumen " + lengthText(width * unit.metres) + " wide, mesh " + lengthText(size * unit.metres) + " long)";
@@ -122,11 +116,10 @@ std::string distanceWarning(const MeshReport& report, const std::string& source)
   const double farthest = std::max(report.lower.cwiseAbs().maxCoeff(), report.upper.cwiseAbs().maxCoeff());
   if (!(farthest > kFarthest))
     return "";
-  char text[200];
-  std::snprintf(text, sizeof text,
-                ": lies %.3g m from the origin, where coordinates of single precision are rounded to %.2g um; move the "
-                "mesh to the origin before its export",
-                farthest, 1e6 * kSinglePrecision * farthest);
+  const std::string text = formatted(
+      ": lies %.3g m from the origin, where coordinates of single precision are rounded to %.2g um; move the "
+      "mesh to the origin before its export",
+      farthest, 1e6 * kSinglePrecision * farthest);
   return source + text;
 }
 

@@ -7,13 +7,14 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/units.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <string>
 
+#include "common/units.h"
+
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 
 void expectView(const std::string& text, double primary, double secondary)
 {

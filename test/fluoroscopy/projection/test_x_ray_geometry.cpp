@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "common/error.h"
+#include "common/units.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 const Eigen::Vector3d kLeft(1.0, 0.0, 0.0), kPosterior(0.0, 1.0, 0.0), kHead(0.0, 0.0, 1.0);
 
 CArmPose pose(double lao, double cranial)

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 
+#include "common/units.h"
 #include "fluoroscopy/projection/vessel_projection.h"
 #include "test/fluoroscopy/shapes.h"
 
@@ -15,7 +16,7 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 
 /** Pixel by OpenCV, from the camera matrix and the frame of a camera. */
 Eigen::Vector2d projectedByOpenCv(const Eigen::Vector3d& point, const Eigen::Isometry3d& patient_from_camera,

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "common/units.h"
+
 namespace endovascular_sim::haptics
 {
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using units::kPi;
 
 TEST(ForceFilter, IsOffByDefaultAndPassesForcesBitForBit)
 {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/units.h"
 #include "test/rod/stack_fixtures.h"
 
 // Two pre-curved tubes on one centreline, clamped at the base and free at the end: the angle α between their natural
@@ -11,7 +12,7 @@ namespace endovascular_sim::rod
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 constexpr double kTubeLength = 0.1;  // [m]
 constexpr int kTubeNodes = 42;
 

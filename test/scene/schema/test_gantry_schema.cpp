@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/units.h"
 #include "scene/scene_file.h"
 
 namespace endovascular_sim::scene
@@ -10,7 +11,7 @@ namespace endovascular_sim::scene
 namespace
 {
 
-constexpr double kDegree = M_PI / 180.0;
+using units::kDegree;
 
 Scene sceneOf(const std::string& fluoroscopy)
 {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "common/text/format.h"
 #include "fluoroscopy/patient/body/anatomy_parts.h"
 #include "fluoroscopy/patient/body/body_placement.h"
 #include "fluoroscopy/patient/volume/lumen_mask.h"
@@ -99,9 +99,8 @@ PatientVolume makeBody(const vessel::Vessel& vessel, const BodySettings& setting
   PatientVolume body{std::move(volume), {placement.note}};
   if (spine.displacement() > 0.0F)
   {
-    char note[120];
-    std::snprintf(note, sizeof note, "spine moved back by up to %.0f mm for the vessel",
-                  static_cast<double>(spine.displacement()) * placement.frame.scale);
+    const std::string note = formatted("spine moved back by up to %.0f mm for the vessel",
+                                       static_cast<double>(spine.displacement()) * placement.frame.scale);
     body.notes.emplace_back(note);
   }
   return body;

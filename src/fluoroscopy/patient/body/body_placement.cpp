@@ -1,8 +1,8 @@
 #include "fluoroscopy/patient/body/body_placement.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/text/format.h"
 #include "fluoroscopy/patient/body/spine.h"
 
 namespace endovascular_sim::fluoroscopy::body
@@ -26,13 +26,6 @@ const vessel::CentrelineBranch* branchNamed(const vessel::CentrelineTree& tree, 
     if (branch.name == name && !branch.points.empty())
       return &branch;
   return nullptr;
-}
-
-std::string formatted(const char* text, double scale)
-{
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, text, 100.0 * scale);
-  return buffer;
 }
 
 BodyPlacement byLandmarks(const vessel::CentrelineBranch& abdominal, const vessel::CentrelineBranch& arch)

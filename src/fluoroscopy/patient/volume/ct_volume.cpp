@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "fluoroscopy/patient/volume/hounsfield.h"
 #include "fluoroscopy/patient/volume/lumen_mask.h"
 
@@ -64,10 +65,8 @@ double shareInside(const geometry::TriangleMesh& mesh, const image::VolumeGrid& 
 
 std::string describe(const Eigen::AlignedBox3d& box)
 {
-  char text[160];
-  std::snprintf(text, sizeof text, "x %.3f to %.3f, y %.3f to %.3f, z %.3f to %.3f m", box.min().x(), box.max().x(),
-                box.min().y(), box.max().y(), box.min().z(), box.max().z());
-  return text;
+  return formatted("x %.3f to %.3f, y %.3f to %.3f, z %.3f to %.3f m", box.min().x(), box.max().x(), box.min().y(),
+                   box.max().y(), box.min().z(), box.max().z());
 }
 
 /** Note on the position of the vessel in the CT. */
@@ -86,9 +85,7 @@ std::string requireOverlap(const geometry::TriangleMesh& lumen, const image::Vol
                          " of the patient frame; correct rotation and "
                          "translation of the CT");
   }
-  char note[120];
-  std::snprintf(note, sizeof note, "%.0f %% of the vessel's wall lies inside the CT", 100.0 * share);
-  return note;
+  return formatted("%.0f %% of the vessel's wall lies inside the CT", 100.0 * share);
 }
 
 }  // namespace
