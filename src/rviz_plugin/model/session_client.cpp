@@ -10,6 +10,7 @@
 #include "endovascular_sim/CArm.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/model/centreline_tree.h"
 #include "rviz_plugin/model/message_points.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -80,7 +81,8 @@ void SessionClient::subscribe()
   subscribers_.push_back(nodes::subscribeGuarded<VesselCentreline>(node_, names::kVesselCentreline, 1,
                                                                    [this](const VesselCentrelineConstPtr& message)
                                                                    {
-                                                                     const BranchFinder branches(*message);
+                                                                     const vessel::BranchFinder branches(
+                                                                         centrelineTree(*message));
                                                                      const std::lock_guard<std::mutex> lock(mutex_);
                                                                      branches_ = branches;
                                                                    }));
@@ -220,7 +222,7 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!message->nodes.empty() && (state_.branch.empty() || secondsSince(branch_found_) > kBranchPeriod))
   {
-    state_.branch = branches_.branchAt(toEigen(message->nodes.back()));
+    state_.branch = branches_.nameAt(toEigen(message->nodes.back()));
     branch_found_ = Clock::now();
   }
   state_.wire = *message;

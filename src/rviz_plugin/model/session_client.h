@@ -15,9 +15,9 @@
 #include <sensor_msgs/JointState.h>
 
 #include "endovascular_sim/SessionProgress.h"
-#include "rviz_plugin/model/branch_finder.h"
 #include "rviz_plugin/model/pending_calls.h"
 #include "rviz_plugin/model/session_port.h"
+#include "vessel/centreline/branch_finder.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -77,7 +77,7 @@ private:
   mutable std::mutex mutex_;  ///< of the members up to the next blank line
   SessionState state_;
   Clock::time_point wire_received_, branch_found_;
-  BranchFinder branches_;
+  vessel::BranchFinder branches_{vessel::CentrelineTree()};
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;
 

@@ -77,12 +77,18 @@ int BranchFinder::nearest(const Eigen::Vector3d& point) const
     if (block.bound(point) > upper_bound + kRounding)
       continue;
     const double distance = distanceTo(block, point);
-    if (distance >= least)
+    if (!(distance < least))
       continue;
     least = distance;
     nearest = block.branch;
   }
   return nearest;
+}
+
+std::string BranchFinder::nameAt(const Eigen::Vector3d& point) const
+{
+  const int branch = nearest(point);
+  return branch < 0 ? "" : branches_[static_cast<std::size_t>(branch)].name;
 }
 
 }  // namespace endovascular_sim::vessel

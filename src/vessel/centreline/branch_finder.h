@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 namespace endovascular_sim::vessel
 {
 
-/** Assigns points of the wall to branches of a centreline. */
+/** Assigns points to the branches of a centreline. */
 class BranchFinder
 {
 public:
@@ -20,8 +21,11 @@ public:
    *  point. The radius matters beside an ostium: the parent's wall belongs to the parent, although the child's
    *  centreline begins inside the parent. Among equals, the first branch of the tree is returned.
    *  @param point patient frame [m]
-   *  @return index into CentrelineTree::branches; −1 if the tree has no points */
+   *  @return index into CentrelineTree::branches; −1 if the tree has no points, or for a point that is not finite */
   int nearest(const Eigen::Vector3d& point) const;
+
+  /** Name of that branch; empty if there is none. */
+  std::string nameAt(const Eigen::Vector3d& point) const;
 
 private:
   /** Consecutive segments of a branch with a bounding box for culling. */

@@ -87,5 +87,14 @@ TEST(BranchFinder, ReturnsNoBranchWithoutACentreline)
   EXPECT_EQ(BranchFinder(tree).nearest({1.0, 2.0, 3.0}), 1);  // a branch may consist of one point
 }
 
+TEST(BranchFinder, ReturnsNoBranchForAPointThatIsNotFinite)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const BranchFinder finder(trunkWithBranch());
+  EXPECT_EQ(finder.nearest({nan, 0.0, 0.0}), -1);
+  EXPECT_EQ(finder.nameAt({nan, nan, nan}), "");
+  EXPECT_EQ(finder.nearest({0.0, std::numeric_limits<double>::infinity(), 0.0}), -1);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::vessel
