@@ -15,7 +15,7 @@ if(ENDOVASCULAR_SANITIZE)
       -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/test/sanitize/ignored_by_undefined.txt)
     add_compile_definitions(_GLIBCXX_ASSERTIONS)
     # Coverage of all sources would slow the tests down.
-    file(GLOB PARSERS CONFIGURE_DEPENDS src/common/text/*.cpp src/vessel/io/*.cpp src/vessel/anatomy/anatomy_reader.cpp src/scene/*.cpp
+    file(GLOB PARSERS CONFIGURE_DEPENDS src/common/xml/*.cpp src/vessel/io/*.cpp src/vessel/anatomy/anatomy_reader.cpp src/scene/*.cpp
       src/yaml/*.cpp src/scene/schema/*.cpp src/haptics/rosserial/*.cpp src/haptics/serial/*.cpp
       src/haptics/host/*.cpp src/drive/*_command.cpp src/drive/command_file.cpp src/haptics/device/*.cpp src/simulation/*archive*.cpp src/nodes/conversions/*.cpp
       src/nodes/session/session_bag.cpp)

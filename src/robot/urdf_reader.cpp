@@ -11,7 +11,7 @@
 
 #include "common/error.h"
 #include "common/input_file.h"
-#include "common/text/xml_depth.h"
+#include "common/xml/xml_depth.h"
 #include "robot/urdf_checks.h"
 
 namespace endovascular_sim::robot

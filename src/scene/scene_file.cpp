@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "common/error.h"
-#include "common/file_name.h"
+#include "common/file/file_name.h"
 #include "robot/urdf_reader.h"
 #include "scene/file_search.h"
 #include "scene/instrument_library.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/child_process.h"
 #include "common/output_file.h"
+#include "common/process/child_process.h"
 
 namespace endovascular_sim::tools
 {

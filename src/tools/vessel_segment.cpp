@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/child_process.h"
 #include "common/error.h"
-#include "common/file_name.h"
+#include "common/file/file_name.h"
 #include "common/numerics/parallel_for.h"
+#include "common/process/child_process.h"
 #include "common/progress.h"
 #include "common/quantities.h"
 #include "common/text/format.h"

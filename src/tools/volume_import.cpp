@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "common/child_process.h"
 #include "common/error.h"
+#include "common/process/child_process.h"
 #include "image/import/image_reader.h"
 #include "image/volume_file.h"
 #include "tools/command_line.h"

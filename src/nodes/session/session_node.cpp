@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "common/file_name.h"
+#include "common/file/file_name.h"
 #include "nodes/runtime/parameters.h"
 
 namespace endovascular_sim::nodes

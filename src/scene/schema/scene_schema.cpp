@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/file_name.h"
+#include "common/file/file_name.h"
 #include "common/units.h"
 
 namespace endovascular_sim::scene

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/file_name.h"
+#include "common/file/file_name.h"
 #include "common/input_file.h"
 #include "common/units.h"
 

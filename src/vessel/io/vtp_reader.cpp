@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/error.h"
-#include "common/text/xml_depth.h"
+#include "common/xml/xml_depth.h"
 #include "vessel/io/text_cursor.h"
 #include "vessel/io/vtk_values.h"
 

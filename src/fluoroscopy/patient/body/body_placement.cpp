@@ -38,7 +38,7 @@ BodyPlacement byLandmarks(const vessel::CentrelineBranch& abdominal, const vesse
   placement.frame.scale = std::clamp((top - bifurcation.z()) / (1e-3 * kArchHeight), kMinScale, kMaxScale);
   placement.frame.origin = bifurcation;
   placement.note = formatted("body placed by the aortic bifurcation and the aortic arch, at %.0f %% of its usual size",
-                             placement.frame.scale);
+                             100.0 * placement.frame.scale);
   return placement;
 }
 
@@ -62,7 +62,7 @@ BodyPlacement byExtent(const geometry::TriangleMesh& mesh)
     placement.note = formatted(
         "body fitted to the vessel's extent, as a tree from groins to neck, at %.0f %% of its usual "
         "size: the vessel has no branches named abdominal_aorta and aortic_arch",
-        placement.frame.scale);
+        100.0 * placement.frame.scale);
   }
   else
   {

@@ -89,7 +89,8 @@ TEST(BodyModel, HasThePlausibleMassOfATorso)
 
 TEST(BodyModel, IsPlacedByLandmarksAndSaysSo)
 {
-  EXPECT_NE(anatomyBody().notes.at(0).find("aortic bifurcation"), std::string::npos);
+  const std::string& note = anatomyBody().notes.at(0);
+  EXPECT_EQ(note, "body placed by the aortic bifurcation and the aortic arch, at 100 % of its usual size");
 }
 
 TEST(BodyModel, IsFittedToTheExtentOfAVesselWithoutLandmarksAndSaysSo)

@@ -1,4 +1,4 @@
-#include "common/child_process.h"
+#include "common/process/child_process.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>

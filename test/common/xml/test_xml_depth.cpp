@@ -1,4 +1,4 @@
-#include "common/text/xml_depth.h"
+#include "common/xml/xml_depth.h"
 
 #include <gtest/gtest.h>
 
