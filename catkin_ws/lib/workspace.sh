@@ -102,7 +102,7 @@ build_jobs() {
 
 # source_hash all|tests: one hash over path, time and size of every file that the target is built from.
 source_hash() {
-  local folders=(src msg srv cmake catkin_ws/src/crtk_msgs)
+  local folders=(src msg srv cmake python catkin_ws/src/crtk_msgs)
   [ "$1" = tests ] && folders+=(test)
   {
     printf '%s\n' "$repository" "$(build_options)"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # No include of src runs upwards or in a circle between folders: each points to its own folder or to one earlier in the
 # list of docs/ARCHITECTURE.md, section "Layers". Only nodes, tools and rviz_plugin include ROS.
+# python/core includes neither ROS nor folders above session.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'
@@ -9,6 +10,8 @@ import re
 import sys
 
 ROS = re.compile(r"(ros|rosbag|tf2_ros|diagnostic_updater|message_filters|std_srvs|\w+_msgs|endovascular_sim)/")
+
+ABOVE_PYTHON = ("nodes", "rviz_plugin", "tools", "benchmark")
 
 text = open("docs/ARCHITECTURE.md").read()
 block = re.search(r"^## Layers\n.*?^```\w*\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
@@ -49,6 +52,11 @@ for parent, folders, files in os.walk("src"):
                     errors.append(where + "no such file: src/" + target)
                 elif other != folder and not level.get(other, len(level)) < level[folder]:
                     errors.append(where + "%s is not before %s in the order of folders" % (other, folder))
+for name in sorted(os.listdir("python/core")):
+    for number, line in enumerate(open("python/core/" + name), 1):
+        include = re.match(r'\s*#include\s+(["<])([^">]+)[">]', line)
+        if include and ROS.match(include.group(2)) or include and include.group(2).split("/")[0] in ABOVE_PYTHON:
+            errors.append("python/core/%s:%d: python binds the core only: %s" % (name, number, include.group(2)))
 for folder in sorted(set(level) - seen):
     errors.append("docs/ARCHITECTURE.md lists %s, but src/%s holds no source" % (folder, folder))
 print("\n".join(errors))

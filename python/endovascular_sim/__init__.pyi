@@ -1,0 +1,16 @@
+from ._core import (
+    Branch as Branch,
+    Error as Error,
+    InputError as InputError,
+    Observation as Observation,
+    Rollout as Rollout,
+    Session as Session,
+    UsageError as UsageError,
+    World as World,
+    advance as advance,
+    rollout as rollout,
+)
+
+__version__: str
+__commit__: str
+physics_number: int
