@@ -1,16 +1,11 @@
 #include "drive/hand_control.h"
 
 #include <cmath>
-#include <limits>
 
 namespace endovascular_sim::drive
 {
 namespace
 {
-
-constexpr auto kEnabled = "ENABLED";
-constexpr auto kDisabled = "DISABLED";
-constexpr auto kPaused = "PAUSED";
 
 AxisLimits insertionLimits(const DriveLimits& limits)
 {
@@ -36,14 +31,9 @@ HandControl::HandControl(const HandMotion& start, const DriveLimits& limits)
     gate_(start, limits),
     insertion_(insertionLimits(limits), start.insertion),
     rotation_(rotationLimits(limits), start.rotation),
-    setpoint_{start, std::nullopt}
+    setpoint_{start, std::nullopt},
+    arbiter_("instrument", limits.time_out)
 {
-  state_.state = kEnabled;
-}
-
-bool HandControl::isDrivenByAnother(const std::string& client) const
-{
-  return !driver_.empty() && driver_ != client && driver_silence_ < limits_.time_out;
 }
 
 CommandVerdict HandControl::command(const std::string& client, const std::optional<JointCommand>& command)
@@ -53,15 +43,10 @@ CommandVerdict HandControl::command(const std::string& client, const std::option
     verdict = execute(*command);
   if (verdict == CommandVerdict::kAccepted)
   {
-    ++accepted_;
-    driver_ = client;
-    driver_silence_ = silence_ = 0.0;
+    arbiter_.accept(client);
     return verdict;
   }
-  rejected_.add(verdict);
-  if (verdict != CommandVerdict::kForeign && client == driver_)
-    driver_silence_ = 0.0;
-  last_refusal_ = std::string(command ? nameOf(command->kind) : "command") + " of " + client + ": " + reasonOf(verdict);
+  reject(verdict, command ? nameOf(command->kind) : "command", client);
   const bool was_move =
       command && (command->kind == CommandKind::kMovePosition || command->kind == CommandKind::kMoveRelative);
   state_.revision += was_move;  // publishes the state: the replaced move has ended
@@ -72,12 +57,19 @@ CommandVerdict HandControl::examine(const std::string& client, const std::option
 {
   if (!command)
     return CommandVerdict::kMalformed;
-  if (isDrivenByAnother(client))
+  if (arbiter_.isDrivenByAnother(client))
     return CommandVerdict::kForeign;
   const bool is_absolute = command->kind == CommandKind::kServoPosition || command->kind == CommandKind::kMovePosition;
-  if (state_.state != kEnabled || is_homing_ || (is_absolute && !state_.is_homed))
+  if (state_.state != OperatingState::kEnabled || is_homing_ || (is_absolute && !state_.is_homed))
     return CommandVerdict::kNotEnabled;
   return isFinite(*command) ? CommandVerdict::kAccepted : CommandVerdict::kNotFinite;
+}
+
+/** @return false */
+bool HandControl::reject(CommandVerdict verdict, const std::string& command, const std::string& client)
+{
+  arbiter_.reject(verdict, command, client, reasonOf(verdict));
+  return false;
 }
 
 std::string HandControl::reasonOf(CommandVerdict verdict) const
@@ -93,11 +85,11 @@ std::string HandControl::reasonOf(CommandVerdict verdict) const
     case CommandVerdict::kJump:
       return "a jump of more than drive.limits.step or turn from the last accepted position";
     case CommandVerdict::kForeign:
-      return driver_ + " drives the instrument";
+      return arbiter_.foreignReason();
     case CommandVerdict::kNotEnabled:
-      return is_homing_        ? "the instrument is homing"
-             : state_.is_homed ? "the instrument is " + state_.state
-                               : "not homed";
+      if (state_.state != OperatingState::kEnabled)
+        return std::string("the instrument is ") + nameOf(state_.state);
+      return is_homing_ ? "the instrument is homing" : "not homed";
     case CommandVerdict::kAccepted:
       break;
   }
@@ -181,7 +173,7 @@ CommandVerdict HandControl::rate(JointCommand command)
   if (!isPermitted(command.insertion, {-most, most}, clamped) ||
       !isPermitted(turning, {-most_turning, most_turning}, clamped))
     return CommandVerdict::kOutOfRange;
-  rejected_.clamped += clamped;
+  arbiter_.countClamped(clamped);
   enterRate();
   by_force ? insertion_.setEffort(command.insertion) : insertion_.setVelocity(command.insertion);
   if (!command.rotation)
@@ -202,7 +194,7 @@ CommandVerdict HandControl::move(const JointCommand& command)
   if (!isPermitted(goal.insertion, commandRange(*limits_.insertion, slipped_.insertion), clamped) ||
       !isPermitted(goal.rotation, commandRange(limits_.rotation, slipped_.rotation), clamped))
     return CommandVerdict::kOutOfRange;
-  rejected_.clamped += clamped;
+  arbiter_.countClamped(clamped);
   enterRate();
   insertion_.moveTo(goal.insertion);
   rotation_.moveTo(goal.rotation);
@@ -239,7 +231,7 @@ void HandControl::stop()
   rotation_.hold();
 }
 
-void HandControl::setState(const std::string& state, const std::string& reason)
+void HandControl::setState(OperatingState state, const std::string& reason)
 {
   state_.state = state;
   state_.reason = reason;
@@ -248,55 +240,39 @@ void HandControl::setState(const std::string& state, const std::string& reason)
 bool HandControl::stateCommand(const std::string& client, const std::string& word)
 {
   ++state_.revision;  // every command is answered by a state
-  const bool is_free = word == "enable" || word == "disable" || word == "pause";
-  if (!is_free && isDrivenByAnother(client))
-  {
-    rejected_.add(CommandVerdict::kForeign);
-    last_refusal_ = word + " of " + client + ": " + driver_ + " drives the instrument";
+  if (!arbiter_.permits(client, word))
     return false;
-  }
   if (word == "hold" || word == "free")
     return holdOrFree(client, word);
-  if (word == "enable" && state_.state == kDisabled)
-    setState(kEnabled, "");
+  if (word == "home")
+    return home(client);
+  if (word == "enable" && state_.state == OperatingState::kDisabled)
+    setState(OperatingState::kEnabled, "");
   else if (word == "disable")
   {
     stop();
-    driver_.clear();
-    setState(kDisabled, "disabled by " + client);
+    arbiter_.release();
+    setState(OperatingState::kDisabled, "disabled by " + client);
   }
-  else if (word == "pause" && state_.state == kEnabled)
+  else if (word == "pause" && state_.state == OperatingState::kEnabled)
   {
     stop();
-    setState(kPaused, "paused by " + client + "; continues with resume");
+    setState(OperatingState::kPaused, "paused by " + client + "; continues with resume");
   }
-  else if (word == "resume" && state_.state == kPaused)
-    setState(kEnabled, "");
+  else if (word == "resume" && state_.state == OperatingState::kPaused)
+    setState(OperatingState::kEnabled, "");
   else if (word == "unhome")
   {
     stop();
     state_.is_homed = false;
-  }
-  else if (word == "home")
-    home(client);
-  else if (word != "enable" && word != "pause" && word != "resume")
-  {
-    rejected_.add(CommandVerdict::kMalformed);
-    last_refusal_ = "state_command of " + client +
-                    ": unknown word; known are enable, disable, pause, resume, home, unhome, hold, free";
-    return false;
   }
   return true;
 }
 
 bool HandControl::holdOrFree(const std::string& client, const std::string& word)
 {
-  if (state_.state != kEnabled || is_homing_)
-  {
-    rejected_.add(CommandVerdict::kNotEnabled);
-    last_refusal_ = word + " of " + client + ": " + reasonOf(CommandVerdict::kNotEnabled);
-    return false;
-  }
+  if (state_.state != OperatingState::kEnabled || is_homing_)
+    return reject(CommandVerdict::kNotEnabled, word, client);
   stop();
   if (word == "free")
   {
@@ -304,33 +280,26 @@ bool HandControl::holdOrFree(const std::string& client, const std::string& word)
     rotation_.setEffort(0.0);
     mode_ = Mode::kFree;
   }
-  ++accepted_;
-  driver_ = client;
-  driver_silence_ = silence_ = 0.0;
+  arbiter_.accept(client);
   return true;
 }
 
 /** Moves to the position at the start of the scene, where the instrument is homed. */
-void HandControl::home(const std::string& client)
+bool HandControl::home(const std::string& client)
 {
   if (state_.is_homed || is_homing_)
-    return;
-  if (state_.state != kEnabled)
-  {
-    rejected_.add(CommandVerdict::kNotEnabled);
-    last_refusal_ = "home of " + client + ": the instrument is " + state_.state;
-    return;
-  }
-  driver_ = client;
-  driver_silence_ = 0.0;
+    return true;
+  if (state_.state != OperatingState::kEnabled)
+    return reject(CommandVerdict::kNotEnabled, "home", client);
+  arbiter_.take(client);
   is_homing_ =
       move({CommandKind::kMovePosition, start_.insertion, start_.rotation, std::nullopt}) == CommandVerdict::kAccepted;
+  return true;
 }
 
 const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
 {
-  silence_ += dt;
-  driver_silence_ += dt;
+  arbiter_.advance(dt);
   slipped_ = {feedback.insertion.slipped, feedback.rotation.slipped};
   is_stopped_ = mode_ == Mode::kIncrements && !feedback.insertion.stops.contains(gate_.target().insertion);
   if (mode_ == Mode::kIncrements)
@@ -340,14 +309,14 @@ const HandSetpoint& HandControl::next(double dt, const HandFeedback& feedback)
     setpoint_.motion = gate_.next(dt);
     return setpoint_;
   }
-  if (mode_ == Mode::kRate && silence_ > limits_.time_out)
+  if (mode_ == Mode::kRate && arbiter_.isTimedOut())
     stop();
   setpoint_.motion = {insertion_.next(dt, feedback.insertion), rotation_.next(dt, feedback.rotation)};
   is_stopped_ = insertion_.isStopped();
   gate_.follow(setpoint_.motion, dt);
   if (mode_ != Mode::kMove)
     return setpoint_;
-  driver_silence_ = 0.0;  // the sender of a move drives until its end
+  arbiter_.keepDriver();  // the sender of a move drives until its end
   if (insertion_.isMoving() || rotation_.isMoving())
     return setpoint_;
   state_.is_homed = state_.is_homed || is_homing_;
@@ -364,7 +333,7 @@ void HandControl::restAt(const HandMotion& position, std::optional<double> press
   rotation_.follow(position.rotation);
   gate_.follow(position, 0.0);
   mode_ = Mode::kRate;
-  driver_.clear();
+  arbiter_.release();
 }
 
 HandMotion HandControl::goal() const
@@ -375,22 +344,17 @@ HandMotion HandControl::goal() const
 
 RejectedCommands HandControl::rejected() const
 {
-  RejectedCommands all = rejected_;
+  RejectedCommands all = arbiter_.rejected();
   all.clamped += gate_.rejected().clamped;
   return all;
 }
 
-void HandControl::copyRejections(const HandControl& other)
+bool give(HandControl& control, const std::string& client, const std::string& word,
+          const std::vector<std::string>& names, const std::vector<double>& values)
 {
-  const std::uint64_t clamped = rejected_.clamped;  // commands that were taken over
-  rejected_ = other.rejected_;
-  rejected_.clamped = clamped;
-  last_refusal_ = other.last_refusal_;
-}
-
-double HandControl::silence() const
-{
-  return accepted_ > 0 ? silence_ : std::numeric_limits<double>::infinity();
+  const std::optional<CommandKind> kind = commandKind(word);
+  return kind ? control.command(client, jointCommand(*kind, names, values)) == CommandVerdict::kAccepted
+              : control.stateCommand(client, word);
 }
 
 }  // namespace endovascular_sim::drive

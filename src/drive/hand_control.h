@@ -3,24 +3,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "drive/arbiter.h"
 #include "drive/axis_control.h"
 #include "drive/command_gate.h"
 #include "drive/drive_limits.h"
 #include "drive/joint_command.h"
+#include "drive/operating_state.h"
 
 namespace endovascular_sim::drive
 {
-
-/** Operating state of an instrument, as CRTK defines it. */
-struct OperatingState
-{
-  std::string state;           ///< DISABLED, ENABLED or PAUSED
-  bool is_homed = true;        ///< false after `unhome`, until the end of `home`
-  bool is_busy = false;        ///< true during a move or homing
-  std::string reason;          ///< reason of a state other than ENABLED, or a warning
-  std::uint64_t revision = 0;  ///< incremented whenever the state is to be published, also without a change
-};
 
 /** Feedback of one instrument to its control. */
 struct HandFeedback
@@ -41,8 +34,7 @@ struct HandSetpoint
  *  Each mode reduces to insertion and rotation per step, as a function of the commands between the steps, the simulated
  *  time and the feedback. Where the instrument waits at a stop, the setpoint stays at the stop in every mode but that
  * of absolute positions, which are the client's. A new command replaces the one before, of any mode. One client drives
- * at a time: the first one whose command is accepted, until it sends none for the time-out, or until `disable`.
- * `disable` and `pause` end any motion; both hold the instrument. */
+ * at a time (Arbiter), until `disable`. `disable` and `pause` end any motion; both hold the instrument. */
 class HandControl
 {
 public:
@@ -55,10 +47,9 @@ public:
    *  @param command empty for a malformed one */
   CommandVerdict command(const std::string& client, const std::optional<JointCommand>& command);
 
-  /** Executes enable, disable, pause, resume, home, unhome, hold or free. Every client may enable, disable and pause;
-   * the others are refused while another client drives. `hold` brakes to rest. After `free` the instrument gives way to
-   * the wire's force, as if nothing held it, until the next command.
-   *  @return false for another word or a refusal, with the reason in lastRefusal() */
+  /** Executes a command without values (kStateCommands), if the arbiter permits it. `hold` brakes to rest. After `free`
+   * the instrument gives way to the wire's force, as if nothing held it, until the next command.
+   *  @return false for another word or a refusal, with the reason in the arbiter */
   bool stateCommand(const std::string& client, const std::string& word);
 
   /** Advances by a step. @return setpoint of the step */
@@ -70,17 +61,13 @@ public:
   const HandSetpoint& setpoint() const { return setpoint_; }
   HandMotion goal() const;  ///< goal of a move, else the last commanded position
 
-  const OperatingState& state() const { return state_; }
-  const std::string& driver() const { return driver_; }             ///< client that drives; empty without one
-  const std::string& lastRefusal() const { return last_refusal_; }  ///< reason of the last refusal
-  std::uint64_t accepted() const { return accepted_; }
-  RejectedCommands rejected() const;
+  const ControlState& state() const { return state_; }
+  const Arbiter& arbiter() const { return arbiter_; }
+  RejectedCommands rejected() const;  ///< also clamped positions of a stream
 
   /** Takes over the number and the last reason of rejections, nothing else, e.g. of a control that has been discarded
    *  because one of several commands was rejected. */
-  void copyRejections(const HandControl& other);
-
-  double silence() const;  ///< simulated time since the last accepted command [s]; infinite before the first
+  void copyRejections(const HandControl& other) { arbiter_.copyRejections(other.arbiter_); }
 
   /** Rests at a position, without a driver, as after a pause of all clients.
    *  @param pressure empty: that of the scene [Pa] */
@@ -101,7 +88,6 @@ private:
     kFree,        ///< effort 0 until the next command
   };
 
-  bool isDrivenByAnother(const std::string& client) const;
   CommandVerdict examine(const std::string& client, const std::optional<JointCommand>& command);
   CommandVerdict execute(JointCommand command);
   CommandVerdict stream(const JointCommand& command);
@@ -110,10 +96,11 @@ private:
   bool isPermitted(double& value, const Interval& interval, bool& clamped) const;
   std::optional<double> wantedPressure(const JointCommand& command) const;
   std::string reasonOf(CommandVerdict verdict) const;
+  bool reject(CommandVerdict verdict, const std::string& command, const std::string& client);
   void enterRate();
   void stop();
-  void setState(const std::string& state, const std::string& reason);
-  void home(const std::string& client);
+  void setState(OperatingState state, const std::string& reason);
+  bool home(const std::string& client);
   bool holdOrFree(const std::string& client, const std::string& word);
   void endMove();
 
@@ -127,13 +114,14 @@ private:
   bool is_stopped_ = false;
   HandMotion slipped_;  ///< scale of the commands minus position of the instrument, at the last step
   bool is_homing_ = false;
-  OperatingState state_;
-  std::string driver_;
-  double driver_silence_ = 0.0;  ///< since the last command of the driver [s]
-  double silence_ = 0.0;         ///< since the last accepted command [s]
-  std::uint64_t accepted_ = 0;
-  RejectedCommands rejected_;
-  std::string last_refusal_;
+  ControlState state_;
+  Arbiter arbiter_;
 };
+
+/** Gives a command by its CRTK name, with or without values.
+ *  @param names, values joints, as jointCommand() takes them
+ *  @return false for a refusal, with the reason in HandControl::arbiter() */
+bool give(HandControl& control, const std::string& client, const std::string& word,
+          const std::vector<std::string>& names, const std::vector<double>& values);
 
 }  // namespace endovascular_sim::drive

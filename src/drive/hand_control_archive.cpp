@@ -47,24 +47,32 @@ void CommandGate::archive(Archive& archive)
   requireLoaded(longest_.insertion >= 0.0 && longest_.rotation >= 0.0, "holds a negative length of a command");
 }
 
+void Arbiter::archive(Archive& archive)
+{
+  archive(silence_, accepted_);
+  requireNumbers(silence_);
+  if (archive.reading())
+    release();
+}
+
 void HandControl::archive(Archive& archive)
 {
   archive(gate_, insertion_, rotation_, mode_);
   requireIndex(static_cast<int>(mode_), 0, static_cast<int>(Mode::kFree) + 1);
   archiveMotion(archive, setpoint_.motion);
   archiveMotion(archive, slipped_);
-  archive(setpoint_.pressure, is_homing_, state_.is_homed, state_.is_busy, silence_, accepted_);
+  archive(setpoint_.pressure, is_homing_, state_.is_homed, state_.is_busy, arbiter_);
   requireFinite(setpoint_.pressure.value_or(0.0));
-  requireNumbers(silence_);
-  archiveText(archive, state_.state);
+  std::string name = nameOf(state_.state);
+  archiveText(archive, name);
   archiveText(archive, state_.reason);
-  requireLoaded(state_.state == "ENABLED" || state_.state == "DISABLED" || state_.state == "PAUSED",
-                "holds an unknown operating state");
+  const std::optional<OperatingState> state = operatingState(name);
+  requireLoaded(state && *state != OperatingState::kFault, "holds an unknown operating state");
   if (!archive.reading())
     return;
+  state_.state = *state;
   requireLoaded(limits_.pressure.contains(setpoint_.pressure.value_or(limits_.pressure.low)),
                 "holds a pressure beyond the limits");
-  driver_.clear();
   ++state_.revision;
 }
 

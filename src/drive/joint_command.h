@@ -24,7 +24,10 @@ const char* nameOf(CommandKind kind);
 /** Kind with a CRTK name; none for another text. */
 std::optional<CommandKind> commandKind(const std::string& name);
 
-/** True for the commands without values: enable, disable, pause, resume, home, unhome, hold and free. */
+/** CRTK names of the commands without values, for messages. */
+constexpr auto kStateCommands = "enable, disable, pause, resume, home, unhome, hold, free";
+
+/** True for the commands without values. */
 bool isStateCommand(const std::string& name);
 
 // Names of the joints of an instrument.

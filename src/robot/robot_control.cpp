@@ -14,8 +14,8 @@ namespace
 
 using drive::CommandKind;
 using drive::CommandVerdict;
+using drive::OperatingState;
 
-constexpr auto kEnabled = "ENABLED";
 constexpr double kRounding = 1e-12;  ///< rounding error of a sum of relative commands, relative to the limit
 
 bool isByRate(CommandKind kind)
@@ -38,10 +38,13 @@ std::size_t indexOf(Motion motion)
   return static_cast<std::size_t>(motion);
 }
 
-/** Severity of a state; the robot has the worst one. */
-int severity(const std::string& state)
+/** Longest time-out of the instruments [s]. */
+double longestTimeOut(const std::vector<RobotInstrument>& instruments)
 {
-  return state == kEnabled ? 0 : state == "PAUSED" ? 1 : state == "DISABLED" ? 2 : 3;
+  double longest = 0.0;
+  for (const RobotInstrument& instrument : instruments)
+    longest = std::max(longest, instrument.time_out);
+  return longest;
 }
 
 }  // namespace
@@ -51,7 +54,8 @@ RobotControl::RobotControl(RobotModel model, std::vector<JointLink> links, std::
     links_(std::move(links)),
     instruments_(std::move(instruments)),
     channels_(instruments_.size()),
-    states_(instruments_.size())
+    states_(instruments_.size()),
+    arbiter_("robot", longestTimeOut(instruments_))
 {
   for (std::size_t k = 0; k < instruments_.size(); ++k)
   {
@@ -60,9 +64,8 @@ RobotControl::RobotControl(RobotModel model, std::vector<JointLink> links, std::
       const double start = instruments_[k].start[axis];
       channels_[k].axes[axis] = {std::nullopt, start, start, start, start, 0.0, false};
     }
-    states_[k].state = "DISABLED";  // until the instrument publishes
+    states_[k].state = OperatingState::kDisabled;  // until the instrument publishes
     states_[k].reason = "no state of '" + instruments_[k].name + "' yet";
-    time_out_ = std::max(time_out_, instruments_[k].time_out);
   }
   for (std::size_t link = 0; link < links_.size(); ++link)
   {
@@ -123,18 +126,19 @@ std::optional<RobotControl::Values> RobotControl::assign(const std::vector<std::
   return assigned;
 }
 
-bool RobotControl::isDrivenByAnother(const std::string& client, double time) const
+void RobotControl::advanceTo(double time)
 {
-  const double silence = time - driver_time_;  // negative after a reset of the simulated time
-  return !driver_.empty() && driver_ != client && (state().is_busy || (silence >= 0.0 && silence < time_out_));
+  arbiter_.advance(time - time_);
+  time_ = time;
 }
 
 bool RobotControl::isReady(std::size_t instrument, CommandKind kind, std::string& reason) const
 {
-  const drive::OperatingState& state = states_[instrument];
-  if (state.state == kEnabled && (state.is_homed || !isAbsolute(kind)))
+  const drive::ControlState& state = states_[instrument];
+  const bool is_enabled = state.state == OperatingState::kEnabled;
+  if (is_enabled && (state.is_homed || !isAbsolute(kind)))
     return true;
-  reason = "'" + instruments_[instrument].name + "' is " + (state.state == kEnabled ? "not homed" : state.state);
+  reason = "'" + instruments_[instrument].name + "' is " + (is_enabled ? "not homed" : drive::nameOf(state.state));
   return false;
 }
 
@@ -170,12 +174,12 @@ CommandVerdict RobotControl::examineLimits(std::size_t link, CommandKind kind, d
   return CommandVerdict::kOutOfRange;
 }
 
-CommandVerdict RobotControl::examine(const std::string& client, CommandKind kind, Values& values, double time,
-                                     std::string& reason, bool& clamped) const
+CommandVerdict RobotControl::examine(const std::string& client, CommandKind kind, Values& values, std::string& reason,
+                                     bool& clamped) const
 {
-  if (isDrivenByAnother(client, time))
+  if (arbiter_.isDrivenByAnother(client, state().is_busy))
   {
-    reason = driver_ + " drives the robot";
+    reason = arbiter_.foreignReason();
     return CommandVerdict::kForeign;
   }
   for (std::size_t link = 0; link < links_.size(); ++link)
@@ -259,20 +263,19 @@ std::optional<InstrumentCommand> RobotControl::convert(std::size_t instrument, C
 RobotAnswer RobotControl::reject(const std::string& client, CommandKind kind, CommandVerdict verdict,
                                  const std::string& reason)
 {
-  rejected_.add(verdict);
-  last_refusal_ = std::string(drive::nameOf(kind)) + " of " + client + ": " + reason;
-  return {verdict, last_refusal_, {}};
+  return {verdict, arbiter_.reject(verdict, drive::nameOf(kind), client, reason), {}};
 }
 
 RobotAnswer RobotControl::command(const std::string& client, CommandKind kind, const std::vector<std::string>& names,
                                   const std::vector<double>& values, double time)
 {
+  advanceTo(time);
   std::string reason;
   std::optional<Values> assigned = assign(names, values, reason);
   if (!assigned)
     return reject(client, kind, CommandVerdict::kMalformed, reason);
   bool clamped = false;
-  const CommandVerdict verdict = examine(client, kind, *assigned, time, reason, clamped);
+  const CommandVerdict verdict = examine(client, kind, *assigned, reason, clamped);
   if (verdict != CommandVerdict::kAccepted)
     return reject(client, kind, verdict, reason);
   std::vector<Channel> channels = channels_;
@@ -298,38 +301,28 @@ RobotAnswer RobotControl::command(const std::string& client, CommandKind kind, c
   const bool is_move = kind == CommandKind::kMovePosition || kind == CommandKind::kMoveRelative;
   for (const InstrumentCommand& command : answer.commands)  // until the instrument publishes its state
     states_[command.instrument].is_busy = states_[command.instrument].is_busy || is_move;
-  rejected_.clamped += clamped;
-  ++accepted_;
-  driver_ = client;
-  driver_time_ = time;
+  arbiter_.countClamped(clamped);
+  arbiter_.accept(client);
   return answer;
 }
 
 std::string RobotControl::stateCommand(const std::string& client, const std::string& word, double time)
 {
-  const bool is_free = word == "enable" || word == "disable" || word == "pause";
-  std::string reason;
-  if (!drive::isStateCommand(word))
-  {
-    rejected_.add(CommandVerdict::kMalformed);
-    reason = "unknown word; known are enable, disable, pause, resume, home, unhome, hold, free";
-  }
-  else if (!is_free && isDrivenByAnother(client, time))
-  {
-    rejected_.add(CommandVerdict::kForeign);
-    reason = driver_ + " drives the robot";
-  }
-  else if (word == "disable")
-    driver_.clear();
+  advanceTo(time);
+  if (!arbiter_.permits(client, word, state().is_busy))
+    return arbiter_.lastRefusal();
+  if (word == "disable")
+    arbiter_.release();
   else if (word == "hold" || word == "free")
-    followInstruments(client, time);
-  if (!reason.empty())
-    last_refusal_ = "state_command of " + client + ": " + reason;
-  return reason.empty() ? "" : last_refusal_;
+  {
+    followInstruments(time);
+    arbiter_.take(client);
+  }
+  return "";
 }
 
 /** Joints without a command of their own, which follow the instruments. */
-void RobotControl::followInstruments(const std::string& client, double time)
+void RobotControl::followInstruments(double time)
 {
   for (Channel& channel : channels_)
   {
@@ -338,8 +331,6 @@ void RobotControl::followInstruments(const std::string& client, double time)
     for (Axis& axis : channel.axes)
       axis.rate = 0.0;
   }
-  driver_ = client;
-  driver_time_ = time;
 }
 
 /** Velocities of an instrument whose joints use up their play first: zero for joints within it. */
@@ -355,6 +346,7 @@ std::optional<InstrumentCommand> RobotControl::rates(std::size_t instrument) con
 
 std::optional<InstrumentCommand> RobotControl::follow(std::size_t instrument, const Motions& setpoint, double time)
 {
+  advanceTo(time);
   Channel& channel = channels_[instrument];
   const double dt = std::clamp(time - channel.followed_at, 0.0, instruments_[instrument].time_out);
   const double silence = time - channel.commanded_at;
@@ -384,27 +376,23 @@ std::optional<InstrumentCommand> RobotControl::follow(std::size_t instrument, co
   return has_engaged && channel.kind == CommandKind::kServoVelocity ? rates(instrument) : std::nullopt;
 }
 
-drive::OperatingState RobotControl::state() const
+drive::ControlState RobotControl::state() const
 {
-  drive::OperatingState worst;
-  worst.state = kEnabled;
+  drive::ControlState worst;
   for (std::size_t k = 0; k < states_.size(); ++k)
   {
-    const drive::OperatingState& state = states_[k];
+    const drive::ControlState& state = states_[k];
     worst.is_homed = worst.is_homed && state.is_homed;
     worst.is_busy = worst.is_busy || state.is_busy;
-    const bool is_warned = worst.reason.empty() && !state.reason.empty() && severity(worst.state) == 0;
-    if (severity(state.state) <= severity(worst.state) && !is_warned)
+    const bool is_warned = worst.reason.empty() && !state.reason.empty() && worst.state == OperatingState::kEnabled;
+    const bool is_worse = state.state != worst.state && drive::worse(state.state, worst.state) == state.state;
+    if (!is_worse && !is_warned)
       continue;
     worst.state = state.state;
-    worst.reason = instruments_[k].name + (state.reason.empty() ? " is " + state.state : ": " + state.reason);
+    worst.reason = instruments_[k].name +
+                   (state.reason.empty() ? std::string(" is ") + drive::nameOf(state.state) : ": " + state.reason);
   }
   return worst;
-}
-
-double RobotControl::silence(double time) const
-{
-  return accepted_ > 0 ? time - driver_time_ : HUGE_VAL;
 }
 
 double RobotControl::position(std::size_t link, double motion) const

@@ -76,13 +76,13 @@ public:
   std::optional<InstrumentCommand> follow(std::size_t instrument, const Motions& setpoint, double time);
 
   /** Takes over the operating state of an instrument. */
-  void setState(std::size_t instrument, const drive::OperatingState& state) { states_[instrument] = state; }
+  void setState(std::size_t instrument, const drive::ControlState& state) { states_[instrument] = state; }
 
   /** Replaces the reason of an instrument's state. */
   void setReason(std::size_t instrument, const std::string& reason) { states_[instrument].reason = reason; }
 
   /** State of the robot: the worst of its instruments, homed if all are, busy if one is. */
-  drive::OperatingState state() const;
+  drive::ControlState state() const;
 
   /** Position of the joint of a link.
    *  @param motion of its instrument */
@@ -102,11 +102,7 @@ public:
   /** Index of the instrument of a link. */
   std::size_t instrumentOf(std::size_t link) const { return instrument_of_[link]; }
 
-  const std::string& driver() const { return driver_; }             ///< client that drives; empty without one
-  const std::string& lastRefusal() const { return last_refusal_; }  ///< reason of the last refusal
-  std::uint64_t accepted() const { return accepted_; }
-  const drive::RejectedCommands& rejected() const { return rejected_; }
-  double silence(double time) const;  ///< since the last accepted command [s]; infinite before the first
+  const drive::Arbiter& arbiter() const { return arbiter_; }
 
 private:
   /** Sides of the play of one motion, in its unit. A motion without a joint has no play. */
@@ -131,9 +127,9 @@ private:
 
   std::optional<Values> assign(const std::vector<std::string>& names, const std::vector<double>& values,
                                std::string& reason) const;
-  bool isDrivenByAnother(const std::string& client, double time) const;
-  drive::CommandVerdict examine(const std::string& client, drive::CommandKind kind, Values& values, double time,
-                                std::string& reason, bool& clamped) const;
+  void advanceTo(double time);
+  drive::CommandVerdict examine(const std::string& client, drive::CommandKind kind, Values& values, std::string& reason,
+                                bool& clamped) const;
   drive::CommandVerdict examineLimits(std::size_t link, drive::CommandKind kind, double& value, std::string& reason,
                                       bool& clamped) const;
   bool isReady(std::size_t instrument, drive::CommandKind kind, std::string& reason) const;
@@ -141,7 +137,7 @@ private:
                                            Channel& channel) const;
   double convert(Axis& axis, drive::CommandKind kind, double value) const;
   double play(const Axis& axis) const { return axis.link ? links_[*axis.link].backlash : 0.0; }
-  void followInstruments(const std::string& client, double time);
+  void followInstruments(double time);
   std::optional<InstrumentCommand> rates(std::size_t instrument) const;
   RobotAnswer reject(const std::string& client, drive::CommandKind kind, drive::CommandVerdict verdict,
                      const std::string& reason);
@@ -151,13 +147,9 @@ private:
   std::vector<RobotInstrument> instruments_;
   std::vector<std::size_t> instrument_of_;  ///< of each link
   std::vector<Channel> channels_;           ///< one per instrument
-  std::vector<drive::OperatingState> states_;
-  std::string driver_;
-  double driver_time_ = 0.0;  ///< of the driver's last command [s]
-  double time_out_ = 0.0;     ///< the longest of the instruments [s]
-  std::uint64_t accepted_ = 0;
-  drive::RejectedCommands rejected_;
-  std::string last_refusal_;
+  std::vector<drive::ControlState> states_;
+  double time_ = 0.0;  ///< of the last command or step [s]
+  drive::Arbiter arbiter_;
 };
 
 }  // namespace endovascular_sim::robot

@@ -219,12 +219,9 @@ void CommandPlayer::play(double time, DrivenHands& hands)
   {
     const drive::TimedCommand& command = entries_[next_].command;
     drive::HandControl& control = *hands.control(entries_[next_].instrument);
-    const std::optional<drive::CommandKind> kind = drive::commandKind(command.word);
-    const bool accepted = kind ? control.command(file_, drive::jointCommand(*kind, {}, command.values)) ==
-                                     drive::CommandVerdict::kAccepted
-                               : control.stateCommand(file_, command.word);
-    if (!accepted)
-      refusals_.push_back(file_ + ": line " + std::to_string(command.line) + ": refused: " + control.lastRefusal());
+    if (!drive::give(control, file_, command.word, {}, command.values))
+      refusals_.push_back(file_ + ": line " + std::to_string(command.line) +
+                          ": refused: " + control.arbiter().lastRefusal());
   }
 }
 

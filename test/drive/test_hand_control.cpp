@@ -73,7 +73,7 @@ TEST(HandControl, HoldsTheStartWithoutACommand)
   bench.run(1.0);
   EXPECT_EQ(bench.setpoint().insertion, kStart.insertion);
   EXPECT_EQ(bench.setpoint().rotation, kStart.rotation);
-  EXPECT_EQ(bench.control.state().state, "ENABLED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kEnabled);
   EXPECT_TRUE(bench.control.state().is_homed);
   EXPECT_FALSE(bench.control.state().is_busy);
 }
@@ -183,17 +183,17 @@ TEST(HandControl, HoldsWhilePausedAndContinuesByResumeOnly)
   bench.send(CommandKind::kServoVelocity, 0.05);
   bench.run(0.1);
   EXPECT_TRUE(bench.control.stateCommand("/panel", "pause")) << "every client may pause";
-  EXPECT_EQ(bench.control.state().state, "PAUSED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kPaused);
   EXPECT_FALSE(bench.control.state().reason.empty());
   bench.run(0.1);
   const double held = bench.setpoint().insertion;
   bench.run(1.0, [&] { EXPECT_EQ(bench.send(CommandKind::kServoVelocity, 0.05), CommandVerdict::kNotEnabled); });
   EXPECT_EQ(bench.setpoint().insertion, held);
   bench.control.stateCommand("/a", "enable");
-  EXPECT_EQ(bench.control.state().state, "PAUSED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kPaused);
   EXPECT_FALSE(bench.control.stateCommand("/panel", "resume")) << "/a drives";
   EXPECT_TRUE(bench.control.stateCommand("/a", "resume"));
-  EXPECT_EQ(bench.control.state().state, "ENABLED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kEnabled);
   EXPECT_EQ(bench.control.state().reason, "");
   EXPECT_EQ(bench.send(CommandKind::kServoVelocity, 0.05), CommandVerdict::kAccepted);
 }
@@ -202,10 +202,19 @@ TEST(HandControl, RefusesMotionWhileDisabled)
 {
   Bench bench;
   bench.control.stateCommand("/a", "disable");
-  EXPECT_EQ(bench.control.state().state, "DISABLED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kDisabled);
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 0.051), CommandVerdict::kNotEnabled);
   bench.control.stateCommand("/a", "enable");
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 0.051), CommandVerdict::kAccepted);
+}
+
+TEST(HandControl, HomeOfADisabledInstrumentIsARefusal)
+{
+  Bench bench;
+  bench.control.stateCommand("/a", "unhome");
+  bench.control.stateCommand("/a", "disable");
+  EXPECT_FALSE(bench.control.stateCommand("/a", "home"));
+  EXPECT_EQ(bench.control.arbiter().lastRefusal(), "home of /a: the instrument is DISABLED");
 }
 
 TEST(HandControl, AnswersEveryStateCommandWithAState)
@@ -231,7 +240,7 @@ TEST(HandControl, HoldEndsAnyMotionAndNeedsNoFurtherCommand)
   bench.run(0.5);
   EXPECT_EQ(bench.speed(), 0.0);
   EXPECT_LT(bench.setpoint().insertion, 0.14);
-  EXPECT_EQ(bench.control.state().state, "ENABLED");
+  EXPECT_EQ(bench.control.state().state, OperatingState::kEnabled);
   EXPECT_EQ(bench.send(CommandKind::kServoVelocity, 0.01), CommandVerdict::kAccepted);
 }
 
@@ -257,7 +266,7 @@ TEST(HandControl, HoldAndFreeAreRefusedToOthersAndWhereNothingMoves)
   Bench bench;
   bench.send(CommandKind::kServoVelocity, 0.01);
   EXPECT_FALSE(bench.control.stateCommand("/b", "free"));
-  EXPECT_NE(bench.control.lastRefusal().find("/a drives"), std::string::npos);
+  EXPECT_NE(bench.control.arbiter().lastRefusal().find("/a drives"), std::string::npos);
   bench.control.stateCommand("/a", "disable");
   EXPECT_FALSE(bench.control.stateCommand("/a", "hold"));
   EXPECT_EQ(bench.control.rejected().not_enabled, 1U);
@@ -288,11 +297,11 @@ TEST(HandControl, BelongsToItsDriverUntilTheTimeOut)
   Bench bench;
   ASSERT_EQ(bench.send(CommandKind::kServoPosition, 0.05), CommandVerdict::kAccepted);
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 0.05, 0.2, "/b"), CommandVerdict::kForeign);
-  EXPECT_NE(bench.control.lastRefusal().find("/a drives"), std::string::npos);
+  EXPECT_NE(bench.control.arbiter().lastRefusal().find("/a drives"), std::string::npos);
   EXPECT_EQ(bench.control.rejected().foreign, 1U);
   bench.run(kLimits.time_out + kStep);
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 0.05, 0.2, "/b"), CommandVerdict::kAccepted);
-  EXPECT_EQ(bench.control.driver(), "/b");
+  EXPECT_EQ(bench.control.arbiter().driver(), "/b");
   bench.control.stateCommand("/b", "disable");
   bench.control.stateCommand("/a", "enable");
   EXPECT_EQ(bench.send(CommandKind::kServoPosition, 0.05), CommandVerdict::kAccepted) << "disable releases";
@@ -408,7 +417,7 @@ TEST(HandControl, SurvivesAnyCommand)
     }
     bench.run(kLimits.time_out + kStep);
     for (const char* word : {"disable", "enable", "unhome"})
-      ASSERT_TRUE(bench.control.stateCommand("/sane", word)) << bench.control.lastRefusal();
+      ASSERT_TRUE(bench.control.stateCommand("/sane", word)) << bench.control.arbiter().lastRefusal();
     const double goal = bench.reached.insertion > 0.1 ? -0.05 : 0.05;
     const double begin = bench.reached.insertion;
     bench.run(1.0, [&] { bench.send(CommandKind::kServoVelocity, goal, 0.0, "/sane"); });

@@ -113,7 +113,7 @@ TEST(ASavedHandControl, IsFreeForAnyClient)
             CommandVerdict::kAccepted);
   Archive archive(saved(control));
   control.archive(archive);
-  EXPECT_EQ(control.driver(), "");
+  EXPECT_EQ(control.arbiter().driver(), "");
   EXPECT_EQ(control.command("/b", JointCommand{CommandKind::kServoPosition, 0.05, 0.2, std::nullopt}),
             CommandVerdict::kAccepted);
 }
@@ -144,7 +144,7 @@ TEST(AHandControl, RestsAtAPositionWithoutADriver)
   EXPECT_EQ(control.setpoint().motion.insertion, 0.1);
   EXPECT_EQ(control.setpoint().motion.rotation, 0.5);
   EXPECT_FALSE(control.state().is_busy);
-  EXPECT_EQ(control.driver(), "");
+  EXPECT_EQ(control.arbiter().driver(), "");
 }
 
 }  // namespace

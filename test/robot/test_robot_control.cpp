@@ -42,8 +42,8 @@ RobotControl makeControl(drive::BeyondLimit beyond = drive::BeyondLimit::kRefuse
 {
   RobotControl control(kModel, kLinks,
                        {{"catheter", beyond, kTimeOut, {-0.1, 0.0, 0.0}}, {"wire", beyond, kTimeOut, {0.1, 0.4, 0.0}}});
-  drive::OperatingState enabled;
-  enabled.state = "ENABLED";
+  drive::ControlState enabled;
+  enabled.state = drive::OperatingState::kEnabled;
   control.setState(0, enabled);
   control.setState(1, enabled);
   return control;
@@ -118,10 +118,10 @@ TEST(RobotControl, MalformedCommandsAreRejectedWithTheReason)
   EXPECT_NE(reasonOf({"arm"}, {0.3}).find("no value of a joint that moves an instrument"), std::string::npos);
   EXPECT_NE(reasonOf({}, {nan}).find("joint 'carriage': not finite"), std::string::npos);
   EXPECT_NE(reasonOf({}, {0.1, -HUGE_VAL}).find("joint 'chuck': not finite"), std::string::npos);
-  EXPECT_EQ(control.rejected().malformed, 6U);
-  EXPECT_EQ(control.rejected().not_finite, 2U);
-  EXPECT_EQ(control.accepted(), 0U);
-  EXPECT_EQ(control.driver(), "");
+  EXPECT_EQ(control.arbiter().rejected().malformed, 6U);
+  EXPECT_EQ(control.arbiter().rejected().not_finite, 2U);
+  EXPECT_EQ(control.arbiter().accepted(), 0U);
+  EXPECT_EQ(control.arbiter().driver(), "");
 }
 
 TEST(RobotControl, LimitsOfTheUrdfRefuseOrClamp)
@@ -134,13 +134,13 @@ TEST(RobotControl, LimitsOfTheUrdfRefuseOrClamp)
   EXPECT_EQ(send(refusing, CommandKind::kServoForce, {5.1}).verdict, CommandVerdict::kOutOfRange);
   EXPECT_EQ(send(refusing, CommandKind::kServoPosition, {0.1, 1e6}).verdict, CommandVerdict::kAccepted)
       << "a continuous joint without a limit";
-  EXPECT_EQ(refusing.rejected().out_of_range, 3U);
+  EXPECT_EQ(refusing.arbiter().rejected().out_of_range, 3U);
 
   RobotControl clamping = makeControl(drive::BeyondLimit::kClamp);
   EXPECT_NEAR(send(clamping, CommandKind::kServoPosition, {0.5}).commands.at(0).joints.insertion, 0.2, 1e-15);
   EXPECT_EQ(send(clamping, CommandKind::kServoVelocity, {-0.5}).commands.at(0).joints.insertion, -0.1);
   EXPECT_EQ(send(clamping, CommandKind::kServoForce, {50.0}).commands.at(0).joints.insertion, 5.0);
-  EXPECT_EQ(clamping.rejected().clamped, 3U);
+  EXPECT_EQ(clamping.arbiter().rejected().clamped, 3U);
 }
 
 TEST(RobotControl, RelativeCommandsEndAtTheLimits)
@@ -269,7 +269,7 @@ TEST(RobotControl, OneClientDrivesUntilTheTimeOut)
   EXPECT_EQ(control.stateCommand("b", "pause", 1.1), "");
   EXPECT_EQ(control.command("b", CommandKind::kServoPosition, {}, {0.01}, 1.25).verdict, CommandVerdict::kAccepted);
   EXPECT_EQ(control.stateCommand("a", "disable", 1.2), "");
-  EXPECT_EQ(control.driver(), "");
+  EXPECT_EQ(control.arbiter().driver(), "");
   EXPECT_EQ(control.command("a", CommandKind::kServoPosition, {}, {0.01}, 0.1).verdict, CommandVerdict::kAccepted);
   EXPECT_EQ(control.command("b", CommandKind::kServoPosition, {}, {0.01}, 0.0).verdict, CommandVerdict::kAccepted)
       << "after a reset of the time";
@@ -280,8 +280,8 @@ TEST(RobotControl, TheClientOfAMoveDrivesUntilItsEnd)
 {
   RobotControl control = makeControl();
   control.command("a", CommandKind::kMovePosition, {}, {0.2}, 0.0);
-  drive::OperatingState busy;
-  busy.state = "ENABLED";
+  drive::ControlState busy;
+  busy.state = drive::OperatingState::kEnabled;
   busy.is_busy = true;
   control.setState(0, busy);
   EXPECT_TRUE(control.state().is_busy);
@@ -291,18 +291,18 @@ TEST(RobotControl, TheClientOfAMoveDrivesUntilItsEnd)
 TEST(RobotControl, HasTheWorstStateOfItsInstruments)
 {
   RobotControl control = makeControl();
-  EXPECT_EQ(control.state().state, "ENABLED");
-  drive::OperatingState paused;
-  paused.state = "PAUSED";
+  EXPECT_EQ(control.state().state, drive::OperatingState::kEnabled);
+  drive::ControlState paused;
+  paused.state = drive::OperatingState::kPaused;
   paused.reason = "no contact";
   control.setState(0, paused);
-  EXPECT_EQ(control.state().state, "PAUSED");
+  EXPECT_EQ(control.state().state, drive::OperatingState::kPaused);
   EXPECT_EQ(control.state().reason, "catheter: no contact");
-  drive::OperatingState disabled;
-  disabled.state = "DISABLED";
+  drive::ControlState disabled;
+  disabled.state = drive::OperatingState::kDisabled;
   disabled.is_homed = false;
   control.setState(1, disabled);
-  EXPECT_EQ(control.state().state, "DISABLED");
+  EXPECT_EQ(control.state().state, drive::OperatingState::kDisabled);
   EXPECT_FALSE(control.state().is_homed);
   const RobotAnswer answer = send(control, CommandKind::kServoPosition, {0.1});
   EXPECT_EQ(answer.verdict, CommandVerdict::kNotEnabled);
@@ -312,11 +312,11 @@ TEST(RobotControl, HasTheWorstStateOfItsInstruments)
 TEST(RobotControl, PassesTheWarningOfAnEnabledInstrumentOn)
 {
   RobotControl control = makeControl();
-  drive::OperatingState slipping;
-  slipping.state = "ENABLED";
+  drive::ControlState slipping;
+  slipping.state = drive::OperatingState::kEnabled;
   slipping.reason = "the grip slips";
   control.setState(1, slipping);
-  EXPECT_EQ(control.state().state, "ENABLED");
+  EXPECT_EQ(control.state().state, drive::OperatingState::kEnabled);
   EXPECT_EQ(control.state().reason, "wire: the grip slips");
 }
 
@@ -334,7 +334,7 @@ TEST(RobotControl, FollowsTheInstrumentsAfterHold)
 TEST(RobotControl, IsDisabledBeforeTheFirstStates)
 {
   const RobotControl control(kModel, kLinks, {{"catheter"}, {"wire"}});
-  EXPECT_EQ(control.state().state, "DISABLED");
+  EXPECT_EQ(control.state().state, drive::OperatingState::kDisabled);
   EXPECT_EQ(control.state().reason, "catheter: no state of 'catheter' yet");
 }
 
@@ -351,8 +351,8 @@ TEST(RobotControl, APressureChangesByPositionsOnly)
   const std::vector<JointLink> links = {{"carriage", "balloon", Motion::kInsertion, 1.0, 0.0, 0.0},
                                         {"roller", "balloon", Motion::kPressure, 1e4, 0.0, 0.0}};
   RobotControl control(kModel, links, {{"balloon", drive::BeyondLimit::kRefuse, kTimeOut, {0.0, 0.3, 0.0}}});
-  drive::OperatingState enabled;
-  enabled.state = "ENABLED";
+  drive::ControlState enabled;
+  enabled.state = drive::OperatingState::kEnabled;
   control.setState(0, enabled);
   const RobotAnswer answer = send(control, CommandKind::kServoPosition, {0.01, 20.0});
   EXPECT_EQ(answer.commands.at(0).joints.pressure, 2e5);

@@ -61,7 +61,7 @@ TEST(PanelTexts, AreDashesForMissingAndInvalidValues)
 TEST(PanelTexts, NameAPauseAndItsReason)
 {
   SessionState state = running();
-  state.operating["wire"] = "PAUSED: the contact node does not respond";
+  state.operating["wire"] = {drive::OperatingState::kPaused, true, false, "the contact node does not respond", 0};
   EXPECT_EQ(panelTexts(state, 0).status, "PAUSED: the contact node does not respond");
   EXPECT_EQ(panelTexts(state, 1).status, "running");
   state.operating.clear();

@@ -47,7 +47,7 @@ struct Bench
   {
     EXPECT_EQ(hands.control(0)->command("/robot", JointCommand{kind, insertion, rotation, std::nullopt}),
               drive::CommandVerdict::kAccepted)
-        << hands.control(0)->lastRefusal();
+        << hands.control(0)->arbiter().lastRefusal();
   }
 
   /** Simulates; the command is repeated in every step. */
@@ -273,7 +273,7 @@ TEST(DrivenHands, GiveOneTrajectoryForOneFileOfCommands)
     }
     ASSERT_EQ(player.refusals().size(), 1U);
     EXPECT_NE(player.refusals().front().find("line 6"), std::string::npos);
-    EXPECT_EQ(bench.hands.control(0)->state().state, "PAUSED");
+    EXPECT_EQ(bench.hands.control(0)->state().state, drive::OperatingState::kPaused);
     EXPECT_TRUE(repetition == 0 || bench.simulation->trajectoryHash() == hash);
     hash = bench.simulation->trajectoryHash();
   }

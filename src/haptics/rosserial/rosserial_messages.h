@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drive/operating_state.h"
 #include "haptics/rosserial/rosserial_protocol.h"
 
 /** Messages of the serial line as plain structures. The decoders throw PayloadError. */
@@ -58,13 +59,7 @@ struct HapticSample
 };
 
 /** State byte of HapticForce. */
-enum class DeviceState : std::uint8_t
-{
-  kDisabled = 0,
-  kEnabled = 1,
-  kPaused = 2,
-  kFault = 3,
-};
+using DeviceState = drive::OperatingState;
 
 /** endovascular_sim/HapticForce. */
 struct HapticForce

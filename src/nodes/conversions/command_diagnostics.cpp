@@ -5,6 +5,15 @@
 namespace endovascular_sim::nodes
 {
 
+void fill(CommandReport& report, const drive::Arbiter& arbiter)
+{
+  report.driver = arbiter.isTimedOut() ? "" : arbiter.driver();
+  report.last_refusal = arbiter.lastRefusal();
+  report.accepted = arbiter.accepted();
+  report.rejected = arbiter.rejected();
+  report.silence = arbiter.silence();
+}
+
 void diagnoseCommands(const CommandReport& report, diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   using diagnostic_msgs::DiagnosticStatus;

@@ -5,7 +5,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
-#include "drive/command_gate.h"
+#include "drive/arbiter.h"
 
 namespace endovascular_sim::nodes
 {
@@ -22,6 +22,9 @@ struct CommandReport
   drive::RejectedCommands rejected;
   double silence = 0.0;  ///< simulated time since the last accepted command [s]
 };
+
+/** Takes over driver, last refusal, numbers and silence. */
+void fill(CommandReport& report, const drive::Arbiter& arbiter);
 
 /** Adds commands to the diagnostics. A missing publisher and rejected commands are warnings. */
 void diagnoseCommands(const CommandReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/haptic_device/haptic_parameters.h"
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
@@ -41,22 +42,6 @@ haptics::WallTime wallNow()
 {
   const ros::WallTime now = ros::WallTime::now();
   return {now.sec, now.nsec};
-}
-
-const char* stateName(DeviceState state)
-{
-  switch (state)
-  {
-    case DeviceState::kEnabled:
-      return "ENABLED";
-    case DeviceState::kPaused:
-      return "PAUSED";
-    case DeviceState::kFault:
-      return "FAULT";
-    case DeviceState::kDisabled:
-      break;
-  }
-  return "DISABLED";
 }
 
 void addPassivity(const std::string& name, const haptics::PassivityReport& report,
@@ -100,7 +85,7 @@ HapticDeviceNode::HapticDeviceNode(const ros::NodeHandle& node, const ros::NodeH
       node, instrument + names::kOperatingState, 10,
       [this](const crtk_msgs::OperatingState& state)
       {
-        simulation_state_ = state.state;
+        simulation_state_ = drive::operatingState(state.state).value_or(DeviceState::kFault);
         updateSimulationState();
       },
       &force_queue_);
@@ -197,11 +182,12 @@ void HapticDeviceNode::receiveForce(const sensor_msgs::JointState& state)
 /** Pauses the device while the simulation does not run. Reason and state may arrive in any order. */
 void HapticDeviceNode::updateSimulationState()
 {
-  if (simulation_state_.empty())
+  if (!simulation_state_)
     return;
-  const bool is_running = simulation_state_ == stateName(DeviceState::kEnabled);
-  const std::string reason =
-      simulation_reason_.empty() ? "the simulation is " + simulation_state_ : "simulation: " + simulation_reason_;
+  const bool is_running = simulation_state_ == DeviceState::kEnabled;
+  const std::string reason = simulation_reason_.empty()
+                                 ? std::string("the simulation is ") + drive::nameOf(*simulation_state_)
+                                 : "simulation: " + simulation_reason_;
   const std::lock_guard<PriorityInheritanceMutex> lock(mutex_);
   if (isStopRequested())
     return;
@@ -241,20 +227,16 @@ void HapticDeviceNode::publishState(DeviceState state, const std::string& reason
 /** Publishes and logs a state; the reason precedes it. */
 void HapticDeviceNode::announceState(DeviceState state, const std::string& reason)
 {
-  crtk_msgs::StringStamped text;
-  text.header.stamp = ros::Time::now();
-  text.string = reason;
-  reason_publisher_.publish(text);
-  crtk_msgs::OperatingState message;
-  message.header.stamp = text.header.stamp;
-  message.state = stateName(state);
-  message.is_homed = true;  // the device counts from its start; there is no other position to find
-  message.is_busy = false;  // the hand moves, not the device
-  state_publisher_.publish(message);
+  const ros::Time now = ros::Time::now();
+  reason_publisher_.publish(reasonMessage(reason, now));
+  // The device counts from its start: it is homed. The hand moves, not the device: it is not busy.
+  drive::ControlState announced;
+  announced.state = state;
+  state_publisher_.publish(toMessage(announced, now));
   if (state == DeviceState::kEnabled)
     ROS_INFO("haptic device ENABLED");
   else
-    ROS_WARN("haptic device %s: %s", message.state.c_str(), reason.c_str());
+    ROS_WARN("haptic device %s: %s", drive::nameOf(state), reason.c_str());
 }
 
 /** Publishes a latched measurement with stamp 0: late subscribers learn that no measurement is valid. */
@@ -290,7 +272,7 @@ void HapticDeviceNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   const auto level = state == DeviceState::kEnabled ? DiagnosticStatus::OK
                      : state == DeviceState::kFault ? DiagnosticStatus::ERROR
                                                     : DiagnosticStatus::WARN;
-  status.summary(level, stateName(state) + (host.reason().empty() ? "" : ": " + host.reason()));
+  status.summary(level, drive::nameOf(state) + (host.reason().empty() ? "" : ": " + host.reason()));
   status.add("scheduling", grant_.describe());
   status.add("last error", link_.lastError());
   status.add("reconnects", link_.opened() > 0 ? link_.opened() - 1 : 0);

@@ -72,7 +72,8 @@ private:
   bool has_published_ = false;
 
   // Used by the forces' thread only.
-  std::string simulation_state_, simulation_reason_;  ///< newest operating_state and state_reason of the instrument
+  std::optional<drive::OperatingState> simulation_state_;  ///< newest operating_state of the instrument
+  std::string simulation_reason_;                          ///< newest state_reason of the instrument
 
   ros::CallbackQueue force_queue_;
   ros::Publisher servo_publisher_, measured_publisher_, state_publisher_, reason_publisher_;

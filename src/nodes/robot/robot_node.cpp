@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "nodes/conversions/command_diagnostics.h"
 #include "nodes/conversions/command_topics.h"
+#include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/conversions/robot_conversions.h"
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
@@ -205,9 +206,7 @@ void RobotNode::receiveWord(const std::string& client, const std::string& word)
     publishState();
     return;
   }
-  crtk_msgs::StringStamped message;
-  message.header.stamp = ros::Time::now();
-  message.string = word;
+  const crtk_msgs::StringStamped message = reasonMessage(word, ros::Time::now());
   for (const Instrument& instrument : instruments_)
     if (const auto topic = instrument.words.find(word); topic != instrument.words.end())
       topic->second.publish(std_msgs::Empty());
@@ -217,20 +216,18 @@ void RobotNode::receiveWord(const std::string& client, const std::string& word)
 
 void RobotNode::receiveState(std::size_t instrument, const crtk_msgs::OperatingState& state)
 {
-  drive::OperatingState& taken = instruments_[instrument].state;
-  taken.state = state.state;
-  taken.is_homed = state.is_homed;
-  taken.is_busy = state.is_busy;
-  control_.setState(instrument, taken);
+  Instrument& target = instruments_[instrument];
+  fromMessage(state, target.state);
+  target.has_state = true;
+  control_.setState(instrument, target.state);
   publishState();
 }
 
 /** Takes over a reason, which may arrive before or after its state. */
 void RobotNode::receiveReason(std::size_t instrument, const std::string& reason)
 {
-  drive::OperatingState& state = instruments_[instrument].state;
-  state.reason = reason;
-  if (state.state.empty())
+  instruments_[instrument].state.reason = reason;
+  if (!instruments_[instrument].has_state)
     return;
   control_.setReason(instrument, reason);
   publishReason();
@@ -241,10 +238,7 @@ void RobotNode::publishReason()
   const std::string reason = control_.state().reason;
   if (reason == published_reason_)
     return;
-  crtk_msgs::StringStamped message;
-  message.header.stamp = ros::Time::now();
-  message.string = reason;
-  reason_.publish(message);
+  reason_.publish(reasonMessage(reason, ros::Time::now()));
   published_reason_ = reason;
 }
 
@@ -252,13 +246,7 @@ void RobotNode::publishReason()
 void RobotNode::publishState()
 {
   publishReason();
-  const drive::OperatingState state = control_.state();
-  crtk_msgs::OperatingState message;
-  message.header.stamp = ros::Time::now();
-  message.state = state.state;
-  message.is_homed = state.is_homed;
-  message.is_busy = state.is_busy;
-  state_.publish(message);
+  state_.publish(toMessage(control_.state(), ros::Time::now()));
 }
 
 void RobotNode::follow(std::size_t instrument, const sensor_msgs::JointState& setpoint)
@@ -299,18 +287,14 @@ void RobotNode::publishAllJoints(const sensor_msgs::JointState& linked)
 void RobotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   using diagnostic_msgs::DiagnosticStatus;
-  const drive::OperatingState state = control_.state();
-  status.summary(state.state == "ENABLED" ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                 state.state + (state.reason.empty() ? "" : ": " + state.reason));
+  const drive::ControlState state = control_.state();
+  status.summary(state.state == drive::OperatingState::kEnabled ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 drive::nameOf(state.state) + (state.reason.empty() ? "" : ": " + state.reason));
   CommandReport report;
   report.instrument = node_.resolveName(kName);
   report.has_publisher = std::any_of(subscribers_.begin(), subscribers_.begin() + static_cast<std::ptrdiff_t>(clients_),
                                      [](const ros::Subscriber& commands) { return commands.getNumPublishers() > 0; });
-  report.driver = control_.driver();
-  report.last_refusal = control_.lastRefusal();
-  report.accepted = control_.accepted();
-  report.rejected = control_.rejected();
-  report.silence = control_.silence(time_);
+  fill(report, control_.arbiter());
   diagnoseCommands(report, status);
   IgnoredMessages::ofProcess().diagnose(status);
 }

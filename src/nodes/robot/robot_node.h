@@ -49,7 +49,8 @@ private:
     std::map<drive::CommandKind, ros::Publisher> commands;
     std::map<std::string, ros::Publisher> words;  ///< commands with a topic of their own
     ros::Publisher state_command;
-    drive::OperatingState state;  ///< from the newest operating_state and state_reason; without a name before the first
+    drive::ControlState state;  ///< from the newest operating_state and state_reason
+    bool has_state = false;     ///< false before the first operating_state
   };
 
   void advertise();

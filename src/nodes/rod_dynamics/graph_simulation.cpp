@@ -52,7 +52,7 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
         numericParameter(parameters, "contact_patience", pace == Pace::kRealTime ? kContactTimeout : kContactPatience,
                          quantities::kWait),
         costs_);
-  setState("DISABLED", "waiting for the vessel and the contact node");
+  setState(drive::OperatingState::kDisabled, "waiting for the vessel and the contact node");
 }
 
 bool GraphSimulation::waitForVessel()
@@ -148,13 +148,13 @@ void GraphSimulation::publishBeginning()
 
 void GraphSimulation::publishEnd(const std::string& reason)
 {
-  setState("DISABLED", reason);
+  setState(drive::OperatingState::kDisabled, reason);
   publishHeld(0.0);
   if (forces_)
     forces_->publishMap(*simulation_, now());
 }
 
-void GraphSimulation::setState(const std::string& state, const std::string& reason)
+void GraphSimulation::setState(drive::OperatingState state, const std::string& reason)
 {
   instruments_.setSimulationState(state, reason, now());
 }

@@ -56,7 +56,7 @@ public:
   void publishEnd(const std::string& reason);
 
   /** Publishes the state of all instruments, as InstrumentPublisher::setSimulationState(). */
-  void setState(const std::string& state, const std::string& reason);
+  void setState(drive::OperatingState state, const std::string& reason);
 
   /** Returns to the beginning of the scene.
    *  @throws InputError when a balloon has moved the wall, which belongs to vessel_server */

@@ -100,7 +100,7 @@ void RodDynamicsNode::announceHold(const std::string& reason)
     return;
   held_reason_ = reason;
   statistics_.setHeld(reason, reason == kContactLost);
-  simulation_.setState(reason.empty() ? "ENABLED" : "PAUSED", reason);
+  simulation_.setState(reason.empty() ? drive::OperatingState::kEnabled : drive::OperatingState::kPaused, reason);
   const auto step = static_cast<unsigned long>(simulation_.simulation().steps());
   if (reason.empty())
     ROS_WARN("continuing at step %lu after %.3f s", step, seconds(Clock::now() - held_since_));

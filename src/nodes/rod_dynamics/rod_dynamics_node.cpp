@@ -115,7 +115,7 @@ bool RodDynamicsNode::run()
           IgnoredMessages::ofProcess().diagnose(status);
         });
     observer_ = std::make_unique<StepObserver>(simulation_.scene(), simulation_.vessel().centreline);
-    simulation_.setState("ENABLED", "");
+    simulation_.setState(drive::OperatingState::kEnabled, "");
     announceRun("", 0);
     waitForRecorder();
     services_ =

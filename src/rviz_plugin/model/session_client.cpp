@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "endovascular_sim/CArm.h"
+#include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/model/centreline_tree.h"
@@ -115,8 +116,11 @@ SessionState SessionClient::state() const
     state = state_;
     state.wire_age = state.has_wire ? secondsSince(wire_received_) : 0.0;
     for (const auto& [name, topics] : instruments_)
-      if (!topics->state.empty())
-        state.operating[name] = topics->reason.empty() ? topics->state : topics->state + ": " + topics->reason;
+      if (topics->state)
+      {
+        state.operating[name] = *topics->state;
+        state.operating[name].reason = topics->reason;
+      }
     for (const auto& [name, diagnosis] : diagnoses_)
       if (secondsSince(diagnosis.received) < kDiagnosisAge)
         (diagnosis.is_error ? state.errors : state.warnings).push_back(diagnosis.text);
@@ -169,7 +173,7 @@ void SessionClient::connectInstruments(const SceneSummary& scene)
         [this, target](const crtk_msgs::OperatingStateConstPtr& message)
         {
           const std::lock_guard<std::mutex> lock(mutex_);
-          target->state = message->state;
+          nodes::fromMessage(*message, target->state.emplace());
         });
     topics->state_reason = nodes::subscribeGuarded<crtk_msgs::StringStamped>(
         node_, prefix + names::kStateReason, 2,

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,8 @@ private:
   {
     ros::Publisher servo_jv, servo_jr;
     ros::Subscriber operating_state, state_reason;
-    std::string state, reason;
+    std::optional<drive::ControlState> state;
+    std::string reason;
   };
 
   void subscribe();

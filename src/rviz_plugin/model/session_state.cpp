@@ -60,16 +60,21 @@ std::string statusText(const SessionState& state, std::size_t instrument)
 {
   if (!state.has_wire)
     return "waiting for the simulation";
-  if (instrument < state.scene.instruments.size())
-  {
-    const auto operating = state.operating.find(state.scene.instruments[instrument].shape.name);
-    if (operating != state.operating.end() && operating->second != "ENABLED")
-      return operating->second;
-  }
+  const drive::ControlState* operating = state.operatingStateOf(instrument);
+  if (operating != nullptr && (operating->state != drive::OperatingState::kEnabled || !operating->reason.empty()))
+    return drive::nameOf(operating->state) + (operating->reason.empty() ? "" : ": " + operating->reason);
   return state.wire_age > kStateAge ? "no state of the simulation" : "running";
 }
 
 }  // namespace
+
+const drive::ControlState* SessionState::operatingStateOf(std::size_t instrument) const
+{
+  if (instrument >= scene.instruments.size())
+    return nullptr;
+  const auto found = operating.find(scene.instruments[instrument].shape.name);
+  return found == operating.end() ? nullptr : &found->second;
+}
 
 PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
 {

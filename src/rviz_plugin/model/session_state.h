@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drive/operating_state.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "rviz_plugin/model/scene_summary.h"
@@ -18,9 +19,9 @@ struct SessionState
   SceneSummary scene;   ///< without instruments before they are known
   RodStateVisual wire;  ///< without nodes
   bool has_wire = false;
-  double wire_age = 0.0;                         ///< wall time since the last state [s]
-  std::string branch;                            ///< of the foremost tip; empty: unknown
-  std::map<std::string, std::string> operating;  ///< operating state of each instrument, with its reason
+  double wire_age = 0.0;                                 ///< wall time since the last state [s]
+  std::string branch;                                    ///< of the foremost tip; empty: unknown
+  std::map<std::string, drive::ControlState> operating;  ///< operating state of each instrument
   ProcedureStep step;
   bool has_step = false;
   std::vector<std::string> errors;    ///< of the diagnostics
@@ -30,6 +31,9 @@ struct SessionState
   std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()
   std::string answer;                ///< to the last request
   std::vector<std::string> waiting;  ///< services that have not answered yet, with the time since the call
+
+  /** Operating state of an instrument; null if it is not known. */
+  const drive::ControlState* operatingStateOf(std::size_t instrument) const;
 
   bool isProcedureDone() const
   {

@@ -335,7 +335,7 @@ void SessionWidget::setSpeedSetting(int setting)
 
 bool SessionWidget::canDrive() const
 {
-  const auto index = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+  const std::size_t index = chosen();
   return index < state_.scene.instruments.size() && state_.scene.instruments[index].takes_commands;
 }
 
@@ -368,7 +368,7 @@ void SessionWidget::choose(int index)
 
 void SessionWidget::changePressure(double atmospheres)
 {
-  const auto index = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+  const std::size_t index = chosen();
   if (index >= state_.scene.instruments.size() || index >= state_.wire.pressure.size() || !canDrive())
     return;
   const double present = state_.wire.pressure[index];
@@ -401,7 +401,7 @@ void SessionWidget::refresh()
   state_ = port_.state();
   takeOverInstruments(state_);
   followJoystick();
-  const auto index = static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+  const std::size_t index = chosen();
   const PanelTexts texts = panelTexts(state_, index);
   const std::pair<QLabel*, const std::string*> shown[] = {
       {labels_.insertion, &texts.insertion}, {labels_.rotation, &texts.rotation}, {labels_.force, &texts.force},
@@ -438,9 +438,15 @@ void SessionWidget::refresh()
   labels_.warnings->setText(firstTexts(state_.warnings).join("\n"));
 }
 
+std::size_t SessionWidget::chosen() const
+{
+  return static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+}
+
 void SessionWidget::pauseOrStart()
 {
-  const bool is_paused = labels_.status->text().startsWith("PAUSED");
+  const drive::ControlState* operating = state_.operatingStateOf(chosen());
+  const bool is_paused = operating != nullptr && operating->state == drive::OperatingState::kPaused;
   port_.request(is_paused ? Request::kStart : Request::kPause);
 }
 

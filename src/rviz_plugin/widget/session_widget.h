@@ -81,6 +81,7 @@ private:
   bool takesKeys() const;
   bool pressKey(const QKeyEvent& event);    ///< @return false for a key without a meaning
   bool releaseKey(const QKeyEvent& event);  ///< as pressKey()
+  std::size_t chosen() const;               ///< index of the chosen instrument
   void pauseOrStart();
   void chooseNext(int step);
   void followJoystick();

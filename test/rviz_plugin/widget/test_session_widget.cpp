@@ -169,11 +169,20 @@ TEST_F(SessionWidgetTest, SendsTheRequestsOfItsButtons)
 TEST_F(SessionWidgetTest, PausesAndStartsByTheSpaceKey)
 {
   QTest::keyClick(widget.get(), Qt::Key_Space);
-  session.present.operating["wire"] = "PAUSED: commanded";
+  session.present.operating["wire"].state = drive::OperatingState::kPaused;
   widget->refresh();
   QTest::keyClick(widget.get(), Qt::Key_Space);
   const std::vector<Request> expected{Request::kPause, Request::kStart};
   EXPECT_EQ(session.requests, expected);
+}
+
+TEST_F(SessionWidgetTest, StartsAPausedSessionWhoseFirstStateHasNotArrived)
+{
+  session.present.has_wire = false;  // the label says that the panel waits
+  session.present.operating["wire"].state = drive::OperatingState::kPaused;
+  widget->refresh();
+  QTest::keyClick(widget.get(), Qt::Key_Space);
+  EXPECT_EQ(session.requests, std::vector<Request>{Request::kStart});
 }
 
 TEST_F(SessionWidgetTest, DrivesTheChosenInstrumentAndItsBalloon)

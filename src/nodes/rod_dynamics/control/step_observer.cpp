@@ -37,7 +37,7 @@ void StepObserver::report(const simulation::Simulation& simulation, const Instru
   response.step = simulation.steps();
   response.time = simulation.time();
   response.trajectory_hash = simulation.trajectoryHash();
-  const std::vector<drive::OperatingState> states = drives.states();
+  const std::vector<drive::ControlState> states = drives.states();
   response.instruments.resize(largest_.size());
   for (std::size_t k = 0; k < largest_.size(); ++k)
   {
@@ -52,7 +52,7 @@ void StepObserver::report(const simulation::Simulation& simulation, const Instru
       if (const int branch = locator_->at(tip).branch; branch >= 0)
         status.branch = locator_->name(branch);
     status.largest_wall_force = largest_[k];
-    status.state = states[k].state;
+    status.state = drive::nameOf(states[k].state);
     status.is_busy = states[k].is_busy;
   }
 }

@@ -58,7 +58,7 @@ void DriveCommands::receive(std::size_t instrument, drive::CommandKind kind,
   drive::HandControl& control = *hands_->control(instrument);
   if (control.command(event.getPublisherName(), command) != drive::CommandVerdict::kAccepted)
     ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", scene_.instruments[instrument].instrument.name.c_str(),
-                      control.lastRefusal().c_str());
+                      control.arbiter().lastRefusal().c_str());
   updateRevision();
 }
 
@@ -69,9 +69,9 @@ void DriveCommands::receiveWord(std::size_t instrument, const std::string& clien
   drive::HandControl& control = *hands_->control(instrument);
   const std::string& name = scene_.instruments[instrument].instrument.name;
   if (control.stateCommand(client, word))
-    ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), client.c_str(), control.state().state.c_str());
+    ROS_INFO("%s: %s by %s: %s", name.c_str(), word.c_str(), client.c_str(), drive::nameOf(control.state().state));
   else
-    ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", name.c_str(), control.lastRefusal().c_str());
+    ROS_WARN_THROTTLE(5.0, "%s: rejected a %s", name.c_str(), control.arbiter().lastRefusal().c_str());
   updateRevision();
 }
 
@@ -102,13 +102,10 @@ std::string DriveCommands::giveOne(const std::string& client, const InstrumentCo
     const std::optional<drive::CommandKind> kind = drive::commandKind(command.command);
     if (!kind && !drive::isStateCommand(command.command))
       return where + ": unknown command '" + command.command +
-             "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, enable, disable, pause, resume, "
-             "home, unhome, hold and free";
-    const bool accepted = kind ? control.command(client, drive::jointCommand(*kind, command.joints.name,
-                                                                             valuesOf(command.joints, *kind))) ==
-                                     drive::CommandVerdict::kAccepted
-                               : control.stateCommand(client, command.command);
-    return accepted ? "" : where + ": " + command.instrument + ": " + control.lastRefusal();
+             "'; known are servo_jp, servo_jr, servo_jv, servo_jf, move_jp, move_jr, " + drive::kStateCommands;
+    const bool accepted = drive::give(control, client, command.command, command.joints.name,
+                                      kind ? valuesOf(command.joints, *kind) : std::vector<double>());
+    return accepted ? "" : where + ": " + command.instrument + ": " + control.arbiter().lastRefusal();
   }
   catch (const InputError& error)
   {
@@ -207,9 +204,9 @@ void DriveCommands::watchGrips(const simulation::Simulation& simulation)
   }
 }
 
-std::vector<drive::OperatingState> DriveCommands::states()
+std::vector<drive::ControlState> DriveCommands::states()
 {
-  std::vector<drive::OperatingState> states(subscribers_.size());
+  std::vector<drive::ControlState> states(subscribers_.size());
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t k = 0; k < states.size(); ++k)
     if (const drive::HandControl* control = hands_->control(k))
@@ -218,8 +215,6 @@ std::vector<drive::OperatingState> DriveCommands::states()
       if (states[k].reason.empty())
         states[k].reason = grips_[k].warning();
     }
-    else
-      states[k].state = "ENABLED";
   return states;
 }
 
@@ -250,12 +245,9 @@ std::vector<CommandReport> DriveCommands::reports()
                                        [](const ros::Subscriber& commands) { return commands.getNumPublishers() > 0; });
     const std::lock_guard<std::mutex> lock(mutex_);
     const drive::HandControl& control = *hands_->control(k);
-    report.driver = control.silence() < scene_.instruments[k].drive.limits.time_out ? control.driver() : "";
-    report.last_refusal = control.lastRefusal();
-    report.warning = grips_[k].warning();
-    report.accepted = control.accepted();
+    fill(report, control.arbiter());
     report.rejected = control.rejected();
-    report.silence = control.silence();
+    report.warning = grips_[k].warning();
     reports.push_back(report);
   }
   return reports;

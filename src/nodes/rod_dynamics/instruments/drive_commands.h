@@ -61,7 +61,7 @@ public:
   std::uint64_t revision() const { return revision_; }
 
   /** Operating states, one per instrument; those that no client drives are enabled. Callable from any thread. */
-  std::vector<drive::OperatingState> states();
+  std::vector<drive::ControlState> states();
 
   /** Goals of all instruments: of a move, else the last command.
    *  @param used commands of the last step, for the instruments that no client drives */

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include <crtk_msgs/OperatingState.h>
-#include <crtk_msgs/StringStamped.h>
-
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/joint_state_conversions.h"
+#include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/rod_dynamics/instruments/instrument_observation.h"
 #include "nodes/runtime/ros_names.h"
 #include "simulation/instrument_tip.h"
@@ -18,7 +16,6 @@ namespace
 
 constexpr int kJointQueue = 1;   ///< readers use the newest values only
 constexpr int kStateQueue = 10;  ///< a move may end soon after its begin
-constexpr auto kEnabled = "ENABLED";
 
 }  // namespace
 
@@ -103,7 +100,7 @@ void InstrumentPublisher::reset()
 {
   has_last_ = false;
   for (Channel& channel : channels_)
-    channel.published_state.clear();
+    channel.published_state.reset();
   revision_ = ~std::uint64_t{0};
 }
 
@@ -185,7 +182,7 @@ void InstrumentPublisher::publishWallForce(std::size_t k, const simulation::Simu
   channels_[k].wall_force.publish(wrench_);
 }
 
-void InstrumentPublisher::setSimulationState(const std::string& state, const std::string& reason, ros::Time now)
+void InstrumentPublisher::setSimulationState(drive::OperatingState state, const std::string& reason, ros::Time now)
 {
   simulation_state_ = state;
   simulation_reason_ = reason;
@@ -201,11 +198,11 @@ void InstrumentPublisher::publishStates()
   if (revision == revision_)
     return;
   revision_ = revision;
-  std::vector<drive::OperatingState> states = commands_.states();
+  std::vector<drive::ControlState> states = commands_.states();
   for (std::size_t k = 0; k < channels_.size(); ++k)
   {
-    drive::OperatingState& state = states[k];
-    if (simulation_state_ != kEnabled)
+    drive::ControlState& state = states[k];
+    if (simulation_state_ != drive::OperatingState::kEnabled)
     {
       state.state = simulation_state_;
       state.reason = simulation_reason_;
@@ -214,19 +211,9 @@ void InstrumentPublisher::publishStates()
     if (state.revision == channel.revision && state.state == channel.published_state &&
         state.reason == channel.published_reason)
       continue;
-    if (state.reason != channel.published_reason || channel.published_state.empty())
-    {
-      crtk_msgs::StringStamped reason;
-      reason.header.stamp = now_;
-      reason.string = state.reason;
-      channel.reason.publish(reason);
-    }
-    crtk_msgs::OperatingState message;
-    message.header.stamp = now_;
-    message.state = state.state;
-    message.is_homed = state.is_homed;
-    message.is_busy = state.is_busy;
-    channel.state.publish(message);
+    if (state.reason != channel.published_reason || !channel.published_state)
+      channel.reason.publish(reasonMessage(state.reason, now_));
+    channel.state.publish(toMessage(state, now_));
     channel.revision = state.revision;
     channel.published_state = state.state;
     channel.published_reason = state.reason;

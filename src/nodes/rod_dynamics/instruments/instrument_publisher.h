@@ -39,9 +39,9 @@ public:
   /** Begins a new run. */
   void reset();
 
-  /** Sets the state of the simulation. Other than ENABLED, it is the state of all instruments.
+  /** Sets the state of the simulation. Other than enabled, it is the state of all instruments.
    *  @param reason empty when enabled */
-  void setSimulationState(const std::string& state, const std::string& reason, ros::Time now);
+  void setSimulationState(drive::OperatingState state, const std::string& reason, ros::Time now);
 
 private:
   /** Topics and last values of one instrument. */
@@ -51,7 +51,7 @@ private:
     bool has_balloon = false;
     simulation::HandState now, last;       ///< after the last step, and before it
     simulation::HandCommand last_command;  ///< of the step before
-    std::string published_state;
+    std::optional<drive::OperatingState> published_state;
     std::string published_reason;
     std::uint64_t revision = 0;
   };
@@ -67,7 +67,8 @@ private:
   DriveCommands& commands_;
   std::vector<Channel> channels_;
   bool has_last_ = false;  ///< true after the first step of a run
-  std::string simulation_state_, simulation_reason_;
+  drive::OperatingState simulation_state_ = drive::OperatingState::kEnabled;
+  std::string simulation_reason_;
   std::uint64_t revision_ = ~std::uint64_t{0};  ///< of the commands at the last publication of states
   ros::Time now_;
   sensor_msgs::JointState joints_;
