@@ -160,7 +160,7 @@ bool Simulation::isOutside(int instrument) const
 }
 
 /** Commanded motion of a handle in a step, limited to the largest speed and paced while contact sets are stale. */
-HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
+HandIncrement Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
   const double dt = scene_.solver.time_step;
   const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
@@ -168,7 +168,7 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
   const HandState now = hand(instrument);
   const scene::DriveScene& drive = scene_.instruments[instrument].drive;
   const bool chuck = drive.grip == drive::Grip::kChuck;
-  HandCommand rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
+  HandIncrement rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
   if (scene_.introducer)
   {
     // Limited after the slip, or a wire that has slipped in the fingers could not leave the introducer.
@@ -178,7 +178,7 @@ HandCommand Simulation::wantedMotion(int instrument, const HandCommand& command)
   if (scene_.introducer && chuck)  // the chuck waits at a stop
     rest.insertion = std::clamp(rest.insertion, leastInsertion(instrument) - now.insertion,
                                 std::max(leastInsertion(instrument), mostInsertion(instrument)) - now.insertion);
-  HandCommand wanted = channel.pacer.follow(rest, stale);
+  HandIncrement wanted = channel.pacer.follow(rest, stale);
   // A chuck that is stopped by the force pushes on slowly; fast attempts would only cost sub-steps.
   const double most = drive.limits.speed * dt * (chuck ? std::max(kStalledSpeed, channel.grip) : 1.0);
   const double most_turn =
@@ -212,9 +212,9 @@ double Simulation::mostInsertion(int instrument) const
 }
 
 /** Part of a wanted motion that reaches the wire in a sub-step of @p dt [s]; the grip is updated in every sub-step. */
-HandCommand Simulation::allowedMotion(int instrument, const HandCommand& wanted, double dt)
+HandIncrement Simulation::allowedMotion(int instrument, const HandIncrement& wanted, double dt)
 {
-  HandCommand motion = wanted;
+  HandIncrement motion = wanted;
   if (!scene_.introducer)
     return motion;
   Channel& channel = channels_[instrument];
@@ -380,12 +380,12 @@ void Simulation::noteSlip(int instrument, double wanted, double reached)
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */
-int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from,
+int Simulation::substepsFor(const std::vector<HandIncrement>& wanted, const rod::EndMotion& from,
                             const rod::EndMotion& to) const
 {
   double travel = (to.displacement - from.displacement).norm();
   double turn = std::max(std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm());
-  for (const HandCommand& hand : wanted)
+  for (const HandIncrement& hand : wanted)
   {
     travel = std::max(travel, std::abs(hand.insertion));
     turn = std::max(turn, std::abs(hand.rotation));
@@ -395,12 +395,12 @@ int Simulation::substepsFor(const std::vector<HandCommand>& wanted, const rod::E
 }
 
 /** Sets the positions of all handles at the end of a sub-step. */
-void Simulation::setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input)
+void Simulation::setHandles(const std::vector<HandIncrement>& parts, bool stale, double dt, rod::StepInput& input)
 {
   handles_.clear();
   for (int k = 0; k < instruments(); ++k)
   {
-    const HandCommand motion = stale ? HandCommand() : allowedMotion(k, parts[k], dt);
+    const HandIncrement motion = stale ? HandIncrement() : allowedMotion(k, parts[k], dt);
     if (stale)
       channels_[k].pacer.miss(parts[k]);
     const HandState now = hand(k);

@@ -11,6 +11,7 @@
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
 #include "drive/grip_search.h"
+#include "drive/hand_command.h"
 #include "rod/boundary/hemostatic_valve.h"
 #include "rod/energy/energy_audit.h"
 #include "rod/sampling/adaptive_sampling.h"
@@ -22,6 +23,8 @@
 
 namespace endovascular_sim::simulation
 {
+
+using drive::HandCommand;
 
 /** Commands of the scene's drives for all instruments at a time [s]. */
 std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time);
@@ -157,12 +160,12 @@ private:
   void archive(Archive& archive);
   void requireFit() const;
   void setPressures(const std::vector<HandCommand>& commands);
-  HandCommand wantedMotion(int instrument, const HandCommand& command);
-  HandCommand allowedMotion(int instrument, const HandCommand& wanted, double dt);
+  HandIncrement wantedMotion(int instrument, const HandCommand& command);
+  HandIncrement allowedMotion(int instrument, const HandIncrement& wanted, double dt);
   double leastInsertion(int instrument) const;
   double mostInsertion(int instrument) const;
-  int substepsFor(const std::vector<HandCommand>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
-  void setHandles(const std::vector<HandCommand>& parts, bool stale, double dt, rod::StepInput& input);
+  int substepsFor(const std::vector<HandIncrement>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
+  void setHandles(const std::vector<HandIncrement>& parts, bool stale, double dt, rod::StepInput& input);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
@@ -187,7 +190,7 @@ private:
   rod::State state_;
   rod::StepReport report_;
   std::vector<Channel> channels_;  ///< one per instrument
-  std::vector<HandCommand> wanted_, parts_;
+  std::vector<HandIncrement> wanted_, parts_;
   rod::State before_;                     ///< state before the present sub-step
   std::vector<rod::LayerInput> handles_;  ///< of the present sub-step, one per instrument
   std::vector<double> hand_forces_, hand_positions_;

@@ -72,9 +72,9 @@ void StaleContactPacer::brake()
     approach(std::min(creep, pace_), jerk_);
 }
 
-HandCommand StaleContactPacer::follow(const HandCommand& wanted, bool stale)
+HandIncrement StaleContactPacer::follow(const HandIncrement& wanted, bool stale)
 {
-  HandCommand motion = wanted;
+  HandIncrement motion = wanted;
   if (stale || !isAtRest())
   {
     if (stale)
@@ -115,7 +115,7 @@ double StaleContactPacer::reach() const
   return kUsable * cover_;
 }
 
-void StaleContactPacer::miss(const HandCommand& motion)
+void StaleContactPacer::miss(const HandIncrement& motion)
 {
   insertion_.missed += motion.insertion;
   rotation_.missed += motion.rotation;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "drive/hand_command.h"
+
 namespace endovascular_sim
 {
 class Archive;
@@ -8,13 +10,7 @@ class Archive;
 namespace endovascular_sim::simulation
 {
 
-/** Command to the proximal end of one instrument for one step. */
-struct HandCommand
-{
-  double insertion = 0.0;  ///< insertion of the instrument [m]
-  double rotation = 0.0;   ///< rotation of the handle [rad]
-  double pressure = 0.0;   ///< pressure at the inflator of its balloon [Pa]
-};
+using drive::HandIncrement;
 
 /** Paces the commanded motion while contact sets are missing, so that neither their loss nor their return causes a
  * jump.
@@ -37,13 +33,13 @@ public:
    *  @param wanted commanded motion of the step, including all missed motion
    *  @param stale true when the newest contact set is stale
    *  @return motion that the step performs */
-  HandCommand follow(const HandCommand& wanted, bool stale);
+  HandIncrement follow(const HandIncrement& wanted, bool stale);
 
   /** Largest travel without a fresh set [m]. */
   double reach() const;
 
   /** Adds to the missed motion the part of the last returned motion that was not performed. */
-  void miss(const HandCommand& motion);
+  void miss(const HandIncrement& motion);
 
   void archive(Archive& archive);  ///< saves or loads the state
 
