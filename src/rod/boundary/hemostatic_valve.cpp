@@ -1,5 +1,7 @@
 #include "rod/boundary/hemostatic_valve.h"
 
+#include "rod/friction/coulomb_law.h"
+
 namespace endovascular_sim::rod
 {
 
@@ -17,10 +19,9 @@ void HemostaticValve::drag(State& state, double travel, double turn, double radi
     return;
   Eigen::Vector2d& stretch = state.valve_stretch;
   stretch += Eigen::Vector2d(travel, radius * turn);
-  const double length = stretch.norm();
-  if (length > kPreSliding)
-    stretch *= kPreSliding / length;
-  const Eigen::Vector2d pull = friction_ / kPreSliding * stretch;
+  const CoulombLaw law{friction_, kPreSliding};
+  law.cut(stretch);
+  const Eigen::Vector2d pull = law.tangent(0.0) * stretch;
   state.hand_parts.valve = pull.x();
   state.valve_torque = radius * pull.y();
   state.hand_force += state.hand_parts.valve;

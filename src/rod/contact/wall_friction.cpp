@@ -133,7 +133,7 @@ void WallFriction::linearise(std::size_t index, const Vector3d& stretch, double 
   const Contact& contact = contacts_[index];
   Term& term = terms_[index];
   const double length = stretch.norm();
-  const double secant = contact.limit / std::max(length, slip_);
+  const double secant = law(contact).secant(length);
   term.stiffness = secant * (Matrix3d::Identity() - contact.normal * contact.normal.transpose());
   term.pull = secant * contact.stretch;
   if (length <= slip_)
@@ -160,7 +160,7 @@ void WallFriction::lineariseAtDual(std::size_t index, const Vector3d& stretch)
   const Contact& contact = contacts_[index];
   Term& term = terms_[index];
   const double length = stretch.norm();
-  const double secant = contact.limit / std::max(length, slip_);
+  const double secant = law(contact).secant(length);
   term.stiffness = secant * (Matrix3d::Identity() - contact.normal * contact.normal.transpose());
   if (length > slip_)
   {
@@ -205,7 +205,7 @@ bool WallFriction::updateWithTurns(const Motion& motion, const std::vector<doubl
 /** Friction by Coulomb's law at a stretch [N]. */
 Vector3d WallFriction::force(std::size_t index, const Vector3d& stretch) const
 {
-  return (contacts_[index].limit / std::max(stretch.norm(), slip_)) * stretch;
+  return law(contacts_[index]).secant(stretch.norm()) * stretch;
 }
 
 bool WallFriction::update(const Motion& motion, int pass)
@@ -257,15 +257,14 @@ void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion
       if (angle != 0.0)
         stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
     }
-    const double length = stretch.norm();
-    if (length > slip_)
-      stretch *= slip_ / length;
+    CoulombLaw{0.0, slip_}.cut(stretch);
   }
 }
 
 Vector3d frictionForce(const State& state, int node, double slip)
 {
-  return -(state.friction_coefficient[node] * state.wall_force[node].norm() / slip) * state.friction_stretch[node];
+  const CoulombLaw law{state.friction_coefficient[node] * state.wall_force[node].norm(), slip};
+  return -law.tangent(0.0) * state.friction_stretch[node];
 }
 
 }  // namespace endovascular_sim::rod

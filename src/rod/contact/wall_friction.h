@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "rod/friction/coulomb_law.h"
 #include "rod/model/state.h"
 #include "rod/twist/twist_friction.h"
 
@@ -124,6 +125,7 @@ private:
   void linearise(std::size_t index, const Eigen::Vector3d& stretch, double inertia_weight);
   void lineariseAtDual(std::size_t index, const Eigen::Vector3d& stretch);
   Eigen::Vector3d force(std::size_t index, const Eigen::Vector3d& stretch) const;
+  CoulombLaw law(const Contact& contact) const { return {contact.limit, slip_}; }
 
   double slip_;
   int first_changed_ = 0;

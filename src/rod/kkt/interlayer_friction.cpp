@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod/friction/coulomb_law.h"
+
 namespace endovascular_sim::rod
 {
 namespace
@@ -44,7 +46,7 @@ void InterlayerFriction::drag(State& state, const StepInput& input) const
     const double pushed = input.layers[k].inserted_length - layer.inserted_length;
     const double carried = outer < 0 ? 0.0 : input.layers[outer].inserted_length - state.layers[outer].inserted_length;
     const double stretch = layer.friction_stretch + pushed - carried;
-    layer.friction_stretch = outer < 0 ? 0.0 : std::max(-kLayerSlip, std::min(kLayerSlip, stretch));
+    layer.friction_stretch = outer < 0 ? 0.0 : CoulombLaw{0.0, kLayerSlip}.returned(stretch);
   }
 }
 
@@ -87,7 +89,7 @@ double InterlayerFriction::axialForce(int k, int outer, const State& state) cons
   double sum = 0.0;
   for (int i = state.first_node + 1; i + 1 < model_.rod.nodes(); ++i)
     sum += load(k, outer, i, state);
-  return stack_.layer(k).friction * sum * state.layers[k].friction_stretch / kLayerSlip;
+  return CoulombLaw{stack_.layer(k).friction * sum, kLayerSlip}.force(state.layers[k].friction_stretch);
 }
 
 /** True where friction torques between a layer and the next outer one are possible. */

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+
+#include "rod/friction/coulomb_law.h"
 
 namespace endovascular_sim::rod
 {
@@ -10,7 +11,7 @@ namespace endovascular_sim::rod
  *
  *  A rotation φ displaces the wire's surface over the wall by u(φ) = u₀ + φ p, where p is r times its direction: the
  *  component along p is `along` + φ·`arm`, the square of the one across is `across_squared`. The potential is that of
- *  WallFriction, limit·(|u|²/2δ up to |u| = δ, |u| − δ/2 beyond): convex in φ. */
+ *  CoulombLaw, convex in φ. */
 struct TwistFriction
 {
   int node = 0;
@@ -36,7 +37,7 @@ struct TwistFriction
   double secant(double turn) const
   {
     const double u = along + turn * arm;
-    return limit * arm * arm / std::max(slip, std::sqrt(u * u + across_squared));
+    return CoulombLaw{limit * arm * arm, slip}.secant(std::sqrt(u * u + across_squared));
   }
 };
 
