@@ -1,17 +1,14 @@
 #include "image/volume_file.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "common/error.h"
+#include "common/file/binary_file.h"
 #include "common/hash.h"
 #include "common/input_file.h"
-#include "common/output_file.h"
 
 namespace endovascular_sim::image
 {
@@ -84,22 +81,8 @@ Volume volumeOf(const Header& header, const std::string& file)
 
 void writeVolume(const std::string& file, const Volume& volume)
 {
-  const std::string temporary = file + "." + std::to_string(getpid()) + ".part";
   const Header header = headerOf(volume);
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out)
-    throw writeError(file);
-  out.write(reinterpret_cast<const char*>(&header), sizeof header);
-  out.write(reinterpret_cast<const char*>(volume.stored.data()),
-            static_cast<std::streamsize>(volume.stored.size() * sizeof(std::int16_t)));
-  out.close();
-  if (!out || std::rename(temporary.c_str(), file.c_str()) != 0)
-  {
-    const InputError error = writeError(file);
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw error;
-  }
+  writeBinaryFile(file, {bytesOf(header), bytesOf(volume.stored)});
 }
 
 Volume readVolume(const std::string& file)

@@ -1,80 +1,60 @@
 #include "vessel/io/mesh_cache.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+
+#include "common/error.h"
+#include "common/file/binary_file.h"
 
 namespace endovascular_sim::vessel
 {
 namespace
 {
 
-struct Header
-{
-  std::array<char, 8> magic{'e', 'v', 's', 'm', 'e', 's', 'h', '1'};
-  std::uint64_t key = 0;
-  std::uint64_t mesh_hash = 0;
-  std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;
-};
+using Counts = std::array<std::uint64_t, 2>;  // of vertices and triangles
 
-static_assert(sizeof(Header) == 40);
 static_assert(sizeof(Eigen::Vector3d) == 24 && sizeof(Eigen::Vector3i) == 12);
+
+/** Fills a vector with the bytes at @p at, and advances it. */
+template <typename T>
+void take(const char*& at, std::uint64_t count, std::vector<T>& values)
+{
+  values.resize(count);
+  std::memcpy(static_cast<void*>(values.data()), at, sizeof(T) * count);
+  at += sizeof(T) * count;
+}
 
 }  // namespace
 
 std::optional<geometry::TriangleMesh> readCachedMesh(const std::string& file, std::uint64_t key)
 {
-  std::ifstream in(file, std::ios::binary);
-  Header header;
-  if (!in || !in.read(reinterpret_cast<char*>(&header), sizeof header))
+  const std::optional<std::string> bytes = readCacheFile(file, key);
+  Counts counts{};
+  if (!bytes || bytes->size() < sizeof counts)
     return std::nullopt;
-  std::error_code code;
-  const std::uint64_t size = std::filesystem::file_size(file, code);
+  std::memcpy(&counts, bytes->data(), sizeof counts);
   const std::uint64_t limit = 1ULL << 32U;
-  if (code || header.magic != Header().magic || header.key != key || header.vertices > limit ||
-      header.triangles > limit || size != sizeof header + 24 * header.vertices + 12 * header.triangles)
+  if (counts[0] > limit || counts[1] > limit || bytes->size() != sizeof counts + 24 * counts[0] + 12 * counts[1])
     return std::nullopt;
+  const char* at = bytes->data() + sizeof counts;
   geometry::TriangleMesh mesh;
-  mesh.vertices.resize(header.vertices);
-  mesh.triangles.resize(header.triangles);
-  in.read(reinterpret_cast<char*>(mesh.vertices.data()), static_cast<std::streamsize>(24 * header.vertices));
-  in.read(reinterpret_cast<char*>(mesh.triangles.data()), static_cast<std::streamsize>(12 * header.triangles));
-  if (!in || mesh.hash() != header.mesh_hash)
-    return std::nullopt;
+  take(at, counts[0], mesh.vertices);
+  take(at, counts[1], mesh.triangles);
   return mesh;
 }
 
 bool writeCachedMesh(const std::string& file, std::uint64_t key, const geometry::TriangleMesh& mesh)
 {
-  std::error_code code;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), code);
-  const std::string temporary = file + "." + std::to_string(getpid()) + ".part";
-  Header header;
-  header.key = key;
-  header.mesh_hash = mesh.hash();
-  header.vertices = mesh.vertices.size();
-  header.triangles = mesh.triangles.size();
+  const Counts counts{mesh.vertices.size(), mesh.triangles.size()};
+  try
   {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    out.write(reinterpret_cast<const char*>(mesh.vertices.data()), static_cast<std::streamsize>(24 * header.vertices));
-    out.write(reinterpret_cast<const char*>(mesh.triangles.data()),
-              static_cast<std::streamsize>(12 * header.triangles));
-    out.close();
-    if (!out)
-    {
-      std::filesystem::remove(temporary, code);
-      return false;
-    }
+    writeCacheFile(file, key, {bytesOf(counts), bytesOf(mesh.vertices), bytesOf(mesh.triangles)});
+    return true;
   }
-  std::filesystem::rename(temporary, file, code);
-  if (code)
-    std::filesystem::remove(temporary, code);
-  return !code;
+  catch (const InputError&)
+  {
+    return false;
+  }
 }
 
 }  // namespace endovascular_sim::vessel

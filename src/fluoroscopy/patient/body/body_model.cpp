@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "common/error.h"
+#include "common/file/binary_file.h"
 #include "common/hash.h"
 #include "common/text/format.h"
 #include "fluoroscopy/patient/body/anatomy_parts.h"
 #include "fluoroscopy/patient/body/body_placement.h"
 #include "fluoroscopy/patient/volume/lumen_mask.h"
-#include "fluoroscopy/patient/volume/volume_file.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -113,16 +113,18 @@ PatientVolume loadBody(const vessel::Vessel& vessel, const BodySettings& setting
     return makeBody(vessel, settings);
   const body::BodyPlacement placement = body::placeBody(vessel);
   const std::uint64_t key = keyOf(vessel, placement.frame, settings);
-  const std::string entry = cache_folder + "/body_" + Hash64::toHex(key) + ".evsvol";
-  std::optional<DensityVolume> cached = readCachedVolume(entry, key);
-  if (cached)
-    return {std::make_shared<const DensityVolume>(std::move(*cached)), {placement.note, "body loaded from " + entry}};
+  const std::string entry = cache_folder + "/body_" + Hash64::toHex(key) + ".voxels";
+  const std::optional<std::string> cached = readCacheFile(entry, key);
+  auto volume = std::make_shared<DensityVolume>(gridFor(placement.frame, settings.spacing), "patient.body");
+  if (cached && cached->size() == volume->memory())
+  {
+    std::memcpy(volume->voxels().data(), cached->data(), cached->size());
+    return {std::move(volume), {placement.note, "body loaded from " + entry}};
+  }
   PatientVolume body = makeBody(vessel, settings);
   try
   {
-    std::error_code ignored;
-    std::filesystem::create_directories(cache_folder, ignored);
-    writeVolume(entry, *body.volume, key);
+    writeCacheFile(entry, key, {bytesOf(body.volume->voxels())});
   }
   catch (const InputError& error)
   {
