@@ -134,11 +134,14 @@ run_catkin_make() {
   return "$status"
 }
 
-# build all|tests|TARGET: brings a target up to date. Unchanged sources of `all` and `tests` cost no call of CMake.
+# build all|tests|demo_programs|TARGET: brings a target up to date. Unchanged sources of the first three cost no call of
+# CMake; `all` contains `demo_programs`.
 build() {
-  local target=$1 stamp="$workspace/build/.$1-built" hash
+  local target=$1 stamp="$workspace/build/.$1-built" hash stamps
   hash=$(source_hash "$target")
-  if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$hash" ] && [ -f "$workspace/devel/setup.bash" ]; then
+  stamps=("$stamp")
+  [ "$target" != demo_programs ] || stamps+=("$workspace/build/.all-built")
+  if [ -f "$workspace/devel/setup.bash" ] && cat "${stamps[@]}" 2>/dev/null | grep -qxF "$hash"; then
     return
   fi
   # A build tree stores its absolute path and cannot be moved.
@@ -155,6 +158,7 @@ build() {
   jobs=$(build_jobs)
   case "$target" in
     all) say "Building the workspace in Release with $jobs job(s); log: $build_log" ;;
+    demo_programs) say "Building the nodes in Release with $jobs job(s); log: $build_log" ;;
     tests) say "Building the tests in Release with $jobs job(s); log: $build_log" ;;
     *) say "Building $target in Release with $jobs job(s); log: $build_log" ;;
   esac
@@ -166,7 +170,7 @@ build() {
     tail -n 40 "$build_log" >&2
     die "the build failed; the whole log is $build_log"
   fi
-  case "$target" in all|tests) printf '%s\n' "$hash" > "$stamp" ;; esac
+  case "$target" in all|tests|demo_programs) printf '%s\n' "$hash" > "$stamp" ;; esac
 }
 
 # setup_workspace LIST… -- TARGET…: installs the packages of the lists and builds the targets. One set-up at a time: two

@@ -4,7 +4,7 @@
 
 #include "common/error.h"
 #include "common/file/file_name.h"
-#include "robot/urdf_reader.h"
+#include "robot/urdf_source.h"
 #include "scene/file_search.h"
 #include "scene/instrument_library.h"
 #include "scene/schema/scene_schema.h"
@@ -91,7 +91,7 @@ void resolveRobot(Scene& scene, const yaml::Node& root)
     return;
   RobotScene& robot = *scene.robot;
   const yaml::Node& node = *root.find("robot");
-  robot.model = robot::readUrdf(findSceneFile(*node.find("urdf"), "robot.urdf", scene.file));
+  robot.model = robot::loadUrdf(findSceneFile(*node.find("urdf"), "robot.urdf", scene.file));
   std::vector<DriveScene*> drives;
   std::vector<double> starts;
   std::vector<drive::DriveLimits> limits;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "robot/urdf_reader.h"
+#include "robot/urdf/urdf_reader.h"
 
 namespace endovascular_sim::robot
 {

@@ -54,6 +54,12 @@ if grep -E 'libros|libxmlrpcpp|libcpp_common|libendovascular_sim_nodes' "$folder
   echo "plain_cmake links ROS"
   exit 1
 fi
+for program in step_a_scene run_a_procedure; do
+  if ldd "$folder/plain_cmake/$program" | grep -E 'urdf|console_bridge'; then
+    echo "plain_cmake/$program loads the reader of robots, which its scene does not have"
+    exit 1
+  fi
+done
 grep -q libroscpp "$folder/catkin.ldd"
 
 # Of the installed programs, only nodes, the two tools that speak ROS and the example of a client link it.

@@ -1,6 +1,6 @@
 #!/bin/bash
 # No include of src runs upwards or in a circle between folders: each points to its own folder or to one earlier in the
-# list of docs/ARCHITECTURE.md, section "Layers". Only nodes, tools and rviz_plugin include ROS.
+# list of docs/ARCHITECTURE.md, section "Layers"; cmake/layers.cmake agrees. Only nodes, tools and rviz_plugin include ROS.
 # python/core includes neither ROS nor folders above session.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -57,6 +57,35 @@ for name in sorted(os.listdir("python/core")):
         include = re.match(r'\s*#include\s+(["<])([^">]+)[">]', line)
         if include and ROS.match(include.group(2)) or include and include.group(2).split("/")[0] in ABOVE_PYTHON:
             errors.append("python/core/%s:%d: python binds the core only: %s" % (name, number, include.group(2)))
+# cmake/layers.cmake: the order is that of the list, and each library links exactly the layers that it includes.
+separate = re.search(r"set\(SEPARATE_FOLDERS ([^)]*)\)", open("cmake/layers.cmake").read()).group(1).split()
+linked = {}
+for line in re.findall(r'^  "(\w+ *:[^:]*):', open("cmake/layers.cmake").read(), re.MULTILINE):
+    layer, links = (part.split() for part in line.split(":"))
+    for other in links:
+        if other not in linked:
+            errors.append("cmake/layers.cmake: %s links %s, which is not before it" % (layer[0], other))
+    linked[layer[0]] = set(links)
+
+
+def all_links(layer):
+    return linked[layer].union(*(all_links(other) for other in linked[layer])) if linked[layer] else set()
+
+
+for layer in linked:
+    included = set()
+    for parent, _, files in os.walk("src/" + layer):
+        if os.path.relpath(parent, "src") not in separate:
+            for name in files:
+                included.update(re.findall(r'^#include "(\w+)/', open(os.path.join(parent, name)).read(), re.MULTILINE))
+    included &= set(linked) - {layer}
+    for other in sorted(included - all_links(layer)):
+        errors.append("cmake/layers.cmake: %s includes %s, but does not link it" % (layer, other))
+    for other in sorted(linked[layer]):
+        if not (included & ({other} | all_links(other))):
+            errors.append("cmake/layers.cmake: %s links %s, of which it includes nothing" % (layer, other))
+        if any(other in all_links(third) for third in linked[layer] - {other}):
+            errors.append("cmake/layers.cmake: %s links %s twice" % (layer, other))
 for folder in sorted(set(level) - seen):
     errors.append("docs/ARCHITECTURE.md lists %s, but src/%s holds no source" % (folder, folder))
 print("\n".join(errors))

@@ -282,6 +282,19 @@ TEST(Session, CopiesNoWallInAnInflationThatWasPrepared)
   EXPECT_EQ(prepared.detector()->model().get(), wall);
 }
 
+TEST(World, NamesTheLibraryThatASceneWithARobotNeeds)
+{
+  try
+  {
+    World::open(TEST_DATA_DIR "/robot_in_tube.yaml");
+    ADD_FAILURE() << "not refused";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("endovascular_sim::robot"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Session, TakesOverNothingOfARefusedState)
 {
   Session session(tube());

@@ -1,4 +1,4 @@
-#include "robot/urdf_reader.h"
+#include "robot/urdf/urdf_reader.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "robot/urdf_checks.h"
+#include "robot/urdf/urdf_checks.h"
 
 #include <tinyxml.h>
 

@@ -1,4 +1,4 @@
-#include "robot/urdf_reader.h"
+#include "robot/urdf/urdf_reader.h"
 
 #include <console_bridge/console.h>
 #include <tinyxml.h>
@@ -12,7 +12,7 @@
 #include "common/error.h"
 #include "common/input_file.h"
 #include "common/xml/xml_depth.h"
-#include "robot/urdf_checks.h"
+#include "robot/urdf/urdf_checks.h"
 
 namespace endovascular_sim::robot
 {

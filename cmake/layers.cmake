@@ -1,0 +1,45 @@
+# Libraries of the core, lowest first: folder of src : layers whose headers it includes, without those that another one
+# includes already : libraries from outside. The targets evs_<folder>, the shared core with what it links, the installed
+# headers and the test programs follow from this list. test/scripts/test_layers.sh compares it with the includes and with
+# the order in docs/ARCHITECTURE.md.
+set(LAYERS
+  "common        :                                            : Threads::Threads ${CMAKE_DL_LIBS}"
+  "yaml          : common                                     : yaml-cpp"
+  "geometry      : common                                     :"
+  "image         : common                                     :"
+  "contact       : geometry                                   : fcl"
+  "rod           : contact                                    : ${KLU_LIBRARY} ${CHOLMOD_LIBRARY}"
+  "vessel        : geometry yaml                              : ${TINYXML_LIBRARY} ZLIB::ZLIB"
+  "phantom       : image vessel                               :"
+  "segmentation  : image vessel                               :"
+  "instrument    : rod                                        :"
+  "intervention  : instrument vessel                          :"
+  "fluoroscopy   : image instrument vessel                    : PNG::PNG ${XRAYLIB_LIBRARY}"
+  "drive         : common                                     :"
+  "robot         : drive                                      :"
+  "haptics       : drive                                      :"
+  "scene         : fluoroscopy robot                          :"
+  "simulation    : intervention scene                         :"
+  "procedure     : simulation                                 :"
+  "results       : procedure                                  :"
+  "session       : results                                    :"
+  "visualization : geometry                                   :")
+
+# Parts of a layer's folder that are libraries of their own, because they link what few programs need.
+set(SEPARATE_FOLDERS vessel/prepare image/import robot/urdf)
+
+# The calls in these take most of the time of steps, frames and images.
+set(FAST_LAYERS geometry rod contact fluoroscopy phantom segmentation)
+
+# read_layer(LINE): sets `layer`, `layer_includes` and `layer_links`.
+macro(read_layer line)
+  string(REGEX MATCH "^([a-z]+) *:([^:]*):(.*)$" layer_line "${line}")
+  if(NOT layer_line)
+    message(FATAL_ERROR "cmake/layers.cmake: '${line}' is not 'folder : layers : libraries'")
+  endif()
+  set(layer ${CMAKE_MATCH_1})
+  set(layer_includes ${CMAKE_MATCH_2})
+  set(layer_links ${CMAKE_MATCH_3})
+  separate_arguments(layer_includes)
+  separate_arguments(layer_links)
+endmacro()
