@@ -26,7 +26,7 @@ set(LAYERS
   "visualization : geometry                                   :")
 
 # Parts of a layer's folder that are libraries of their own, because they link what few programs need.
-set(SEPARATE_FOLDERS vessel/prepare image/import robot/urdf)
+set(SEPARATE_FOLDERS vessel/prepare segmentation/mesh image/import robot/urdf)
 
 # The calls in these take most of the time of steps, frames and images.
 set(FAST_LAYERS geometry rod contact fluoroscopy phantom segmentation)

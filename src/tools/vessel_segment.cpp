@@ -20,20 +20,15 @@
 #include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
 #include "scene/mesh_trial.h"
-#include "segmentation/join_branches.h"
 #include "segmentation/lumen_centreline.h"
-#include "segmentation/metal_check.h"
-#include "segmentation/segment_vessel.h"
+#include "segmentation/mesh/segmented_vessel.h"
 #include "segmentation/segmentation_report.h"
-#include "segmentation/surface/lumen_surface.h"
 #include "segmentation/view/ct_page.h"
 #include "segmentation/view/straightened_view.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/centreline/centreline_file.h"
 #include "vessel/io/mesh_reader.h"
-#include "vessel/prepare/open_ends.h"
-#include "vessel/prepare/prepare.h"
 
 namespace
 {
@@ -138,90 +133,22 @@ segmentation::Scan readScan(const Options& options, const std::string& stem, con
   return segmentation::Scan(std::move(read));
 }
 
-segmentation::EdgeSettings settingsOf(const Options& options, const segmentation::Scan& scan)
+segmentation::VesselSettings settingsOf(const Options& options, const segmentation::Scan& scan)
 {
-  segmentation::EdgeSettings settings = segmentation::edgeSettings(scan.modality(), scan.spacing());
+  segmentation::VesselSettings settings;
+  settings.edge = segmentation::edgeSettings(scan.modality(), scan.spacing());
   if (options.point_spread > 0.0)
-    settings.point_spread = 1e-3 * options.point_spread;
+    settings.edge.point_spread = 1e-3 * options.point_spread;
   if (options.wall >= 0.0)
-    settings.wall = 1e-3 * options.wall;
-  settings.half_maximum = options.half_maximum;
+    settings.edge.wall = 1e-3 * options.wall;
+  settings.edge.half_maximum = options.half_maximum;
+  if (!options.open.empty())
+    settings.open = options.open;
+  settings.closed = options.closed;
+  settings.max_distance = options.max_distance;
+  settings.cut_back = options.cut_back;
+  settings.threads = options.threads;
   return settings;
-}
-
-/** Spacing of the lattice of the surface: a third of the narrowest lumen, within limits. */
-double latticeSpacing(const std::vector<segmentation::LumenBranch>& branches)
-{
-  double least = 1e30;
-  for (const segmentation::LumenBranch& branch : branches)
-    for (const segmentation::Section& section : branch.sections)
-      least = std::min(least, 0.5 * section.diameter());
-  return std::clamp(least / 3.0, 3e-4, 5e-4);
-}
-
-/** Closed surface of genus 0; the blending range grows until the surface has no handle. */
-geometry::TriangleMesh closedSurface(const std::vector<segmentation::LumenBranch>& branches, int threads,
-                                     std::vector<std::string>& warnings)
-{
-  segmentation::SurfaceSettings settings;
-  settings.spacing = latticeSpacing(branches);
-  settings.threads = threads;
-  geometry::TriangleMesh mesh;
-  for (const double blend : {1.0, 1.6, 2.5})
-  {
-    settings.blend = blend;
-    mesh = segmentation::lumenSurface(branches, settings);
-    if (segmentation::genusOf(mesh) == 0)
-      return mesh;
-  }
-  warnings.push_back("the surface has a handle (genus " + std::to_string(segmentation::genusOf(mesh)) +
-                     "): two branches touch twice; check their straightened views");
-  return mesh;
-}
-
-/** Ends of the tree that become open: all, or those of --open; without those of --closed. */
-std::vector<vessel::CentrelineEnd> wantedEnds(const Options& options, const segmentation::Scan& scan,
-                                              const vessel::CentrelineTree& tree)
-{
-  const std::vector<vessel::CentrelineEnd> ends = segmentation::openEnds(tree);
-  std::vector<vessel::CentrelineEnd> in_patient = ends;  // in the frame of the options
-  for (vessel::CentrelineEnd& end : in_patient)
-    end.position = scan.toPatient(end.position);
-  const std::vector<std::string> all{"all"};
-  std::vector<std::size_t> open =
-      vessel::matchingEnds(tree, in_patient, options.open.empty() ? all : options.open, "--open", options.images);
-  for (const std::size_t closed : vessel::matchingEnds(tree, in_patient, options.closed, "--closed", options.images))
-    open.erase(std::remove(open.begin(), open.end(), closed), open.end());
-  std::vector<vessel::CentrelineEnd> wanted;
-  wanted.reserve(open.size());
-  for (const std::size_t k : open)
-    wanted.push_back(ends[k]);
-  return wanted;
-}
-
-/** Opens ends of the vessel. The surface ends in flat lids there, so a shallow cut suffices.
- *  @return number of open ends */
-int openEnds(const Options& options, const segmentation::Scan& scan, const vessel::CentrelineTree& tree,
-             const std::vector<vessel::CentrelineEnd>& ends, geometry::TriangleMesh& mesh,
-             std::vector<std::string>& warnings)
-{
-  constexpr double kDeepest = 2e-3;  // m
-  int open = 0;
-  for (const vessel::CentrelineEnd& end : ends)
-  {
-    try
-    {
-      vessel::openEnd(mesh, tree, end, std::min(options.cut_back, kDeepest / end.radius), options.images);
-      ++open;
-    }
-    catch (const InputError&)
-    {
-      warnings.push_back("an end of " + tree.branches[static_cast<std::size_t>(end.branch)].name + " near " +
-                         vessel::formatLocation(scan.toPatient(end.position)) +
-                         " stays closed: a plane across it would cut other vessels; move the click away from them");
-    }
-  }
-  return open;
 }
 
 void writeViews(const segmentation::Scan& scan, const std::vector<segmentation::LumenBranch>& branches,
@@ -338,20 +265,15 @@ std::string writeVessel(const segmentation::Scan& scan, const geometry::Triangle
   return arguments;
 }
 
-/** Mesh of a closed surface, by the stages of vessel_prepare. */
-vessel::PreparedVessel preparedFrom(const geometry::TriangleMesh& surface, const Options& options,
-                                    const std::string& stem, const StageClock& clock)
+segmentation::SegmentedVessel vesselOf(const Options& options, const segmentation::Scan& scan,
+                                       const segmentation::ClickSet& clicks, const std::string& stem,
+                                       const segmentation::VesselObserver& observer)
 {
-  vessel::PrepareOptions prepare;
-  prepare.max_distance = options.max_distance;
-  prepare.voxel = options.max_distance;  // the surface has no features below its lattice
-  prepare.smooth = true;
   try
   {
-    return vessel::prepareVessel(surface, options.images, prepare,
-                                 [&clock](const std::string& stage) { clock.begin(stage); });
+    return segmentation::segmentVessel(scan, clicks, settingsOf(options, scan), options.images, observer);
   }
-  catch (const InputError& error)
+  catch (const segmentation::UnusableSurface& error)
   {
     throw notWritten(stem, error.what());
   }
@@ -366,32 +288,24 @@ int segment(const Options& options)
   const segmentation::ClickSet clicks = segmentation::readClicks(options.clicks);
   tools::requireWritable(options.out);
   const segmentation::Scan scan = readScan(options, stem, clock, warnings);
-  const segmentation::EdgeSettings settings = settingsOf(options, scan);
-  clock.begin("segmenting the branches");
-  segmentation::Segmentation result = segmentation::segmentBranches(scan, clicks, settings, options.threads);
-  segmentation::joinBranches(scan, clicks, settings, options.threads, result);
-  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
-  for (const std::string& warning : segmentation::metalWarnings(scan, result.branches))
-    warnings.push_back(warning);
-  const vessel::CentrelineTree tree = segmentation::lumenCentreline(result.branches);
-  const std::vector<vessel::CentrelineEnd> ends = wantedEnds(options, scan, tree);
-  clock.begin("drawing the straightened views");
-  writeViews(scan, result.branches, stem);
-  clock.begin("uniting the branches");
-  // All stages take place in the frame of the grid, so that they do not depend on the pose of the patient.
-  const geometry::TriangleMesh surface = closedSurface(result.branches, options.threads, warnings);
-  vessel::PreparedVessel prepared = preparedFrom(surface, options, stem, clock);
-  clock.begin("opening the ends");
-  const int open = openEnds(options, scan, tree, ends, prepared.mesh, warnings);
+  segmentation::VesselObserver observer;
+  observer.stage = [&clock](const std::string& stage) { clock.begin(stage); };
+  observer.segmented = [&](const std::vector<segmentation::LumenBranch>& branches)
+  {
+    clock.begin("drawing the straightened views");
+    writeViews(scan, branches, stem);
+  };
+  const segmentation::SegmentedVessel vessel = vesselOf(options, scan, clicks, stem, observer);
+  warnings.insert(warnings.end(), vessel.warnings.begin(), vessel.warnings.end());
   clock.begin("checking the vessel as scenes do");
-  const std::string arguments = writeVessel(scan, prepared.mesh, tree, stem, warnings);
-  tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, result.branches, warnings));
+  const std::string arguments = writeVessel(scan, vessel.mesh, vessel.centreline, stem, warnings);
+  tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, vessel.branches, warnings));
   clock.begin("done");
   tools::printWarnings(kName, warnings);
-  const vessel::MeshReport& defects = prepared.report.before.defects;
-  std::cout << segmentation::segmentationText(scan, result.branches) << prepared.mesh.triangles.size()
-            << " triangles, genus " << defects.genus << ", open ends: " << open << ", at most "
-            << std::round(1e6 * prepared.report.result_to_input.largest) * 1e-3
+  const vessel::MeshReport& defects = vessel.report.before.defects;
+  std::cout << segmentation::segmentationText(scan, vessel.branches) << vessel.mesh.triangles.size()
+            << " triangles, genus " << defects.genus << ", open ends: " << vessel.open_ends << ", at most "
+            << std::round(1e6 * vessel.report.result_to_input.largest) * 1e-3
             << " mm from the contours\nlook at the straightened views " << stem << "_BRANCH.png before use\nwrote "
             << options.out << ", " << stem << "_centreline.yaml, " << stem << "_report.json\n"
             << "to use the vessel: simulate " << arguments << "\n";
