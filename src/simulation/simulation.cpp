@@ -17,23 +17,8 @@ namespace
 {
 
 constexpr double kMaxRotationPerSubstep = 0.05;  // rad
-constexpr double kGripTime = 10e-3;              // s in which the grip follows the force
 constexpr double kTravelPerEdge = 0.25;          // largest travel of a sub-step, in shortest edges
-constexpr double kSlipBand = 0.1;                // range of the force in which the grip fades, relative to the limit
 constexpr double kAtIntroducer = 0.1e-3;         // m, tolerance of the insertion of an instrument outside
-constexpr double kStalledSpeed = 0.05;           // least share of the speed with which a stopped chuck pushes
-constexpr double kFreeBand = 0.5;                // excess of the force without any grip, relative to the limit
-
-/** Grip of the hand, 1 firm to 0 slipping, after a time @p dt [s] in which the wire resisted the wanted motion. The
- * grip follows the force with a delay: without it, grip and inertia of the wire would oscillate. Far beyond the limit
- * the grip vanishes at once, since a fast hand would push by millimetres during the delay. */
-double nextGrip(double grip, double wanted, double resistance, double limit, double dt)
-{
-  const double against = wanted > 0.0 ? resistance : -resistance;
-  const double target = std::max(0.0, std::min(1.0, (limit - against) / (kSlipBand * limit)));
-  const double firm = 1.0 - (against - limit) / (kFreeBand * limit);
-  return std::max(0.0, std::min(grip + std::min(1.0, dt / kGripTime) * (target - grip), firm));
-}
 
 /** Motion of one handle that a stale contact set covers [m]: the margin at the widest folded instrument minus the
  *  travel of a sub-step, divided by the number of handles. */
@@ -68,13 +53,15 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     sampling_every_(samplingInterval(scene)),
     initial_nodes_(initialNodes(scene, sampling_.get())),
     stepper_(makeStepper(scene, entry, initial_nodes_)),
-    channels_(scene.instruments.size(), Channel{StaleContactPacer(staleCover(scene), scene.solver.time_step)}),
-    wanted_(channels_.size()),
-    parts_(channels_.size()),
+    max_insertions_(scene.instruments.size()),
+    wanted_(scene.instruments.size()),
+    parts_(scene.instruments.size()),
     valve_(scene.entry.valve_friction),
     treatments_(scene, wall),
-    pressures_(channels_.size(), 0.0)
+    pressures_(scene.instruments.size(), 0.0)
 {
+  for (const scene::DrivenInstrument& driven : scene_.instruments)
+    hands_.emplace_back(driven.drive, StaleContactPacer(staleCover(scene), scene.solver.time_step));
   const rod::Discretisation& wire = stepper_->discretisation();
   max_travel_ = scene.solver.max_travel_per_substep;
   if (!sampling_)
@@ -101,13 +88,12 @@ void Simulation::setMaxInsertions()
 {
   for (int k = 0; k < instruments(); ++k)
   {
-    Channel& channel = channels_[k];
-    channel.max_insertion =
+    max_insertions_[k] =
         rod::maxInsertion(stepper_->layerLength(k), stepper_->discretisation(), scene_.solver.guide_length);
-    if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > channel.max_insertion)
+    if (scene_.introducer && scene_.instruments[k].drive.initial_insertion > max_insertions_[k])
       throw InputError(scene_.file, scene::drivePath(scene_, k) + "drive.initial_insertion",
                        "leaves a proximal part shorter than the introducer's guide; must be at most " +
-                           std::to_string(channel.max_insertion) + " m");
+                           std::to_string(max_insertions_[k]) + " m");
   }
 }
 
@@ -120,13 +106,13 @@ HandState Simulation::hand(int instrument) const
 drive::HandMotion Simulation::reached(int instrument) const
 {
   const HandState now = hand(instrument);
-  const Channel& channel = channels_[instrument];
-  return {now.insertion + channel.slipped_insertion, now.rotation + channel.slipped_rotation};
+  const HandIncrement& slipped = hands_[instrument].slipped();
+  return {now.insertion + slipped.insertion, now.rotation + slipped.rotation};
 }
 
 drive::HandMotion Simulation::slipped(int instrument) const
 {
-  return {channels_[instrument].slipped_insertion, channels_[instrument].slipped_rotation};
+  return {hands_[instrument].slipped().insertion, hands_[instrument].slipped().rotation};
 }
 
 drive::Interval Simulation::stops(int instrument) const
@@ -135,7 +121,7 @@ drive::Interval Simulation::stops(int instrument) const
     return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const double least = leastInsertion(instrument);
   return drive::Interval{least, std::max(least, mostInsertion(instrument))}.shifted(
-      channels_[instrument].slipped_insertion);
+      hands_[instrument].slipped().insertion);
 }
 
 /** Insertion at which an instrument is outside the introducer [m]. */
@@ -159,33 +145,20 @@ bool Simulation::isOutside(int instrument) const
   return instruments() > 1 && hand(instrument).insertion <= outsideInsertion() + kAtIntroducer;
 }
 
-/** Commanded motion of a handle in a step, limited to the largest speed and paced while contact sets are stale. */
 HandIncrement Simulation::wantedMotion(int instrument, const HandCommand& command)
 {
-  const double dt = scene_.solver.time_step;
   const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
-  Channel& channel = channels_[instrument];
-  const HandState now = hand(instrument);
-  const scene::DriveScene& drive = scene_.instruments[instrument].drive;
-  const bool chuck = drive.grip == drive::Grip::kChuck;
-  HandIncrement rest{0.0, command.rotation - channel.slipped_rotation - now.rotation};
-  if (scene_.introducer)
-  {
-    // Limited after the slip, or a wire that has slipped in the fingers could not leave the introducer.
-    const double target = command.insertion - channel.slipped_insertion;
-    rest.insertion = (instruments() > 1 ? std::max(outsideInsertion(), target) : target) - now.insertion;
-  }
-  if (scene_.introducer && chuck)  // the chuck waits at a stop
-    rest.insertion = std::clamp(rest.insertion, leastInsertion(instrument) - now.insertion,
-                                std::max(leastInsertion(instrument), mostInsertion(instrument)) - now.insertion);
-  HandIncrement wanted = channel.pacer.follow(rest, stale);
-  // A chuck that is stopped by the force pushes on slowly; fast attempts would only cost sub-steps.
-  const double most = drive.limits.speed * dt * (chuck ? std::max(kStalledSpeed, channel.grip) : 1.0);
-  const double most_turn =
-      drive.limits.turning_speed * dt * (chuck ? std::max(kStalledSpeed, channel.turning_grip) : 1.0);
-  wanted.insertion = std::clamp(wanted.insertion, -most, most);
-  wanted.rotation = std::clamp(wanted.rotation, -most_turn, most_turn);
-  return wanted;
+  const double dt = scene_.solver.time_step;
+  if (!scene_.introducer)
+    return hands_[instrument].wanted(hand(instrument), command, nullptr, stale, dt);
+  const HandleRange range = this->range(instrument);
+  return hands_[instrument].wanted(hand(instrument), command, &range, stale, dt);
+}
+
+HandleRange Simulation::range(int instrument) const
+{
+  const double commanded = instruments() > 1 ? outsideInsertion() : -std::numeric_limits<double>::infinity();
+  return {commanded, leastInsertion(instrument), mostInsertion(instrument)};
 }
 
 /** Least insertion of an instrument. It can leave the introducer only while another one stays in it. */
@@ -206,32 +179,9 @@ double Simulation::mostInsertion(int instrument) const
     if (k != instrument && !isOutside(k) &&
         !instrument::fitsInside(scene_.instruments[inner ? k : instrument].instrument,
                                 scene_.instruments[inner ? instrument : k].instrument))
-      return std::max(outsideInsertion(), std::min(hand(instrument).insertion, channels_[instrument].max_insertion));
+      return std::max(outsideInsertion(), std::min(hand(instrument).insertion, max_insertions_[instrument]));
   }
-  return channels_[instrument].max_insertion;
-}
-
-/** Part of a wanted motion that reaches the wire in a sub-step of @p dt [s]; the grip is updated in every sub-step. */
-HandIncrement Simulation::allowedMotion(int instrument, const HandIncrement& wanted, double dt)
-{
-  HandIncrement motion = wanted;
-  if (!scene_.introducer)
-    return motion;
-  Channel& channel = channels_[instrument];
-  const HandState now = hand(instrument);
-  const scene::DriveScene& drive = scene_.instruments[instrument].drive;
-  channel.grip = nextGrip(channel.grip, wanted.insertion, now.force, drive.force_limit, dt);
-  const double reached = std::max(leastInsertion(instrument),
-                                  std::min(mostInsertion(instrument), now.insertion + channel.grip * wanted.insertion));
-  motion.insertion = reached - now.insertion;
-  const bool slips = drive.grip == drive::Grip::kFingers;
-  if (slips)
-    channel.slipped_insertion += wanted.insertion - motion.insertion;
-  channel.turning_grip = nextGrip(channel.turning_grip, wanted.rotation, now.torque, drive.torque_limit, dt);
-  motion.rotation = channel.turning_grip * wanted.rotation;
-  if (slips)
-    channel.slipped_rotation += wanted.rotation - motion.rotation;
-  return motion;
+  return max_insertions_[instrument];
 }
 
 void Simulation::applyLoads(rod::StepInput& input) const
@@ -362,21 +312,8 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
     repeat();
   }
   for (int k = 0; report_.solved && k < instruments(); ++k)
-    noteSlip(k, wanted[k].inserted_length, handles_[k].inserted_length);
-}
-
-/** Takes over the slip of a hand: its grip is as loose as the motion has shown.
- *  @param wanted, reached insertions [m] */
-void Simulation::noteSlip(int instrument, double wanted, double reached)
-{
-  Channel& channel = channels_[instrument];
-  const double before = rod::handleState(before_, instrument).inserted_length;
-  if (wanted == reached)
-    return;
-  if (wanted != before)
-    channel.grip = std::min(channel.grip, std::clamp((reached - before) / (wanted - before), 0.0, 1.0));
-  if (scene_.instruments[instrument].drive.grip == drive::Grip::kFingers)
-    channel.slipped_insertion += wanted - reached;
+    hands_[k].noteSlip(rod::handleState(before_, k).inserted_length, wanted[k].inserted_length,
+                       handles_[k].inserted_length);
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */
@@ -400,10 +337,15 @@ void Simulation::setHandles(const std::vector<HandIncrement>& parts, bool stale,
   handles_.clear();
   for (int k = 0; k < instruments(); ++k)
   {
-    const HandIncrement motion = stale ? HandIncrement() : allowedMotion(k, parts[k], dt);
-    if (stale)
-      channels_[k].pacer.miss(parts[k]);
     const HandState now = hand(k);
+    HandIncrement motion = parts[k];
+    if (stale)
+    {
+      hands_[k].pacer().miss(parts[k]);
+      motion = HandIncrement();
+    }
+    else if (scene_.introducer)
+      motion = hands_[k].allowed(now, parts[k], range(k), dt);
     handles_.push_back({now.insertion + motion.insertion, now.rotation + motion.rotation});
   }
   input.setHandles(handles_);
@@ -424,7 +366,7 @@ void Simulation::endTreatments()
 
 void Simulation::stepAll(const std::vector<HandCommand>& commands)
 {
-  if (commands.size() != channels_.size())
+  if (commands.size() != hands_.size())
     throw std::invalid_argument("Simulation: requires one command for every instrument");
   timer_.reset();
   PhaseTimer::Scope scope(timer_, Phase::kControl);
@@ -454,7 +396,7 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
     input.vessel_version = vessel_version;
     // The pacer has slowed the handle already, unless the first stale set occurred in the middle of a fast step.
     const bool stale =
-        k > 1 && travel > channels_.front().pacer.reach() && contacts_ != nullptr && stepper_->contactSet().stale;
+        k > 1 && travel > hands_.front().pacer().reach() && contacts_ != nullptr && stepper_->contactSet().stale;
     setHandles(parts_, stale, dt, input);
     input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);

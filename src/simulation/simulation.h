@@ -11,7 +11,6 @@
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
 #include "drive/grip_search.h"
-#include "drive/hand_command.h"
 #include "rod/boundary/hemostatic_valve.h"
 #include "rod/energy/energy_audit.h"
 #include "rod/sampling/adaptive_sampling.h"
@@ -19,25 +18,13 @@
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
 #include "simulation/balloon_treatments.h"
-#include "simulation/degraded/stale_contact_pacer.h"
+#include "simulation/handle.h"
 
 namespace endovascular_sim::simulation
 {
 
-using drive::HandCommand;
-
 /** Commands of the scene's drives for all instruments at a time [s]. */
 std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time);
-
-/** Handle of one instrument: its position, and force and torque on the user's hand. */
-struct HandState
-{
-  double insertion = 0.0;  ///< tip beyond the introducer; negative: outside [m]
-  double rotation = 0.0;   ///< rotation of the handle [rad]
-  double force = 0.0;      ///< axial force on the hand, positive where it resists pushing [N]
-  double torque = 0.0;     ///< torque that the hand holds [N·m]
-  double pressure = 0.0;   ///< pressure at the inflator of the instrument's balloon [Pa]
-};
 
 /** Simulation of a scene in fixed time steps. The nodes and the offline tool run this same code, so that the same
  *  commands give the same trajectory bit for bit. */
@@ -64,7 +51,7 @@ public:
   void stepAll(const std::vector<HandCommand>& commands);
 
   /** Number of the scene's instruments. */
-  int instruments() const { return static_cast<int>(channels_.size()); }
+  int instruments() const { return static_cast<int>(hands_.size()); }
 
   /** Handle of an instrument. */
   HandState hand(int instrument) const;
@@ -141,19 +128,6 @@ public:
   std::uint64_t trajectoryHash() const { return trajectory_.value(); }
 
 private:
-  /** Limits of the motion from one handle to its wire. */
-  struct Channel
-  {
-    StaleContactPacer pacer;
-    double slipped_insertion = 0.0;  ///< command minus what reached the wire; 0 for a chuck [m]
-    double slipped_rotation = 0.0;   ///< [rad]
-    double grip = 1.0;               ///< grip while pushing, 1 firm to 0 slipping
-    double turning_grip = 1.0;       ///< grip while turning, 1 firm to 0 slipping
-    double max_insertion = 0.0;      ///< [m]
-
-    void archive(Archive& archive);
-  };
-
   void setMaxInsertions();
   rod::State initialState() const;
   double outsideInsertion() const;
@@ -161,7 +135,7 @@ private:
   void requireFit() const;
   void setPressures(const std::vector<HandCommand>& commands);
   HandIncrement wantedMotion(int instrument, const HandCommand& command);
-  HandIncrement allowedMotion(int instrument, const HandIncrement& wanted, double dt);
+  HandleRange range(int instrument) const;
   double leastInsertion(int instrument) const;
   double mostInsertion(int instrument) const;
   int substepsFor(const std::vector<HandIncrement>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
@@ -174,7 +148,6 @@ private:
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
-  void noteSlip(int instrument, double wanted, double reached);
   bool isBeyondGrip() const;
   drive::GripSearch gripSearch() const;
 
@@ -189,7 +162,8 @@ private:
   std::unique_ptr<rod::Stepper> stepper_;
   rod::State state_;
   rod::StepReport report_;
-  std::vector<Channel> channels_;  ///< one per instrument
+  std::vector<Handle> hands_;           ///< one per instrument
+  std::vector<double> max_insertions_;  ///< at which the introducer's guide is still filled [m]
   std::vector<HandIncrement> wanted_, parts_;
   rod::State before_;                     ///< state before the present sub-step
   std::vector<rod::LayerInput> handles_;  ///< of the present sub-step, one per instrument

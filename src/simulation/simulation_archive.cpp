@@ -111,24 +111,17 @@ void checkHeader(const Header& header, const Header& wanted, const std::string& 
 
 }  // namespace
 
-void Simulation::Channel::archive(Archive& archive)
-{
-  archive(pacer, slipped_insertion, slipped_rotation, grip, turning_grip);
-  if (archive.reading())
-    requireFinite(slipped_insertion, slipped_rotation, grip, turning_grip);
-}
-
 void Simulation::archive(Archive& archive)
 {
   std::uint64_t trajectory = trajectory_.value();
   archive(steps_, trajectory, state_hash_, pressures_, samples_);
   if (archive.reading())
   {
-    requireLength(channels_.size(), pressures_);
+    requireLength(hands_.size(), pressures_);
     requireFinite(pressures_);
   }
-  for (Channel& channel : channels_)
-    archive(channel);
+  for (Handle& hand : hands_)
+    archive(hand);
   trajectory_.resume(trajectory);
   if (samples_ && !sampling_)
     throw ArchiveError("has adaptive sampling, which the scene has not");
