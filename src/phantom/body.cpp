@@ -1,12 +1,13 @@
 #include "phantom/body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-#include "phantom/bones.h"
+#include "common/units.h"
+#include "fluoroscopy/patient/body/body_model.h"
+#include "fluoroscopy/patient/body/body_placement.h"
 #include "phantom/solids.h"
 
 namespace endovascular_sim::phantom
@@ -16,74 +17,15 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kMm = 1e-3;
-/** Thickness of skin and subcutaneous fat [m]. */
-constexpr double kSkin = 0.016;
-/** Thickness of the muscles of the trunk [m]. */
-constexpr double kMuscle = 0.014;
+constexpr int kAround = 12;  ///< points of the wall around a centreline
 
 /** Ellipsoid in millimetres. */
 Solid ellipsoidMm(const Vector3d& centre, const Vector3d& semi_axes)
 {
-  return ellipsoid(kMm * centre, kMm * semi_axes);
+  return ellipsoid(units::kMillimetre * centre, units::kMillimetre * semi_axes);
 }
 
-/** Outline of the trunk at a height. */
-struct Outline
-{
-  double height, half_width, half_depth, middle;  ///< [mm]; middle: y of the centre
-};
-
-constexpr std::array<Outline, 9> kOutlines = {{{-260, 178, 112, -4},
-                                               {-110, 176, 118, -4},
-                                               {40, 156, 116, -6},
-                                               {180, 166, 128, -6},
-                                               {290, 178, 118, -4},
-                                               {340, 168, 95, 2},
-                                               {372, 82, 78, 10},
-                                               {410, 62, 68, 14},
-                                               {470, 62, 70, 14}}};
-
-Outline outlineAt(double height)
-{
-  std::size_t k = 0;
-  while (k + 2 < kOutlines.size() && kOutlines[k + 1].height < height)
-    ++k;
-  const Outline& a = kOutlines[k];
-  const Outline& b = kOutlines[k + 1];
-  const double t = std::clamp((height - a.height) / (b.height - a.height), 0.0, 1.0);
-  const auto mix = [t](double u, double v) { return u + t * (v - u); };
-  return {height, mix(a.half_width, b.half_width), mix(a.half_depth, b.half_depth), mix(a.middle, b.middle)};
-}
-
-/** Trunk, reduced by a depth below the skin. The factor bounds the slope of the outline. */
-Solid trunk(double depth)
-{
-  return [depth](const Vector3d& p)
-  {
-    const Outline outline = outlineAt(p.z() / kMm);
-    const Vector3d q(p.x() / (kMm * outline.half_width - depth),
-                     (p.y() - kMm * outline.middle) / (kMm * outline.half_depth - depth), 0.0);
-    const double least = kMm * std::min(outline.half_width, outline.half_depth) - depth;
-    return 0.25 * (q.norm() - 1.0) * least;
-  };
-}
-
-void addTrunk(std::vector<TissuePart>& parts)
-{
-  parts.push_back({Tissue::kFat, trunk(0.0)});
-  parts.push_back({Tissue::kSoftTissue, trunk(kSkin)});
-  parts.push_back({Tissue::kFat, intersection(trunk(kSkin + kMuscle), ellipsoidMm({0, -20, 40}, {150, 115, 160}))});
-  parts.push_back({Tissue::kLung, intersection(trunk(kSkin + kMuscle), ellipsoidMm({-72, 0, 235}, {66, 105, 112}))});
-  parts.push_back({Tissue::kLung, intersection(trunk(kSkin + kMuscle), ellipsoidMm({76, 4, 240}, {62, 102, 110}))});
-  parts.push_back({Tissue::kOrgan, intersection(trunk(kSkin + kMuscle), ellipsoidMm({-62, -12, 112}, {88, 92, 68}))});
-  parts.push_back({Tissue::kOrgan, ellipsoidMm({88, 36, 112}, {38, 52, 50})});  // spleen
-  parts.push_back({Tissue::kOrgan, ellipsoidMm({62, 52, 62}, {28, 25, 55})});   // kidneys
-  parts.push_back({Tissue::kOrgan, ellipsoidMm({-60, 52, 54}, {28, 25, 55})});
-  parts.push_back({Tissue::kSoftTissue, ellipsoidMm({-8, -52, -10}, {95, 40, 85})});  // bowel
-  parts.push_back({Tissue::kFat, ellipsoidMm({2, 6, 265}, {48, 62, 95})});            // upper mediastinum
-}
-
+/** Heart of config/anatomies/plain.yaml with contrast medium in its chambers. */
 void addHeart(std::vector<TissuePart>& parts)
 {
   parts.push_back({Tissue::kFat, ellipsoidMm({20, -30, 150}, {85, 85, 90})});  // mediastinal and epicardial fat
@@ -140,14 +82,36 @@ void addVeins(std::vector<TissuePart>& parts, const vessel::Anatomy& anatomy,
 
 }  // namespace
 
-std::vector<TissuePart> bodyParts(const vessel::Anatomy& anatomy, const std::vector<vessel::AnatomyChain>& chains)
+std::optional<fluoroscopy::DensityVolume> bodyDensities(const vessel::Anatomy& anatomy,
+                                                        const std::vector<vessel::AnatomyChain>& chains,
+                                                        const Eigen::AlignedBox3d& box)
+{
+  vessel::Vessel vessel;
+  vessel.centreline = vessel::anatomyCentreline(anatomy, chains);
+  const fluoroscopy::body::BodyPlacement placement = fluoroscopy::body::placeBody(vessel);
+  if (!placement.by_landmarks)
+    return std::nullopt;
+  const double spacing = fluoroscopy::BodySettings().spacing;
+  image::VolumeGrid grid;
+  grid.spacing.setConstant(spacing);
+  grid.origin = box.min() - Vector3d::Constant(spacing);
+  grid.size = ((box.sizes() / spacing).array().ceil().cast<int>() + 3).matrix();
+  std::vector<Vector3d> wall;
+  for (const vessel::AnatomyChain& chain : chains)
+    for (std::size_t k = 0; k < chain.points.size(); ++k)
+      for (int around = 0; around < kAround; ++around)
+        wall.push_back(besideAxis(chain, k, 2.0 * units::kPi * around / kAround, chain.radii[k]));
+  fluoroscopy::DensityVolume volume(grid, "phantom");
+  fluoroscopy::drawBody(placement.frame, wall, fluoroscopy::BodySettings().seed, volume);
+  return volume;
+}
+
+std::vector<TissuePart> heartParts(const vessel::Anatomy& anatomy, const std::vector<vessel::AnatomyChain>& chains)
 {
   std::vector<TissuePart> parts;
   if (anatomy.name != "plain")
-    return {{Tissue::kFat, [](const Vector3d&) { return -1.0; }}};
-  addTrunk(parts);
+    return parts;
   addHeart(parts);
-  addBones(parts);
   addVeins(parts, anatomy, chains);
   return parts;
 }

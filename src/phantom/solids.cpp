@@ -30,23 +30,4 @@ Solid ballChain(std::vector<Eigen::Vector3d> centres, double radius)
   };
 }
 
-Solid intersection(Solid a, Solid b)
-{
-  return [a = std::move(a), b = std::move(b)](const Eigen::Vector3d& p) { return std::max(a(p), b(p)); };
-}
-
-Solid difference(Solid a, Solid b)
-{
-  return [a = std::move(a), b = std::move(b)](const Eigen::Vector3d& p) { return std::max(a(p), -b(p)); };
-}
-
-Solid shell(const Solid& solid, double thickness)
-{
-  return [solid, thickness](const Eigen::Vector3d& p)
-  {
-    const double d = solid(p);
-    return std::max(d, -d - thickness);
-  };
-}
-
 }  // namespace endovascular_sim::phantom

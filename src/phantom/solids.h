@@ -21,13 +21,4 @@ Solid ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& semi_axes)
 /** Chain of balls: a tube through points. */
 Solid ballChain(std::vector<Eigen::Vector3d> centres, double radius);
 
-/** Points of both solids. */
-Solid intersection(Solid a, Solid b);
-
-/** Points of the first solid that are not in the second one. */
-Solid difference(Solid a, Solid b);
-
-/** Surface layer of a solid, inside of it. */
-Solid shell(const Solid& solid, double thickness);
-
 }  // namespace endovascular_sim::phantom

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fluoroscopy/patient/volume/hounsfield.h"
+
 namespace endovascular_sim::phantom
 {
 namespace
@@ -25,8 +27,6 @@ double hounsfield(Tissue tissue)
       return -90.0;
     case Tissue::kSoftTissue:
       return 55.0;
-    case Tissue::kOrgan:
-      return 110.0;
     case Tissue::kMyocardium:
       return 110.0;
     case Tissue::kLeftVentricle:
@@ -39,10 +39,6 @@ double hounsfield(Tissue tissue)
       return 300.0;
     case Tissue::kVein:
       return 220.0;
-    case Tissue::kDisc:
-      return 80.0;
-    case Tissue::kMarrow:
-      return 200.0;
     case Tissue::kCortex:
       return 700.0;
     case Tissue::kWall:
@@ -83,11 +79,29 @@ double magneticSignal(Tissue tissue, double height)
   }
 }
 
+/** Tissue of a density, for the signal of magnetic resonance. */
+Tissue tissueOf(const fluoroscopy::Density& density)
+{
+  if (density.bone > 300.0)
+    return Tissue::kCortex;
+  const double total = density.tissue + density.bone;
+  return total < 130.0   ? Tissue::kAir
+         : total < 600.0 ? Tissue::kLung
+         : total < 990.0 ? Tissue::kFat
+                         : Tissue::kSoftTissue;
+}
+
 }  // namespace
 
 double tissueValue(Tissue tissue, image::Modality modality, double height)
 {
   return modality == image::Modality::kCt ? hounsfield(tissue) : magneticSignal(tissue, height);
+}
+
+double bodyValue(const fluoroscopy::Density& density, image::Modality modality, double height)
+{
+  return modality == image::Modality::kCt ? fluoroscopy::hounsfieldOf(density)
+                                          : magneticSignal(tissueOf(density), height);
 }
 
 }  // namespace endovascular_sim::phantom

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "fluoroscopy/patient/volume/density_volume.h"
 #include "image/volume.h"
 
 namespace endovascular_sim::phantom
@@ -16,15 +17,12 @@ enum class Tissue
   kLung,
   kFat,
   kSoftTissue,
-  kOrgan,  ///< liver, spleen, kidney with contrast
   kMyocardium,
   kLeftVentricle,
   kRightVentricle,
   kLeftAtrium,
   kPulmonaryTrunk,
   kVein,
-  kDisc,
-  kMarrow,
   kCortex,
   kWall,
   kLumen,
@@ -35,6 +33,9 @@ enum class Tissue
  * The signal of the lumen falls towards the feet.
  *  @param height of the point above the aortic bifurcation [m] */
 double tissueValue(Tissue tissue, image::Modality modality, double height);
+
+/** Value of a voxel of the body: the CT number of its density, or the signal of the tissue that has it. */
+double bodyValue(const fluoroscopy::Density& density, image::Modality modality, double height);
 
 /** Region of one tissue. Regions are drawn in the order of a list, each over the earlier ones. */
 struct TissuePart

@@ -15,6 +15,7 @@ namespace
 constexpr int kBlock = 8;  ///< voxels along the edge of a block
 /** Bound of the slope of the implicit vessel. */
 constexpr double kVesselSlope = 1.15;
+constexpr double kSleeve = 2.5e-3;  ///< distance from the lumen up to which fat surrounds a vessel in the body [m]
 
 }  // namespace
 
@@ -27,16 +28,18 @@ TissuePainter::TissuePainter(const vessel::Anatomy& anatomy, const image::Volume
     field_(anatomy, vessel::sampleChains(anatomy))
 {
   const std::vector<vessel::AnatomyChain> chains = vessel::sampleChains(anatomy);
-  body_ = bodyParts(anatomy, chains);
+  body_ = bodyDensities(anatomy, chains, grid.bounds());
+  heart_ = heartParts(anatomy, chains);
   plaques_ = calcifiedPlaques(anatomy, chains);
 }
 
 TissuePainter::BlockParts TissuePainter::partsOf(const Eigen::Vector3d& centre, double reach) const
 {
   BlockParts parts;
-  parts.value = tissueValue(Tissue::kAir, modality_, centre.z());
+  parts.in_body = body_.has_value();
+  parts.value = tissueValue(Tissue::kFat, modality_, centre.z());
   const double border = reach + voxel_;
-  for (const TissuePart& part : body_)
+  for (const TissuePart& part : heart_)
   {
     const double d = part.distance(centre);
     if (d > border)
@@ -44,12 +47,14 @@ TissuePainter::BlockParts TissuePainter::partsOf(const Eigen::Vector3d& centre, 
     if (d < -border)  // covers the block and everything drawn before
     {
       parts.body.clear();
+      parts.in_body = false;
       parts.value = tissueValue(part.tissue, modality_, centre.z());
     }
     else
       parts.body.push_back(&part);
   }
-  parts.near_vessel = field_.at(centre).distance < kVesselSlope * (reach + wall_thickness_ + voxel_);
+  const double beside = (parts.in_body ? std::max(wall_thickness_, kSleeve) : wall_thickness_) + voxel_;
+  parts.near_vessel = field_.at(centre).distance < kVesselSlope * (reach + beside);
   for (const TissuePart& plaque : plaques_)
     if (plaque.distance(centre) <= border)
       parts.plaques.push_back(&plaque);
@@ -63,14 +68,21 @@ void TissuePainter::blend(double& value, double distance, Tissue tissue, double 
     value += share * (tissueValue(tissue, modality_, height) - value);
 }
 
+double TissuePainter::bodyAt(const Eigen::Vector3d& p) const
+{
+  return bodyValue(body_->interpolate(p), modality_, p.z());
+}
+
 double TissuePainter::valueAt(const Eigen::Vector3d& p, const BlockParts& parts) const
 {
-  double value = parts.value;
+  const double wall = parts.near_vessel ? field_.at(p).distance : HUGE_VAL;
+  double value = parts.in_body ? bodyAt(p) : parts.value;
+  if (parts.in_body)
+    blend(value, wall - kSleeve, Tissue::kFat, p.z());
   for (const TissuePart* part : parts.body)
     blend(value, part->distance(p), part->tissue, p.z());
   if (!parts.near_vessel)
     return value;
-  const double wall = field_.at(p).distance;
   blend(value, wall - wall_thickness_, Tissue::kWall, p.z());
   blend(value, wall, Tissue::kLumen, p.z());
   for (const TissuePart* plaque : parts.plaques)
@@ -86,7 +98,7 @@ void TissuePainter::paintBlock(int first, int column, int row, std::vector<std::
   const Eigen::Vector3d middle = 0.5 * (begin + end - Eigen::Vector3i::Ones()).cast<double>();
   const double reach = 0.5 * (end - begin).cast<double>().cwiseProduct(grid_.spacing).norm();
   const BlockParts parts = partsOf(grid_.position(middle), reach);
-  const bool uniform = parts.body.empty() && !parts.near_vessel;
+  const bool uniform = !parts.in_body && parts.body.empty() && !parts.near_vessel;
   for (int k = begin.z(); k < end.z(); ++k)
   {
     std::vector<float>& slice = slices[static_cast<std::size_t>(k - first)];

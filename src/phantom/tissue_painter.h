@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "image/volume_grid.h"
@@ -25,13 +26,15 @@ private:
   /** Parts that a block of voxels meets, in the order of drawing. */
   struct BlockParts
   {
-    double value = 0.0;                   ///< of the tissue that covers the whole block
+    bool in_body = true;                  ///< false: one tissue covers the whole block
+    double value = 0.0;                   ///< of that tissue
     std::vector<const TissuePart*> body;  ///< parts with a surface near the block
     bool near_vessel = false;
     std::vector<const TissuePart*> plaques;
   };
 
   BlockParts partsOf(const Eigen::Vector3d& centre, double reach) const;
+  double bodyAt(const Eigen::Vector3d& p) const;
   double valueAt(const Eigen::Vector3d& p, const BlockParts& parts) const;
   void blend(double& value, double distance, Tissue tissue, double height) const;
   void paintBlock(int first, int column, int row, std::vector<std::vector<float>>& slices) const;
@@ -41,7 +44,8 @@ private:
   double wall_thickness_;
   double voxel_;  ///< width of the border between two tissues [m]
   vessel::ImplicitVessel field_;
-  std::vector<TissuePart> body_;
+  std::optional<fluoroscopy::DensityVolume> body_;  ///< empty: fat
+  std::vector<TissuePart> heart_;
   std::vector<TissuePart> plaques_;
 };
 

@@ -40,6 +40,7 @@
 namespace
 {
 
+using endovascular_sim::formatted;
 using endovascular_sim::InputError;
 using endovascular_sim::haptics::DeviceSimulator;
 using endovascular_sim::haptics::HandMotion;

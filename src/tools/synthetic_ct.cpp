@@ -129,15 +129,14 @@ int main(int argc, char** argv)
   Options options;
   tools::CommandLine line(
       "synthetic_ct",
-      "Makes a CT or MR angiogram of a generated anatomy, whose lumen is known exactly: wall, fat, heart chambers, "
-      "veins, "
-      "calcium, bones and lungs around the vessels, point spread and correlated noise. The result is a volume like "
+      "Makes a CT or MR angiogram of a generated anatomy, whose lumen is known exactly: wall, "
+      "calcium, and the body of X-ray images around the vessels, point spread and correlated noise. The result is a "
+      "volume like "
       "those of volume_import, in the patient frame of the anatomy.",
       "Exit code: 0 the volume was written; 1 an input was rejected, the reason is on the error stream; 2 wrong "
       "arguments.");
   line.option("--out", options.out, "FILE", "file of the volume")->required();
-  line.option("--anatomy", options.anatomy, "FILE",
-              "anatomy file [config/anatomies/plain.yaml]; tissues other than fat surround only that one")
+  line.option("--anatomy", options.anatomy, "FILE", "anatomy file [config/anatomies/plain.yaml]")
       ->check(CLI::ExistingFile);
   line.option("--view", options.view, "VIEW",
               "field of view: heart (0.45 mm), abdomen (0.8 mm), torso (1 mm), fit: all vessels (0.5 mm) [heart]")

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "fluoroscopy/patient/body/body_model.h"
+#include "fluoroscopy/patient/volume/hounsfield.h"
 #include "phantom/true_clicks.h"
+#include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/anatomy/implicit_vessel.h"
 
 namespace endovascular_sim::phantom
@@ -101,6 +104,35 @@ TEST(Phantom, OfMagneticResonanceHasASignalThatFallsTowardsTheFeet)
                      static_cast<int>(std::lround(index.z())));
   };
   EXPECT_GT(at({0.0235, 0.0445, 0.21}), 1.2 * at({0.005, 0.014, 0.067}));
+}
+
+TEST(Phantom, OfTheNaturalAnatomyHasTheBodyOfItsXRayImages)
+{
+  const vessel::Vessel natural = vessel::loadAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/natural.yaml", "");
+  const fluoroscopy::PatientVolume patient = fluoroscopy::makeBody(natural, {2.5e-3, 1});
+  const vessel::Anatomy anatomy = vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/natural.yaml");
+  const vessel::ImplicitVessel field(anatomy, vessel::sampleChains(anatomy));
+  PhantomSettings settings;
+  settings.noise = 0.0;
+  settings.grid = gridOfBox({-0.15, -0.12, 0.0}, {0.15, 0.12, 0.1}, Eigen::Vector3d::Constant(5e-3));
+  const image::Volume ct = makePhantom(anatomy, settings);
+  double bones = 0.0;
+  double wrong = 0.0;
+  double count = 0.0;
+  for (int k = 0; k < ct.grid.size.z(); ++k)
+    for (int j = 0; j < ct.grid.size.y(); ++j)
+      for (int i = 0; i < ct.grid.size.x(); ++i)
+      {
+        const Eigen::Vector3d p = ct.grid.position(Eigen::Vector3d(i, j, k));
+        if (field.at(p).distance < 8e-3)
+          continue;
+        const double expected = fluoroscopy::hounsfieldOf(patient.volume->interpolate(p));
+        wrong += std::abs(ct.at(i, j, k) - expected) > 150.0 ? 1.0 : 0.0;  // edges are as wide as a voxel
+        bones += expected > 200.0 ? 1.0 : 0.0;
+        count += 1.0;
+      }
+  EXPECT_GT(bones, 0.01 * count);
+  EXPECT_LT(wrong, 0.05 * count);
 }
 
 TEST(Phantom, RefusesSettingsOutOfRange)

@@ -49,12 +49,12 @@ struct Accuracy
   double throat_shift = 0.0;  ///< distance of the segmented throat from the true one [m]
 };
 
-/** Exact geometry of config/anatomies/plain.yaml. */
+/** Exact geometry of an anatomy. */
 class Truth
 {
 public:
-  Truth()
-    : anatomy(vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml")),
+  explicit Truth(const std::string& name = "plain")
+    : anatomy(vessel::readAnatomy(std::string(PROJECT_DIR) + "/config/anatomies/" + name + ".yaml")),
       chains(vessel::sampleChains(anatomy)),
       field(anatomy, chains)
   {

@@ -105,6 +105,40 @@ INSTANTIATE_TEST_SUITE_P(Branches, SegmentationOfTheHeart,
                          ::testing::Values("left_anterior_descending", "left_circumflex", "right_coronary"),
                          [](const auto& info) { return std::string(info.param); });
 
+class SegmentationOfTheNaturalAnatomy : public ::testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(SegmentationOfTheNaturalAnatomy, MeetsTheBoundsOfThePlainOne)
+{
+  const Truth truth("natural");
+  const std::string name = GetParam();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : truth.chain(name).points)
+    box.extend(point);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.012);
+  const Scan scan(heartScan(truth, {}, box.min() - margin, box.max() + margin));
+  const ClickSet clicks = clicksInto(truth, {name}, scan.volume().grid, 1);
+  const Accuracy a = accuracyOf(
+      truth, scan, segmentBranches(scan, clicks, edgeSettings(scan.modality(), scan.spacing()), 0).branches[0]);
+  std::printf("%s: Dice %.4f, mean %.3f, 95 %% %.3f mm, bias %+.3f %+.3f, rms %.3f %.3f mm, volume %.3f\n",
+              name.c_str(), a.dice, 1e3 * a.mean, 1e3 * a.p95, 1e3 * a.small.bias, 1e3 * a.medium.bias,
+              1e3 * a.small.rms, 1e3 * a.medium.rms, a.volume_ratio);
+  EXPECT_GE(a.dice, 0.97);
+  EXPECT_LE(a.mean, 5e-5);
+  EXPECT_LE(a.p95, 1.2e-4);
+  EXPECT_LE(a.volume_ratio, 1.1);
+  for (const DiameterErrors& errors : {a.small, a.medium})
+  {
+    EXPECT_LE(std::abs(errors.bias), 6e-5);
+    EXPECT_LE(errors.rms, 1e-4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Branches, SegmentationOfTheNaturalAnatomy,
+                         ::testing::Values("left_anterior_descending", "left_circumflex", "right_coronary"),
+                         [](const auto& info) { return std::string(info.param); });
+
 TEST(Segmentation, OfATreeIsCloseToTheExactSurfaceAlsoAtOstiaBifurcationsAndInTheAorta)
 {
   const Truth truth;

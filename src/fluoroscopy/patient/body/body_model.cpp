@@ -85,24 +85,27 @@ std::uint64_t keyOf(const vessel::Vessel& vessel, const body::BodyFrame& frame, 
 
 }  // namespace
 
+double drawBody(const body::BodyFrame& frame, const std::vector<Eigen::Vector3d>& wall, std::uint64_t seed,
+                DensityVolume& volume)
+{
+  std::vector<body::Point> points;
+  for (const Eigen::Vector3d& point : wall)
+    points.push_back(frame.fromPatient(point));
+  const body::SpineCurve spine(points);
+  voxelise(planFor(spine, seed), frame, seed, volume);
+  return 1e-3 * frame.scale * static_cast<double>(spine.displacement());
+}
+
 PatientVolume makeBody(const vessel::Vessel& vessel, const BodySettings& settings)
 {
   check(settings);
   const body::BodyPlacement placement = body::placeBody(vessel);
-  std::vector<body::Point> wall;
-  for (const Eigen::Vector3d& vertex : vessel.mesh.vertices)
-    wall.push_back(placement.frame.fromPatient(vertex));
-  const body::SpineCurve spine(wall);
   auto volume = std::make_shared<DensityVolume>(gridFor(placement.frame, settings.spacing), "patient.body");
-  voxelise(planFor(spine, settings.seed), placement.frame, settings.seed, *volume);
+  const double displacement = drawBody(placement.frame, vessel.mesh.vertices, settings.seed, *volume);
   placeVessel(*volume, vessel.mesh);
   PatientVolume body{std::move(volume), {placement.note}};
-  if (spine.displacement() > 0.0F)
-  {
-    const std::string note = formatted("spine moved back by up to %.0f mm for the vessel",
-                                       static_cast<double>(spine.displacement()) * placement.frame.scale);
-    body.notes.emplace_back(note);
-  }
+  if (displacement > 0.0)
+    body.notes.push_back(formatted("spine moved back by up to %.0f mm for the vessel", 1e3 * displacement));
   return body;
 }
 

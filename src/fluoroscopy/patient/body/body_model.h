@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "fluoroscopy/patient/solid/voxeliser.h"
 #include "fluoroscopy/patient/volume/patient_volume.h"
 #include "vessel/model/vessel.h"
 
@@ -23,6 +25,12 @@ struct BodySettings
  * contains bone. Equal inputs give equal bytes.
  *  @throws InputError for a spacing outside of 0.5 to 10 mm */
 PatientVolume makeBody(const vessel::Vessel& vessel, const BodySettings& settings = {});
+
+/** Draws the body into a volume whose lattice is parallel to the patient's axes, without the vessel.
+ *  @param wall points of the vessel's wall, which the spine avoids; patient frame [m]
+ *  @return largest displacement of the spine for the vessel [m] */
+double drawBody(const body::BodyFrame& frame, const std::vector<Eigen::Vector3d>& wall, std::uint64_t seed,
+                DensityVolume& volume);
 
 /** Body from the cache, or made and cached.
  *  @param cache_folder as of vessel::loadAnatomy(); empty disables the cache. Damaged entries are rebuilt. A read-only

@@ -37,6 +37,7 @@ BodyPlacement byLandmarks(const vessel::CentrelineBranch& abdominal, const vesse
   BodyPlacement placement;
   placement.frame.scale = std::clamp((top - bifurcation.z()) / (1e-3 * kArchHeight), kMinScale, kMaxScale);
   placement.frame.origin = bifurcation;
+  placement.by_landmarks = true;
   placement.note = formatted("body placed by the aortic bifurcation and the aortic arch, at %.0f %% of its usual size",
                              100.0 * placement.frame.scale);
   return placement;

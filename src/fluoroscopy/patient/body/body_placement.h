@@ -12,7 +12,8 @@ namespace endovascular_sim::fluoroscopy::body
 struct BodyPlacement
 {
   BodyFrame frame;
-  std::string note;  ///< how the frame was found, for the log
+  std::string note;           ///< how the frame was found, for the log
+  bool by_landmarks = false;  ///< false: fitted to the extent of the vessel
 };
 
 /** Places the body by the landmarks of the vessel's centreline: the end of the branch `abdominal_aorta` (bifurcation,

@@ -45,4 +45,17 @@ Density densityFromHounsfield(double number)
   return {(1.0 - fraction) * marrow, fraction * boneLine(std::max(number, kCortexNumber))};
 }
 
+double hounsfieldOf(const Density& density)
+{
+  const double total = density.tissue + density.bone;
+  const double marrow = boneLine(kMarrowNumber);
+  if (total < softLine(kFatNumber))
+    return std::max(-1000.0, interpolate(total, kAir, -1000.0, softLine(kFatNumber), kFatNumber));
+  if (total <= softLine(kOrganNumber))
+    return (total - softLine(0.0)) / (softLine(1.0) - softLine(0.0));
+  if (total <= marrow)
+    return interpolate(total, softLine(kOrganNumber), kOrganNumber, marrow, kMarrowNumber);
+  return (total - boneLine(0.0)) / (boneLine(1.0) - boneLine(0.0));
+}
+
 }  // namespace endovascular_sim::fluoroscopy

@@ -21,4 +21,7 @@ namespace endovascular_sim::fluoroscopy
  *  @param number CT number [HU]; below −1000 counts as −1000, NaN as air */
 Density densityFromHounsfield(double number);
 
+/** CT number of a mixture, by its mass density on the same lines: the inverse of densityFromHounsfield() [HU]. */
+double hounsfieldOf(const Density& density);
+
 }  // namespace endovascular_sim::fluoroscopy

@@ -90,7 +90,7 @@ TEST(BodyModel, HasThePlausibleMassOfATorso)
 TEST(BodyModel, IsPlacedByLandmarksAndSaysSo)
 {
   const std::string& note = anatomyBody().notes.at(0);
-  EXPECT_EQ(note, "body placed by the aortic bifurcation and the aortic arch, at 100 % of its usual size");
+  EXPECT_EQ(note, "body placed by the aortic bifurcation and the aortic arch, at 96 % of its usual size");
 }
 
 TEST(BodyModel, IsFittedToTheExtentOfAVesselWithoutLandmarksAndSaysSo)

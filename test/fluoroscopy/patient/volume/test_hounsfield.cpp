@@ -38,6 +38,15 @@ TEST(Hounsfield, MassBoneAndSoftTissueBelowBoneIncreaseWithTheNumber)
   }
 }
 
+TEST(Hounsfield, TheNumberOfADensityIsTheInverse)
+{
+  for (int number = -1000; number < 2500; number += 7)
+    EXPECT_NEAR(hounsfieldOf(densityFromHounsfield(number)), number, 1e-9);
+  EXPECT_NEAR(hounsfieldOf({1060.0, 0.0}), 69.0, 1.0);  // blood
+  EXPECT_NEAR(hounsfieldOf({930.0, 0.0}), -98.5, 1.0);  // fat
+  EXPECT_EQ(hounsfieldOf({0.0, 0.0}), -1000.0);
+}
+
 TEST(Hounsfield, NumbersBelowAirAndNoNumbersAreAir)
 {
   EXPECT_DOUBLE_EQ(densityFromHounsfield(-3024.0).tissue, 1.21);
