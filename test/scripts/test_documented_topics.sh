@@ -40,7 +40,8 @@ def mentioned():
     """Names of topics anywhere in the documents, which folders of src with the same first word are not."""
     names = {}
     for path in glob.glob(repository + "/docs/*.md") + [repository + "/README.md", repository + "/CONTRIBUTING.md"]:
-        for name in re.findall(r"`/?(%s/[a-z_<>/]+)`" % FIRST_WORDS, open(path).read()):
+        present = re.sub(r"^## Names agreed for coming parts.*?(?=^## |\Z)", "", open(path).read(), flags=re.MULTILINE | re.DOTALL)
+        for name in re.findall(r"`/?(%s/[a-z_<>/]+)`" % FIRST_WORDS, present):
             if not os.path.exists(os.path.join(repository, "src", name.strip("/"))) and "..." not in name:
                 names.setdefault(general(name), set()).add(os.path.basename(path))
     return names
