@@ -333,6 +333,22 @@ void Session::load(const std::string& state, const std::string& origin)
   start(std::move(loaded));
 }
 
+std::vector<std::string> Session::adopt(const std::string& state, const std::string& origin)
+{
+  std::unique_ptr<Run> adopted = begin(seed());
+  std::istringstream stream(state);
+  std::vector<std::string> dropped = {"contact forces and grip of the wall: solved anew in the next step"};
+  if (adopted->simulation.adopt(stream, world_->meshHash(), origin))
+    dropped.emplace_back("operator of the procedure, commands in progress and seed of the saved session");
+  if (adopted->scripted)
+    dropped.emplace_back("progress of the procedure: it begins with its first step");
+  if (settings_.results)
+    dropped.emplace_back("results of the steps before");
+  adopted->hands.restAt(adopted->simulation);
+  start(std::move(adopted));
+  return dropped;
+}
+
 void Session::finish(const std::string& folder, RecordFiles files)
 {
   record();

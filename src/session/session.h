@@ -136,6 +136,13 @@ public:
    *  @throws InputError for a damaged state, or one of another version, scene or vessel */
   void load(const std::string& state, const std::string& origin = "state");
 
+  /** Takes over the state of a scene with other parameters, e.g. friction, stiffness or limits, but the same
+   *  instruments, nodes and vessel (World::with()). The commands of the drives go on at the time of the state. A
+   * refused state has no effect.
+   *  @return what was dropped, as texts
+   *  @throws InputError as load(), and for a state of other instruments or nodes */
+  std::vector<std::string> adopt(const std::string& state, const std::string& origin = "state");
+
   // ---------------------------------------------------------------------------------------------------------- results
 
   /** Ends the results and writes them into a folder, which is created if missing. Later steps are not added.

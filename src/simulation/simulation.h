@@ -87,6 +87,14 @@ public:
   void load(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state",
             const std::function<void(Archive&)>& more = nullptr);
 
+  /** Takes over the state of a scene with other parameters, e.g. friction, stiffness or limits, but the same
+   *  instruments, nodes and vessel: shape, motion, handles, balloons and number of steps. Contacts are detected and
+   *  solved anew. The caller's own data are skipped.
+   *  @return true if the state holds data of its caller
+   *  @throws InputError when the state is damaged, or belongs to another version, vessel, wire or sampling; the
+   *          simulation then needs a load before its next step */
+  bool adopt(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state");
+
   /** Starts an energy audit, or ends it with null. The trajectory is the same with and without.
    *  @param audit must outlive the steps
    *  @throws std::logic_error for a scheme without SchemeTraits::audits */
@@ -132,6 +140,8 @@ private:
   rod::State initialState() const;
   double outsideInsertion() const;
   void archive(Archive& archive);
+  void read(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin, bool of_same_scene,
+            const std::function<void(Archive&)>& more);
   void requireFit() const;
   void setPressures(const std::vector<HandCommand>& commands);
   HandIncrement wantedMotion(int instrument, const HandCommand& command);

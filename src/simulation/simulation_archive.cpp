@@ -88,7 +88,8 @@ std::string checked(std::string bytes, const std::string& origin)
   return bytes;
 }
 
-void checkHeader(const Header& header, const Header& wanted, const std::string& origin)
+/** @param of_same_scene false: accepts the state of another scene */
+void checkHeader(const Header& header, const Header& wanted, const std::string& origin, bool of_same_scene)
 {
   if (header.format != kFormat)
     throw InputError(origin, "",
@@ -100,7 +101,7 @@ void checkHeader(const Header& header, const Header& wanted, const std::string& 
                      "was saved with physics number " + std::to_string(header.physics) + " by endovascular_sim " +
                          header.writer + "; this version has number " + std::to_string(wanted.physics) +
                          "; load it with the version that wrote it, or save it again");
-  if (header.scene_hash != wanted.scene_hash)
+  if (of_same_scene && header.scene_hash != wanted.scene_hash)
     throw InputError(origin, "",
                      "was saved in another scene, or with other values (hash " + Hash64::toHex(header.scene_hash) +
                          ", this one's is " + Hash64::toHex(wanted.scene_hash) +
@@ -171,6 +172,26 @@ void Simulation::save(std::ostream& stream, std::uint64_t vessel_hash, const std
 void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin,
                       const std::function<void(Archive&)>& more)
 {
+  read(stream, vessel_hash, origin, true, more);
+}
+
+bool Simulation::adopt(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin)
+{
+  bool has_more = false;
+  read(stream, vessel_hash, origin, false,
+       [&has_more](Archive& archive)
+       {
+         has_more = !archive.atEnd();
+         archive.skipRest();
+       });
+  stepper_->invalidateContacts();
+  return has_more;
+}
+
+/** @param of_same_scene false: accepts the state of another scene */
+void Simulation::read(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin, bool of_same_scene,
+                      const std::function<void(Archive&)>& more)
+{
   if (!scene_.solver.traits().saves)
     throw InputError(scene_.file, "solver.scheme", "'" + scene_.solver.scheme + "' cannot be loaded; use kkt");
   Archive in(checked({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, origin));
@@ -181,7 +202,7 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   try
   {
     in(header);
-    checkHeader(header, wanted, origin);
+    checkHeader(header, wanted, origin, of_same_scene);
     stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
     if (audit_ != nullptr)
       stepper_->setAudit(audit_);
@@ -192,7 +213,9 @@ void Simulation::load(std::istream& stream, std::uint64_t vessel_hash, const std
   }
   catch (const ArchiveError& error)
   {
-    throw InputError(origin, "", std::string(error.what()) + "; save it again");
+    throw InputError(origin, "",
+                     std::string(error.what()) +
+                         (of_same_scene ? "; save it again" : "; only a scene with equal instruments and nodes fits"));
   }
   if (!in.atEnd())
     throw InputError(origin, "", "holds more than a state; save it again");

@@ -295,6 +295,64 @@ TEST(World, NamesTheLibraryThatASceneWithARobotNeeds)
   }
 }
 
+TEST(Session, AdoptsTheShapeOfAStateUnderAnotherFriction)
+{
+  Session first(tubeWithOperator());
+  first.step(900);
+  const std::string state = first.save();
+  scene::Scene rough = first.scene();
+  rough.vessel->friction = 0.5;
+  rough.resolved_yaml += "# rough\n";
+  Session second(first.world().with(rough));
+  EXPECT_THROW(second.load(state), InputError);
+  const std::vector<std::string> dropped = second.adopt(state);
+  ASSERT_EQ(dropped.size(), 3U);
+  EXPECT_NE(dropped[1].find("operator"), std::string::npos);
+  EXPECT_EQ(second.observe().nodes(), first.observe().nodes());
+  EXPECT_EQ(second.observe().step(), 900U);
+  EXPECT_EQ(second.observe().hand(0).insertion, first.observe().hand(0).insertion);
+  const double before = second.observe().hand(0).insertion;
+  const simulation::HandCommand hold = {before, second.observe().hand(0).rotation, 0.0};
+  second.step({hold}, 50);
+  EXPECT_EQ(second.observe().hand(0).insertion, before);
+  for (std::size_t k = 0; k < second.observe().nodes().size(); ++k)
+    EXPECT_LT((second.observe().nodes()[k] - first.observe().nodes()[k]).norm(), 1e-3);
+}
+
+TEST(Session, AdoptsUnderEqualParametersTheSameMotion)
+{
+  Session first(tube());
+  first.step(2500);
+  Session second(tube());
+  second.adopt(first.save());
+  first.step(200);
+  second.step(200);
+  EXPECT_LT((second.observe().tip(0).position - first.observe().tip(0).position).norm(), 2e-5);
+}
+
+TEST(Session, AdoptsNothingOfOtherInstrumentsOrNodes)
+{
+  Session session(tube());
+  session.step(20);
+  const std::string state = session.save();
+  for (const char* change : {"sampling.nodes=100", "instrument.use=guidewire_035_j", "vessel.tube.radius=0.004"})
+  {
+    Session other("tube", {change});
+    other.step(10);
+    const std::string before = other.save();
+    try
+    {
+      other.adopt(state);
+      ADD_FAILURE() << change;
+    }
+    catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("state: "), std::string::npos);
+    }
+    EXPECT_EQ(other.save(), before);
+  }
+}
+
 TEST(Session, TakesOverNothingOfARefusedState)
 {
   Session session(tube());
