@@ -46,32 +46,53 @@ void update(PeakRow& peak, const session::Session& session)
 
 // ---------------------------------------------------------------------------------------------------------- advance
 
-py::array_t<PeakRow> advance(const std::vector<std::shared_ptr<OwnedSession>>& sessions, const py::object& commands,
-                             int threads)
+using Uses = std::vector<std::unique_ptr<OwnedSession::Use>>;
+
+/** Commands of every session; empty elements where there are none.
+ *  @throws InputError unless there is one element of the batch per session */
+std::vector<std::vector<StepCommands>> commandsOf(const Uses& sessions, const py::object& commands)
 {
-  std::vector<std::unique_ptr<OwnedSession::Use>> uses;
+  if (commands.is_none())
+    return std::vector<std::vector<StepCommands>>(sessions.size());
+  std::vector<std::vector<StepCommands>> batch = batchFrom(commandArray(commands), (*sessions.front())->scene());
+  if (batch.size() != sessions.size())
+    throw InputError("commands", "",
+                     "are for " + std::to_string(batch.size()) + " sessions, not " + std::to_string(sessions.size()));
+  return batch;
+}
+
+/** Steps a session by commands, without any by its drives and clients, and notes the largest forces. */
+void step(session::Session& session, const std::vector<StepCommands>& commands, std::size_t steps, PeakRow& peak,
+          const StepEnd& step_end)
+{
+  peak = {};
+  for (std::size_t k = 0; k < steps; ++k)
+  {
+    if (commands.empty())
+      session.step();
+    else
+      session.step(commands[k]);
+    update(peak, session);
+    step_end();
+  }
+}
+
+py::array_t<PeakRow> advance(const std::vector<std::shared_ptr<OwnedSession>>& sessions, const py::object& commands,
+                             int threads, const std::optional<std::size_t>& n)
+{
+  if (commands.is_none() == !n)
+    throw InputError("advance", "", "needs either commands or a number of steps n");
+  Uses uses;
   for (const std::shared_ptr<OwnedSession>& session : sessions)
     uses.push_back(std::make_unique<OwnedSession::Use>(*session));
   py::array_t<PeakRow> peaks(static_cast<py::ssize_t>(sessions.size()));
   if (sessions.empty())
     return peaks;
-  const std::vector<std::vector<StepCommands>> batch = batchFrom(commandArray(commands), (*uses.front())->scene());
-  if (batch.size() != sessions.size())
-    throw InputError("commands", "",
-                     "are for " + std::to_string(batch.size()) + " sessions, not " + std::to_string(sessions.size()));
+  const std::vector<std::vector<StepCommands>> batch = commandsOf(uses, commands);
   PeakRow* rows = peaks.mutable_data();
   runParallel(sessions.size(), threads,
               [&](std::size_t k, const StepEnd& step_end)
-              {
-                session::Session& session = **uses[k];
-                rows[k] = {};
-                for (const StepCommands& step : batch[k])
-                {
-                  session.step(step);
-                  update(rows[k], session);
-                  step_end();
-                }
-              });
+              { step(**uses[k], batch[k], n.value_or(batch[k].size()), rows[k], step_end); });
   return peaks;
 }
 
@@ -168,11 +189,13 @@ state     of Session.save(), with which each run begins; None: the beginning of 
 every     number of steps from sample to sample
 
 Returns a Rollout. Ctrl-C ends the call. Raises InputError as Session.step() and Session.load().)");
-  module.def("advance", &advance, py::arg("sessions"), py::arg("commands"), py::arg("threads") = 0, R"(
+  module.def("advance", &advance, py::arg("sessions"), py::arg("commands") = py::none(), py::arg("threads") = 0,
+             py::arg("n") = py::none(), R"(
 Steps several sessions of equal instruments at a time, in C++ threads without the GIL.
 
 sessions  list of Session, each once
-commands  [batch, step, instrument, 3], as for Session.step(), one element of the batch per session
+commands  [batch, step, instrument, 3], as for Session.step(), one element of the batch per session;
+          None: n steps by the drives of the scene and by Session.command()
 
 Returns the largest forces of these steps [N], a structured array [batch]: wall_force, the largest normal force of one
 contact; tip_force, the largest resultant of the wall's forces on the distal 5 mm; hand_force, the largest magnitude at a

@@ -140,6 +140,30 @@ py::array image(OwnedSession& owner, const std::string& view, bool raw)
   return raw ? imageArray(frame->pixels, frame->raw) : imageArray(frame->pixels, frame->image);
 }
 
+py::array_t<double> reachedOf(const session::Session& session)
+{
+  py::array_t<double> rows({session.observe().instruments(), 2});
+  for (int k = 0; k < session.observe().instruments(); ++k)
+  {
+    const drive::HandMotion reached = session.simulation().reached(k);
+    rows.mutable_at(k, 0) = reached.insertion;
+    rows.mutable_at(k, 1) = reached.rotation;
+  }
+  return rows;
+}
+
+py::array_t<double> stopsOf(const session::Session& session)
+{
+  py::array_t<double> rows({session.observe().instruments(), 2});
+  for (int k = 0; k < session.observe().instruments(); ++k)
+  {
+    const drive::Interval stops = session.simulation().stops(k);
+    rows.mutable_at(k, 0) = stops.low;
+    rows.mutable_at(k, 1) = stops.high;
+  }
+  return rows;
+}
+
 py::object procedureOf(const session::Session& session)
 {
   const procedure::Operator* scripted = session.scriptedOperator();
@@ -169,6 +193,13 @@ void load(OwnedSession& owner, const std::string& state)
   const Use session(owner);
   const py::gil_scoped_release released;
   session->load(state);
+}
+
+std::vector<std::string> adopt(OwnedSession& owner, const std::string& state)
+{
+  const Use session(owner);
+  const py::gil_scoped_release released;
+  return session->adopt(state);
 }
 
 SessionPointer continued(const std::shared_ptr<SharedWorld>& world, bool results, bool clients, std::uint64_t last_step,
@@ -317,13 +348,21 @@ Raises InputError for a scene without fluoroscopy, and for an unknown view.)")
           "Vertices of the present wall, deformed by balloons [m], [vertex, 3]; a copy.");
 }
 
-void bindHashes(Class& bound)
+void bindProgress(Class& bound)
 {
   const auto part = [&bound](const char* name, auto function, const char* documentation)
   {
     bound.def_property_readonly(
         name, [function](OwnedSession& self) { return read(self, function); }, documentation);
   };
+  part("reached", &reachedOf,
+       "Positions that the handles have reached in the scale of their commands, [instrument, 2]: insertion [m], "
+       "rotation "
+       "[rad]; a copy. The difference from `hands` is the motion that slipped through the grips.");
+  part(
+      "stops", &stopsOf,
+      "Least and largest insertion of each instrument at present, [instrument, 2] [m]; infinite without an introducer; "
+      "a copy.");
   part(
       "trajectory_hash",
       [](const session::Session& session) { return Hash64::toHex(session.simulation().trajectoryHash()); },
@@ -371,6 +410,11 @@ of the same scene. Results are not part of it.)")
       .def("load", &load, py::arg("state"), R"(
 Continues from a state of save() or `simulate --save-state`, bit for bit. A refused state has no effect. Raises
 InputError for a damaged state, or one of another version, scene or vessel.)")
+      .def("adopt", &adopt, py::arg("state"), R"(
+Takes over the state of a scene with other parameters, e.g. friction, stiffness or limits (World.vary()), but the same
+instruments, nodes and vessel: shape, motion, handles and number of steps. Returns what it dropped, a list of texts:
+contact forces, and the progress of procedure, commands and results. A refused state has no effect. Raises InputError as
+load(), and for other instruments or nodes.)")
       .def("copy", &copied, "Independent session of the same world in the same state, bit for bit.")
       .def("__copy__", &copied)
       .def("__deepcopy__", [](OwnedSession& self, const py::object&) { return copied(self); })
@@ -429,7 +473,7 @@ manager. One thread at a time may use it: others raise UsageError, as every use 
             py::arg("seed") = 0, py::arg("results") = false, py::arg("clients") = false);
   bindRun(bound);
   bindObserving(bound);
-  bindHashes(bound);
+  bindProgress(bound);
   bindStates(bound);
   module.def("_session_of_pickle", &continued);
   module.attr("World").attr("session") = py::cpp_function(

@@ -1,16 +1,23 @@
 #include "world.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+
+#include <Eigen/Geometry>
 
 #include <pybind11/stl.h>
 
 #include "arrays.h"
 #include "common/error.h"
 #include "common/hash.h"
+#include "fluoroscopy/gantry/view.h"
+#include "fluoroscopy/projection/x_ray_geometry.h"
 #include "overrides.h"
 #include "scene/scene_file.h"
 #include "signals.h"
 #include "simulation/simulation.h"
+#include "vessel/centreline/centreline_extraction.h"
 
 namespace endovascular_sim::python
 {
@@ -46,7 +53,17 @@ void warn(const session::World& world)
       throw py::error_already_set();
 }
 
-WorldPointer openWorld(const py::object& scene, const py::kwargs& keywords)
+/** World with a centreline of its vessel, extracted where it has none. It shares the wall of the given one. */
+std::shared_ptr<const session::World> withCentreline(std::shared_ptr<const session::World> world)
+{
+  if (world->vessel() == nullptr || !world->vessel()->centreline.branches.empty())
+    return world;
+  auto vessel = std::make_shared<vessel::Vessel>(*world->vessel());
+  vessel->centreline = vessel::extractCentreline(vessel->mesh, interruptible());
+  return session::World::make(world->scene(), std::move(vessel), world->wall(), world->entry());
+}
+
+WorldPointer openWorld(const py::object& scene, bool centreline, const py::kwargs& keywords)
 {
   const bool is_path = py::hasattr(scene, "__fspath__");
   if (!is_path && !py::isinstance<py::str>(scene))
@@ -59,9 +76,11 @@ WorldPointer openWorld(const py::object& scene, const py::kwargs& keywords)
     const py::gil_scoped_release released;
     world = !is_path && isSceneText(text) ? session::World::parse(text, "scene", overrides, interruptible())
                                           : session::World::open(text, overrides, interruptible());
+    if (centreline)
+      world = withCentreline(std::move(world));
   }
   warn(*world);
-  return std::make_shared<SharedWorld>(std::move(world));
+  return std::make_shared<SharedWorld>(std::move(world), centreline);
 }
 
 bool keepsVessel(const std::string& override_text)
@@ -84,7 +103,8 @@ WorldPointer varyWorld(const SharedWorld& shared, const py::kwargs& keywords)
   return std::make_shared<SharedWorld>(
       shared.world().vessel() != nullptr
           ? shared.world().with(scene::parseScene(present.resolved_yaml, present.file, overrides))
-          : session::World::parse(present.resolved_yaml, present.file, overrides));
+          : session::World::parse(present.resolved_yaml, present.file, overrides),
+      shared.hasCentreline());
 }
 
 /** Function and arguments that make an equal world in any process: text and origin of the scene. py::pickle would end
@@ -92,13 +112,14 @@ WorldPointer varyWorld(const SharedWorld& shared, const py::kwargs& keywords)
 py::tuple reduced(const SharedWorld& shared)
 {
   return py::make_tuple(py::module_::import("endovascular_sim._pickles").attr("world"),
-                        py::make_tuple(shared.scene().resolved_yaml, shared.scene().file));
+                        py::make_tuple(shared.scene().resolved_yaml, shared.scene().file, shared.hasCentreline()));
 }
 
-WorldPointer unpickled(const std::string& yaml, const std::string& file)
+WorldPointer unpickled(const std::string& yaml, const std::string& file, bool centreline)
 {
   const py::gil_scoped_release released;
-  return std::make_shared<SharedWorld>(session::World::parse(yaml, file, {}, interruptible()));
+  std::shared_ptr<const session::World> world = session::World::parse(yaml, file, {}, interruptible());
+  return std::make_shared<SharedWorld>(centreline ? withCentreline(std::move(world)) : std::move(world), centreline);
 }
 
 py::tuple instrumentNames(const scene::Scene& scene)
@@ -117,7 +138,60 @@ py::array_t<double> instrumentLengths(const scene::Scene& scene)
   return lengths;
 }
 
-/** Branches of the centreline: per branch name, parent, points [point, 3] and radii [point]. */
+/** Largest outer radius of each instrument [m]. */
+py::array_t<double> instrumentRadii(const scene::Scene& scene)
+{
+  py::array_t<double> radii(static_cast<py::ssize_t>(scene.instruments.size()));
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    double& radius = radii.mutable_at(static_cast<py::ssize_t>(k)) = 0.0;
+    for (const rod::Section& section : scene.instruments[k].instrument.wire.sections)
+      radius = std::max(radius, section.radius);
+  }
+  return radii;
+}
+
+/** Pose of the C-arm for a view.
+ *  @param isocentre empty: that of the scene, else the centre of the vessel's bounding box */
+fluoroscopy::CArmPose poseOf(const session::World& world, const std::string& view,
+                             const std::optional<std::array<double, 3>>& isocentre)
+{
+  const scene::Scene& scene = world.scene();
+  if (!scene.fluoroscopy)
+    throw InputError(scene.file, "fluoroscopy", "missing; add `fluoroscopy: {}` for a camera");
+  fluoroscopy::CArmPose pose = scene.fluoroscopy->pose();
+  if (!view.empty())
+  {
+    const std::optional<fluoroscopy::View> angles = fluoroscopy::parseView(view);
+    if (!angles)
+      throw InputError("camera", "view", fluoroscopy::unknownView(view));
+    pose.primary_angle = angles->primary_angle;
+    pose.secondary_angle = angles->secondary_angle;
+  }
+  if (isocentre)
+    pose.isocentre = Eigen::Map<const Eigen::Vector3d>(isocentre->data());
+  else if (!scene.fluoroscopy->isocentre && world.vessel() != nullptr)
+  {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : world.vessel()->mesh.vertices)
+      box.extend(vertex);
+    pose.isocentre = box.center();
+  }
+  return pose;
+}
+
+/** Camera matrix [3, 4]: patient frame [m] to column and row [pixel], homogeneous. */
+py::array_t<double> cameraOf(const SharedWorld& shared, const std::string& view,
+                             const std::optional<std::array<double, 3>>& isocentre)
+{
+  const fluoroscopy::XRayGeometry geometry(poseOf(shared.world(), view, isocentre));
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix;
+  matrix.leftCols<3>() = geometry.cameraMatrix() * geometry.axes().transpose();
+  matrix.col(3) = -matrix.leftCols<3>() * geometry.source();
+  return py::array_t<double>({3, 4}, matrix.data());
+}
+
+/** Branches of the centreline: per branch name, parent, points [point, 3], radii [point] and ostium. */
 py::list branchesOf(const session::World& world)
 {
   py::list branches;
@@ -131,6 +205,7 @@ py::list branchesOf(const session::World& world)
     entry["parent"] = branch.parent;
     entry["points"] = pointArray(branch.points);
     entry["radii"] = py::array_t<double>(static_cast<py::ssize_t>(branch.radii.size()), branch.radii.data());
+    entry["ostium"] = branch.points.empty() ? 0.0 : -world.branches()->depthIn(index - 1, branch.points.front());
     branches.append(entry);
   }
   return branches;
@@ -196,16 +271,17 @@ void bindWorld(py::module_& module)
   py::class_<SharedWorld, WorldPointer>(module, "World", R"(
 Scene with all that follows from it and never changes: vessel, prepared wall, branches, patient of the X-ray image.
 
-World(scene, **overrides)
+World(scene, *, centreline=False, **overrides)
 
 scene      name of a bundled scene, e.g. "tube"; path of a YAML file; or the text of a scene
 overrides  values of keys of the scene (docs/SCENES.md), as `simulate --set`; a dictionary stands for the keys
            below its own: World("tube", duration=2, drive={"speed": 0.02}, **{"vessel.friction": 0.2})
+centreline True: extracts the branches of a large mesh, too, which takes seconds; environments need them
 
 Any number of sessions share a world, also in different threads. A world can be copied and pickled; a pickle holds the
 text of the scene, and names the files of its vessel.
 Raises InputError when the scene or its vessel is refused. Warnings of the scene are UserWarning.)")
-      .def(py::init(&openWorld), py::arg("scene").none(false))
+      .def(py::init(&openWorld), py::arg("scene").none(false), py::kw_only(), py::arg("centreline") = false)
       .def("vary", &varyWorld, R"(
 World of the same vessel with other values, e.g. vary(**{"vessel.friction": 0.2}). Both share vessel and wall, so that
 it costs milliseconds and little memory. Raises InputError for a key of the vessel's shape, the entry or the patient.)")
@@ -231,6 +307,14 @@ it costs milliseconds and little memory. Raises InputError for a key of the vess
           "lengths", [](const SharedWorld& self) { return instrumentLengths(self.scene()); },
           "Lengths of the instruments [m], [instrument]; a copy.")
       .def_property_readonly(
+          "radii", [](const SharedWorld& self) { return instrumentRadii(self.scene()); },
+          "Largest outer radii of the instruments [m], [instrument]; a copy.")
+      .def("camera", &cameraOf, py::arg("view") = "", py::arg("isocentre") = py::none(), R"(
+Camera matrix of a pose of the C-arm, [3, 4]: point [m] in the patient frame to (column w, row w, w) [pixel] of the image.
+view       in clinical notation; empty: that of the scene
+isocentre  [3] [m]; None: that of the scene, else the centre of the vessel's bounding box
+Raises InputError for a scene without fluoroscopy, and for an unknown view.)")
+      .def_property_readonly(
           "entry",
           [](const SharedWorld& self) {
             return py::make_tuple(vectorArray(self.world().entry().position),
@@ -246,7 +330,9 @@ it costs milliseconds and little memory. Raises InputError for a key of the vess
       .def_property_readonly(
           "branches", [](const SharedWorld& self) { return branchesOf(self.world()); },
           "Branches of the centreline, a list of dictionaries: name; parent, index or -1; points "
-          "[m], [point, 3]; radii [m], [point]. Empty where the scene needs no centreline.")
+          "[m], [point, 3]; radii [m], [point]; ostium, length along the points at which the branch leaves the lumen "
+          "of "
+          "its parent [m]. Empty for a large mesh without centreline=True.")
       .def_property_readonly(
           "notes", [](const SharedWorld& self) { return vesselOf(self).notes; },
           "Repairs and modifications of the vessel's mesh, as texts.")

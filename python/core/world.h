@@ -17,8 +17,14 @@ namespace endovascular_sim::python
 class SharedWorld : public Zeroed
 {
 public:
-  /** @param world not null */
-  explicit SharedWorld(std::shared_ptr<const session::World> world) : world_(std::move(world)) {}
+  /** @param world not null
+   *  @param has_centreline true for a world that was asked for a centreline */
+  SharedWorld(std::shared_ptr<const session::World> world, bool has_centreline)
+    : world_(std::move(world)), has_centreline_(has_centreline)
+  {
+  }
+
+  bool hasCentreline() const { return has_centreline_; }
 
   /** @throws UsageError for an object that Python made without its constructor */
   const std::shared_ptr<const session::World>& pointer() const
@@ -33,6 +39,7 @@ public:
 
 private:
   std::shared_ptr<const session::World> world_;
+  bool has_centreline_;
 };
 
 /** Index of an instrument of a scene.

@@ -11,6 +11,10 @@ The compiled part is loaded at its first use. Messages of ROS, endovascular_sim.
 import importlib
 
 _PLACES = {
+    "bag": ("Bag",),
+    "env": ("Env",),
+    "route": ("Route",),
+    "vector": ("VectorEnv",),
     "_core": ("Branch", "Error", "InputError", "Observation", "Rollout", "Session", "UsageError", "World", "advance",
               "rollout"),
 }

@@ -10,6 +10,10 @@ from ._core import (
     advance as advance,
     rollout as rollout,
 )
+from .bag import Bag as Bag
+from .env import Env as Env
+from .route import Route as Route
+from .vector import VectorEnv as VectorEnv
 
 __version__: str
 __commit__: str

@@ -108,6 +108,18 @@ class Sessions(unittest.TestCase):
         self.assertEqual(copy.trajectory_hash, session.trajectory_hash)
         self.assertGreater(session.hands["insertion"][0], 0.02)
 
+    def test_adopt_a_shape_under_another_friction(self):
+        first = tube().session()
+        first.step(n=2500)
+        second = tube().vary(**{"vessel.friction": 0.4}).session()
+        with self.assertRaisesRegex(evs.InputError, "another scene"):
+            second.load(first.save())
+        self.assertIn("contact forces", second.adopt(first.save())[0])
+        np.testing.assert_array_equal(second.nodes, first.nodes)
+        self.assertEqual(second.steps, first.steps)
+        with self.assertRaises(evs.InputError):
+            evs.World("tube", **{"sampling.nodes": 100}).session().adopt(first.save())
+
     def test_measure_the_largest_forces_of_their_steps(self):
         session, again = tube().session(), tube().session()
         commands = tube().commands(2500)
