@@ -19,6 +19,7 @@ _PLACES = {
               "rollout"),
 }
 _MODULE_OF = {name: module for module, names in _PLACES.items() for name in names}
+_MODULES = ("plots",)
 _OF_CORE = {"__version__": "__version__", "__commit__": "commit", "physics_number": "physics_number"}
 
 __all__ = sorted(_MODULE_OF)
@@ -27,6 +28,8 @@ __all__ = sorted(_MODULE_OF)
 def __getattr__(name):
     if name in _MODULE_OF:
         value = getattr(_load(_MODULE_OF[name]), name)
+    elif name in _MODULES:
+        value = _load(name)
     elif name in _OF_CORE:
         value = getattr(_load("_core"), _OF_CORE[name])
     else:
@@ -36,7 +39,7 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted([*globals(), *__all__, *_OF_CORE])
+    return sorted([*globals(), *__all__, *_MODULES, *_OF_CORE])
 
 
 def _load(module):

@@ -10,6 +10,7 @@ from ._core import (
     advance as advance,
     rollout as rollout,
 )
+from . import plots as plots
 from .bag import Bag as Bag
 from .env import Env as Env
 from .route import Route as Route

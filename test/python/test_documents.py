@@ -37,6 +37,12 @@ class Documents(unittest.TestCase):
             runpy.run_path(str(REPOSITORY / "examples/python/first_steps.py"), run_name="__main__")
         self.assertIn("again at 2.0 s", output.getvalue())
 
+    def test_have_an_example_of_steering_with_a_limited_force(self):
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            runpy.run_path(str(REPOSITORY / "examples/python/force_limited_steering.py"), run_name="__main__")
+        without, limited = (float(line.split()[-2]) for line in output.getvalue().splitlines())
+        self.assertLess(limited, without)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,9 +1,9 @@
 """Environments: Gymnasium's API, with Gymnasium or its stand-in."""
 
 import functools
+import importlib.util
 import os
 import pickle
-import sys
 import tempfile
 import unittest
 
@@ -232,8 +232,7 @@ class Environments(unittest.TestCase):
                 self.assertEqual(envs.step(envs.action_space.sample())[1].shape, (2,))
                 envs.close()
 
-    @unittest.skipUnless("stable_baselines3" in sys.modules or os.environ.get("ENDOVASCULAR_TEST_SB3"),
-                         "stable-baselines3 is not asked for")
+    @unittest.skipUnless(importlib.util.find_spec("stable_baselines3"), "stable-baselines3 cannot be imported")
     def test_pass_the_checks_of_stable_baselines3(self):
         from stable_baselines3.common.env_checker import check_env
         check_env(make(flatten=True))

@@ -62,6 +62,16 @@ for program in step_a_scene run_a_procedure; do
 done
 grep -q libroscpp "$folder/catkin.ldd"
 
+# The Python package of the installation.
+PYTHONPATH=$installed/lib/python3/dist-packages /usr/bin/python3 > "$folder/python.out" - "$wanted" <<'PYTHON'
+import sys
+import endovascular_sim as evs
+from endovascular_sim.msg import DriveApplied
+session = evs.World("tube").session()
+session.step(n=10**6)
+assert session.trajectory_hash == sys.argv[1], session.trajectory_hash
+PYTHON
+
 # Of the installed programs, only nodes, the two tools that speak ROS and the example of a client link it.
 for program in "$installed"/lib/endovascular_sim/*; do
   name=$(basename "$program")
