@@ -103,7 +103,7 @@ void command(OwnedSession& owner, const py::object& instrument, const std::strin
   else
     throw InputError("command", name, "is unknown; use servo_jp, servo_jr, servo_jv, servo_jf, move_jp or move_jr");
   if (!accepted)
-    throw InputError("command", name, "was refused: " + control.lastRefusal());
+    throw InputError("command", name, "was refused: " + control.arbiter().lastRefusal());
 }
 
 // ------------------------------------------------------------------------------------------------------- observing
