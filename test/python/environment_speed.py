@@ -34,7 +34,7 @@ def longest_way(world):
 def measure(mesh, episodes, overrides):
     """Control steps per second of processor time, and the tips at the ends of the episodes [m]."""
     world = evs.World("peer_wire", centreline=True, vessel={"mesh": mesh}, **overrides)
-    env = evs.Env(world, longest_way(world), scale=(0.035, 2.0), tolerance=-1.0, horizon=10**6, vary=False)
+    env = evs.Env(world, longest_way(world), scale=(0.035, 2.0), tolerance=0.0, horizon=10**6, vary=False)
     steps, tips = 0, []
     begin = time.process_time()
     for episode in range(episodes):
