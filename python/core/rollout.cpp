@@ -77,6 +77,21 @@ void step(session::Session& session, const std::vector<StepCommands>& commands, 
   }
 }
 
+/** @throws InputError unless all sessions have instruments that take the same commands */
+void requireEqualInstruments(const Uses& uses)
+{
+  const auto& first = (**uses.front())->scene().instruments;
+  for (std::size_t k = 1; k < uses.size(); ++k)
+  {
+    const auto& other = (**uses[k])->scene().instruments;
+    if (!std::equal(first.begin(), first.end(), other.begin(), other.end(),
+                    [](const auto& a, const auto& b)
+                    { return a.instrument.balloon.has_value() == b.instrument.balloon.has_value(); }))
+      throw InputError("advance", "sessions." + std::to_string(k),
+                       "has other instruments than the first session; advance sessions of equal instruments together");
+  }
+}
+
 py::array_t<PeakRow> advance(const std::vector<std::shared_ptr<OwnedSession>>& sessions, const py::object& commands,
                              int threads, const std::optional<std::size_t>& n)
 {
@@ -88,6 +103,7 @@ py::array_t<PeakRow> advance(const std::vector<std::shared_ptr<OwnedSession>>& s
   py::array_t<PeakRow> peaks(static_cast<py::ssize_t>(sessions.size()));
   if (sessions.empty())
     return peaks;
+  requireEqualInstruments(uses);
   const std::vector<std::vector<StepCommands>> batch = commandsOf(uses, commands);
   PeakRow* rows = peaks.mutable_data();
   runParallel(sessions.size(), threads,

@@ -112,7 +112,8 @@ class Misuse(unittest.TestCase):
         for call in (lambda: evs.rollout(tube(), commands), lambda: evs.rollout(tube(), commands[np.newaxis], threads=-1),
                      lambda: evs.rollout(tube(), commands[np.newaxis], every=0),
                      lambda: evs.rollout(tube(), commands[np.newaxis], state=b"bad"),
-                     lambda: evs.advance([tube().session()], np.zeros((2, 1, 1, 3)))):
+                     lambda: evs.advance([tube().session()], np.zeros((2, 1, 1, 3))),
+                     lambda: evs.advance([tube().session(), evs.World("pci").session()], np.zeros((2, 1, 1, 3)))):
             with self.assertRaises(evs.InputError):
                 call()
         self.assertEqual(evs.rollout(tube(), np.zeros((0, 5, 1, 3))).hashes, ())
