@@ -80,10 +80,10 @@ void step(session::Session& session, const std::vector<StepCommands>& commands, 
 /** @throws InputError unless all sessions have instruments that take the same commands */
 void requireEqualInstruments(const Uses& uses)
 {
-  const auto& first = (**uses.front())->scene().instruments;
+  const auto& first = (**uses.front()).scene().instruments;
   for (std::size_t k = 1; k < uses.size(); ++k)
   {
-    const auto& other = (**uses[k])->scene().instruments;
+    const auto& other = (**uses[k]).scene().instruments;
     if (!std::equal(first.begin(), first.end(), other.begin(), other.end(),
                     [](const auto& a, const auto& b)
                     { return a.instrument.balloon.has_value() == b.instrument.balloon.has_value(); }))
