@@ -175,6 +175,8 @@ class Misuse(unittest.TestCase):
         self.assertEqual(os.read(reading, 100).decode(), 2 * session.trajectory_hash)
 
     def test_an_interrupt_ends_a_long_call_after_a_step(self):
+        # A shell that starts the tests in the background ignores SIGINT for them.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         session = evs.World("tube", duration=1000).session()
         commands = [[0.01, 0.0, 0.0]]
         for call in (lambda: session.step(n=10**8), lambda: session.step(commands, n=10**8),
