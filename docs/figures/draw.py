@@ -150,10 +150,10 @@ def layers():
         ("procedure · results", "operator, metrics", "#eef3f8"),
         ("simulation", "one time step of a scene", "#eef3f8"),
         ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
-        ("drive · robot · haptics · fluoroscopy · intervention", "what acts on instruments or sees them", "#eef3f8"),
-        ("vessel · segmentation · phantom · instrument", "anatomy and devices", "#eef3f8"),
+        ("drive · robot · haptics · fluoroscopy · phantom · intervention", "what moves or sees instruments", "#eef3f8"),
+        ("vessel · segmentation · instrument", "anatomy and devices", "#eef3f8"),
         ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),
-        ("common · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
+        ("common · yaml · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
     ]
     figure, axes = canvas(7.4, 4.6, (-0.3, 14.5), (0, 9.2))
     for k, (folders, what, colour) in enumerate(rows):

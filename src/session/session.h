@@ -110,8 +110,8 @@ public:
    *  @throws InputError as image() */
   void prepareImages();
 
-  /** Copies the world's wall for the balloons of this session, which the first inflation after a beginning does
-   *  otherwise: 130 ms in one step for 10⁵ triangles. Without a balloon it does nothing. */
+  /** Copies the shared wall before a balloon moves it. Without this call the copy is part of the step of the first
+   *  inflation. Each reset() and load() begins with the shared wall again. Without a balloon nothing is copied. */
   void prepareInflation();
 
   /** X-ray image of the present state, as `simulate --x-ray` writes it: a function of state and view alone. Valid until

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr double kWallStiffness = 1e10;  // N/m² of the bore per length: 0.3 µm at 3000 N/m
 constexpr double kRest = 1e-7;           // of the clearance, largest motion in an iteration at rest
 constexpr double kLargestMotion = 0.2;   // of the clearance, in an iteration
-constexpr double kFollow = 0.01;         // part of its change by which the compression follows in an iteration
+constexpr double kFollow = 0.01;         // relaxation factor of the compression per iteration
 constexpr int kRamp = 20000;             // iterations in which the load grows
 constexpr int kMaxIterations = 400000;
 constexpr double kMostForce = 1e3;        // N, while the flow moves
