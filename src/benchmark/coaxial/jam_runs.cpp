@@ -25,6 +25,8 @@ constexpr double kBendRadius = 0.03;      // m
 constexpr double kBefore = 0.06;          // m, straight part before the first bend
 constexpr double kBeyond = 0.03;          // m, straight part after the last one
 constexpr double kProtrusion = 2e-3;      // m, of the wire beyond the catheter at the closed end
+constexpr double kTip = 3e-3;             // m of the wire that do not buckle beyond the catheter
+constexpr double kStiffTip = 10.0;        // bending stiffness over that of the wire
 constexpr double kWireRadius = 2e-4;      // m
 constexpr double kStiffness = 4e-5;       // N·m² of the wire
 constexpr double kOutside = 0.04;         // m of the wire behind the introducer at the end
@@ -32,7 +34,6 @@ constexpr double kFast = 0.1;             // m/s, on the way
 constexpr double kSlow = 8e-3;            // m/s, at the closed end
 constexpr double kPushed = 6e-3;          // m beyond the closed end that the hand pushes
 constexpr double kNoSlip = 1e-9;          // m, rounding
-constexpr double kSmallGrip = 5.0;        // N, with which the contacts of the reference do not chatter
 constexpr double kMeasuredTravel = 1e-3;  // m of the tip over which the force is averaged: one edge
 constexpr double kMostTravel = 0.03;      // m of the hand, which also takes up the shortening by the helix
 
@@ -67,14 +68,25 @@ std::string piecesOf(JamPath path)
   return out.str();
 }
 
-std::string instrumentOf(const std::string& name, double length, double radius, double stiffness,
+std::string sectionOf(double length, double radius, double stiffness)
+{
+  std::ostringstream out;
+  out.precision(12);
+  out << "{length: " << length << ", radius: " << radius
+      << ", material: steel, density: 5000, bending_stiffness: " << stiffness << ", poisson_ratio: 0.3}";
+  return out.str();
+}
+
+/** @param tip length of a stiff tip [m] */
+std::string instrumentOf(const std::string& name, double length, double tip, double radius, double stiffness,
                          const std::string& more)
 {
   std::ostringstream out;
   out.precision(12);
-  out << "  - instrument:\n      name: " << name << "\n      sections: [{length: " << length << ", radius: " << radius
-      << ", material: steel, density: 5000, bending_stiffness: " << stiffness << ", poisson_ratio: 0.3}]\n"
-      << more;
+  out << "  - instrument:\n      name: " << name << "\n      sections: [" << sectionOf(length - tip, radius, stiffness);
+  if (tip > 0.0)
+    out << ", " << sectionOf(tip, radius, kStiffTip * stiffness);
+  out << "]\n" << more;
   return out.str();
 }
 
@@ -101,10 +113,10 @@ std::string sceneOf(const JamCase& at)
          "pieces: ["
       << piecesOf(at.path) << "]}\n  friction: 0\nentry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n"
       << "instruments:\n"
-      << instrumentOf("wire", wire + kOutside + kPushed, kWireRadius, kStiffness,
+      << instrumentOf("wire", wire + kOutside + kPushed, kTip, kWireRadius, kStiffness,
                       "    friction: " + std::to_string(at.friction) + "\n    fit_load: 0\n")
       << driveOf(begin, wire, kPushed, at.grip)
-      << instrumentOf("catheter", catheter + kOutside, 0.8e-3, 2e-4,
+      << instrumentOf("catheter", catheter + kOutside, 0.0, 0.8e-3, 2e-4,
                       "      kind: catheter\n      inner_radius: " + std::to_string(kWireRadius + at.clearance) + "\n")
       << driveOf(begin - kProtrusion, catheter, 0.0, at.grip)
       << "loads: {damping: 5}\nsampling: {kind: uniform, nodes: 161}\nsolver: {time_step: 0.002}\n";
@@ -135,6 +147,7 @@ JamSample sampleOf(const simulation::Simulation& simulation)
   sample.wire = simulation.hand(0).force;
   sample.catheter = simulation.hand(1).force;
   sample.insertion = simulation.hand(0).insertion;
+  sample.protrusion = sample.insertion - simulation.hand(1).insertion;
   sample.tip_load = loadAtStop(state);
   sample.axis.assign(state.position.begin() + state.first_node, state.position.end());
   return sample;
@@ -266,11 +279,6 @@ JamResult runJam(const JamCase& at)
   return result;
 }
 
-JamReference referenceFor(const JamCase& at)
-{
-  return at.grip <= kSmallGrip ? JamReference{1e-4, 1e-3, 0.04, 4e-3, 2e-3} : JamReference();
-}
-
 double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference)
 {
   if (at.friction == 0.0)
@@ -289,14 +297,14 @@ double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamRef
   rod::Environment environment;
   environment.damping = 50.0;
   ReferenceWire wire("kkt", rod, boundary, environment, stiffContactSettings(),
-                     sample.insertion - kProtrusion - reference.travel);
+                     sample.insertion - sample.protrusion - reference.travel);
   PathTube tube(sample.axis, at.clearance, at.friction);
   wire.wall = &tube;
   const double outside = rod.length - wire.state.inserted_length;
   for (int i = 0; i < rod.nodes; ++i)
     wire.state.position[i] = pointAt(sample, rod.length * i / (rod.nodes - 1) - outside);
   const Vector3d forward = (sample.axis.back() - sample.axis[sample.axis.size() - 2]).normalized();
-  const Vector3d end = sample.axis.back() - kProtrusion * forward;
+  const Vector3d end = sample.axis.back() - sample.protrusion * forward;
   double sum = 0.0;
   double travel = 0.0;
   int count = 0;
@@ -321,7 +329,7 @@ double staticForceInRigidTube(const JamCase& at, const JamSample& sample, double
   double length = 0.0;
   for (std::size_t i = 1; i < sample.axis.size(); ++i)
     length += (sample.axis[i] - sample.axis[i - 1]).norm();
-  const BoreAxis axis = boreAxis(sample.axis, length - sample.insertion, length - kProtrusion, spacing);
+  const BoreAxis axis = boreAxis(sample.axis, length - sample.insertion, length - sample.protrusion, spacing);
   return pushThroughBore({kStiffness, at.clearance, at.friction}, axis, sample.tip_load);
 }
 

@@ -16,7 +16,8 @@ enum class JamPath
   kS,           ///< two bends of 90° in opposite directions
 };
 
-/** Wire that is pushed through a catheter against a closed end, with bends of 30 mm radius. */
+/** Wire that is pushed through a catheter against a closed end, with bends of 30 mm radius. The tip of the wire, beyond
+ *  the catheter, is too stiff to buckle. */
 struct JamCase
 {
   std::string name;
@@ -36,6 +37,7 @@ struct JamSample
   double wire = 0.0;                  ///< force of the wire on its hand [N]
   double catheter = 0.0;              ///< force of the catheter on its hand [N]
   double insertion = 0.0;             ///< of the wire [m]
+  double protrusion = 0.0;            ///< of the wire beyond the catheter [m]
   std::vector<Eigen::Vector3d> axis;  ///< centreline [m]
 };
 
@@ -54,18 +56,15 @@ struct JamResult
 JamResult runJam(const JamCase& at);
 
 /** Run in a rigid tube. The friction of a wall uses the normal force of the last solution: with long steps the contacts
- *  chatter, and the force is too small. */
+ *  chatter, and the force is too small. Under loads of a few newtons they do not with these. */
 struct JamReference
 {
-  double step = 2.5e-5;  ///< [s]
+  double step = 1e-4;    ///< [s]
   double edge = 1e-3;    ///< [m]
-  double speed = 0.08;   ///< of the hand [m/s]
-  double travel = 8e-3;  ///< of the tip, to the end of the catheter [m]
-  double ramp = 4e-3;    ///< travel of the hand in which the load grows [m]
+  double speed = 0.04;   ///< of the hand [m/s]
+  double travel = 4e-3;  ///< of the tip, to the end of the catheter [m]
+  double ramp = 2e-3;    ///< travel of the hand in which the load grows [m]
 };
-
-/** Run for a case: under small loads the contacts do not chatter with longer steps either. */
-JamReference referenceFor(const JamCase& at);
 
 /** Force of the hand on the same wire in a rigid tube of the catheter's bore along a recorded axis, pushed slowly
  *  against the load of the sample on its tip [N]. Without friction it is that load. */

@@ -16,7 +16,7 @@ class JammedStack : public testing::TestWithParam<JamCase>
 {
 };
 
-TEST_P(JammedStack, NoHandBearsMoreThanItsGripAndTheForcesBalance)
+TEST_P(JammedStack, TheHandsKeepToTheirGripsAndTheForceIsThatInARigidTube)
 {
   const JamResult result = runJam(GetParam());
   EXPECT_LE(result.hand_ratio, 1.02);
@@ -25,6 +25,8 @@ TEST_P(JammedStack, NoHandBearsMoreThanItsGripAndTheForcesBalance)
   EXPECT_LE(result.imbalance, 1e-9);
   EXPECT_LE(result.unexplained, 1e-2);
   EXPECT_EQ(result.rejected, 0);
+  const double reference = staticForceInRigidTube(GetParam(), result.pushed);
+  EXPECT_NEAR(result.pushed.wire, reference, 0.05 * result.pushed.wire + 5e-3);
 }
 
 std::string identifierOf(const testing::TestParamInfo<JamCase>& info)
@@ -38,18 +40,15 @@ std::string identifierOf(const testing::TestParamInfo<JamCase>& info)
 
 INSTANTIATE_TEST_SUITE_P(Cases, JammedStack, testing::ValuesIn(jamCases()), identifierOf);
 
-// `benchmark jam` runs all cases, above 5 N with steps of 25 µs in the reference.
-TEST(JammedStackReference, TheHandForceIsThatInARigidTubeAlongTheRecordedAxis)
+// The pushed wire is a second reference. Above 5 N its contacts chatter unless the steps are very short.
+TEST(JammedStackReference, UpTo5NewtonsTheForceOfAPushedWireIsTheSame)
 {
   for (const JamCase& at : jamCases())
   {
     if (at.friction == 0.0 || at.grip > 5.0)
       continue;
     const JamSample pushed = runJam(at).pushed;
-    const double reference = forceInRigidTube(at, pushed, referenceFor(at));
-    EXPECT_NEAR(pushed.wire, reference, 0.05 * reference + 5e-3) << at.name;
-    const double still = staticForceInRigidTube(at, pushed);
-    EXPECT_NEAR(pushed.wire, still, 0.05 * still + 5e-3) << at.name << ", static";
+    EXPECT_NEAR(pushed.wire, forceInRigidTube(at, pushed, JamReference()), 0.05 * pushed.wire + 5e-3) << at.name;
   }
 }
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Wires that jam in catheters, 24 cases (`benchmark jam`): hands within their grips + 2 %, layers within both grips + 2 %,
-# the force within 5 % + 5 mN of that in a rigid tube, but for one case whose reference is uncertain (docs/VALIDATION.md).
+# the force within 5 % + 5 mN of that in a rigid tube.
 set -eu
 repository=$(cd "$(dirname "$0")/../../.." && pwd)
 programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
@@ -16,5 +16,5 @@ for row in rows:
     assert float(row['largest hand over its grip']) <= 1.02, row
     assert float(row['largest layer over both grips']) <= 1.02, row
     assert float(row['unexplained work [%]']) <= 1.0, row
-    assert row['case'] == '100 N, μ 0.3, S, 0.05 mm' or float(row['deviation over 5 % + 5 mN']) <= 1.0, row
+    assert float(row['deviation over 5 % + 5 mN']) <= 1.0, row
 PYTHON
