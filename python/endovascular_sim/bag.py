@@ -14,6 +14,9 @@ from ._core import InputError
 
 _VERSION = b"#ROSBAG V2.0\n"
 _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7  # kinds of records
+# Names of bags of version 0.1, and the present ones.
+_TOPICS = {"vessel/pressing": "vessel/balloon_load", "vessel/moved": "vessel/wall_displacement"}
+_FIELDS = {"new_tries": "retries"}
 _NUMBERS = {"bool": "?", "byte": "b", "char": "B", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
             "uint32": "I", "int64": "q", "uint64": "Q", "float32": "f", "float64": "d"}
 
@@ -58,7 +61,9 @@ class Bag:
 
     def read(self, topic):
         """Messages of a topic, one by one: (time of the bag [s], fields as a dictionary). Arrays of numbers are numpy's.
-        Names of topics are matched at their end: "drive/applied" finds "/left/drive/applied"."""
+        Names of topics are matched at their end: "drive/applied" finds "/left/drive/applied". Topics and fields that
+        former versions named otherwise have their present names; former names of topics are accepted, too."""
+        topic = _present(topic)
         found = [name for name in self.topics if name.strip("/") == topic.strip("/")]
         found = found or [name for name in self.topics if name.endswith("/" + topic.strip("/"))]
         if len(found) != 1:
@@ -163,7 +168,15 @@ class Bag:
     def _connect(self, fields, data):
         description = _fields(data)
         self._connections.setdefault(fields.number("conn", "I"), (
-            fields.text("topic"), description.text("type"), description.text("message_definition")))
+            _present(fields.text("topic")), description.text("type"), description.text("message_definition")))
+
+
+def _present(topic):
+    """Present name of a topic; its namespace is kept."""
+    for former, present in _TOPICS.items():
+        if ("/" + topic).endswith("/" + former):
+            return topic[:-len(former)] + present
+    return topic
 
 
 class _Damage(Exception):
@@ -272,7 +285,7 @@ def _layouts(kind, definition):
             match = re.match(r"([\w/]+)(\[(\d*)\])?\s+(\w+)$", line)  # constants have a `=`
             if match:
                 length = None if match[2] is None else int(match[3]) if match[3] else -1
-                fields.append((match[1], length, match[4]))
+                fields.append((match[1], length, _FIELDS.get(match[4], match[4])))
         layouts[name.strip()] = fields
     return layouts
 

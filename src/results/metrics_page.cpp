@@ -111,7 +111,7 @@ std::string stepsTable(const Json& json)
   Table table({"phase", "step", "begin [s]", "end [s]", "retries", "wrong branches", "outcome"});
   for (const Json& step : json["steps"])
     table.add({step["phase"], step["step"], number("%.1f", step["begin"]), number("%.1f", step["end"]),
-               number("%.0f", step["new_tries"]), number("%.0f", step["wrong_branches"]), step["outcome"]});
+               number("%.0f", step["retries"]), number("%.0f", step["wrong_branches"]), step["outcome"]});
   return "<h2>Steps</h2>\n" + table.text();
 }
 

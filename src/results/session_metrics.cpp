@@ -319,7 +319,7 @@ Json SessionMetrics::stepsJson(const std::vector<WrongBranch>& stays) const
                     {"step", step.name},
                     {"begin", step.begin},
                     {"end", step.end},
-                    {"new_tries", step.retries},
+                    {"retries", step.retries},
                     {"wrong_branches", wrong},
                     {"outcome", outcomeName(step.outcome)}});
   }

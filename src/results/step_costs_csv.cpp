@@ -10,7 +10,7 @@ StepCostsFile::StepCostsFile(const std::string& file) : stream_(file)
 {
   if (!stream_)
     throw writeError(file);
-  stream_ << "step,us,solves,factorisations,truncations,capped,contacts,detections";
+  stream_ << "step,us,solves,factorisations,truncations,hit_iteration_limit,contacts,detections";
   for (const char* phase : kPhaseNames)
     stream_ << ',' << phase << "_us";
   stream_ << '\n';

@@ -11,6 +11,7 @@ import unittest
 import numpy as np
 from support import REPOSITORY, evs
 
+FORMER_SESSION = REPOSITORY / "test/data/recorded_session/session.bag"
 SESSION = REPOSITORY / "test/fuzz/corpus/bag/session"
 
 
@@ -74,6 +75,15 @@ class Bags(unittest.TestCase):
         bag = self.written(small_bag(topic=b"/rod/state_visual", definition=definition, data=data))
         np.testing.assert_array_equal(bag.pose_times, [0.5])
         np.testing.assert_array_equal(bag.poses[0], [[0, 1, 2], [3, 4, 5]])
+
+    def test_of_a_former_version_have_the_present_names(self):
+        bag = evs.Bag(FORMER_SESSION)
+        self.assertEqual(bag.topics["/vessel/wall_displacement"], 13)
+        self.assertEqual([time for time, _ in bag.read("vessel/moved")],
+                         [time for time, _ in bag.read("vessel/wall_displacement")])
+        retries = [step["retries"] for _, step in bag.read("procedure/step")]
+        self.assertEqual(retries, [0, 0, 0, 0])
+        self.assertEqual(len(bag.steps), 200)
 
     def test_are_read_with_every_compression(self):
         import bz2

@@ -23,18 +23,24 @@ Json toJson(const FuzzEpisode& e)
           {"vessel", e.vessel},
           {"what", e.description},
           {"steps", e.steps},
-          {"looks", e.checks},
+          {"checks", e.checks},
           {"bad_step", e.bad_step},
           {"escaped", e.escaped},
           {"finite", e.finite},
           {"refused", e.rejected},
-          {"capped", e.hit_iteration_limit},
+          {"hit_iteration_limit", e.hit_iteration_limit},
           {"depth", e.depth},
           {"depth_step", e.depth_step},
           {"depth_place", e.depth_place},
           {"hand_force", e.force},
           {"over_grips", e.over_grips},
           {"max_strain", e.max_strain}};
+}
+
+/** Value of a key, or of its name in records of former versions. */
+const Json& present(const Json& json, const char* key, const char* former)
+{
+  return json.at(json.contains(former) ? former : key);
 }
 
 FuzzEpisode episodeOf(const Json& json)
@@ -44,12 +50,12 @@ FuzzEpisode episodeOf(const Json& json)
   e.vessel = json.at("vessel");
   e.description = json.at("what");
   e.steps = json.at("steps");
-  e.checks = json.at("looks");
+  e.checks = present(json, "checks", "looks");
   e.bad_step = json.at("bad_step");
   e.escaped = json.at("escaped");
   e.finite = json.at("finite");
   e.rejected = json.at("refused");
-  e.hit_iteration_limit = json.at("capped");
+  e.hit_iteration_limit = present(json, "hit_iteration_limit", "capped");
   e.depth = json.at("depth");
   e.depth_step = json.at("depth_step");
   e.depth_place = json.at("depth_place");
@@ -128,7 +134,7 @@ std::string FuzzRecord::json() const
                      {"good", good()},
                      {"next_episode", next_},
                      {"steps", steps_},
-                     {"looks", checks_},
+                     {"checks", checks_},
                      {"escapes", escapes_},
                      {"not_finite", not_finite_},
                      {"too_deep", too_deep_},
@@ -155,7 +161,7 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
                        "ones, or another --out");
     next_ = json.at("next_episode");
     steps_ = json.at("steps");
-    checks_ = json.at("looks");
+    checks_ = present(json, "checks", "looks");
     escapes_ = json.at("escapes");
     not_finite_ = json.at("not_finite");
     too_deep_ = json.at("too_deep");

@@ -21,7 +21,7 @@ procedure::StepRecord fromMessage(const ProcedureStep& message)
   record.phase = message.phase;
   record.begin = message.begin;
   record.end = message.time;
-  record.retries = static_cast<int>(message.new_tries);
+  record.retries = static_cast<int>(message.retries);
   record.wrong_branches = static_cast<int>(message.wrong_branches);
   record.step = std::max(message.step_of_procedure, 1U) - 1U;
   record.outcome = static_cast<procedure::Progress>(message.outcome);

@@ -54,7 +54,7 @@ void ProcedureDriver::publishProgress(const simulation::Simulation& simulation, 
   {
     const bool is_new = k + 1 != published_.begun;
     const bool is_changed = static_cast<std::uint8_t>(records[k].outcome) != published_.outcome ||
-                            static_cast<std::uint32_t>(records[k].retries) != published_.new_tries ||
+                            static_cast<std::uint32_t>(records[k].retries) != published_.retries ||
                             static_cast<std::uint32_t>(records[k].wrong_branches) != published_.wrong_branches;
     if (is_new || is_changed || simulation.steps() + 1 == last_step_)
       publish(k, simulation, now);
@@ -89,7 +89,7 @@ void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& 
   published_.phase = step.phase;
   published_.name = step.name;
   published_.begin = step.begin;
-  published_.new_tries = static_cast<std::uint32_t>(step.retries);
+  published_.retries = static_cast<std::uint32_t>(step.retries);
   published_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
   published_.outcome = static_cast<std::uint8_t>(step.outcome);
   published_.failure = operator_.failure();

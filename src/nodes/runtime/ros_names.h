@@ -21,8 +21,8 @@ constexpr auto kXRaySourceViewFrame = "x_ray_source_view_optical";
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
 constexpr auto kGetVessel = "vessel/get";
-constexpr auto kBalloonLoad = "vessel/pressing";
-constexpr auto kWallDisplacement = "vessel/moved";
+constexpr auto kBalloonLoad = "vessel/balloon_load";
+constexpr auto kWallDisplacement = "vessel/wall_displacement";
 constexpr auto kVesselMarker = "vessel/marker";
 constexpr auto kClickedPoint = "/clicked_point";  ///< of rviz's tool "Publish Point"
 

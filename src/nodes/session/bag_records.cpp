@@ -237,8 +237,9 @@ private:
   {
     const Fields description(data);
     BagMessage& connection = connections_[fields.number<std::uint32_t>("conn")];
-    connection.topic = fields.text("topic");
+    connection.topic = presentTopic(fields.text("topic"));
     connection.md5sum = description.text("md5sum");
+    connection.definition = description.text("message_definition");
   }
 
   void visitMessage(std::uint32_t connection, std::string_view data)

@@ -8,6 +8,7 @@
 #include <boost/make_shared.hpp>
 
 #include "nodes/runtime/checked_stream.h"
+#include "nodes/session/former_names.h"
 
 namespace endovascular_sim::nodes
 {
@@ -15,16 +16,18 @@ namespace endovascular_sim::nodes
 /** Serialised message of a bag. */
 struct BagMessage
 {
-  std::string topic;
-  std::string md5sum;  ///< hash of the message's definition
+  std::string topic;       ///< present name, see presentTopic()
+  std::string md5sum;      ///< hash of the message's definition
+  std::string definition;  ///< as the bag holds it
   const std::uint8_t* data = nullptr;
   std::uint32_t size = 0;  ///< [B]
 
-  /** Reports whether the message has the fields of a type of this version. */
+  /** Reports whether the message has the fields of a type of this version, by present or former names. */
   template <typename Message>
   bool is() const
   {
-    return md5sum == ros::message_traits::MD5Sum<Message>::value();
+    return md5sum == ros::message_traits::MD5Sum<Message>::value() ||
+           presentFields(definition) == presentFields(ros::message_traits::Definition<Message>::value());
   }
 
   /** @throws ros::Exception when the message ends too early or is too long */

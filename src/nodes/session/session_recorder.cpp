@@ -328,7 +328,7 @@ void SessionRecorder::onForceMap(const ros::MessageEvent<ContactForceMap const>&
 void SessionRecorder::onVessel(const ros::MessageEvent<VesselMesh const>& event)
 {
   if (info_published_)
-    return;                               // later meshes are in vessel/moved already
+    return;                               // later meshes are in vessel/wall_displacement already
   fromMessage(*event.getConstMessage());  // throws for an invalid one
   info_.mesh_hash = event.getConstMessage()->content_hash;
   publishInfo();

@@ -46,12 +46,17 @@ def lesion(metrics, *keys):
     return get(metrics["lesions"][0], *keys) if metrics.get("lesions") else None
 
 
+def retries(step):
+    """Number of retries of a step, also in metrics of version 0.1, which name them `new_tries`."""
+    return step.get("retries", step.get("new_tries"))
+
+
 # Label, format, function of the metrics, less is better (None: not comparable).
 ROWS = [
     ("outcome", "{}", lambda m: m.get("outcome"), None),
     ("procedure time [s]", "{:.1f}", lambda m: m["procedure_time"], True),
     ("fluoroscopy time [s]", "{:.1f}", lambda m: m["fluoroscopy_time"], True),
-    ("retries", "{}", lambda m: sum(s["new_tries"] for s in m["steps"]), True),
+    ("retries", "{}", lambda m: sum(retries(step) for step in m["steps"]), True),
     ("tip path of all instruments [mm]", "{:.0f}", lambda m: 1e3 * total(m, "tip_path"), True),
     ("smoothness, worst instrument (SPARC)", "{:.2f}", lambda m: worst(m, "spectral_arc_length", min), False),
     ("wrong branches entered", "{}", lambda m: len(m["wrong_branches"]), True),
