@@ -1,9 +1,7 @@
+#include "procedure/tip_steering.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "procedure/operator.h"
-
-// Steering of the scripted operator: rotation of a bent tip near junctions.
 
 namespace endovascular_sim::procedure
 {
@@ -21,24 +19,21 @@ constexpr double kSlowestAdvance = 0.3;  // share of the speed that remains, so 
 
 }  // namespace
 
-/** Turns the bend of the tip along the path to the goal if a junction is near, and slows down until it points there. */
-void Operator::steer(const InstrumentView& view)
+std::optional<TipSteering> steeringOf(const Route& route, const InstrumentView& view, double max_turn)
 {
-  if (!route_ || view.covered || view.bend.length <= 0.0)
-    return;
-  const double arc = route_->line().nearest(view.tip).arc;
-  const double ahead = route_->toJunction(arc);
+  if (view.covered || view.bend.length <= 0.0)
+    return std::nullopt;
+  const double arc = route.line().nearest(view.tip).arc;
+  const double ahead = route.toJunction(arc);
   if (ahead > kApproach || ahead < -kPassed)
-    return;
-  const Eigen::Vector3d target = route_->line().at(arc + view.bend.length + kLookAhead);
+    return std::nullopt;
+  const Eigen::Vector3d target = route.line().at(arc + view.bend.length + kLookAhead);
   const double deviation = turnTowards(view.bend, view.tip, target);
   if (std::abs(deviation) < kTolerance)
-    return;
-  Hand& hand = hands_[static_cast<std::size_t>(active_)];
-  const double fastest = std::min(kFastestTurn, hand_.max_turn);
-  hand.target_turn_speed = std::clamp(kGain * deviation, -fastest, fastest);
-  const double share = 1.0 - (1.0 - kSlowestAdvance) * std::min(1.0, std::abs(deviation) / kHoldDeviation);
-  hand.target_speed *= share;
+    return std::nullopt;
+  const double fastest = std::min(kFastestTurn, max_turn);
+  return TipSteering{std::clamp(kGain * deviation, -fastest, fastest),
+                     1.0 - (1.0 - kSlowestAdvance) * std::min(1.0, std::abs(deviation) / kHoldDeviation)};
 }
 
 }  // namespace endovascular_sim::procedure
