@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "rod/boundary/boundary_conditions.h"
 #include "rod/contact/contact_margins.h"
+#include "rod/stepping/solution_observer.h"
 #include "scene/schema/scene_schema.h"
 #include "simulation/stepper_factory.h"
 
@@ -225,10 +226,7 @@ void Simulation::prepareContactRadii()
   if (treatments_.empty())
     return;
   PhaseTimer::Scope scope(timer_, Phase::kBalloon);
-  const std::vector<double>& radii = treatments_.contactRadii(state_, discretisation(), contactSet());
-  stepper_->setContactRadii(radii);
-  if (audit_ != nullptr)
-    audit_->setContactRadii(radii);
+  stepper_->setContactRadii(treatments_.contactRadii(state_, discretisation(), contactSet()));
 }
 
 /** Steps the wire, and adds the force and the torque of the introducer's valve on the hand. */
@@ -243,9 +241,9 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
   const double outside = stepper_->discretisation().length() - state_.inserted_length;
   valve_.drag(state_, state_.inserted_length - insertion, state_.rotation - rotation,
               scene_.instruments.front().instrument.wire.radiusAt(outside));
-  if (audit_ != nullptr)
-    audit_->addValve(state_.hand_parts.valve * (state_.inserted_length - insertion),
-                     state_.valve_torque * (state_.rotation - rotation));
+  if (observer_ != nullptr)
+    observer_->addValve(state_.hand_parts.valve * (state_.inserted_length - insertion),
+                        state_.valve_torque * (state_.rotation - rotation));
 }
 
 bool Simulation::isBeyondGrip() const
@@ -275,9 +273,8 @@ drive::GripSearch Simulation::gripSearch() const
 void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   before_ = state_;
-  std::optional<rod::EnergyAudit> audit;
-  if (audit_ != nullptr)
-    audit = *audit_;
+  if (observer_ != nullptr)
+    observer_->keep();
   moveWire(input, dt, pass);
   if (!scene_.introducer || !report_.solved || !isBeyondGrip())
     return;
@@ -289,8 +286,8 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
   const auto repeat = [&]
   {
     setState(before_);
-    if (audit_ != nullptr)
-      *audit_ = *audit;
+    if (observer_ != nullptr)
+      observer_->revert();
     input.setHandles(handles_);
     moveWire(input, dt, pass);
   };
@@ -411,10 +408,10 @@ void Simulation::stepAll(const std::vector<HandCommand>& commands)
   trajectory_.add(state_hash_);
 }
 
-void Simulation::setAudit(rod::EnergyAudit* audit)
+void Simulation::setObserver(rod::SolutionObserver* observer)
 {
-  stepper_->setAudit(audit);
-  audit_ = audit;
+  stepper_->setObserver(observer);
+  observer_ = observer;
 }
 
 void Simulation::setState(rod::State state)

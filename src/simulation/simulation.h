@@ -12,7 +12,6 @@
 #include "contact/contract/contact_set.h"
 #include "drive/grip_search.h"
 #include "rod/boundary/hemostatic_valve.h"
-#include "rod/energy/energy_audit.h"
 #include "rod/sampling/adaptive_sampling.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene.h"
@@ -95,10 +94,10 @@ public:
    *          simulation then needs a load before its next step */
   bool adopt(std::istream& stream, std::uint64_t vessel_hash = 0, const std::string& origin = "state");
 
-  /** Starts an energy audit, or ends it with null. The trajectory is the same with and without.
-   *  @param audit must outlive the steps
-   *  @throws std::logic_error for a scheme without SchemeTraits::audits */
-  void setAudit(rod::EnergyAudit* audit);
+  /** Sets the observer of every step from now on, e.g. a rod::EnergyAudit; null: none. The trajectory does not change.
+   *  @param observer must outlive the steps
+   *  @throws std::logic_error for a scheme without SchemeTraits::observes */
+  void setObserver(rod::SolutionObserver* observer);
 
   /** Pose of the introducer, or of the proximal end without one. */
   const scene::EntryPose& entry() const { return entry_; }
@@ -185,7 +184,7 @@ private:
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t steps_ = 0;
-  rod::EnergyAudit* audit_ = nullptr;
+  rod::SolutionObserver* observer_ = nullptr;
   double max_travel_ = 0.0;  ///< largest travel of a handle in one sub-step [m]
 };
 

@@ -204,8 +204,8 @@ void Simulation::read(std::istream& stream, std::uint64_t vessel_hash, const std
     in(header);
     checkHeader(header, wanted, origin, of_same_scene);
     stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
-    if (audit_ != nullptr)
-      stepper_->setAudit(audit_);
+    if (observer_ != nullptr)
+      stepper_->setObserver(observer_);
     report_ = rod::StepReport();
     archive(in);
     if (more)

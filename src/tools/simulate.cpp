@@ -23,6 +23,7 @@
 #include "results/run_result.h"
 #include "results/step_costs_csv.h"
 #include "results/trajectory_csv.h"
+#include "rod/energy/energy_audit.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
 #include "session/phase_pictures.h"
@@ -301,7 +302,7 @@ void run(const Options& options, session::Session& session, session::PhasePictur
   Tables tables(scene, options);
   CommandedHands hands(scene, options.commands, static_cast<double>(session.lastStep()) * scene.solver.time_step);
   if (options.audit)
-    simulation.setAudit(tables.audit());
+    simulation.setObserver(tables.audit());
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
@@ -331,7 +332,7 @@ void run(const Options& options, session::Session& session, session::PhasePictur
   tables.flush();
   if (!options.audit)
     return;
-  simulation.setAudit(nullptr);
+  simulation.setObserver(nullptr);
   if (!options.quiet || !tables.closure().accepted())
     std::fprintf(stderr, "%s\n", tables.closure().text().c_str());
 }
@@ -370,7 +371,7 @@ std::shared_ptr<const session::World> worldOf(const Options& options)
   createFolder(options.out);
   if (options.pictures && !scene.procedure)
     throw InputError(options.scene, "procedure", "--pictures needs a scene with a procedure");
-  if (options.audit && !scene.solver.traits().audits)
+  if (options.audit && !scene.solver.traits().observes)
     throw InputError(options.scene, "solver.scheme", "'" + scene.solver.scheme + "' has no energy audit; use kkt");
   std::shared_ptr<const session::World> world =
       session::World::make(std::move(scene), options.quiet ? ProgressReport() : progressOnErrorStream(), printVessel);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "rod/energy/energy_audit.h"
 #include "session/session.h"
 
 // The energy audit of shipped scenes.
@@ -13,7 +14,7 @@ namespace
 std::uint64_t runTube(rod::EnergyAudit* audit)
 {
   session::Session session("tube", {"drive.speed=0.1", "drive.initial_insertion=0.04", "duration=0.5"});
-  session.simulation().setAudit(audit);
+  session.simulation().setObserver(audit);
   while (!session.isOver())
     session.step();
   return session.simulation().trajectoryHash();
@@ -36,7 +37,7 @@ TEST(EnergyAuditOfScenes, ClosesForACatheterOverAWireWithAdaptiveNodes)
 {
   session::Session session("catheter", {"duration=3"});
   rod::EnergyAudit audit;
-  session.simulation().setAudit(&audit);
+  session.simulation().setObserver(&audit);
   while (!session.isOver())
     session.step();
   EXPECT_GT(audit.balance().push, 1e-3);
@@ -47,7 +48,7 @@ TEST(EnergyAuditOfScenes, SchemesWithoutAnAuditRefuseIt)
 {
   session::Session session("straight_wire", {"solver.scheme=mixed"});
   rod::EnergyAudit audit;
-  EXPECT_THROW(session.simulation().setAudit(&audit), std::logic_error);
+  EXPECT_THROW(session.simulation().setObserver(&audit), std::logic_error);
 }
 
 }  // namespace endovascular_sim::simulation

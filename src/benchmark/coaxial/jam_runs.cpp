@@ -254,7 +254,7 @@ JamResult runJam(const JamCase& at)
   contact::Detector detector(vessel.mesh, scene::wallLaw(*scene.vessel));
   simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, vessel, scene.file), &detector);
   rod::EnergyAudit audit;
-  simulation.setAudit(&audit);
+  simulation.setObserver(&audit);
   JamResult result;
   const double end = 0.1 + (lengthOf(at.path) - 0.5e-3 - 0.9 * kBefore) / kFast + kPushed / kSlow + 0.2;
   while (simulation.time() < end)

@@ -89,33 +89,30 @@ double kineticEnergy(const Discretisation& rod, const State& state)
   return sum;
 }
 
-void EnergyAudit::endStep(bool solved, double kinetic)
+void EnergyAudit::beginStep(const Discretisation& rod, const State& state)
+{
+  sums_.kinetic = kineticEnergy(rod, state);
+}
+
+void EnergyAudit::endStep(bool solved)
 {
   if (solved)
   {
-    pending_.turnover += std::abs(pending_.stored());
-    sum_ += pending_;
-    wall_energy_ = pending_wall_energy_;
-    radius_ = pending_radius_;
-    own_radius_ = pending_own_radius_;
-    last_ = pending_last_;
-    started_ = pending_started_;
+    sums_.pending.turnover += std::abs(sums_.pending.stored());
+    sums_.sum += sums_.pending;
+    sums_.last = sums_.pending_last;
   }
   else
   {
-    sum_.kinetic -= kinetic;
-    sum_.rejected += kinetic;
-    sum_.turnover += kinetic;
+    sums_.sum.kinetic -= sums_.kinetic;
+    sums_.sum.rejected += sums_.kinetic;
+    sums_.sum.turnover += sums_.kinetic;
   }
-  pending_ = EnergyBalance();
-  pending_wall_energy_ = wall_energy_;
-  pending_radius_ = radius_;
-  pending_own_radius_ = own_radius_;
-  pending_last_ = last_;
-  pending_started_ = started_;
+  sums_.pending = EnergyBalance();
+  sums_.pending_last = sums_.last;
 }
 
-void EnergyAudit::addPart(const AuditedPart& part)
+void EnergyAudit::addPart(const AcceptedPart& part)
 {
   turn_balance_ = 0.0;
   addHands(part);
@@ -125,10 +122,10 @@ void EnergyAudit::addPart(const AuditedPart& part)
   addFriction(part);
   addTensions(part);
   addContact(part);
-  pending_.turn_error += turn_balance_;
+  sums_.pending.turn_error += turn_balance_;
 }
 
-void EnergyAudit::addHands(const AuditedPart& part)
+void EnergyAudit::addHands(const AcceptedPart& part)
 {
   double push = 0.0;
   double turn = 0.0;
@@ -138,14 +135,14 @@ void EnergyAudit::addHands(const AuditedPart& part)
     push += now.force * (now.inserted_length - handleState(part.before, k).inserted_length);
     turn += now.torque * layerRotationChange(part.before, part.after, k);
   }
-  pending_.push += push;
-  pending_.turn += turn;
-  pending_.turnover += std::abs(push) + std::abs(turn);
+  sums_.pending.push += push;
+  sums_.pending.turn += turn;
+  sums_.pending.turnover += std::abs(push) + std::abs(turn);
   turn_balance_ += turn;
 }
 
 /** External loads; the distal end's hold by its translation and its rotation about the wire. */
-void EnergyAudit::addLoads(const AuditedPart& part)
+void EnergyAudit::addLoads(const AcceptedPart& part)
 {
   double work = 0.0;
   for (const NodalForce& load : part.input.forces)
@@ -158,35 +155,35 @@ void EnergyAudit::addLoads(const AuditedPart& part)
     torque += part.input.edge_torque[j] * (part.after.twist_angle[j] - part.before.twist_angle[j]);
   torque += part.input.tip_torque * (part.after.twist_angle[last] - part.before.twist_angle[last]);
   torque += part.after.distal_torque * (part.after.distal.rotation - part.before.distal.rotation);
-  pending_.loads += work + torque;
-  pending_.turnover += std::abs(work) + std::abs(torque);
+  sums_.pending.loads += work + torque;
+  sums_.pending.turnover += std::abs(work) + std::abs(torque);
   turn_balance_ += torque;
 }
 
 /** Inertia of the free nodes, damping and drag. */
-void EnergyAudit::addMotion(const AuditedPart& part)
+void EnergyAudit::addMotion(const AcceptedPart& part)
 {
   const State& after = part.after;
   for (int i = after.first_node; i < part.rod.nodes(); ++i)
   {
     const NodeSlide slide = part.slides.empty() ? NodeSlide() : part.slides[i];
     const Eigen::Vector3d travel = after.position[i] - part.begin[i];
-    pending_.damping += part.forces.damping[i] * (travel + slide.mass).squaredNorm();
-    pending_.drag += part.forces.drag[i] * (travel + slide.surface).squaredNorm();
+    sums_.pending.damping += part.forces.damping[i] * (travel + slide.mass).squaredNorm();
+    sums_.pending.drag += part.forces.drag[i] * (travel + slide.surface).squaredNorm();
     if (part.conditions.isPrescribed(i, after))
       continue;
     const Eigen::Vector3d velocity = (travel + slide.mass) / part.dt;
     const Eigen::Vector3d earlier = part.before.velocity[i] + (slide.mass - slide.mass_gained) / part.dt;
     const double mass = part.rod.mass[i];
-    pending_.kinetic += 0.5 * mass * (velocity.squaredNorm() - earlier.squaredNorm());
-    pending_.inertia += 0.5 * mass * (velocity - earlier).squaredNorm();
+    sums_.pending.kinetic += 0.5 * mass * (velocity.squaredNorm() - earlier.squaredNorm());
+    sums_.pending.inertia += 0.5 * mass * (velocity - earlier).squaredNorm();
   }
 }
 
 /** Potentials: their change, and the work of their forces at the end along the motion of positions and angles. Along
  *  the positions, the material follows the edges without turning about them; the rest of its turn is that of the
  *  angles. */
-void EnergyAudit::addPotentials(const AuditedPart& part)
+void EnergyAudit::addPotentials(const AcceptedPart& part)
 {
   const State begin = completed(part.before, part.boundary, part.conditions);
   const State faded = completed(part.after, part.boundary, part.conditions);
@@ -224,31 +221,31 @@ void EnergyAudit::addPotentials(const AuditedPart& part)
   const PotentialEnergy last = part.potential(end, from);
   const PotentialEnergy final = part.potential(faded, from);
   const PotentialEnergy change = final - first;
-  pending_.bending += change.bending;
-  pending_.twist += change.twist;
-  pending_.guide += change.guide;
-  pending_.gravity += change.gravity;
-  pending_.resampling += (last - final).sum();
+  sums_.pending.bending += change.bending;
+  sums_.pending.twist += change.twist;
+  sums_.pending.guide += change.guide;
+  sums_.pending.gravity += change.gravity;
+  sums_.pending.resampling += (last - final).sum();
   addChangeOfNodes(first, final);
   // The energy of the twist refers to angles alone; that of the hold is singular where it passes the middle of an edge.
-  pending_.positions += by_positions.sum() - (last - at_begin).sum();
-  pending_.twisting += by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist -
-                       (at_begin - first).twist;
+  sums_.pending.positions += by_positions.sum() - (last - at_begin).sum();
+  sums_.pending.twisting += by_angles.sum() - (at_begin - with_insertion).sum() + (at_begin - with_insertion).twist -
+                            (at_begin - first).twist;
   const double by_insertion = (with_insertion - first).sum() - (with_insertion - first).twist;
-  pending_.configurational += by_insertion;
-  pending_.insertion += part.insertion_work - by_insertion;
+  sums_.pending.configurational += by_insertion;
+  sums_.pending.insertion += part.insertion_work - by_insertion;
   turn_balance_ -= by_angles.sum();
 }
 
 /** Friction of the wall along the surface and about the axis, and friction between layers. */
-void EnergyAudit::addFriction(const AuditedPart& part)
+void EnergyAudit::addFriction(const AcceptedPart& part)
 {
   for (int i = part.after.first_node; i < part.rod.nodes(); ++i)
   {
     Eigen::Vector3d motion = part.after.position[i] - part.begin[i];
     if (!part.slides.empty())
       motion += part.slides[i].surface;
-    pending_.wall_friction += part.forces.friction[i].dot(motion);
+    sums_.pending.wall_friction += part.forces.friction[i].dot(motion);
   }
   double rolling = 0.0;
   for (const TwistFriction& friction : part.about_axis)
@@ -256,25 +253,25 @@ void EnergyAudit::addFriction(const AuditedPart& part)
     const double angle = part.surface_angle[friction.node];
     rolling += friction.pull(angle - friction.begin_angle) * (angle - part.surface_begin[friction.node]);
   }
-  pending_.wall_rolling += rolling;
-  pending_.layer_friction += part.layer_friction_push + part.layer_friction_turn;
+  sums_.pending.wall_rolling += rolling;
+  sums_.pending.layer_friction += part.layer_friction_push + part.layer_friction_turn;
   turn_balance_ -= rolling + part.layer_friction_turn;
 }
 
 /** Tensions on edges that turn: their work would vanish at the mean of the directions before and after. */
-void EnergyAudit::addTensions(const AuditedPart& part)
+void EnergyAudit::addTensions(const AcceptedPart& part)
 {
   const std::vector<Eigen::Vector3d>& x = part.after.position;
   for (int j = part.after.first_node; j + 1 < part.rod.nodes(); ++j)
   {
     const Eigen::Vector3d edge = x[j + 1] - x[j];
-    pending_.lengths += part.after.tension[j] * edge.normalized().dot(edge - part.begin[j + 1] + part.begin[j]);
+    sums_.pending.lengths += part.after.tension[j] * edge.normalized().dot(edge - part.begin[j + 1] + part.begin[j]);
   }
 }
 
 /** Residual of the equations of the free nodes at the end of a part, times their motion.
  *  @param by_free_nodes derivative of the potentials along the motion of the free nodes [J] */
-void EnergyAudit::addResidual(const AuditedPart& part, double by_free_nodes)
+void EnergyAudit::addResidual(const AcceptedPart& part, double by_free_nodes)
 {
   const State& after = part.after;
   const int first = after.first_node;
@@ -298,16 +295,16 @@ void EnergyAudit::addResidual(const AuditedPart& part, double by_free_nodes)
   for (const NodalForce& load : part.input.forces)
     if (load.node >= first)
       work -= load.force.dot(travelOf(load.node));
-  pending_.iteration -= work;
+  sums_.pending.iteration -= work;
 }
 
-void EnergyAudit::addContact(const AuditedPart& part)
+void EnergyAudit::addContact(const AcceptedPart& part)
 {
   const auto n = static_cast<std::size_t>(part.rod.nodes());
-  const bool same_nodes = pending_radius_.size() == n;
+  const bool same_nodes = sums_.pending_last.radius.size() == n;
   std::vector<double> radius = part.rod.radius;
-  for (std::size_t i = 0; least_radius_.size() == n && i < n; ++i)
-    radius[i] = std::max(radius[i], least_radius_[i]);
+  for (std::size_t i = 0; sums_.least_radius.size() == n && i < n; ++i)
+    radius[i] = std::max(radius[i], sums_.least_radius[i]);
   double work = 0.0;
   double widened = 0.0;
   double inflated = 0.0;
@@ -317,17 +314,17 @@ void EnergyAudit::addContact(const AuditedPart& part)
     work -= force.dot(part.after.position[i] - part.begin[i]);
     if (!same_nodes || force.isZero(0.0))
       continue;
-    const double growth = radius[i] - pending_radius_[i];
-    const double own_growth = part.rod.radius[i] - pending_own_radius_[i];
+    const double growth = radius[i] - sums_.pending_last.radius[i];
+    const double own_growth = part.rod.radius[i] - sums_.pending_last.own_radius[i];
     widened += force.norm() * growth;
     inflated += force.norm() * (growth - own_growth);
   }
-  pending_.pressure += inflated;
-  pending_.wall += part.wall_energy - pending_wall_energy_;
-  pending_.contact += work + widened - (part.wall_energy - pending_wall_energy_);
-  pending_wall_energy_ = part.wall_energy;
-  pending_radius_ = std::move(radius);
-  pending_own_radius_ = part.rod.radius;
+  sums_.pending.pressure += inflated;
+  sums_.pending.wall += part.wall_energy - sums_.pending_last.wall_energy;
+  sums_.pending.contact += work + widened - (part.wall_energy - sums_.pending_last.wall_energy);
+  sums_.pending_last.wall_energy = part.wall_energy;
+  sums_.pending_last.radius = std::move(radius);
+  sums_.pending_last.own_radius = part.rod.radius;
 }
 
 /** Adds the change of the potentials since the last part, e.g. by other nodes.
@@ -335,25 +332,25 @@ void EnergyAudit::addContact(const AuditedPart& part)
  *  @param final at its end */
 void EnergyAudit::addChangeOfNodes(const PotentialEnergy& first, const PotentialEnergy& final)
 {
-  if (pending_started_)
+  if (sums_.pending_last.started)
   {
-    PotentialEnergy change = first - pending_last_;
+    PotentialEnergy change = first - sums_.pending_last.potential;
     change.gravity = 0.0;  // of the nodes simulated at that time
-    pending_.bending += change.bending;
-    pending_.twist += change.twist;
-    pending_.guide += change.guide;
-    pending_.resampling -= change.sum();
+    sums_.pending.bending += change.bending;
+    sums_.pending.twist += change.twist;
+    sums_.pending.guide += change.guide;
+    sums_.pending.resampling -= change.sum();
   }
-  pending_started_ = true;
-  pending_last_ = final;
+  sums_.pending_last.started = true;
+  sums_.pending_last.potential = final;
 }
 
 void EnergyAudit::addValve(double push, double turn)
 {
-  sum_.push += push;
-  sum_.turn += turn;
-  sum_.turnover += std::abs(push) + std::abs(turn);
-  sum_.valve += push + turn;
+  sums_.sum.push += push;
+  sums_.sum.turn += turn;
+  sums_.sum.turnover += std::abs(push) + std::abs(turn);
+  sums_.sum.valve += push + turn;
 }
 
 }  // namespace endovascular_sim::rod

@@ -8,6 +8,7 @@
 #include "rod/kkt/single_layer.h"
 #include "rod/kkt/turn_truncation.h"
 #include "rod/sampling/resampling.h"
+#include "rod/stepping/solution_observer.h"
 
 namespace endovascular_sim::rod
 {
@@ -66,10 +67,11 @@ StepReport KktStepper::step(State& state, const StepInput& input, double dt, std
       contacts_.invalidate();
   }
   StepReport report;
-  const double kinetic = audit_ != nullptr ? kineticEnergy(model_.rod, state) : 0.0;
+  if (observer_ != nullptr)
+    observer_->beginStep(model_.rod, state);
   report.solved = advance(state, layers_->centrelineInput(state, input), dt, report);
-  if (audit_ != nullptr)
-    audit_->endStep(report.solved, kinetic);
+  if (observer_ != nullptr)
+    observer_->endStep(report.solved);
   report.max_strain = strain_;
   return report;
 }
@@ -82,8 +84,8 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, StepRe
       {
         const bool accepted =
             solveStep(part, at, part_dt, report) && (shortest || !gainedEnergy(before, part, part_dt));
-        if (accepted && audit_ != nullptr)
-          auditPart(before, part, at, part_dt);
+        if (accepted && observer_ != nullptr)
+          showPart(before, part, at, part_dt);
         return accepted;
       },
       [this] { contacts_.invalidate(); });
@@ -334,7 +336,7 @@ void KktStepper::accept(State& state, double dt)
 {
   PhaseTimer::Scope scope(*timer_, Phase::kForces);
   contacts_.updateWallForces(state, motion_);
-  if (audit_ != nullptr)
+  if (observer_ != nullptr)
     noteForces(dt);
   reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
                      assembly_.configurationalForce(), layers_->restForce(state) + assembly_.guideRestForce(state),
@@ -371,6 +373,13 @@ SurfaceMotion KktStepper::surfaceMotion() const
   return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr};
 }
 
+void KktStepper::setContactRadii(const std::vector<double>& radii)
+{
+  contacts_.setRadii(radii);
+  if (observer_ != nullptr)
+    observer_->setContactRadii(radii);
+}
+
 bool KktStepper::resample(const Discretisation& rod)
 {
   contacts_.resample(rod);
@@ -380,7 +389,7 @@ bool KktStepper::resample(const Discretisation& rod)
   return true;
 }
 
-/** Stores the resisting forces of an accepted solution for the audit. */
+/** Stores the resisting forces of an accepted solution for the observer. */
 void KktStepper::noteForces(double dt)
 {
   resisting_.reset(motion_.size());
@@ -397,7 +406,7 @@ void KktStepper::noteForces(double dt)
   spring_energy_ = contacts_.springEnergy();
 }
 
-void KktStepper::auditPart(const State& before, const State& after, const StepInput& input, double dt)
+void KktStepper::showPart(const State& before, const State& after, const StepInput& input, double dt)
 {
   std::vector<NodeSlide> slides;
   for (std::size_t i = 0; layers_->slides() != nullptr && i < after.position.size(); ++i)
@@ -410,11 +419,11 @@ void KktStepper::auditPart(const State& before, const State& after, const StepIn
   layers_->surfaceAngles(after, surface_angle_);
   const LayerFrictionWork layers = layers_->frictionWork(before, after);
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
-  audit_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
-                   resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_,
-                   layers_->frameTurns(after), spring_energy_, layers.push, layers.turn,
-                   layers_->insertionWork(before, after) +
-                       assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length)});
+  observer_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
+                      resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_,
+                      layers_->frameTurns(after), spring_energy_, layers.push, layers.turn,
+                      layers_->insertionWork(before, after) +
+                          assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length)});
   layers_->restore(after);
 }
 

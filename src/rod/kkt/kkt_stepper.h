@@ -6,7 +6,7 @@
 #include "rod/coaxial/concentric_stack.h"
 #include "rod/contact/contact_solver.h"
 #include "rod/contact/wall_friction.h"
-#include "rod/energy/energy_audit.h"
+#include "rod/energy/accepted_part.h"
 #include "rod/kkt/active_set_solver.h"
 #include "rod/kkt/kkt_assembly.h"
 #include "rod/kkt/kkt_model.h"
@@ -48,12 +48,12 @@ public:
                   contact::ContactSource* contacts, PhaseTimer& timer) override;
   Energy energy(const State& state) override { return layers_->energy(state, last_input_, friction_); }
   const contact::ContactSet& contactSet() const override { return contacts_.set(); }
-  void setContactRadii(const std::vector<double>& radii) override { contacts_.setRadii(radii); }
+  void setContactRadii(const std::vector<double>& radii) override;
   void invalidateContacts() override { contacts_.invalidate(); }
   const Discretisation& discretisation() const override { return model_.rod; }
   bool resample(const Discretisation& rod) override;
   void archive(Archive& archive, const State& state) override;
-  void setAudit(EnergyAudit* audit) override { audit_ = audit; }
+  void setObserver(SolutionObserver* observer) override { observer_ = observer; }
 
 private:
   friend struct KktStepperPeer;  // of the tests
@@ -77,7 +77,7 @@ private:
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
   void noteForces(double dt);
-  void auditPart(const State& before, const State& after, const StepInput& input, double dt);
+  void showPart(const State& before, const State& after, const StepInput& input, double dt);
   PotentialEnergy potentialEnergy(const State& state, int from);
 
   KktModel model_;
@@ -105,9 +105,9 @@ private:
   std::vector<Eigen::Vector3d> saved_begin_, saved_velocity_;  ///< while lengths are restored
   std::vector<double> surface_begin_, surface_angle_;          ///< angles of the surface at every node [rad]
 
-  EnergyAudit* audit_ = nullptr;  ///< null: none
-  ResistingForces resisting_;     ///< of the last accepted solution, for the audit
-  double spring_energy_ = 0.0;    ///< likewise [J]
+  SolutionObserver* observer_ = nullptr;  ///< null: none
+  ResistingForces resisting_;             ///< of the last accepted solution, for the observer
+  double spring_energy_ = 0.0;            ///< likewise [J]
 };
 
 }  // namespace endovascular_sim::rod

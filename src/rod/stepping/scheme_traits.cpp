@@ -9,7 +9,7 @@ const std::vector<SchemeTraits>& schemes()
 {
   // clang-format off
   static const std::vector<SchemeTraits> table = {
-      //        balloons stack  moves  holds  torque adaptive saves  audits
+      //        balloons stack  moves  holds  torque adaptive saves  observes
       {"kkt",   true,    true,  true,  true,  true,  true,    true,  true},
       {"paper", false,   false, false, false, true,  true,    false, false},
       {"mixed", false,   false, false, false, false, false,   false, false},

@@ -17,7 +17,7 @@ struct SchemeTraits
   bool clamped_tip_torque = false;  ///< external torque at a clamped tip
   bool adaptive = false;            ///< nodes that change, see Stepper::resample()
   bool saves = false;               ///< saved states, see Stepper::archive()
-  bool audits = false;              ///< energy audit, see Stepper::setAudit()
+  bool observes = false;            ///< e.g. energy audits, see Stepper::setObserver()
 };
 
 /** All schemes. The first one is the default, and has all capabilities. */

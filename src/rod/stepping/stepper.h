@@ -28,7 +28,7 @@ enum class EndHold
   kClamped,  ///< position and direction held: the clamp acts at the middle of the end edge
 };
 
-class EnergyAudit;
+class SolutionObserver;
 
 /** Holds of the wire: an introducer, or the holds of its two ends. */
 struct Boundary
@@ -177,9 +177,9 @@ public:
    *  @throws std::logic_error in schemes without SchemeTraits::saves */
   virtual void archive(Archive& archive, const State& state);
 
-  /** Sets the audit that receives every step from now on; null: none. It must outlive the steps.
-   *  @throws std::logic_error in schemes without SchemeTraits::audits */
-  virtual void setAudit(EnergyAudit* audit);
+  /** Sets the observer of every step from now on; null: none. It must outlive the steps.
+   *  @throws std::logic_error in schemes without SchemeTraits::observes */
+  virtual void setObserver(SolutionObserver* observer);
 
   /** Takes over another sampling of the same wire; the caller resamples the state.
    *  @return false in schemes without SchemeTraits::adaptive */
@@ -193,9 +193,9 @@ inline void Stepper::archive(Archive& /*archive*/, const State& /*state*/)
   throw std::logic_error("Stepper: this scheme's state cannot be saved");
 }
 
-inline void Stepper::setAudit(EnergyAudit* /*audit*/)
+inline void Stepper::setObserver(SolutionObserver* /*observer*/)
 {
-  throw std::logic_error("Stepper: this scheme has no energy audit");
+  throw std::logic_error("Stepper: this scheme cannot be observed");
 }
 
 inline bool Stepper::resample(const Discretisation& /*rod*/)

@@ -43,14 +43,14 @@ EnergyBalance audited(KktStepper& stepper, State& state, const StepInput& input,
                       contact::ContactSource* wall = nullptr)
 {
   EnergyAudit audit;
-  stepper.setAudit(&audit);
+  stepper.setObserver(&audit);
   PhaseTimer timer;
   for (int k = 0; k < steps; ++k)
   {
     std::uint32_t pass = 0;
     stepper.step(state, input, dt, pass, wall, timer);
   }
-  stepper.setAudit(nullptr);
+  stepper.setObserver(nullptr);
   return audit.balance();
 }
 
@@ -152,7 +152,7 @@ TEST(EnergyAudit, StoresTheWorkOfATurningHandInAWireHeldAtBothEnds)
   KktStepper stepper(discretiseUniformly(wire, nodes), boundary, Environment(), StepperSettings());
   State state = stepper.initialState(0.0, 0.0);
   EnergyAudit audit;
-  stepper.setAudit(&audit);
+  stepper.setObserver(&audit);
   PhaseTimer timer;
   StepInput input;
   const double turn = 0.5;  // rad: below the torque of buckling
@@ -190,7 +190,7 @@ EnergyBalance pushAgainstAPin(double dt)
   while (input.inserted_length < 1.5 * length)
   {
     if (input.inserted_length > 1.05 * length)
-      stepper.setAudit(&audit);
+      stepper.setObserver(&audit);
     input.inserted_length += 0.02 * dt;
     std::uint32_t pass = 0;
     stepper.step(state, input, dt, pass, nullptr, timer);
@@ -224,7 +224,7 @@ TEST(EnergyAudit, ACurvedTipPushesItselfOutOfTheIntroducerAndIsWithdrawnWithItsB
   StepInput input;
   input.inserted_length = 2e-3;
   EnergyAudit audit;
-  stepper.setAudit(&audit);
+  stepper.setObserver(&audit);
   PhaseTimer timer;
   const double dt = 1e-3;
   std::vector<double> work;
@@ -293,7 +293,7 @@ TEST(EnergyAudit, TrajectoryHasTheSameBitsWithAndWithout)
       x.z() += 2e-3;
     EnergyAudit audit;
     if (with_audit)
-      stepper.setAudit(&audit);
+      stepper.setObserver(&audit);
     PhaseTimer timer;
     StepInput input;
     for (int k = 1; k <= 200; ++k)
