@@ -13,8 +13,9 @@ set(LAYERS
   "segmentation  : image vessel                               :"
   "instrument    : rod                                        :"
   "intervention  : instrument vessel                          :"
-  "fluoroscopy   : image instrument vessel                    : PNG::PNG ${XRAYLIB_LIBRARY}"
-  "phantom       : fluoroscopy                                :"
+  "patient       : image vessel                               :"
+  "phantom       : patient                                    :"
+  "fluoroscopy   : instrument patient                         : PNG::PNG ${XRAYLIB_LIBRARY}"
   "drive         : common                                     :"
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
@@ -29,7 +30,7 @@ set(LAYERS
 set(SEPARATE_FOLDERS vessel/prepare segmentation/mesh image/import robot/urdf)
 
 # The calls in these take most of the time of steps, frames and images.
-set(FAST_LAYERS geometry rod contact fluoroscopy phantom segmentation)
+set(FAST_LAYERS geometry rod contact patient phantom fluoroscopy segmentation)
 
 # read_layer(LINE): sets `layer`, `layer_includes` and `layer_links`.
 macro(read_layer line)

@@ -150,20 +150,21 @@ def layers():
         ("procedure · results", "operator, metrics", "#eef3f8"),
         ("simulation", "one time step of a scene", "#eef3f8"),
         ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
-        ("drive · robot · haptics · fluoroscopy · phantom · intervention", "what moves or sees instruments", "#eef3f8"),
+        ("drive · robot · haptics · fluoroscopy · intervention", "what moves or sees instruments", "#eef3f8"),
+        ("patient · phantom", "tissues of the body, synthetic CT and MR", "#eef3f8"),
         ("vessel · segmentation · instrument", "anatomy and devices", "#eef3f8"),
         ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),
         ("common · yaml · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
     ]
-    figure, axes = canvas(7.4, 4.6, (-0.3, 14.5), (0, 9.2))
+    figure, axes = canvas(7.4, 5.05, (-0.3, 14.5), (0, 10.1))
     for k, (folders, what, colour) in enumerate(rows):
-        y = 8.75 - 0.9 * k
+        y = 9.65 - 0.9 * k
         axes.add_patch(FancyBboxPatch((0.6, y - 0.37), 13.6, 0.74, boxstyle="round,pad=0,rounding_size=0.1",
                                       facecolor=colour, edgecolor=WIRE, linewidth=1))
         label(axes, 0.85, y, folders, ha="left", family="monospace", fontsize=8)
         label(axes, 13.95, y, what, ha="right", fontsize=8.5, colour="#444444")
-    arrow(axes, (0.3, 9.0), (0.3, 0.3))
-    label(axes, 0.0, 4.6, "includes", rotation=90, fontsize=8.5)
+    arrow(axes, (0.3, 9.9), (0.3, 0.3))
+    label(axes, 0.0, 5.05, "includes", rotation=90, fontsize=8.5)
     return figure
 
 

@@ -115,7 +115,7 @@ const XRayVolume& World::patient() const
   std::call_once(patient_loaded_,
                  [this]
                  {
-                   fluoroscopy::PatientVolume loaded =
+                   patient::PatientVolume loaded =
                        simulation::patientVolume(scene_, vessel_ ? *vessel_ : vessel::Vessel());
                    if (loaded.volume)
                      patient_.projection = std::make_shared<const fluoroscopy::VolumeProjection>(*loaded.volume);

@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <utility>
 
-#include "fluoroscopy/patient/body/body_model.h"
-#include "fluoroscopy/patient/volume/ct_volume.h"
 #include "image/volume_file.h"
+#include "patient/body/body_model.h"
+#include "patient/volume/ct_volume.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 
 namespace endovascular_sim::simulation
 {
 
-fluoroscopy::PatientVolume patientVolume(const scene::Scene& scene, const vessel::Vessel& vessel)
+patient::PatientVolume patientVolume(const scene::Scene& scene, const vessel::Vessel& vessel)
 {
   if (!scene.fluoroscopy || !scene.fluoroscopy->patient)
     return {};
   const scene::PatientScene& patient = *scene.fluoroscopy->patient;
   if (patient.body)
-    return fluoroscopy::loadBody(vessel, {}, vessel::anatomyCacheFolder());
+    return patient::loadBody(vessel, {}, vessel::anatomyCacheFolder());
   const Eigen::Isometry3d of_mesh = scene.vessel ? scene.vessel->transform : Eigen::Isometry3d::Identity();
-  return fluoroscopy::ctVolume(image::readVolume(patient.ct), patient.patient_from_ct.value_or(of_mesh), vessel.mesh,
-                               patient.ct);
+  return patient::ctVolume(image::readVolume(patient.ct), patient.patient_from_ct.value_or(of_mesh), vessel.mesh,
+                           patient.ct);
 }
 
 fluoroscopy::ProgressiveResolution sequenceResolution(double rate)
@@ -36,7 +36,7 @@ fluoroscopy::ProgressiveResolution sequenceResolution(double rate)
 XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,
                         const fluoroscopy::ProgressiveResolution& resolution)
 {
-  fluoroscopy::PatientVolume volume = patientVolume(scene, vessel);
+  patient::PatientVolume volume = patientVolume(scene, vessel);
   if (!volume.volume)
     return {};
   return {std::make_unique<fluoroscopy::ProgressiveProjection>(*volume.volume, resolution), std::move(volume.notes)};

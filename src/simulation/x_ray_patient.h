@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fluoroscopy/patient/progressive_projection.h"
-#include "fluoroscopy/patient/volume/patient_volume.h"
+#include "patient/volume/patient_volume.h"
 #include "scene/model/scene.h"
 #include "vessel/model/vessel.h"
 
@@ -29,7 +29,7 @@ struct XRayPatient
 /** Voxels of the patient of a scene: its procedural body, made once and cached, or its CT; null without a patient.
  *  @param vessel vessel at rest, in the patient frame
  *  @throws InputError if the CT is missing or damaged, or lies beside the vessel */
-fluoroscopy::PatientVolume patientVolume(const scene::Scene& scene, const vessel::Vessel& vessel);
+patient::PatientVolume patientVolume(const scene::Scene& scene, const vessel::Vessel& vessel);
 
 /** Loads the patient of a scene for a sequence of images. Parameters and errors as of patientVolume(). */
 XRayPatient loadPatient(const scene::Scene& scene, const vessel::Vessel& vessel,

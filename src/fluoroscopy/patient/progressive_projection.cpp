@@ -8,7 +8,8 @@
 namespace endovascular_sim::fluoroscopy
 {
 
-ProgressiveProjection::ProgressiveProjection(const DensityVolume& volume, const ProgressiveResolution& resolution)
+ProgressiveProjection::ProgressiveProjection(const patient::DensityVolume& volume,
+                                             const ProgressiveResolution& resolution)
   : ProgressiveProjection(std::make_shared<const VolumeProjection>(volume), resolution)
 {
 }

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "fluoroscopy/patient/volume/lumen_mask.h"
 #include "fluoroscopy/patient/volume_projection.h"
 #include "fluoroscopy/projection/patient.h"
+#include "patient/tissue/tissue.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -25,7 +25,7 @@ struct ProgressiveResolution
 class ProgressiveProjection : public Patient
 {
 public:
-  explicit ProgressiveProjection(const DensityVolume& volume, const ProgressiveResolution& resolution = {});
+  explicit ProgressiveProjection(const patient::DensityVolume& volume, const ProgressiveResolution& resolution = {});
 
   /** @param projection of the patient's volume; shared by any number of sequences */
   explicit ProgressiveProjection(std::shared_ptr<const VolumeProjection> projection,
@@ -39,7 +39,7 @@ public:
   int revision() const override { return revision_; }
 
   /** The lumen contains blood (replaceByBlood()). */
-  double lumenDensity() const override { return kBloodDensity; }
+  double lumenDensity() const override { return patient::propertiesOf(patient::Tissue::kBlood).density; }
 
 private:
   void restart(const XRayGeometry& geometry);

@@ -174,7 +174,7 @@ std::array<std::ptrdiff_t, 3> stridesFor(const image::VolumeGrid& grid)
 }
 
 /** Box of all voxels but those of air, widened by one voxel [voxel]. */
-Eigen::AlignedBox3d occupiedBox(const DensityVolume& volume)
+Eigen::AlignedBox3d occupiedBox(const patient::DensityVolume& volume)
 {
   const Eigen::Vector3i size = volume.grid().size;
   Eigen::AlignedBox3d box;
@@ -200,7 +200,7 @@ Eigen::AlignedBox3d occupiedBox(const DensityVolume& volume)
 
 }  // namespace
 
-VolumeProjection::VolumeProjection(const DensityVolume& volume)
+VolumeProjection::VolumeProjection(const patient::DensityVolume& volume)
   : grid_(volume.grid()),
     stride_(stridesFor(volume.grid())),
     voxels_(volume.voxels().size()),
@@ -248,8 +248,8 @@ void VolumeProjection::projectRows(const XRayGeometry& geometry, int begin, int 
       const Layout layout = layoutFor(inclined ? largestAxis(ray.direction) : central, stride_);
       const auto [tissue, bone] = integrate(voxels_.data(), grid.size, layout, ray);
       const double scale = ray.length / std::abs(ray.direction[layout.axis[0]]) / 65536.0;
-      image.tissue[at] = static_cast<float>(DensityVolume::kTissueStep * scale * tissue);
-      image.bone[at] = static_cast<float>(DensityVolume::kBoneStep * scale * bone);
+      image.tissue[at] = static_cast<float>(patient::DensityVolume::kTissueStep * scale * tissue);
+      image.bone[at] = static_cast<float>(patient::DensityVolume::kBoneStep * scale * bone);
     }
 }
 

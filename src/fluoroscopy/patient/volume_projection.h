@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "fluoroscopy/patient/volume/density_volume.h"
 #include "fluoroscopy/projection/areal_density_image.h"
 #include "fluoroscopy/projection/x_ray_geometry.h"
+#include "patient/volume/density_volume.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -29,7 +29,7 @@ class VolumeProjection
 {
 public:
   /** @param volume copied; it takes 2 bytes per voxel here too, and the caller need not keep it */
-  explicit VolumeProjection(const DensityVolume& volume);
+  explicit VolumeProjection(const patient::DensityVolume& volume);
 
   const image::VolumeGrid& grid() const { return grid_; }
 

@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "test/fluoroscopy/patient/volume_shapes.h"
+#include "test/patient/volume_shapes.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-DensityVolume ball()
+patient::DensityVolume ball()
 {
-  DensityVolume volume(cubicGrid(40, 2e-3));
-  fillShape(volume, {1050.0, 400.0}, [](const Eigen::Vector3d& p) { return p.norm() - 0.03; });
+  patient::DensityVolume volume(patient::cubicGrid(40, 2e-3));
+  patient::fillShape(volume, {1050.0, 400.0}, [](const Eigen::Vector3d& p) { return p.norm() - 0.03; });
   return volume;
 }
 
@@ -28,7 +28,7 @@ CArmPose pose(double primary_angle)
 
 TEST(ProgressiveProjection, IsCoarseAfterAMovementAndFinalAfterAFixedNumberOfFrames)
 {
-  const DensityVolume volume = ball();
+  const patient::DensityVolume volume = ball();
   ProgressiveProjection progressive(volume, {16, 32, 256});
   const XRayGeometry geometry(pose(0.3));
   const VolumeProjection projection(volume);
@@ -49,7 +49,7 @@ TEST(ProgressiveProjection, IsCoarseAfterAMovementAndFinalAfterAFixedNumberOfFra
 
 TEST(ProgressiveProjection, AtRestTheImageDoesNotDependOnEarlierMovements)
 {
-  const DensityVolume volume = ball();
+  const patient::DensityVolume volume = ball();
   ProgressiveProjection moved(volume, {16, 32, 256}), fresh(volume, {16, 32, 256});
   for (int frame = 0; frame < 7; ++frame)
     moved.frame(XRayGeometry(pose(0.1 * frame)));

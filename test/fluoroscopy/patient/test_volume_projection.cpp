@@ -6,19 +6,20 @@
 #include <random>
 
 #include "common/error.h"
-#include "test/fluoroscopy/patient/volume_shapes.h"
+#include "test/patient/volume_shapes.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
 
-const Density kTissueAndBone{1050.0, 800.0};
+const patient::Density kTissueAndBone{1050.0, 800.0};
 
-DensityVolume shape(const image::VolumeGrid& grid, const std::function<double(const Eigen::Vector3d&)>& distance)
+patient::DensityVolume shape(const image::VolumeGrid& grid,
+                             const std::function<double(const Eigen::Vector3d&)>& distance)
 {
-  DensityVolume volume(grid);
-  fillShape(volume, kTissueAndBone, distance);
+  patient::DensityVolume volume(grid);
+  patient::fillShape(volume, kTissueAndBone, distance);
   return volume;
 }
 
@@ -74,7 +75,7 @@ TEST(VolumeProjection, ProjectsASphereWithinOnePercentAwayFromItsRim)
   const Eigen::Vector3d centre(0.004, 0.001, -0.003);
   const double radius = 0.1;
   const VolumeProjection projection(
-      shape(cubicGrid(176, 1.25e-3), [&](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; }));
+      shape(patient::cubicGrid(176, 1.25e-3), [&](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; }));
   for (const CArmPose& pose : poses(0.36))
     expectChords(projection, pose, 64, radius,
                  [&](const Eigen::Vector3d& s, const Eigen::Vector3d& d)
@@ -86,7 +87,7 @@ TEST(VolumeProjection, ProjectsACylinderWithinOnePercentAwayFromItsRim)
   const Eigen::Vector3d axis = Eigen::Vector3d(0.3, 0.2, 1.0).normalized();
   const double radius = 0.03;
   const VolumeProjection projection(
-      shape(cubicGrid(96, 1.25e-3), [&](const Eigen::Vector3d& p) { return axis.cross(p).norm() - radius; }));
+      shape(patient::cubicGrid(96, 1.25e-3), [&](const Eigen::Vector3d& p) { return axis.cross(p).norm() - radius; }));
   for (CArmPose pose : poses(0.04))
   {
     pose.isocentre.setZero();
@@ -105,7 +106,7 @@ TEST(VolumeProjection, ProjectsACylinderWithinOnePercentAwayFromItsRim)
 TEST(VolumeProjection, ProjectsASlabWithinOnePercent)
 {
   const double thickness = 0.0613;  // no multiple of the spacing
-  image::VolumeGrid grid = cubicGrid(160, 1.0e-3);
+  image::VolumeGrid grid = patient::cubicGrid(160, 1.0e-3);
   const VolumeProjection projection(
       shape(grid, [&](const Eigen::Vector3d& p) { return std::abs(p.y()) - 0.5 * thickness; }));
   for (CArmPose pose : poses(0.08))
@@ -118,16 +119,17 @@ TEST(VolumeProjection, ProjectsASlabWithinOnePercent)
 }
 
 /** Reference: midpoint rule with 40 samples a voxel of the trilinear interpolation. */
-Density fineIntegral(const DensityVolume& volume, const XRayGeometry& geometry, double column, double row)
+patient::Density fineIntegral(const patient::DensityVolume& volume, const XRayGeometry& geometry, double column,
+                              double row)
 {
   const Eigen::Vector3d direction = geometry.axes() * geometry.ray(column, row);
   const double step = volume.grid().spacing.minCoeff() / 40.0 / direction.norm();
   const double radius = 0.87 * volume.grid().spacing.cwiseProduct(volume.grid().size.cast<double>()).norm();
-  Density sum;
+  patient::Density sum;
   for (double t = std::max(0.0, 0.75 - radius); t < std::min(0.75 + radius, geometry.pose().source_to_detector);
        t += step)
   {
-    const Density density = volume.interpolate(geometry.source() + (t + 0.5 * step) * direction);
+    const patient::Density density = volume.interpolate(geometry.source() + (t + 0.5 * step) * direction);
     sum.tissue += step * direction.norm() * density.tissue;
     sum.bone += step * direction.norm() * density.bone;
   }
@@ -142,7 +144,7 @@ TEST(VolumeProjection, EqualsFineIntegrationOfARandomVolumeInARotatedLattice)
   grid.spacing = {1.0e-3, 1.3e-3, 1.9e-3};
   grid.axes = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
   grid.origin = grid.axes * Eigen::Vector3d(-0.02, -0.02, -0.02);
-  DensityVolume volume(grid);
+  patient::DensityVolume volume(grid);
   std::mt19937 random(5);
   for (std::uint16_t& voxel : volume.voxels())
     voxel = static_cast<std::uint16_t>(random());
@@ -156,7 +158,7 @@ TEST(VolumeProjection, EqualsFineIntegrationOfARandomVolumeInARotatedLattice)
     for (int row = 0; row < 24; ++row)
       for (int column = 0; column < 24; ++column)
       {
-        const Density exact = fineIntegral(volume, geometry, column, row);
+        const patient::Density exact = fineIntegral(volume, geometry, column, row);
         const auto at = static_cast<std::size_t>(row * 24 + column);
         error += std::pow(image.bone[at] - exact.bone, 2) + std::pow(image.tissue[at] - exact.tissue, 2);
         bias += image.bone[at] - exact.bone + image.tissue[at] - exact.tissue;
@@ -170,7 +172,7 @@ TEST(VolumeProjection, EqualsFineIntegrationOfARandomVolumeInARotatedLattice)
 TEST(VolumeProjection, HasNoStepsWhereRaysEnterThroughTheSideOfAFilledVolume)
 {
   // A patient fills the volume to its cut ends. Rays through such an end have a chord that is linear in the row.
-  image::VolumeGrid grid = cubicGrid(80, 1.25e-3);
+  image::VolumeGrid grid = patient::cubicGrid(80, 1.25e-3);
   const VolumeProjection projection(shape(grid, [](const Eigen::Vector3d&) { return -1.0; }));
   CArmPose pose;
   pose.secondary_angle = 0.5;
@@ -189,7 +191,7 @@ TEST(VolumeProjection, HasNoStepsWhereRaysEnterThroughTheSideOfAFilledVolume)
 
 TEST(VolumeProjection, ProjectsOnlyBetweenSourceAndDetector)
 {
-  const VolumeProjection projection(shape(cubicGrid(64, 0.01), [](const Eigen::Vector3d&) { return -1.0; }));
+  const VolumeProjection projection(shape(patient::cubicGrid(64, 0.01), [](const Eigen::Vector3d&) { return -1.0; }));
   CArmPose pose;
   pose.source_to_patient = 0.2;
   pose.source_to_detector = 0.25;
@@ -201,14 +203,14 @@ TEST(VolumeProjection, ProjectsOnlyBetweenSourceAndDetector)
 
 TEST(VolumeProjection, AnEmptyVolumeIsAir)
 {
-  const VolumeProjection projection(DensityVolume(cubicGrid(8, 0.01)));
+  const VolumeProjection projection(patient::DensityVolume(patient::cubicGrid(8, 0.01)));
   EXPECT_EQ(projection.project(XRayGeometry(CArmPose()), 4).tissue, std::vector<float>(16, 0.0F));
 }
 
 TEST(VolumeProjection, RowsEqualThoseOfTheWholeImage)
 {
   const VolumeProjection projection(
-      shape(cubicGrid(40, 2e-3), [](const Eigen::Vector3d& p) { return p.norm() - 0.03; }));
+      shape(patient::cubicGrid(40, 2e-3), [](const Eigen::Vector3d& p) { return p.norm() - 0.03; }));
   const XRayGeometry geometry(poses(0.1)[5]);
   const ArealDensityImage whole = projection.project(geometry, 30);
   ArealDensityImage parts = emptyImage(30);
