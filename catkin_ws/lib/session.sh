@@ -254,9 +254,9 @@ after_session() {
     draw_rviz || $session_interrupted || warn "rviz.png could not be drawn (see $results/log/rviz.log)"
     if $session_interrupted; then session_status=130; fi
   fi
-  "$programs"/plot_results.py "$results" > "$results/log/plots.log" 2>&1 ||
+  "$programs"/plots results "$results" > "$results/log/plots.log" 2>&1 ||
     { cat "$results/log/plots.log" >&2; warn "the plots could not be drawn"; }
-  "$programs"/session_summary.py "$results" || $session_interrupted || session_status=1
+  "$programs"/plots summary "$results" || $session_interrupted || session_status=1
 }
 
 # The session's scene if its X-ray images must be computed: it has fluoroscopy, and the bag does not contain the images.

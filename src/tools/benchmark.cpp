@@ -134,7 +134,7 @@ int run(const Options& options)
     // Written after every study, so that a failure of a later one loses nothing.
     tools::writeFile(out / "tables.md", page.text(studies()));
   }
-  tools::runPlotScript("plot_benchmark.py", {out.string()});
+  tools::runPlots({"benchmark", out.string()});
   return 0;
 }
 

@@ -136,13 +136,13 @@ void writeTables(const fs::path& csv, const std::vector<Drawn>& all)
     writeStents(beside("stent"), all);
 }
 
-/** Draws the instruments with plot_instruments.py. */
+/** Draws the instruments with `plots instruments`. */
 int draw(const fs::path& picture, const std::vector<Drawn>& all)
 {
   const fs::path folder = fs::temp_directory_path() / ("instrument_shape_" + std::to_string(::getpid()));
   createFolder(folder.string());
   writeTables(folder / "shaft.csv", all);
-  const bool drawn = tools::runPlotScript("plot_instruments.py", {folder.string(), picture.string()});
+  const bool drawn = tools::runPlots({"instruments", folder.string(), picture.string()});
   fs::remove_all(folder);
   return drawn ? 0 : 1;
 }

@@ -408,7 +408,7 @@ int simulate(const Options& options)
     writeImage(session, options.out + "/x_ray.png");
   session.finish(options.out);
   if (!options.no_plots)
-    tools::runPlotScript("plot_results.py", {options.out});
+    tools::runPlots({"results", options.out});
   if (!options.quiet)
   {
     std::cout << session.record().resultJson();

@@ -72,19 +72,19 @@ inline void drawProgress(double share, const std::string& text)
                std::string(kWidth - filled, '.').c_str(), 100.0 * share, text.c_str());
 }
 
-/** Runs a plotting script of the folder of the running program.
+/** Runs a command of the program `plots` (python/endovascular_sim/plots), which lies beside the running program.
+ *  @param command its name and arguments
  *  @return false after a failure, which is reported on the error stream */
-inline bool runPlotScript(const std::string& script, const std::vector<std::string>& arguments)
+inline bool runPlots(std::vector<std::string> command)
 {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path path = program.parent_path() / script;
-  std::vector<std::string> command = {"/usr/bin/python3", path.string()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
+  const std::string plots = (program.parent_path() / "plots").string();
+  command.insert(command.begin(), {"/usr/bin/python3", plots});
   const int code = runProgram(command);
   if (code == 0)
     return true;
-  std::cerr << program.filename().string() << ": the plots could not be drawn: " << path.string()
-            << " ended with exit code " << code << "\n";
+  std::cerr << program.filename().string() << ": the plots could not be drawn: " << plots << " ended with exit code "
+            << code << "\n";
   return false;
 }
 

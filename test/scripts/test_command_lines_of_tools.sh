@@ -15,13 +15,16 @@ check() { # check STATUS PATTERN TOOL ARGUMENT...
   failures=$((failures + 1))
 }
 
-for source in "$repository"/src/tools/*.cpp "$repository"/src/tools/plots/*.py; do
-  tool=$(basename "${source%.cpp}")
-  case "$tool" in tool_support.py | scene_picture.py) continue ;; esac # modules
-  check 0 'prints this text' "$tool" --help
-  check 0 "^$tool [0-9.]*, commit [0-9a-z-]*, physics [0-9]*$" "$tool" --version
-  check 2 "'$tool --help' lists the arguments" "$tool" --no-such-option
-done
+commands=$(PYTHONPATH=$repository/python /usr/bin/python3 -c 'from endovascular_sim.plots.__main__ import COMMANDS; print(*COMMANDS)')
+[ -n "$commands" ] || exit 1
+lines() { # lines PROGRAM [COMMAND]
+  check 0 'prints this text' "$@" --help
+  check 0 "^$* [0-9.]*, commit [0-9a-z-]*, physics [0-9]*$" "$@" --version
+  check 2 "'$* --help' lists the arguments" "$@" --no-such-option
+}
+for source in "$repository"/src/tools/*.cpp; do lines "$(basename "${source%.cpp}")"; done
+lines plots
+for command in $commands; do lines plots "$command"; done
 scene=$repository/config/scenes/straight_wire.yaml
 check 2 "unknown argument '--ouf'" simulate "$scene" --ouf /tmp
 check 2 'not in {nodes,costs}' simulate "$scene" --out /tmp --record forces

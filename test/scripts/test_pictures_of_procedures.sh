@@ -3,10 +3,9 @@
 # in the vessel.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
-plots=$repository/src/tools/plots
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-export REPOSITORY=$repository FOLDER=$folder PYTHONDONTWRITEBYTECODE=1
+export PYTHONPATH=$repository/python REPOSITORY=$repository FOLDER=$folder PYTHONDONTWRITEBYTECODE=1
 /usr/bin/python3 - <<'PYTHON'
 import json
 import math
@@ -45,29 +44,28 @@ open(folder + "scene.yaml", "w").write("""instruments:
       compliance: [[0, 0.001], [1000000, 0.005]]}}
 """)
 PYTHON
-"$plots/procedure_pictures.py" "$folder"
+/usr/bin/python3 -m endovascular_sim.plots phases "$folder"
 [ "$(head -c 4 "$folder/phases.png" | tail -c 3)" = PNG ]
-"$plots/plot_results.py" "$folder"
+/usr/bin/python3 -m endovascular_sim.plots results "$folder"
 [ "$(head -c 4 "$folder/forces.png" | tail -c 3)" = PNG ]
 /usr/bin/python3 - <<'PYTHON'
 import os
 import pathlib
 import sys
 repository, folder = os.environ["REPOSITORY"], pathlib.Path(os.environ["FOLDER"])
-sys.path[:0] = [repository + "/src/tools/plots", repository + "/catkin_ws/lib"]
+sys.path.insert(0, repository + "/catkin_ws/lib")
 import numpy as np
-import plot_results
-import procedure_pictures as pictures
 import rviz_pictures
-import scene_picture
+from endovascular_sim.plots import meshes, rendering
+from endovascular_sim.plots.commands import phases as pictures, results
 
-vertices, faces = scene_picture.read_obj(folder / "vessel.obj")
-normals = scene_picture.vertex_normals(vertices, faces)
+vertices, faces = meshes.read_obj(folder / "vessel.obj")
+normals = meshes.vertex_normals(vertices, faces)
 radial = vertices[:, :2] / 0.003
 assert ((normals[:, :2] * radial).sum(axis=1) > 0.99).all()
 
 # The width of the wall in the picture is the vessel's diameter; the middle is paler than the rim.
-picture = scene_picture.ScenePicture([0, 0, 0], 0.01, 100)
+picture = rendering.ScenePicture([0, 0, 0], 0.01, 100)
 picture.add_wall(vertices, faces, normals)
 empty = picture.image()
 row = empty[50]
@@ -76,7 +74,7 @@ assert abs(len(covered) - 30) <= 2 and np.all(np.diff(covered) == 1), covered
 assert np.all(empty[:, 40:60].min(axis=2) < 0.98), "holes in the wall"
 # A wire in the lumen is seen through the near wall, with its least width; one behind the vessel is paler.
 for depth, bound in ((0.0, 0.5), (0.02, 0.75)):
-    picture = scene_picture.ScenePicture([0, 0, 0], 0.01, 100)
+    picture = rendering.ScenePicture([0, 0, 0], 0.01, 100)
     picture.add_wall(vertices, faces, normals)
     picture.add_tube([(0, depth, -0.05), (0, depth, 0.05)], 1e-4, (0.0, 0.0, 0.3), 2.0)
     changed = np.flatnonzero(np.abs(picture.image()[50] - row).max(axis=1) > 0.05)
@@ -97,14 +95,9 @@ strut = [int((one.max(axis=2) < 0.42).sum()) for one in drawn]
 assert orange[0] == 0 and orange[1] > 50 and orange[3] == 0, orange  # the balloon catheter
 assert strut[3] > 50 and strut[0] == 0, strut                        # the stent stays in the empty vessel
 
-curves = plot_results.read_instruments(str(folder / "instruments.csv"))
-assert list(curves) == ["wire", "stent"] and curves["stent"]["hand_force"] == [0.3] * 4, curves
-import tool_support
-pyplot = tool_support.pyplot()
-kept = []
-close, pyplot.close = pyplot.close, kept.append
-plot_results.plot_forces(pyplot, curves, str(folder / "again.png"))
-axis = kept[-1].axes[0]
+curves = results.curves_of(folder)
+assert list(curves) == ["wire", "stent"] and list(curves["stent"]["hand_force"]) == [0.3] * 4, curves
+axis = results.draw_forces(curves).axes[0]
 assert [line.get_label() for line in axis.lines] == ["wire", "stent"] and axis.get_legend() and "[N]" in axis.get_ylabel()
 
 named, telling = rviz_pictures.moments(str(folder))
@@ -116,5 +109,5 @@ PYTHON
 # Results without the mesh: the message names the file and the remedy.
 rm "$folder/vessel.obj"
 echo '{"steps": [{"phase": "Wire in", "step": "Wire in", "end": 1.0}]}' > "$folder/metrics.json"
-message=$("$plots/procedure_pictures.py" "$folder" 2>&1) && exit 1
+message=$(/usr/bin/python3 -m endovascular_sim.plots phases "$folder" 2>&1) && exit 1
 grep -q 'vessel.obj.*--record nodes' <<< "$message"

@@ -5,8 +5,8 @@ set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 /usr/bin/python3 - "$repository" <<'PYTHON'
 import sys
-sys.path.insert(0, sys.argv[1] + "/src/tools/plots")
-import session_summary as summary
+sys.path.insert(0, sys.argv[1] + "/python")
+from endovascular_sim.plots.commands import summary
 
 summary.may_run_in_real_time = lambda: True
 

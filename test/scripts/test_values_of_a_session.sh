@@ -20,8 +20,8 @@ status=0
 "$programs/simulate" "$scene" "${marks[@]/#/--set=}" --no-plots --quiet --out "$folder/offline" 2> "$folder/errors" || status=$?
 [ $status -eq 1 ] && grep -q "the procedure failed: step" "$folder/errors" ||
   { echo "--quiet hides the reason of the failed procedure:"; cat "$folder/errors"; exit 1; }
-"$repository/src/tools/plots/session_summary.py" "$folder/graph" > "$folder/summary" || { cat "$folder/summary"; exit 1; }
-"$repository/src/tools/plots/session_compare.py" "$folder/graph" "$folder/offline" --out "$folder/compared.html" > "$folder/compared"
+"$programs/plots" summary "$folder/graph" > "$folder/summary" || { cat "$folder/summary"; exit 1; }
+"$programs/plots" compare "$folder/graph" "$folder/offline" --out "$folder/compared.html" > "$folder/compared"
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import csv, html, json, pathlib, re, sys

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Draws input and result of `vessel_prepare`.
 
 Both are seen from the front, the result with its centreline and open ends, and cut by planes. OUT_report.json must lie
@@ -6,62 +5,22 @@ beside OUT.obj.
 """
 
 import argparse
-import os
 import pathlib
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+import numpy as np
 
-plt = tools.pyplot()
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
-from matplotlib.colors import to_rgb  # noqa: E402
+from .. import meshes, style, tables
+from ..command import Failure, warn
 
 AXES = "xyz"
 BEFORE, AFTER, CENTRELINE = "#d9604f", "#e8a79d", "#1f6fb0"
 LIGHT = (0.3, 0.4, 0.87)  # direction towards the light, in the picture: right, up, towards the viewer
 
 
-def read_obj(path):
-    """Vertices and triangles of an OBJ file; polygons become fans of triangles."""
-    vertices, triangles = [], []
-    with open(path) as stream:
-        for line in stream:
-            if line.startswith("v "):
-                vertices.append([float(word) for word in line.split()[1:4]])
-            elif line.startswith("f "):
-                corners = [int(word.split("/")[0]) for word in line.split()[1:]]
-                corners = [c - 1 if c > 0 else len(vertices) + c for c in corners]
-                triangles += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
-    return vertices, triangles
-
-
-def read_stl(path):
-    """Corners of the triangles of a binary STL file."""
-    with open(path, "rb") as stream:
-        data = stream.read()
-    count = int.from_bytes(data[80:84], "little")
-    if len(data) != 84 + 50 * count:
-        tools.fail(path + ": not a binary STL file; convert it to OBJ")
-    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
-    return np.frombuffer(data, record, count, 84)["corners"].astype(float)
-
-
-def read_corners(path, unit):
-    """Corners of the triangles of a mesh as an array triangles × corners × axes [m]."""
-    if not os.path.isfile(path):
-        tools.fail(path + ": no such file")
-    if path.lower().endswith(".stl"):
-        return unit * read_stl(path)
-    vertices, triangles = read_obj(path)
-    if not triangles:
-        tools.fail(path + ": no triangles; use OBJ or binary STL")
-    return unit * np.array(vertices)[np.array(triangles)]
-
-
 def draw_surface(axis, corners, view, colour, alpha):
     """Draws shaded triangles from the farthest to the nearest. view: the axes that point right and up."""
+    from matplotlib.collections import PolyCollection
+    from matplotlib.colors import to_rgb
     right, up = np.eye(3)[list(view)]
     seen = 1e3 * corners @ np.stack([right, up, np.cross(right, up)], axis=1)
     normal = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
@@ -96,19 +55,19 @@ def draw_cut(axis, meshes, cut):
 
     cut: axis and position, e.g. ("y", 0.495).
     """
+    from matplotlib.collections import LineCollection
     name, position = cut
     normal = AXES.index(name)
     others = [k for k in range(3) if k != normal]
     for corners, colour, width in zip(meshes, ("0.55", "#a03b30"), (2.4, 1.2)):
         lines = 1e3 * cut_lines(corners, normal, position)[:, :, others]
         if len(lines) == 0:
-            tools.warn("the plane %s = %g m does not intersect both meshes" % cut)
+            warn("the plane %s = %g m does not intersect both meshes" % cut)
         axis.add_collection(LineCollection(lines, colors=colour, linewidths=width))
     axis.autoscale_view()
     axis.set_aspect("equal")
-    axis.set_title("cut at %s = %g mm (grey: before, red: after)" % (name, 1e3 * position), fontsize=9)
-    axis.set_xlabel(AXES[others[0]] + " [mm]")
-    axis.set_ylabel(AXES[others[1]] + " [mm]")
+    axis.set(title="cut at %s = %g mm (grey: before, red: after)" % (name, 1e3 * position),
+             xlabel=AXES[others[0]] + " [mm]", ylabel=AXES[others[1]] + " [mm]")
 
 
 def draw_centreline(axis, report, view):
@@ -132,9 +91,7 @@ def cut_of(text):
         raise argparse.ArgumentTypeError("requires an axis and a position in metres, e.g. y=0.495, not " + text)
 
 
-def main():
-    """Reads both meshes and the report, and writes the picture."""
-    parser = tools.argument_parser(__doc__)
+def add_arguments(parser):
     parser.add_argument("before", help="the input of vessel_prepare, OBJ or binary STL")
     parser.add_argument("after", help="its output, OUT.obj")
     parser.add_argument("--unit", type=float, default=1.0, help="length of a unit of the input [1 m]")
@@ -142,32 +99,30 @@ def main():
     parser.add_argument("--cut", type=cut_of, action="append", default=[], metavar="AXIS=POSITION",
                         help="also draws both meshes cut by a plane, e.g. y=0.495 [m]; may be repeated")
     parser.add_argument("--out", required=True, metavar="FILE.png", help="picture to write")
-    options = parser.parse_args()
-    beside = os.path.splitext(options.after)[0] + "_report.json"
-    if not os.path.isfile(beside):
-        tools.fail(beside + ": missing; vessel_prepare writes it beside " + options.after)
-    report = tools.read_json(beside)
-    meshes = [read_corners(options.before, options.unit), read_corners(options.after, 1.0)]
+
+
+def run(options):
+    """Reads both meshes and the report, and writes the picture."""
+    beside = pathlib.Path(options.after).with_suffix("").as_posix() + "_report.json"
+    if not pathlib.Path(beside).is_file():
+        raise Failure("%s: missing; vessel_prepare writes it beside %s" % (beside, options.after))
+    report = tables.read_json(beside)
+    surfaces = [options.unit * meshes.read_corners(options.before), meshes.read_corners(options.after)]
     view = (0 if options.up != "x" else 1, AXES.index(options.up))
     rows = max(1, len(options.cut))
-    figure = plt.figure(figsize=(8 + (4 if options.cut else 0), 7))
+    figure = style.pyplot().figure(figsize=(8 + (4 if options.cut else 0), 7))
     grid = figure.add_gridspec(rows, 3 if options.cut else 2)
     before, after = figure.add_subplot(grid[:, 0]), figure.add_subplot(grid[:, 1])
-    draw_surface(before, meshes[0], view, BEFORE, 1.0)
-    draw_surface(after, meshes[1], view, AFTER, 0.6)
+    draw_surface(before, surfaces[0], view, BEFORE, 1.0)
+    draw_surface(after, surfaces[1], view, AFTER, 0.6)
     draw_centreline(after, report, view)
     for axis, title, key in ((before, "before", "before"), (after, "after, open ends (o)", "after")):
         counts = report[key]
         axis.set_title("%s\n%d triangles, components: %d, boundary edges: %d" %
-                       (title, counts["triangles"], counts["components"], counts["boundary_edges"]), fontsize=9)
+                       (title, counts["triangles"], counts["components"], counts["boundary_edges"]))
     limits = [axis.get_ylim() for axis in (before, after)]
     for axis in (before, after):
         axis.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
     for row, cut in enumerate(options.cut):
-        draw_cut(figure.add_subplot(grid[row, 2]), meshes, cut)
-    figure.tight_layout()
-    figure.savefig(options.out, dpi=110)
-
-
-if __name__ == "__main__":
-    main()
+        draw_cut(figure.add_subplot(grid[row, 2]), surfaces, cut)
+    style.save(figure, options.out)

@@ -1,20 +1,18 @@
-#!/usr/bin/env python3
 """Runs the wire and the motion of the published benchmark (config/scenes/peer_wire.yaml) from many initial hand angles.
 
-At bifurcations the outcome is chaotic, so a single run is no evidence. This tool runs an ensemble in the generated anatomy
+At bifurcations the outcome is chaotic, so a single run is no evidence. This command runs an ensemble in the generated anatomy
 and, if available, in the benchmark's own mesh, and checks every run against the limits of the project.
 """
 
-import csv
 import math
 import os
-import statistics
 import pathlib
+import statistics
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+from .. import command, tables
 
+EXIT_CODES = 'Exit code: 0 all runs are within the limits; 1 some are not, or a run failed; 2 wrong arguments.'
 # Limits of every run; a wire locked in a closed branch (the hand slips) may penetrate deeper.
 MAX_PENETRATION = 0.1e-3        # m
 MAX_PENETRATION_LOCKED = 0.35e-3  # m
@@ -25,10 +23,6 @@ GOALS = {0.035: (15.0, 300.0), 0.1: (8.0, 300.0), 0.5: (2.0, None)}
 TRAVEL = 0.4                    # m, travel of the scene's drive
 END = 0.4042                    # m, final insertion unless the wire locks
 SPARE_TIME = 0.07               # s, simulated time after the push
-
-COLUMNS = ['vessel', 'speed_mm_s', 'angle_deg', 'inserted_mm', 'jammed', 'penetration_mm', 'nodes_outside', 'max_strain',
-           'steps_strained', 'hand_force_max_N', 'refused_steps', 'real_time_factor', 'step_median_us', 'step_p99_us',
-           'step_max_us', 'steps', 'steps_over_300_us', 'trajectory_hash', 'verdict']
 
 
 def vessels(mesh):
@@ -42,13 +36,11 @@ def vessels(mesh):
     return chosen
 
 
-def run(scene, overrides, speed, angle, folder, seconds):
+def run_once(scene, overrides, speed, angle, folder, seconds):
     """Simulates the scene once; returns the content of result.json."""
     motion = [f'drive.speed={speed}', f'drive.initial_rotation={angle:.17g}']
-    done = tools.simulate(scene, folder, motion + overrides, '--seconds', str(seconds or TRAVEL / speed + SPARE_TIME))
-    if not (folder / 'result.json').exists():
-        tools.fail(f'simulate wrote no result:\n{done.stderr}')
-    return tools.read_json(folder / 'result.json')
+    command.simulate(scene, folder, motion + overrides, '--seconds', str(seconds or TRAVEL / speed + SPARE_TIME), accepted=(0, 1))
+    return tables.read_json(folder / 'result.json')
 
 
 def row_of(name, speed, angle, result):
@@ -82,14 +74,9 @@ def row_of(name, speed, angle, result):
 
 def write(folder, rows):
     """Writes the table as CSV and as Markdown."""
-    with open(folder / 'hand_angles.csv', 'w', newline='', encoding='utf-8') as stream:
-        writer = csv.DictWriter(stream, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
-    with open(folder / 'hand_angles.md', 'w', encoding='utf-8') as stream:
-        stream.write('| ' + ' | '.join(COLUMNS) + ' |\n|' + '---|' * len(COLUMNS) + '\n')
-        for row in rows:
-            stream.write('| ' + ' | '.join(str(row[column]) for column in COLUMNS) + ' |\n')
+    tables.write(folder / 'hand_angles.csv', rows)
+    lines = [list(rows[0]), ['---'] * len(rows[0])] + [list(row.values()) for row in rows]
+    (folder / 'hand_angles.md').write_text(''.join('| %s |\n' % ' | '.join(map(str, line)) for line in lines), encoding='utf-8')
 
 
 def summary(name, speed, rows):
@@ -106,10 +93,7 @@ def summary(name, speed, rows):
             f"deepest {max(row['penetration_mm'] for row in rows):.3f} mm")
 
 
-def main():
-    """Runs the ensemble and writes the table after every run."""
-    parser = tools.argument_parser(__doc__, 'Exit code: 0 all runs are within the limits; 1 some are not, or a run '
-                                            'failed; 2 wrong arguments.')
+def add_arguments(parser):
     parser.add_argument('--out', required=True, type=pathlib.Path, help='folder for the table and the runs')
     parser.add_argument('--mesh', help='aortic_arch_tree.obj of the benchmark [mm]; default: that of '
                                        'ENDOVASCULAR_DATA_DIR')
@@ -117,10 +101,12 @@ def main():
                         help='speeds of the push [0.035]; goals exist for 0.035, 0.1 and 0.5')
     parser.add_argument('--angles', type=int, default=16, help='number of initial hand angles [16]')
     parser.add_argument('--seconds', type=float, help='simulated time of each run [s]; default: until the push has ended')
-    parser.add_argument('--set', action='append', default=[], dest='overrides', metavar='KEY=VALUE',
-                        help='replaces a value of the scene in every run; may be repeated')
-    options = parser.parse_args()
-    scene = tools.find_scene('peer_wire.yaml')
+    command.add_overrides(parser)
+
+
+def run(options):
+    """Runs the ensemble and writes the table after every run."""
+    scene = command.find_scene('peer_wire.yaml')
     mesh = options.mesh
     if mesh is None and 'ENDOVASCULAR_DATA_DIR' in os.environ:
         candidate = pathlib.Path(os.environ['ENDOVASCULAR_DATA_DIR']) / 'aortic_arch_tree.obj'
@@ -135,7 +121,7 @@ def main():
                   flush=True)
             folder = options.out / f'{name}_{1e3 * speed:.0f}_{k:02d}'
             folder.mkdir(exist_ok=True)
-            result = run(scene, overrides + options.overrides, speed, angle, folder, options.seconds)
+            result = run_once(scene, overrides + options.overrides, speed, angle, folder, options.seconds)
             rows.append(row_of(name, speed, angle, result))
             write(options.out, rows)
     bad = [row for row in rows if row['verdict'] != 'good']
@@ -144,7 +130,3 @@ def main():
                                     and row['speed_mm_s'] == round(1e3 * speed)]))
     print(f'{len(rows) - len(bad)} of {len(rows)} runs within all limits; table: {options.out}/hand_angles.md')
     return 1 if bad else 0
-
-
-if __name__ == '__main__':
-    sys.exit(main())

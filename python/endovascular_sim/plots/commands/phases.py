@@ -1,20 +1,17 @@
-#!/usr/bin/python3
 """Draws the phases of a procedure side by side.
 
 Each column shows the instruments in the vessel, rendered, at the end of a phase and, if images exist, the fluoroscopy image nearest to
 that time.
 """
 
+import csv
 import pathlib
-import sys
 import textwrap
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+import numpy as np
 
-plt = tools.pyplot()
-import numpy as np  # noqa: E402
-import scene_picture  # noqa: E402
+from .. import meshes, rendering, style, tables
+from ..command import Failure
 
 COLOURS = ["#c8201e", "#f08a00", "#2b2b30", "#2f78b7", "#2ca02c", "#9467bd"]
 STENT = "#26384f"
@@ -33,7 +30,7 @@ def phases(folder):
     found = {}
     before = None
     number = 0
-    for step in tools.read_json(folder / "metrics.json")["steps"]:
+    for step in tables.read_json(folder / "metrics.json")["steps"]:
         name = step["phase"] or step["step"]
         number += name != before
         before = name
@@ -44,19 +41,19 @@ def phases(folder):
 def shapes(path, times):
     """Polyline of the nodes at the last recorded time up to each given time; streams the file, which is large."""
     found = [None] * len(times)
-    rows = []
-    now = None
+    rows, now = [], None
 
     def keep():
         for k, wanted in enumerate(times):
             if now is not None and now <= wanted + 1e-9:
                 found[k] = rows
-    for row in tools.read_rows(path):
-        time = float(row["time"])
-        if time != now:
-            keep()
-            now, rows = time, []
-        rows.append((float(row["x"]), float(row["y"]), float(row["z"])))
+    with open(path, newline="", encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            time = float(row["time"])
+            if time != now:
+                keep()
+                now, rows = time, []
+            rows.append((float(row["x"]), float(row["y"]), float(row["z"])))
     keep()
     return found
 
@@ -64,13 +61,10 @@ def shapes(path, times):
 def states(path, times):
     """Insertion [m] and pressure [Pa] of every instrument at the sample nearest to each time, in the order of the scene."""
     found = [{} for _ in times]
-    best = [{} for _ in times]
-    for row in tools.read_rows(path):
-        for k, wanted in enumerate(times):
-            distance = abs(float(row["time"]) - wanted)
-            if distance < best[k].get(row["instrument"], 1e9):
-                best[k][row["instrument"]] = distance
-                found[k][row["instrument"]] = (float(row["insertion"]), float(row["pressure"]))
+    for (name,), rows in tables.groups(tables.read(path), "instrument"):
+        for state, wanted in zip(found, times):
+            k = np.argmin(np.abs(rows["time"] - wanted))
+            state[name] = (rows["insertion"][k], rows["pressure"][k])
     return found
 
 
@@ -132,18 +126,15 @@ class Instrument:
 
 def read_instruments(path):
     """Instruments of a results folder's scene.yaml by name."""
-    try:
-        import yaml
-    except ImportError as error:
-        return tools.fail("%s; install the Debian package python3-yaml and run with /usr/bin/python3" % error)
+    import yaml
     with open(path, encoding="utf-8") as stream:
         scene = yaml.load(stream, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    return {one["instrument"]["name"]: Instrument(one["instrument"]) for one in scene["instruments"]}
+    return {one["instrument"]["name"]: Instrument(one["instrument"]) for one in scene.get("instruments", [scene])}
 
 
 def placed_stents(folder):
     """Time of placement [s], instrument, diameter, length and middle [m] of every placed stent."""
-    treatment = tools.read_json(folder / "result.json").get("treatment") if (folder / "result.json").exists() else None
+    treatment = (tables.read_json_if_any(folder / "result.json") or {}).get("treatment")
     found = []
     for balloon in (treatment or {}).get("balloons", []):
         stent = balloon.get("stent")
@@ -202,7 +193,7 @@ def view_of(vessel, nodes, inside, stents):
 
 def render(vessel, instruments, nodes, inside, stents):
     """Picture of one phase; `stents` are those placed, each with its axis."""
-    picture = scene_picture.ScenePicture(*view_of(vessel, nodes, inside, stents), PIXELS)
+    picture = rendering.ScenePicture(*view_of(vessel, nodes, inside, stents), PIXELS)
     picture.add_wall(*vessel)
     thinnest = min(one.radius for one in instruments.values())
     for k, (name, (length, pressure)) in enumerate(inside.items()):
@@ -248,52 +239,46 @@ def legend(inside, stents):
     return handles + ([Patch(color=STENT, label="stent in place")] if stents else [])
 
 
-def main():
-    """Reads the results and writes the picture."""
-    parser = tools.argument_parser(__doc__)
+def add_arguments(parser):
     parser.add_argument("results", type=pathlib.Path, help="results folder of `simulate` or of a session")
     parser.add_argument("--shapes", type=pathlib.Path, metavar="DIR",
                         help="results folder of `simulate --record nodes` of the same scene [the results]")
     parser.add_argument("--out", type=pathlib.Path, default=None, help="picture to write [phases.png in the results]")
-    options = parser.parse_args()
+
+
+def run(options):
+    """Reads the results and writes the picture."""
     shape_folder = options.shapes or options.results
     try:
         moments = phases(options.results)
         times = [end for _, end, _ in moments]
         nodes = shapes(shape_folder / "nodes.csv", times)
         inside = states(shape_folder / "instruments.csv", times)
-        vertices, faces = scene_picture.read_obj(shape_folder / "vessel.obj")
+        vertices, faces = meshes.read_obj(shape_folder / "vessel.obj")
         instruments = read_instruments(shape_folder / "scene.yaml")
         stents = placed_stents(shape_folder)
     except (OSError, KeyError, ValueError) as error:
-        tools.fail(f"{error}; give the results of a procedure, recorded with --record nodes")
-    vessel = (vertices, faces, scene_picture.vertex_normals(vertices, faces))
+        raise Failure(f"{error}; give the results of a procedure, recorded with --record nodes") from error
+    vessel = (vertices, faces, meshes.vertex_normals(vertices, faces))
     rendered = images(vessel, instruments, moments, nodes, inside, stents)
     pictures = [picture_of(options.results, number, end, times[-1]) for _, end, number in moments]
     layers = 2 if any(pictures) else 1
-    lines = -(-len(moments) // COLUMNS)
-    figure, axes = plt.subplots(lines * layers, COLUMNS, figsize=(2.2 * COLUMNS, 2.45 * lines * layers), squeeze=False)
-    for axis in axes.flat:
-        axis.set_visible(False)
-    for k, (name, end, _) in enumerate(moments):
-        axis = axes[k // COLUMNS * layers][k % COLUMNS]
-        axis.set_visible(True)
+    columns = min(len(moments), COLUMNS)
+    lines = -(-len(moments) // columns)
+    figure, axes = style.figure(lines * layers * columns, columns=columns, panel=(2.2, 2.45), font=7)
+    for axis in axes:
         axis.axis("off")
+    for k, (name, end, _) in enumerate(moments):
+        axis = axes[k // columns * layers * columns + k % columns]
         axis.imshow(rendered[k])
-        axis.set_title("\n".join(textwrap.wrap(f"{name}, {end:.0f} s", 30)), fontsize=7)
+        axis.set_title("\n".join(textwrap.wrap(f"{name}, {end:.0f} s", 30)))
         if pictures[k]:
-            below = axes[k // COLUMNS * layers + 1][k % COLUMNS]
-            below.set_visible(True)
-            below.axis("off")
-            picture = plt.imread(pictures[k])
+            below = axes[(k // columns * layers + 1) * columns + k % columns]
+            picture = style.pyplot().imread(pictures[k])
             # The scale starts above the darkest pixels: platinum would leave no grey levels for the vessel.
             dark = 0.7 * np.percentile(picture, 2)
             below.imshow(picture, cmap="gray", vmin=dark, vmax=picture.max())
-    figure.tight_layout(rect=(0, 0.05 / lines, 1, 1), h_pad=2.0)
     handles = legend(inside[0], stents)
-    figure.legend(handles=handles, loc="lower center", ncol=len(handles), fontsize=7, frameon=False)
-    figure.savefig(options.out or options.results / "phases.png", dpi=130)
-
-
-if __name__ == "__main__":
-    main()
+    figure.get_layout_engine().set(rect=(0.0, 0.05 / lines, 1.0, 1.0 - 0.05 / lines))  # above the legend
+    figure.legend(handles=handles, loc="lower center", ncol=len(handles), frameon=False)
+    style.save(figure, options.out or options.results / "phases.png")

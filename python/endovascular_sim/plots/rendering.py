@@ -12,30 +12,6 @@ WALL = np.array([0.86, 0.47, 0.42])
 HIDING = 0.45                                    # opacity of a vessel in front of another one that holds an instrument
 
 
-def read_obj(path):
-    """Vertices [m] and triangles of an OBJ file."""
-    vertices, faces = [], []
-    with open(path, encoding="utf-8") as stream:
-        for line in stream:
-            if line.startswith("v "):
-                vertices.append([float(value) for value in line.split()[1:4]])
-            elif line.startswith("f "):
-                faces.append([int(value.split("/")[0]) - 1 for value in line.split()[1:4]])
-    if not faces:
-        raise ValueError("%s: no triangle" % path)
-    return np.array(vertices), np.array(faces)
-
-
-def vertex_normals(vertices, faces):
-    """Outward unit normals at the vertices, weighted by the areas of the triangles."""
-    corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    summed = np.zeros_like(vertices)
-    for k in range(3):
-        np.add.at(summed, faces[:, k], normals)
-    return summed / np.maximum(np.linalg.norm(summed, axis=1, keepdims=True), 1e-30)
-
-
 class Layer:
     """Colours and depths of the nearest samples [m, larger is farther]; pixels without a sample have infinite depth."""
 

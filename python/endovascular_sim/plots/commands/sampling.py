@@ -1,17 +1,14 @@
-#!/usr/bin/env python3
 """Measures the error of the hand force by the distance of the nodes.
 
 Runs a straight wire in bends of a tube, and the J wire of config/scenes/peer_wire.yaml in a straight tube, with several
 numbers of nodes. Writes sampling_error.csv: mean hand force in two intervals and its difference to the finest sampling.
 """
 
-import csv
 import math
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+from .. import command, tables
 
 STRAIGHT = 0.05   # m, straight pieces of tube.yaml before and after its bend
 WIRE = 0.300      # m, guidewire_035_straight.yaml
@@ -21,29 +18,24 @@ BENDS = ((0.03, 3e-3, 0.1), (0.03, 3e-3, 0.0), (0.015, 3e-3, 0.1), (0.03, 1.5e-3
 BEND_NODES = (1201, 601, 301, 201, 151, 101, 76)
 LUMENS = (6e-3, 3e-3)  # m, of the straight tube
 J_NODES = (1921, 961, 481, 241, 181, 121)
-COLUMNS = ("case", "bend radius [mm]", "lumen radius [mm]", "friction", "edge [mm]", "force of the first interval [N]",
-           "error of the first interval", "force of the second interval [N]", "error of the second interval")
 
 
-def mean_force(rows, column, begin, end):
+def mean_force(table, column, begin, end):
     """Mean hand force of the rows with a column between two values [N]."""
-    values = [float(row["hand_force"]) for row in rows if begin <= float(row[column]) <= end]
-    return sum(values) / len(values)
+    return table["hand_force"][(table[column] >= begin) & (table[column] <= end)].mean()
 
 
-def run(folder, overrides):
-    """Rows of hand_force.csv of a run of tube.yaml."""
-    done = tools.simulate(tools.find_scene("tube.yaml"), folder, ["drive.rotation.amplitude=0"] + overrides)
-    if not (folder / "result.json").exists():
-        tools.fail("simulate wrote no result:\n%s" % done.stderr)
-    return list(tools.read_rows(folder / "hand_force.csv"))
+def run_tube(folder, overrides):
+    """Table of hand_force.csv of a run of tube.yaml."""
+    command.simulate(command.find_scene("tube.yaml"), folder, ["drive.rotation.amplitude=0"] + overrides, accepted=(0, 1))
+    return tables.read(folder / "hand_force.csv")
 
 
 def bend_forces(folder, nodes, radius, lumen, friction):
     """Mean forces while the tip is in the bend, and after it has left."""
     arc = 0.5 * math.pi * radius
     travel = 2.0 * STRAIGHT + arc - 0.012
-    rows = run(folder, ["vessel.tube.radius=%g" % lumen, "vessel.tube.pieces.1.length=%.12g" % arc,
+    rows = run_tube(folder, ["vessel.tube.radius=%g" % lumen, "vessel.tube.pieces.1.length=%.12g" % arc,
                         "vessel.tube.pieces.1.curvature=%.12g" % (1.0 / radius), "vessel.tube.facets_around=96",
                         "vessel.tube.facet_length=%g" % min(1e-3, radius / 40), "vessel.friction=%g" % friction,
                         "sampling.nodes=%d" % nodes, "drive.travel=%g" % travel, "drive.speed=0.05",
@@ -54,7 +46,7 @@ def bend_forces(folder, nodes, radius, lumen, friction):
 
 def j_forces(folder, nodes, lumen):
     """Mean forces in the first and in the second second of the J wire's insertion."""
-    rows = run(folder, ["instrument=instruments/peer_j_wire.yaml", "vessel.tube.radius=%g" % lumen,
+    rows = run_tube(folder, ["instrument=instruments/peer_j_wire.yaml", "vessel.tube.radius=%g" % lumen,
                         "vessel.tube.pieces.1.curvature=0", "vessel.tube.facets_around=96",
                         "vessel.tube.facet_length=2e-3", "sampling.nodes=%d" % nodes, "drive.initial_insertion=0.0042",
                         "drive.travel=0.08", "drive.speed=0.035", "duration=2.2"])
@@ -71,29 +63,24 @@ def cases():
                lambda folder, nodes, r=lumen: j_forces(folder, nodes, r))
 
 
-def main():
-    """Runs all cases and writes the table."""
-    parser = tools.argument_parser(__doc__)
+def add_arguments(parser):
     parser.add_argument("--out", required=True, type=pathlib.Path, help="folder for the table and the runs")
-    options = parser.parse_args()
+
+
+def run(options):
+    """Runs all cases and writes the table."""
     options.out.mkdir(parents=True, exist_ok=True)
-    with open(options.out / "sampling_error.csv", "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for number, (name, radius, lumen, friction, length, counts, measure) in enumerate(cases()):
-            reference = None
-            for nodes in counts:
-                print("%s, case %d, %d nodes …" % (name, number + 1, nodes), file=sys.stderr, flush=True)
-                forces = measure(options.out / ("%d_%d" % (number, nodes)), nodes)
-                reference = reference or forces
-                row = [name, "%g" % (1e3 * radius), "%g" % (1e3 * lumen), "%g" % friction,
-                       "%.3g" % (1e3 * length / (nodes - 1))]
-                for force, exact in zip(forces, reference):
-                    row += ["%.5f" % force, "%.4f" % (force / exact - 1.0)]
-                writer.writerow(row)
-                stream.flush()
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    rows = []
+    for number, (name, radius, lumen, friction, length, counts, measure) in enumerate(cases()):
+        reference = None
+        for nodes in counts:
+            print("%s, case %d, %d nodes …" % (name, number + 1, nodes), file=sys.stderr, flush=True)
+            forces = measure(options.out / ("%d_%d" % (number, nodes)), nodes)
+            reference = reference or forces
+            row = {"case": name, "bend radius [mm]": "%g" % (1e3 * radius), "lumen radius [mm]": "%g" % (1e3 * lumen),
+                   "friction": "%g" % friction, "edge [mm]": "%.3g" % (1e3 * length / (nodes - 1))}
+            for which, force, exact in zip(("first", "second"), forces, reference):
+                row["force of the %s interval [N]" % which] = "%.5f" % force
+                row["error of the %s interval" % which] = "%.4f" % (force / exact - 1.0)
+            rows.append(row)
+            tables.write(options.out / "sampling_error.csv", rows)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Prints a summary of a session from its results folder and writes report.html there.
 
 A session is complete if it has steps, all of them are in the recording, and no message was lost.
@@ -9,18 +8,11 @@ import html
 import os
 import pathlib
 import resource
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+from .. import tables
+from ..command import Failure, warn
 
-
-def read_json(path):
-    """Content of a JSON file; None without a readable one."""
-    try:
-        return tools.read_json(path)
-    except (OSError, ValueError):
-        return None
+EXIT_CODES = ("Exit code: 0 the session is complete; 1 it is not, or the results cannot be read; 2 wrong arguments.")
 
 
 def number(value, form, unit="", scale=1.0):
@@ -173,33 +165,29 @@ def write_html(report, rows, fatal, remarks, folder):
         stream.write("\n".join(lines) + "\n")
 
 
-def main():
-    """Reads the reports, prints the summary and writes the page."""
-    parser = tools.argument_parser(__doc__, "Exit code: 0 the session is complete; 1 it is not, or the results cannot be "
-                                            "read; 2 wrong arguments.")
+def add_arguments(parser):
     parser.add_argument("folder", help="results folder of the session")
-    arguments = parser.parse_args()
-    report = read_json(os.path.join(arguments.folder, "report.json"))
+
+
+def run(options):
+    """Reads the reports, prints the summary and writes the page."""
+    report = tables.read_json_if_any(pathlib.Path(options.folder, "report.json"))
     if report is None:
-        tools.fail("%s: no readable report.json" % arguments.folder)
-    device = read_json(os.path.join(arguments.folder, "device_latency.json"))
-    metrics = read_json(os.path.join(arguments.folder, "metrics.json"))
-    rows = summary_rows(report, metrics, device, arguments.folder)
-    fatal, remarks = problems(report, read_json(os.path.join(arguments.folder, "processor.json")))
+        raise Failure("%s: no readable report.json" % options.folder)
+    device = tables.read_json_if_any(pathlib.Path(options.folder, "device_latency.json"))
+    metrics = tables.read_json_if_any(pathlib.Path(options.folder, "metrics.json"))
+    rows = summary_rows(report, metrics, device, options.folder)
+    fatal, remarks = problems(report, tables.read_json_if_any(pathlib.Path(options.folder, "processor.json")))
     try:
-        write_html(report, rows, fatal, remarks, arguments.folder)
+        write_html(report, rows, fatal, remarks, options.folder)
     except OSError as error:
-        tools.warn(error)
+        warn(error)
     print("== Summary")
     for label, text in rows:
         print("   %-30s %s" % (label, text))
-    print("   %-30s %s" % ("results", os.path.abspath(arguments.folder)))
+    print("   %-30s %s" % ("results", os.path.abspath(options.folder)))
     for text in remarks:
         print("warning: " + text)
     for text in fatal:
         print("error: " + text)
     return 1 if fatal else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,9 +1,8 @@
-"""Plots by matplotlib, which is needed here only: wire in vessel, forces, X-ray images. Each function draws into `axes`, or
-into a new figure, and returns the axes."""
+"""Wire in vessel, forces, X-ray images of a session."""
 
 import numpy as np
 
-from ._core import InputError
+import endovascular_sim
 
 _VIEWS = {"front": (0, 2), "side": (1, 2), "top": (0, 1)}  # indices of the patient frame's axes: x left, y posterior, z head
 _NAMES = ("x [mm]", "y [mm]", "z [mm]")
@@ -18,7 +17,7 @@ def wire_in_vessel(session, view="front", axes=None, route=None, margin=0.02):
     margin   of the vessel around wire and route [m]
     """
     if view not in _VIEWS:
-        raise InputError("view: '%s' is none of %s" % (view, ", ".join(_VIEWS)))
+        raise endovascular_sim.InputError("view: '%s' is none of %s" % (view, ", ".join(_VIEWS)))
     axes, pair = _axes(axes), list(_VIEWS[view])
     nodes, forces = session.nodes[:, pair] * 1e3, session.forces
     seen = nodes if route is None else np.concatenate([nodes, route.points[:, pair] * 1e3])
@@ -47,7 +46,7 @@ def forces(times, values, axes=None, labels=None):
     values = np.asarray(values, float)
     columns = values.reshape(len(values), -1)
     if len(times) != len(columns):
-        raise InputError("forces: %d times for %d values" % (len(times), len(columns)))
+        raise endovascular_sim.InputError("forces: %d times for %d values" % (len(times), len(columns)))
     axes = _axes(axes)
     for k in range(columns.shape[1]):
         axes.plot(times, columns[:, k], linewidth=1.0, label=labels[k] if labels else None)

@@ -1,12 +1,10 @@
-#!/usr/bin/python3
 """Compares the metrics of two or more sessions in a table on the terminal and, with --out, in a self-contained page."""
 
 import html
 import pathlib
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import tool_support as tools  # noqa: E402
+from .. import tables
+from ..command import Failure
 
 
 def read(session):
@@ -14,11 +12,11 @@ def read(session):
     path = pathlib.Path(session)
     path = path / "metrics.json" if path.is_dir() else path
     try:
-        return tools.read_json(path)
+        return tables.read_json(path)
     except OSError as error:
-        return tools.fail(f"{path}: {error.strerror}; give a folder with a metrics.json")
+        raise Failure(f"{path}: {error.strerror}; give a folder with a metrics.json") from error
     except ValueError as error:
-        return tools.fail(f"{path}: not a metrics.json: {error}")
+        raise Failure(f"{path}: not a metrics.json: {error}") from error
 
 
 def get(metrics, *keys):
@@ -122,17 +120,17 @@ def page(names, rows):
             "<p>Bold: best of the finished sessions in the row.</p></body></html>\n")
 
 
-def main():
-    """Reads the metrics, prints the table and writes the page."""
-    parser = tools.argument_parser(__doc__)
-    parser.add_argument("sessions", nargs="+", metavar="SESSION", help="results folder, or its metrics.json")
+def add_arguments(parser):
+    parser.add_argument("first", metavar="SESSION", help="results folder, or its metrics.json")
+    parser.add_argument("others", metavar="SESSION", nargs="+", help="further ones")
     parser.add_argument("--out", metavar="FILE.html", help="also writes the table as an HTML page")
-    options = parser.parse_args()
-    if len(options.sessions) < 2:
-        parser.error("at least two sessions are required")
-    rows = table([read(session) for session in options.sessions])
-    names = [pathlib.Path(session).name if pathlib.Path(session).is_dir() else session
-             for session in options.sessions]
+
+
+def run(options):
+    """Reads the metrics, prints the table and writes the page."""
+    sessions = [options.first, *options.others]
+    rows = table([read(session) for session in sessions])
+    names = [pathlib.Path(session).name if pathlib.Path(session).is_dir() else session for session in sessions]
     width = max(len(label) for label, _, _ in rows) + 2
     columns = [max(len(name), 12) + 2 for name in names]
     print(" " * width + "".join(name.rjust(column) for name, column in zip(names, columns)))
@@ -142,7 +140,3 @@ def main():
     print("*: best of the finished sessions in the row")
     if options.out:
         pathlib.Path(options.out).write_text(page(names, rows), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main()
