@@ -1,10 +1,16 @@
 """Plots of sessions."""
 
+import contextlib
 import importlib.util
+import io
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
 from support import evs, tube
+
+from endovascular_sim.plots import command, tables
 
 
 @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib cannot be imported")
@@ -44,6 +50,32 @@ class Plots(unittest.TestCase):
         from matplotlib import pyplot
         axes = pyplot.figure().add_subplot()
         self.assertIs(evs.plots.x_ray(self.session.image(), axes), axes)
+
+
+class Tables(unittest.TestCase):
+    def read(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "table.csv")
+            path.write_text(text, encoding="utf-8")
+            return tables.read_if_any(path, ("time",))
+
+    def test_have_columns_of_numbers_and_of_texts(self):
+        table = self.read("time,name,force\n1,wire,\n2,2,0.5\n")
+        np.testing.assert_array_equal(table["time"], [1.0, 2.0])
+        self.assertEqual(list(table["name"]), ["wire", "2"])
+        np.testing.assert_array_equal(table["force"], [np.nan, 0.5])
+        self.assertEqual([(key, list(rows["time"])) for key, rows in tables.groups(table, "name")], [(("wire",), [1.0]), (("2",), [2.0])])
+
+    def test_leave_out_the_incomplete_last_row_of_an_interrupted_session(self):
+        for last in ("3,0.", "3,0.5,1e-", "3"):
+            with self.subTest(last=last), contextlib.redirect_stderr(io.StringIO()) as warning:
+                table = self.read("time,force,torque\n1,0.5,2\n2,0.5,2\n" + last)
+                np.testing.assert_array_equal(table["time"], [1.0, 2.0])
+                self.assertIn("line 4 skipped", warning.getvalue())
+
+    def test_name_a_missing_column(self):
+        with self.assertRaisesRegex(command.Failure, "no column time"):
+            self.read("force\n1\n")
 
 
 if __name__ == "__main__":
